@@ -11,7 +11,7 @@ from planner.record.trace import PlanTrace, WhatIf
 from sim.scene import Command, Scene, VehicleState
 from tests.traces import Ride, s1_ride
 from xavi_dialogue.bus.messages import WhatIfRequest
-from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, TraceRecorded
+from xavi_dialogue.dialogue.state.events import EventRecorded, Input, RideEnded, TraceRecorded
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.vehicle.episode import Moment
 

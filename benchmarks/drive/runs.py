@@ -18,7 +18,7 @@ from sim.roads.network import Network
 from sim.scene import Command, Scene
 from sim.setup.scenario import Scenario, load
 from sim.sumo import EgoGone, Simulation
-from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.process.garbage import settled
 from xavi_dialogue.vehicle.episode import network_of, settings_of
 from xavi_dialogue.vehicle.replan_worker import warm_up

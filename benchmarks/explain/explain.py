@@ -26,19 +26,10 @@ from xavi_dialogue.causal.model import CausalModel
 from xavi_dialogue.dialogue.standing import reason_of
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.domain.discourse import GroundedAct
-from xavi_dialogue.domain.meaning import (
-    Act,
-    Ask,
-    Doing,
-    HowMuch,
-    HowSure,
-    Listing,
-    WhatIf,
-    Why,
-)
+from xavi_dialogue.domain.meaning import Act, Ask, Doing, HowMuch, HowSure, Listing, WhatIf, Why
 from xavi_dialogue.domain.terms import Event, Happens, Measured, Not
 from xavi_dialogue.explain.answers.engine import explain
-from xavi_dialogue.explain.causes.involved import contrastive_causes
+from xavi_dialogue.explain.causes.vehicles.involved import contrastive_causes
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.ride_file import RecordedRide

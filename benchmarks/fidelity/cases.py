@@ -18,8 +18,8 @@ from planner.roads.trajectory import Roads
 from sim.roads.network import Network
 from sim.setup.scenario import Scenario, load
 from sim.sumo import Simulation
-from xavi_dialogue.dialogue.state import EPSILON
-from xavi_dialogue.explain.causes.ranges import FoilKind, RoadKind, foil_kind, road_kind
+from xavi_dialogue.dialogue.state.state import EPSILON
+from xavi_dialogue.explain.causes.plans.ranges import FoilKind, RoadKind, foil_kind, road_kind
 from xavi_dialogue.vehicle.episode import network_of, settings_of
 
 #: Families of random networks: those that ranges are learnt on, and those that nothing was made on.

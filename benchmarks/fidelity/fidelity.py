@@ -36,7 +36,7 @@ from benchmarks.fidelity.ranging import (
     learn,
 )
 from benchmarks.fidelity.rivals import by_name
-from xavi_dialogue.explain.causes.ranges import Ranges, table
+from xavi_dialogue.explain.causes.plans.ranges import Ranges, table
 
 KINDS = ("stop", "exit", "manoeuvre")  # of foils
 

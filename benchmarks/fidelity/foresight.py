@@ -13,8 +13,8 @@ from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.dialogue.standing import reason_of
 from xavi_dialogue.domain.answers import NeedRollout, Reason
-from xavi_dialogue.explain.causes.actions import same
-from xavi_dialogue.explain.causes.contrast import factual
+from xavi_dialogue.explain.causes.plans.contrast import factual
+from xavi_dialogue.explain.causes.vehicles.actions import same
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 

@@ -10,7 +10,7 @@ from benchmarks.fidelity.cases import Case, Compared
 from benchmarks.fidelity.model_errors import Known, fitted
 from benchmarks.figures import in_columns, mean
 from xavi_dialogue.causal.conformal import COVERAGE, reach
-from xavi_dialogue.explain.causes.ranges import Error, Ranges, Source, group_errors
+from xavi_dialogue.explain.causes.plans.ranges import Error, Ranges, Source, group_errors
 
 Ends: TypeAlias = tuple[float, float]
 

@@ -15,11 +15,11 @@ from benchmarks.figures import Aimed, aimed, at_most, in_columns, targets_table
 from benchmarks.language.latency import understood
 from benchmarks.language.questions import LEARN, read_folder
 from planner.record.trace import PlanTrace
-from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, TraceRecorded
 from xavi_dialogue.dialogue.manager import fold
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.dialogue.state import Dialogue
+from xavi_dialogue.dialogue.state.events import EventRecorded, Input, RideEnded, TraceRecorded
+from xavi_dialogue.dialogue.state.state import Dialogue
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.meaning import Ask

@@ -6,7 +6,7 @@ import msgspec
 
 from planner.record.trace import Outcome
 from xavi_dialogue.domain.answers import Cause, Contrast, Effect
-from xavi_dialogue.nlg.content.manoeuvres import plain
+from xavi_dialogue.nlg.content.clauses.manoeuvres import plain
 
 Ending: TypeAlias = Literal["done", "collision", "not-reached"]
 Lean: TypeAlias = Literal["more", "less", "equal"]

@@ -7,14 +7,7 @@ import msgspec
 from benchmarks.drive.runs import in_processes
 from benchmarks.reproduce.rides import Told, broken, tell
 from benchmarks.reproduce.rows import FOILS
-from benchmarks.reproduce.tables import (
-    Blame,
-    FoilFound,
-    Grounds,
-    RowFound,
-    Sentence,
-    compare,
-)
+from benchmarks.reproduce.tables import Blame, FoilFound, Grounds, RowFound, Sentence, compare
 
 TITLES = {
     1: "Table 1. S1, one cause and one effect",

@@ -17,7 +17,7 @@ from sim.roads.network import Network
 from sim.setup.scenario import Scenario, load
 from sim.sumo import Simulation
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.domain.answers import Answer, Contrast, Reason, Refusal
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.paper import contrast_of

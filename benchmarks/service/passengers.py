@@ -10,14 +10,7 @@ import msgspec
 
 from benchmarks.figures import quantile
 from xavi_dialogue.bus.interface import Bus, Keys, NoAnswer, Outcome, Refused, TooLate
-from xavi_dialogue.bus.messages import (
-    AskReply,
-    AskRequest,
-    Failure,
-    MessageError,
-    pack,
-    unpack,
-)
+from xavi_dialogue.bus.messages import AskReply, AskRequest, Failure, MessageError, pack, unpack
 
 DEADLINE = 10.0  # [s] for an answer
 GRACE = 0.5  # [s] that a reply may take on its way

@@ -13,13 +13,7 @@ from sim.roads.network import Lane, Network, point_at
 from sim.scene import Scene, VehicleState
 from xavi_dialogue.bus.health import Alive
 from xavi_dialogue.bus.interface import Bus, Keys, Presence
-from xavi_dialogue.bus.messages import (
-    CarState,
-    EventReport,
-    SceneReport,
-    TraceReport,
-    pack,
-)
+from xavi_dialogue.bus.messages import CarState, EventReport, SceneReport, TraceReport, pack
 from xavi_dialogue.vehicle.map_server import serve_roads
 from xavi_dialogue.vehicle.telemetry import KEPT_EVENTS, KEPT_TRACES
 

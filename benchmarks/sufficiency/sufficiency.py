@@ -10,14 +10,7 @@ from collections.abc import Callable, Sequence
 import msgspec
 
 from benchmarks.drive.runs import in_processes
-from benchmarks.figures import (
-    Aimed,
-    aimed,
-    at_least,
-    at_most,
-    in_columns,
-    targets_table,
-)
+from benchmarks.figures import Aimed, aimed, at_least, at_most, in_columns, targets_table
 from benchmarks.sufficiency.sufficiency_asking import KINDS
 from benchmarks.sufficiency.sufficiency_judging import Judged, Read, read
 from benchmarks.truth.sufficient import CHECKS

@@ -4,16 +4,7 @@ import math
 import re
 from collections.abc import Iterator
 
-from benchmarks.truth.context import (
-    KMH,
-    NUMBERS,
-    WHO,
-    Fault,
-    Said,
-    claim,
-    near,
-    rounded,
-)
+from benchmarks.truth.context import KMH, NUMBERS, WHO, Fault, Said, claim, near, rounded
 from benchmarks.truth.mentions import placed
 from sim.scene import EGO
 

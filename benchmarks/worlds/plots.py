@@ -4,13 +4,7 @@ from dataclasses import replace
 from random import Random
 
 from benchmarks.worlds.roads import crossing, straight
-from benchmarks.worlds.stories import (
-    JUNCTION,
-    SHAPES,
-    approaching,
-    meeting,
-    starting,
-)
+from benchmarks.worlds.stories import JUNCTION, SHAPES, approaching, meeting, starting
 from benchmarks.worlds.values import Edge, Sketch, Vehicle
 
 

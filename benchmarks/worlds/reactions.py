@@ -4,12 +4,7 @@ from dataclasses import replace
 from random import Random
 
 from benchmarks.worlds.roads import crossing, straight
-from benchmarks.worlds.stories import (
-    JUNCTION,
-    SHAPES,
-    meeting,
-    starting,
-)
+from benchmarks.worlds.stories import JUNCTION, SHAPES, meeting, starting
 from benchmarks.worlds.values import Roads, Sketch, Vehicle
 
 _STAYS = ("lcSpeedGain", "0")

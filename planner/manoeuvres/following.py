@@ -13,14 +13,7 @@ from planner.manoeuvres.layout import (
     lookahead,
     waits_along,
 )
-from planner.manoeuvres.plans import (
-    ActionPlan,
-    GiveWay,
-    LaneFollow,
-    LetCross,
-    Situation,
-    Stop,
-)
+from planner.manoeuvres.plans import ActionPlan, GiveWay, LaneFollow, LetCross, Situation, Stop
 from planner.record.trace import EgoGoal
 from planner.roads.routes import (
     Refusal,

@@ -29,15 +29,7 @@ from planner.record.trace import (
 )
 from planner.roads.routes import Refusal
 from planner.rollouts.reward import EFFORT, absent, reward, terms
-from planner.rollouts.rollout import (
-    Leg,
-    Task,
-    held_by_lights,
-    held_up,
-    hindered,
-    summarise,
-    take,
-)
+from planner.rollouts.rollout import Leg, Task, held_by_lights, held_up, hindered, summarise, take
 from planner.rollouts.waypoints import cost_by, cost_left
 from planner.search.comparison import Samples, draw, source_of, weighted
 from planner.search.simulated import Simulated

@@ -13,7 +13,7 @@ from benchmarks.fidelity.ranging import coverage, extension, learn
 from benchmarks.fidelity.resimulate import Happened
 from benchmarks.fidelity.rivals import Guess, by_name, key_of
 from xavi_dialogue.domain.evidence import calibrated
-from xavi_dialogue.explain.causes.ranges import LEAST, Group, Ranges, Source
+from xavi_dialogue.explain.causes.plans.ranges import LEAST, Group, Ranges, Source
 
 RANGES = Ranges(0.9, 3.0, (Group("exit", None, 30, 50, 1.0),), Source("", {}, 0, 0, 0))
 

@@ -3,7 +3,7 @@
 import pytest
 
 from benchmarks.fidelity.model_errors import MOST, Known, fitted
-from xavi_dialogue.explain.causes.ranges import Ranges, Source
+from xavi_dialogue.explain.causes.plans.ranges import Ranges, Source
 
 
 def rides(wrong: list[int], each: int = 10) -> list[Known]:

@@ -5,11 +5,17 @@ from pathlib import Path
 
 import pytest
 
-from xavi_dialogue.dialogue.events import EventRecorded, Input, Resumed, RideEnded, TraceRecorded
 from xavi_dialogue.dialogue.manager import fold
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.dialogue.state import Dialogue
-from xavi_dialogue.dialogue.states import Phase
+from xavi_dialogue.dialogue.state.events import (
+    EventRecorded,
+    Input,
+    Resumed,
+    RideEnded,
+    TraceRecorded,
+)
+from xavi_dialogue.dialogue.state.state import Dialogue
+from xavi_dialogue.dialogue.state.states import Phase
 from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.service.in_process import SESSION, Conversation, make_mind
 from xavi_dialogue.storage.conversations import NewTurn, Store

@@ -4,7 +4,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from tests.traces import s1_ride
-from xavi_dialogue.dialogue.events import (
+from xavi_dialogue.dialogue.manager import advance, fold
+from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.state.events import (
     Answered,
     Asked,
     EventRecorded,
@@ -14,10 +16,8 @@ from xavi_dialogue.dialogue.events import (
     RolloutsWanted,
     TraceRecorded,
 )
-from xavi_dialogue.dialogue.manager import advance, fold
-from xavi_dialogue.dialogue.mind import Mind
-from xavi_dialogue.dialogue.state import Dialogue, Session
-from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.state.state import Dialogue, Session
+from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.domain.answers import Answer, NeedRollout, Refusal, WhichOne
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct
 from xavi_dialogue.domain.meaning import Act, Reading, Repair

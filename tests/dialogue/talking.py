@@ -4,7 +4,8 @@ from functools import cache
 from pathlib import Path
 
 from planner.record.trace import PlanTrace
-from xavi_dialogue.dialogue.events import (
+from xavi_dialogue.dialogue.manager import advance, fold
+from xavi_dialogue.dialogue.state.events import (
     Answered,
     Asked,
     EventRecorded,
@@ -17,9 +18,8 @@ from xavi_dialogue.dialogue.events import (
     RolloutsWanted,
     TraceRecorded,
 )
-from xavi_dialogue.dialogue.manager import advance, fold
-from xavi_dialogue.dialogue.state import Dialogue, Session
-from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.state.state import Dialogue, Session
+from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.service.in_process import make_mind
 from xavi_dialogue.storage import ride_file
 

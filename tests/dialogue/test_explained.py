@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from tests.dialogue.test_chain import BRAKED, CONTRAST, LEADER, TURNED
+from tests.dialogue.state.test_chain import BRAKED, CONTRAST, LEADER, TURNED
 from xavi_dialogue.dialogue.explanation import contrastive, evidence_of, explanation_of, kind_of
 from xavi_dialogue.dialogue.joining import AT_MOST, joined, sentences
 from xavi_dialogue.dialogue.standing import reason_of

@@ -6,8 +6,8 @@ import pytest
 from msgspec.structs import replace
 
 from tests.dialogue.faked import Faked, Talk
-from tests.dialogue.test_conversation import ANSWERS, FAST, SPEED, WHY
-from tests.dialogue.test_replies import BRAKED, act, said, talk
+from tests.dialogue.state.test_conversation import ANSWERS, FAST, SPEED, WHY
+from tests.dialogue.state.test_replies import BRAKED, act, said, talk
 from xavi_dialogue.domain.answers import (
     Beliefs,
     CannotSay,

@@ -1,7 +1,7 @@
 """What is told of a probability among rollouts, by hand."""
 
 from planner.record.trace import Outcome
-from xavi_dialogue.explain.causes.ranges import table
+from xavi_dialogue.explain.causes.plans.ranges import table
 
 ERROR = table().model_error  # probability that rollouts tell nothing of the outcome
 UNFORESEEN = table().unforeseen or dict.fromkeys(("done", "collision", "termination", "dead"), 0.25)

@@ -25,7 +25,7 @@ from xavi_dialogue.domain.answers import (
     SupposedOfUs,
 )
 from xavi_dialogue.domain.vocabulary import MACRO_ACTIONS
-from xavi_dialogue.explain.causes.terms import Difference, told
+from xavi_dialogue.explain.causes.plans.terms import Difference, told
 from xavi_dialogue.nlg.content.causal_tables import CAUSES, REFUSALS
 from xavi_dialogue.nlg.say import say
 from xavi_dialogue.nlg.surface.orthography import count_sentences

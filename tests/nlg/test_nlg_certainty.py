@@ -12,7 +12,7 @@ from tests.nlg.scenery import CONTEXT
 from xavi_dialogue.domain.answers import Certainty, ChoiceReason, SupposedOfUs
 from xavi_dialogue.domain.evidence import calibrated
 from xavi_dialogue.domain.facts import OptionValue
-from xavi_dialogue.nlg.content.facts import option_message
+from xavi_dialogue.nlg.content.clauses.facts import option_message
 from xavi_dialogue.nlg.say import say
 from xavi_dialogue.nlg.surface.chances import chance
 from xavi_dialogue.nlg.surface.realiser import realised

@@ -15,7 +15,7 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.evidence import Effect
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Vehicle
-from xavi_dialogue.nlg.content.manoeuvres import own_verbs
+from xavi_dialogue.nlg.content.clauses.manoeuvres import own_verbs
 from xavi_dialogue.nlg.say import say
 from xavi_dialogue.nlg.surface.orthography import join
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 from tests.nlg.scenery import CONTEXT, LORRY, NOW, look
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Destination, Ego, Lane, Vehicle, Vehicles
-from xavi_dialogue.nlg.content.clauses import episode_clause
+from xavi_dialogue.nlg.content.clauses.clauses import episode_clause
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.morphology import clause
 from xavi_dialogue.nlg.surface.referring import Speaker

@@ -42,10 +42,10 @@ from xavi_dialogue.bus.messages import (
     pack,
     unpack,
 )
-from xavi_dialogue.dialogue.events import RecordMissing, TraceRecorded
 from xavi_dialogue.dialogue.manager import advance, fold
 from xavi_dialogue.dialogue.recollection import Result
-from xavi_dialogue.dialogue.state import Dialogue
+from xavi_dialogue.dialogue.state.events import RecordMissing, TraceRecorded
+from xavi_dialogue.dialogue.state.state import Dialogue
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.meaning import Ask, Why

@@ -43,7 +43,7 @@ from xavi_dialogue.bus.messages import (
 )
 from xavi_dialogue.chat.client import Client, ServiceLost
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.service.reorder_buffer import InOrder
 from xavi_dialogue.service.requests import Answer
 from xavi_dialogue.service.server import Service

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from planner.record.events import Event
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.storage.conversations import (
     DAY,
     MAX_TURN,

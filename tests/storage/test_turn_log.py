@@ -14,7 +14,7 @@ from sim.setup.scenario import load
 from xavi_dialogue.__main__ import app
 from xavi_dialogue.cli.commands.sessions import typed_file
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.storage import resume
 from xavi_dialogue.storage.conversations import DAY, NewEvent, NewTurn, RideName, Store
 from xavi_dialogue.storage.input_history import TypedLines

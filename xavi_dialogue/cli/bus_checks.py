@@ -9,13 +9,7 @@ from textwrap import TextWrapper
 
 from xavi_dialogue import __version__
 from xavi_dialogue.bus.certificates import BadCertificate, Shown, read
-from xavi_dialogue.bus.interface import (
-    EVERY_CAR,
-    Bus,
-    BusError,
-    call,
-    vehicle_in,
-)
+from xavi_dialogue.bus.interface import EVERY_CAR, Bus, BusError, call, vehicle_in
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import AliveReport, MessageError, unpack
 from xavi_dialogue.bus.sanitize import one_line

@@ -23,8 +23,8 @@ from xavi_dialogue.dashboard.web.websocket_messages import (
     Outgoing,
     Ride,
 )
-from xavi_dialogue.dialogue.events import EventRecorded, Input, TraceRecorded
-from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.dialogue.state.events import EventRecorded, Input, TraceRecorded
+from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.service.reorder_buffer import Heard
 from xavi_dialogue.service.ride_tracker import Rides
 

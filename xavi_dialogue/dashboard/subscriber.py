@@ -10,13 +10,7 @@ from typing import TypeAlias
 
 from xavi_dialogue.bus.health import Alive
 from xavi_dialogue.bus.interface import Bus, Keys
-from xavi_dialogue.bus.messages import (
-    EventReport,
-    MessageError,
-    SceneReport,
-    TraceReport,
-    unpack,
-)
+from xavi_dialogue.bus.messages import EventReport, MessageError, SceneReport, TraceReport, unpack
 from xavi_dialogue.dashboard.web.interfaces import Audience
 from xavi_dialogue.service.reorder_buffer import Heard
 

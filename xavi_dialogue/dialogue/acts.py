@@ -12,8 +12,8 @@ from xavi_dialogue.dialogue.objections import foreseen_then
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.severally import severally
 from xavi_dialogue.dialogue.soundness import says_something
-from xavi_dialogue.dialogue.state import Understood
-from xavi_dialogue.dialogue.turn import Part, Turn
+from xavi_dialogue.dialogue.state.state import Understood
+from xavi_dialogue.dialogue.state.turn import Part, Turn
 from xavi_dialogue.domain.answers import (
     Acknowledged,
     Again,

@@ -9,9 +9,9 @@ from typing import Literal, TypeAlias
 
 from msgspec.structs import replace
 
-from xavi_dialogue.dialogue.discourse import event_of
-from xavi_dialogue.dialogue.memory import is_about_drive
-from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.state.discourse import event_of
+from xavi_dialogue.dialogue.state.memory import is_about_drive
+from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.domain.answers import (
     Activity,
     Again,
@@ -49,16 +49,7 @@ from xavi_dialogue.domain.answers import (
     Verdict,
 )
 from xavi_dialogue.domain.facts import Belief, Episode, Measure
-from xavi_dialogue.domain.meaning import (
-    Act,
-    Ask,
-    Elliptic,
-    HowKnow,
-    HowSure,
-    Reading,
-    Repair,
-    Why,
-)
+from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, HowKnow, HowSure, Reading, Repair, Why
 from xavi_dialogue.domain.terms import (
     At,
     Believed,

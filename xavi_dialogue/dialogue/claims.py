@@ -8,8 +8,8 @@ and the answer does not tell it.
 from collections.abc import Sequence
 from typing import Final, TypeAlias
 
-from xavi_dialogue.dialogue.discourse import causes_of
-from xavi_dialogue.dialogue.turn import Part
+from xavi_dialogue.dialogue.state.discourse import causes_of
+from xavi_dialogue.dialogue.state.turn import Part
 from xavi_dialogue.domain.answers import (
     Acknowledged,
     Answer,

@@ -12,7 +12,10 @@ from typing import TypeAlias
 import msgspec
 
 from planner.record.trace import PlanTrace, WhatIf
-from xavi_dialogue.dialogue.events import (
+from xavi_dialogue.dialogue.mind import Mind, Said, Situation, turn_away
+from xavi_dialogue.dialogue.quizzes.quizzing import reply_to
+from xavi_dialogue.dialogue.standing import failed
+from xavi_dialogue.dialogue.state.events import (
     Answered,
     Asked,
     Cancelled,
@@ -31,12 +34,9 @@ from xavi_dialogue.dialogue.events import (
     TraceRecorded,
     TurnedAway,
 )
-from xavi_dialogue.dialogue.memory import remember
-from xavi_dialogue.dialogue.mind import Mind, Said, Situation, turn_away
-from xavi_dialogue.dialogue.quizzing import reply_to
-from xavi_dialogue.dialogue.standing import failed
-from xavi_dialogue.dialogue.state import Dialogue, Pending, Session
-from xavi_dialogue.dialogue.states import (
+from xavi_dialogue.dialogue.state.memory import remember
+from xavi_dialogue.dialogue.state.state import Dialogue, Pending, Session
+from xavi_dialogue.dialogue.state.states import (
     PHASES,
     RIDE_PHASES,
     IllegalEvent,
@@ -45,7 +45,7 @@ from xavi_dialogue.dialogue.states import (
     RideMove,
     after,
 )
-from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.dialogue.understanding import understand
 from xavi_dialogue.domain.answers import NeedRollout
 

@@ -4,21 +4,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from xavi_dialogue.dialogue.events import Asked
 from xavi_dialogue.dialogue.explanation import as_json, evidence_of, explanation_of
 from xavi_dialogue.dialogue.joining import joined
-from xavi_dialogue.dialogue.memory import Memory
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.standing import REFUSALS, failed, standing_of
-from xavi_dialogue.dialogue.turn import Offer, Part, Quiz, Turn
-from xavi_dialogue.domain.answers import (
-    Answer,
-    Comforting,
-    NeedRollout,
-    Reason,
-    Refusal,
-    TakenAs,
-)
+from xavi_dialogue.dialogue.state.events import Asked
+from xavi_dialogue.dialogue.state.memory import Memory
+from xavi_dialogue.dialogue.state.turn import Offer, Part, Quiz, Turn
+from xavi_dialogue.domain.answers import Answer, Comforting, NeedRollout, Reason, Refusal, TakenAs
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct
 from xavi_dialogue.domain.meaning import Reading
 from xavi_dialogue.explain.history.record import Record

@@ -6,10 +6,10 @@ from xavi_dialogue.dialogue.acts import pertinent
 from xavi_dialogue.dialogue.chain import recast
 from xavi_dialogue.dialogue.claims import in_order
 from xavi_dialogue.dialogue.mind import Situation
-from xavi_dialogue.dialogue.quiz_replies import signs
-from xavi_dialogue.dialogue.quizzing import judgement_of, put_again
-from xavi_dialogue.dialogue.state import Understood
-from xavi_dialogue.dialogue.turn import Offer, Turn
+from xavi_dialogue.dialogue.quizzes.quiz_replies import signs
+from xavi_dialogue.dialogue.quizzes.quizzing import judgement_of, put_again
+from xavi_dialogue.dialogue.state.state import Understood
+from xavi_dialogue.dialogue.state.turn import Offer, Turn
 from xavi_dialogue.domain.answers import NoSuchVehicle, NotUnderstood, Refusal, WhichOne
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.meaning import Act, Elliptic, Quizzing, Reading, Repair, TokenShare

@@ -17,7 +17,7 @@ from xavi_dialogue.domain.answers import (
     Refusal,
     SupposedOfUs,
 )
-from xavi_dialogue.nlg.content.manoeuvres import plain
+from xavi_dialogue.nlg.content.clauses.manoeuvres import plain
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.generator import expand
 from xavi_dialogue.nlg.surface.orthography import capitalise, join

@@ -14,7 +14,7 @@ from dataclasses import replace
 from xavi_dialogue.domain import answers
 from xavi_dialogue.domain.answers import Again, Answer, Refusal
 from xavi_dialogue.nlg.content.causal_tables import CAUSES, REFUSALS
-from xavi_dialogue.nlg.content.plan import Part, Plan, Planner
+from xavi_dialogue.nlg.content.clauses.plan import Part, Plan, Planner
 from xavi_dialogue.nlg.content.tables import FACTS
 from xavi_dialogue.nlg.context import Detail, SpeechContext, Utterance
 from xavi_dialogue.nlg.paper import mentioned as mentioned_in

@@ -21,7 +21,7 @@ from xavi_dialogue.domain.meaning import (
     Social,
 )
 from xavi_dialogue.domain.terms import Quantity
-from xavi_dialogue.nlu.compose.tree import value_of
+from xavi_dialogue.nlu.compose.clauses.tree import value_of
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 

@@ -11,7 +11,7 @@ took for wrong, and none of the others. Cost alone does not tell most wrong read
 from xavi_dialogue.domain.meaning import Act, Claim, Elliptic, Feel
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import Unknown
-from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.grammar.chart import Node
 
 DEAR = 1.7  # cost of a unit

@@ -21,20 +21,17 @@ from functools import lru_cache
 from itertools import islice, product
 
 from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading, Unread
-from xavi_dialogue.nlu.alternatives import chosen_between
 from xavi_dialogue.nlu.compose.acts import NOTHING, Composer
-from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.evidence import LOST, missing
 from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node, Nodes
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
 from xavi_dialogue.nlu.honesty import is_dear, well_typed
-from xavi_dialogue.nlu.meanwhile import at_same_time, in_its_world
-from xavi_dialogue.nlu.outcomes import struck_by
-from xavi_dialogue.nlu.plausible import oddity
-from xavi_dialogue.nlu.screen import on_screen
-from xavi_dialogue.nlu.segments import CLAUSES, RARE, Path, segment
-from xavi_dialogue.nlu.sentences import (
+from xavi_dialogue.nlu.joining.alternatives import chosen_between
+from xavi_dialogue.nlu.joining.meanwhile import at_same_time, in_its_world
+from xavi_dialogue.nlu.joining.outcomes import struck_by
+from xavi_dialogue.nlu.joining.sentences import (
     MAX_READINGS,
     SPREAD,
     appended,
@@ -42,11 +39,14 @@ from xavi_dialogue.nlu.sentences import (
     sentences,
     unlike,
 )
+from xavi_dialogue.nlu.joining.topics import fold
+from xavi_dialogue.nlu.plausible import oddity
+from xavi_dialogue.nlu.screen import on_screen
+from xavi_dialogue.nlu.segments import CLAUSES, RARE, Path, segment
 from xavi_dialogue.nlu.shares import is_unknown, shares_of, unknown_shares, unread_of
 from xavi_dialogue.nlu.text.languages import is_foreign
 from xavi_dialogue.nlu.text.lattice import Lattice, build
 from xavi_dialogue.nlu.text.tokens import Typed, tokenise
-from xavi_dialogue.nlu.topics import fold
 
 MAX_STEPS = 6_500  # of a sentence
 MOST_STEPS = 9_000  # of a text

@@ -3,7 +3,7 @@
 from typing import Literal
 
 from xavi_dialogue.domain.meaning import TokenShare, Unread
-from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, lexicon
 from xavi_dialogue.nlu.text.lattice import Lattice, is_strange

@@ -35,13 +35,7 @@ from xavi_dialogue.nlg.narration import clock
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.storage.mcap_file import read
 from xavi_dialogue.storage.recording_format import RecordingError, Tape, tape_of, unpacked
-from xavi_dialogue.vehicle.bus_session import (
-    CHILD_PATIENCE,
-    HUB_PATIENCE,
-    Dismissed,
-    claim,
-    joined,
-)
+from xavi_dialogue.vehicle.bus_session import CHILD_PATIENCE, HUB_PATIENCE, Dismissed, claim, joined
 from xavi_dialogue.vehicle.episode import Moment
 from xavi_dialogue.vehicle.map_server import serve_roads
 from xavi_dialogue.vehicle.node import COUNTERS, SHOWN_EVERY, Pace, serve

@@ -9,7 +9,11 @@ import msgspec
 from planner.counterfactuals.whatif import WhatIfError, replan
 from planner.record.trace import PlanTrace, WhatIf
 from sim.roads.network import Network
-from xavi_dialogue.dialogue.events import (
+from xavi_dialogue.dialogue.manager import advance
+from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.recollection import Recollection
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.state.events import (
     Answered,
     Asked,
     EventRecorded,
@@ -22,11 +26,7 @@ from xavi_dialogue.dialogue.events import (
     SceneSeen,
     TraceRecorded,
 )
-from xavi_dialogue.dialogue.manager import advance
-from xavi_dialogue.dialogue.mind import Mind
-from xavi_dialogue.dialogue.recollection import Recollection
-from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.dialogue.state import Dialogue
+from xavi_dialogue.dialogue.state.state import Dialogue
 from xavi_dialogue.domain.answers import NeedRollout, Reason
 from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.nlg.say import say

@@ -8,10 +8,10 @@ from functools import partial
 
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.zenoh_bus import host
-from xavi_dialogue.dialogue.events import Asked
 from xavi_dialogue.dialogue.manager import advance
 from xavi_dialogue.dialogue.mind import Mind
-from xavi_dialogue.dialogue.state import Dialogue
+from xavi_dialogue.dialogue.state.events import Asked
+from xavi_dialogue.dialogue.state.state import Dialogue
 from xavi_dialogue.nlg.surface.realiser import grammar
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.service.in_process import make_mind

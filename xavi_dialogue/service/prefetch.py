@@ -11,7 +11,7 @@ from planner.record.trace import PlanTrace
 from xavi_dialogue.bus.messages import SceneReport
 from xavi_dialogue.dialogue.manager import MAX_ROUNDS
 from xavi_dialogue.dialogue.mind import Mind
-from xavi_dialogue.dialogue.state import Dialogue
+from xavi_dialogue.dialogue.state.state import Dialogue
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.meaning import Ask, Reading, Why

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Generic, TypeAlias, TypeVar
 
 from xavi_dialogue.bus.messages import EventReport, SceneReport, TraceReport
-from xavi_dialogue.dialogue.events import (
+from xavi_dialogue.dialogue.state.events import (
     EventRecorded,
     Input,
     RecordMissing,
@@ -13,7 +13,7 @@ from xavi_dialogue.dialogue.events import (
     SceneSeen,
     TraceRecorded,
 )
-from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.vehicle.telemetry import KEPT_EVENTS, KEPT_TRACES
 
 Item = TypeVar("Item")

@@ -6,7 +6,7 @@ from typing import TypeAlias
 from xavi_dialogue.bus.interface import Call
 from xavi_dialogue.bus.messages import AskRequest
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.domain.answers import NeedRollout
 
 Name: TypeAlias = tuple[str, str]  # session, request

@@ -34,7 +34,7 @@ from xavi_dialogue.bus.messages import (
     unpack,
 )
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.service.ownership import Owners
 from xavi_dialogue.service.requests import Answer, PlanAgain

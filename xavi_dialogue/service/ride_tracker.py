@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from xavi_dialogue.bus.messages import SceneReport
-from xavi_dialogue.dialogue.events import Input
+from xavi_dialogue.dialogue.state.events import Input
 from xavi_dialogue.service.reorder_buffer import Heard, Ledger
 
 MAX_RIDES = 100  # whose names are known, so that what is late of them is

@@ -10,7 +10,10 @@ from dataclasses import dataclass, field
 
 from planner.record.trace import PlanTrace
 from xavi_dialogue.bus.messages import AskRequest, CancelRequest
-from xavi_dialogue.dialogue.events import (
+from xavi_dialogue.dialogue.manager import advance
+from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.state.events import (
     Answered,
     Asked,
     Cancelled,
@@ -23,12 +26,9 @@ from xavi_dialogue.dialogue.events import (
     RolloutsWanted,
     TurnedAway,
 )
-from xavi_dialogue.dialogue.manager import advance
-from xavi_dialogue.dialogue.mind import Mind
-from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.dialogue.state import Dialogue
-from xavi_dialogue.dialogue.states import IllegalEvent, Phase
-from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.state.state import Dialogue
+from xavi_dialogue.dialogue.state.states import IllegalEvent, Phase
+from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.domain.answers import NeedRollout, Reason, Unavailable
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.say import say

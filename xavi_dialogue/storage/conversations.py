@@ -12,7 +12,7 @@ from typing import Any, Self, TypeAlias
 import msgspec
 
 from planner.record.events import Event
-from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.storage.database import Database, Unfit, Writing
 from xavi_dialogue.storage.rows import Line, Summary, checked, decoded, decoded_owner, known
 

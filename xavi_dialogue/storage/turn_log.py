@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from planner.record.events import Event
-from xavi_dialogue.dialogue.turn import Turn
+from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.storage.conversations import New, NewEvent, NewTurn, RideName, Store, fits
 from xavi_dialogue.storage.database import Damaged, StoreError, Unfit, Unpurged, Unwritable
 

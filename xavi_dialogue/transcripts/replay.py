@@ -19,7 +19,7 @@ from sim.setup.scenario import load as load_scenario
 from xavi_dialogue.service.in_process import Conversation, Replan, drive_to, make_mind, planner_for
 from xavi_dialogue.transcripts.runner import Played, latest, play
 from xavi_dialogue.vehicle.episode import clock, network_of, start
-from xavi_dialogue.dialogue.events import EventRecorded, Input, RideEnded, TraceRecorded
+from xavi_dialogue.dialogue.state.events import EventRecorded, Input, RideEnded, TraceRecorded
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.storage import ride_file

@@ -10,7 +10,7 @@ from typing import get_args
 
 from planner.record.trace import PlanTrace
 from xavi_dialogue.service.in_process import SESSION, Conversation, NoPlan, Replan
-from xavi_dialogue.dialogue.events import Input, Resumed
+from xavi_dialogue.dialogue.state.events import Input, Resumed
 from xavi_dialogue.dialogue.manager import fold
 from xavi_dialogue.dialogue.mind import Mind
 from xavi_dialogue.dialogue.reply import Reply

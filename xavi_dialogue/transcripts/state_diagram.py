@@ -6,7 +6,7 @@ python -m xavi_dialogue.transcripts.state_diagram ARCHITECTURE.md
 import sys
 from pathlib import Path
 
-from xavi_dialogue.dialogue.states import diagram
+from xavi_dialogue.dialogue.state.states import diagram
 
 BEGIN, END = "<!-- conversation: begin -->\n", "<!-- conversation: end -->"
 

@@ -19,7 +19,7 @@ from sim.setup.scenario import Scenario
 from sim.sumo import Simulation
 from xavi_dialogue.bus.interface import DEFAULT_VEHICLE
 from xavi_dialogue.dialogue.manoeuvres import carried_out
-from xavi_dialogue.dialogue.state import EPSILON
+from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.process.garbage import settled
 
 Ending: TypeAlias = Literal["arrived", "collided", "duration"]

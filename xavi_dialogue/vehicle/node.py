@@ -13,12 +13,7 @@ from planner.record.events import Event
 from planner.record.trace import PlanTrace
 from xavi_dialogue.bus.health import Alive
 from xavi_dialogue.bus.interface import Bus, Call, CallHandler, Keys
-from xavi_dialogue.bus.messages import (
-    CarState,
-    EventReport,
-    SceneReport,
-    TraceReport,
-)
+from xavi_dialogue.bus.messages import CarState, EventReport, SceneReport, TraceReport
 from xavi_dialogue.bus.schema import schema_of
 from xavi_dialogue.process.child_commands import Order, Orders, Pause, Quit, Resume, Speed, Until
 from xavi_dialogue.vehicle.episode import Moment, halts

@@ -22,13 +22,7 @@ from planner.record.trace import PlanTrace, WhatIf
 from sim.roads.network import Network
 from xavi_dialogue.bus.health import Alive
 from xavi_dialogue.bus.interface import BusError, Call
-from xavi_dialogue.bus.messages import (
-    Failure,
-    MessageError,
-    WhatIfRequest,
-    pack,
-    unpack,
-)
+from xavi_dialogue.bus.messages import Failure, MessageError, WhatIfRequest, pack, unpack
 from xavi_dialogue.process.subprocesses import TOP
 from xavi_dialogue.vehicle.episode import Moment
 from xavi_dialogue.vehicle.replan_worker import Order

@@ -9,13 +9,7 @@ from typing import Protocol
 from planner.record.trace import PlanTrace
 from xavi_dialogue.bus.health import Alive
 from xavi_dialogue.bus.interface import Keys, Publisher
-from xavi_dialogue.bus.messages import (
-    CarState,
-    EventReport,
-    SceneReport,
-    TraceReport,
-    pack,
-)
+from xavi_dialogue.bus.messages import CarState, EventReport, SceneReport, TraceReport, pack
 from xavi_dialogue.vehicle.episode import Moment, clock
 
 KEPT_TRACES = 300  # for late joiners

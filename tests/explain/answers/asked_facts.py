@@ -5,7 +5,7 @@ from typing import Any
 from xavi_dialogue.domain.discourse import GroundedAct, Span
 from xavi_dialogue.domain.meaning import Ask, Claim, Feel, Request
 from xavi_dialogue.explain.answers import factual
-from xavi_dialogue.explain.answers.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.facts.world import world_of
 from xavi_dialogue.explain.history.ride import Ride
 

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 from planner.record.events import Event as RideEvent
 from tests.explain.answers.stated import decision, driven, look, place, roads, scene
 from tests.traces import End
-from xavi_dialogue.explain.answers.asked import Asked
+from xavi_dialogue.explain.answers.reference.asked import Asked
 
 STAY: Any = ("continue",)
 LEFT: Any = ("change-left", "continue")

@@ -4,6 +4,7 @@ What is not written down is not recorded: a measure has no value, a relation doe
 is seen. Each fact may be a value, or a function of the time [s] that it is asked for.
 """
 
+import pkgutil
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -28,9 +29,10 @@ from xavi_dialogue.domain.facts import (
 )
 from xavi_dialogue.domain.meaning import Ask, Doing
 from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle, Wanted
-from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.facts import happening
+from xavi_dialogue.explain import answers
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.facts.actions import covered, mirrored, somebody
+from xavi_dialogue.explain.facts.episodes import happening
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.explain.history.ride import Ride
@@ -224,6 +226,14 @@ def plan(
     return replace(plain, **more)
 
 
+#: Where the modules of explainers are, by their last names.
+MODULES = {
+    found.name.rpartition(".")[2]: found.name
+    for found in pkgutil.walk_packages(answers.__path__, f"{answers.__name__}.")
+    if not found.ispkg
+}
+
+
 @dataclass(frozen=True)
 class Told:
     """What an explainer was asked to tell, in a test of who is asked."""
@@ -241,7 +251,8 @@ class Told:
 def stand_in(patch: pytest.MonkeyPatch, *names: str) -> None:
     """Have explainers tell only that they were asked: by module and name."""
     for name in names:
-        patch.setattr(f"xavi_dialogue.explain.answers.{name}", _teller(name))
+        module, explainer = name.split(".")
+        patch.setattr(f"{MODULES[module]}.{explainer}", _teller(name))
 
 
 def _teller(name: str) -> Any:

@@ -15,10 +15,11 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Request
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
-from xavi_dialogue.explain.answers import motions, refraining, requests
-from xavi_dialogue.explain.answers.asked import Unanswered
-from xavi_dialogue.explain.answers.foreseen import sided
-from xavi_dialogue.explain.causes.course import Expected
+from xavi_dialogue.explain.answers import requests
+from xavi_dialogue.explain.answers.expectations.foreseen import sided
+from xavi_dialogue.explain.answers.reasons import motions, refraining
+from xavi_dialogue.explain.answers.reference.asked import Unanswered
+from xavi_dialogue.explain.causes.vehicles.course import Expected
 
 ONE = Vehicle(1)
 SPEED = Measure("speed", Ego(), NOW, value=12.0)

@@ -17,9 +17,9 @@ from xavi_dialogue.domain.discourse import GroundedAct, Span
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Look, Measure
 from xavi_dialogue.domain.meaning import Ask, Doing
 from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle, Wanted
-from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.facts import happening
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.facts.actions import covered, mirrored, somebody
+from xavi_dialogue.explain.facts.episodes import happening
 from xavi_dialogue.explain.facts.world import World as Facts
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.record import Record

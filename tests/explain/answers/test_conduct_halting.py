@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 
+from tests.explain.answers.ride.test_conduct import ONE, TWO, shown
 from tests.explain.answers.stated import (
     US,
     decision,
@@ -12,7 +13,6 @@ from tests.explain.answers.stated import (
     roads,
     they,
 )
-from tests.explain.answers.test_conduct import ONE, TWO, shown
 from xavi_dialogue.domain.terms import At, Event
 
 # --- straight on --------------------------------------------------------------------------------

@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
+from tests.explain.answers.propositions.test_comparisons import ONE, TWO, weighed
 from tests.explain.answers.stated import look
-from tests.explain.answers.test_comparisons import ONE, TWO, weighed
 from xavi_dialogue.domain.answers import CannotSay, Measures
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.terms import (

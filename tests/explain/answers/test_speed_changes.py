@@ -1,10 +1,10 @@
 """By how much a speed changed: over the time said, else in the latest change."""
 
+from tests.explain.answers.propositions.test_attributes import ONE, told, values
 from tests.explain.answers.stated import (
     US,
     did,
 )
-from tests.explain.answers.test_attributes import ONE, told, values
 from xavi_dialogue.domain.answers import (
     DidNotHappen,
 )

@@ -18,8 +18,8 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Vehicle,
 )
-from xavi_dialogue.explain.answers import verdicts
-from xavi_dialogue.explain.answers.findings import Finding
+from xavi_dialogue.explain.answers.propositions import verdicts
+from xavi_dialogue.explain.answers.reference.findings import Finding
 
 ONE = Vehicle(1)
 SPEED = Measure("speed", Ego(), NOW, value=9.0)
@@ -39,7 +39,7 @@ class Setting:
         patch.setattr(verdicts, "handed", self._handed)
         patch.setattr(verdicts, "staying", lambda asked, leader: Staying(leader))
         patch.setattr(verdicts, "of_us", lambda *args: Told("of us", (args[0], args[2])))
-        measures = "xavi_dialogue.explain.answers.measures.how_much"
+        measures = "xavi_dialogue.explain.answers.propositions.measures.how_much"
         patch.setattr(measures, lambda question, asked: Told("how much", (question,)))
         patch.setattr(verdicts, "claimed", lambda found, amount: (found, amount))
         self.asked_ours: list[Any] = []

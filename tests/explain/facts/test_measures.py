@@ -12,7 +12,7 @@ from xavi_dialogue.domain.facts import Gap
 from xavi_dialogue.domain.terms import Destination, Ego, Junction, Lane, Vehicle
 from xavi_dialogue.domain.terms import Event as Doing
 from xavi_dialogue.domain.vocabulary import Attribute, Relation
-from xavi_dialogue.explain.causes.options import options_at
+from xavi_dialogue.explain.causes.plans.options import options_at
 from xavi_dialogue.explain.facts.world import World, world_of
 
 TWO = {0: Actor(straight(0.0, 0.0, 12.0)), 1: Actor(straight(40.0, 3.5, 9.0), colour="red")}

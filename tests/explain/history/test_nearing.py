@@ -11,8 +11,8 @@ from tests.explain.facts.scenes import Actor, made, speeds, straight
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Junction
-from xavi_dialogue.explain.causes.driving import as_of
-from xavi_dialogue.explain.causes.roadside import road_causes
+from xavi_dialogue.explain.causes.driving.driving import as_of
+from xavi_dialogue.explain.causes.driving.roadside import road_causes
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.nearing import (
     driven,

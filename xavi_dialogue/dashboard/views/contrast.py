@@ -16,8 +16,8 @@ from xavi_dialogue.dashboard.typed_answer import Told
 from xavi_dialogue.dashboard.views.decision import chosen_plan
 from xavi_dialogue.dialogue.explanation import Contrastive
 from xavi_dialogue.domain.answers import SupposedOfOther
-from xavi_dialogue.explain.causes.chances import chances
-from xavi_dialogue.explain.causes.conduct import conduct_names, matching
+from xavi_dialogue.explain.causes.plans.chances import chances
+from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names, matching
 
 SAME = 1e-6  # difference of figures that were computed alike
 

@@ -12,8 +12,8 @@ from planner.record.events import Event
 from planner.record.trace import Action, GoalPrediction, HoldUp
 from xavi_dialogue.domain.answers import Cause, Mechanism
 from xavi_dialogue.domain.terms import Vehicle
-from xavi_dialogue.nlg.content.contrasts import SLOWING, STANDING
-from xavi_dialogue.nlg.content.manoeuvres import CHANGES, other_verbs, own_verbs, plain
+from xavi_dialogue.nlg.content.clauses.manoeuvres import CHANGES, other_verbs, own_verbs, plain
+from xavi_dialogue.nlg.content.reasons.contrasts import SLOWING, STANDING
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.narration import narrate
 from xavi_dialogue.nlg.surface.chances import chance

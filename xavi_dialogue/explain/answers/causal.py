@@ -37,20 +37,15 @@ from xavi_dialogue.domain.terms import (
     Wanted,
     WholeRide,
 )
-from xavi_dialogue.explain.answers import (
-    choices,
-    deciding,
-    knowing,
-    owing,
-    possible,
-    reasons,
-    risks,
-)
-from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.delays import held_up, let_past
-from xavi_dialogue.explain.answers.moments import window
-from xavi_dialogue.explain.answers.provoked import because_of_us
-from xavi_dialogue.explain.answers.reading import is_own, unwrapped, vehicle_in
+from xavi_dialogue.explain.answers import owing
+from xavi_dialogue.explain.answers.propositions import reasons
+from xavi_dialogue.explain.answers.reasons import choices, knowing
+from xavi_dialogue.explain.answers.reasons.provoked import because_of_us
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.moments import window
+from xavi_dialogue.explain.answers.reference.reading import is_own, unwrapped, vehicle_in
+from xavi_dialogue.explain.answers.ride.delays import held_up, let_past
+from xavi_dialogue.explain.answers.suppositions import deciding, possible, risks
 from xavi_dialogue.explain.answers.wavering import wavered
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]

@@ -19,9 +19,11 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.discourse import GroundedAct, Span
 from xavi_dialogue.domain.meaning import Ask, Beyond
 from xavi_dialogue.domain.terms import At, Between
-from xavi_dialogue.explain.answers import causal, factual, hidden_areas, lights
-from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.reading import event_of
+from xavi_dialogue.explain.answers import causal, factual
+from xavi_dialogue.explain.answers.lights import lights
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.reading import event_of
+from xavi_dialogue.explain.answers.sight import hidden_areas
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.explain.history.ride import Ride

@@ -27,21 +27,21 @@ from xavi_dialogue.domain.meaning import (
     Which,
     Whither,
 )
-from xavi_dialogue.explain.answers.accounts import listing, summarise
-from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.beliefs import how_sure
-from xavi_dialogue.explain.answers.decisions import changed
-from xavi_dialogue.explain.answers.duties import blamed
-from xavi_dialogue.explain.answers.happenings import doing, when
-from xavi_dialogue.explain.answers.identify import identify
-from xavi_dialogue.explain.answers.lasting import how_long
-from xavi_dialogue.explain.answers.places import where, whither
+from xavi_dialogue.explain.answers.events.accounts import listing, summarise
+from xavi_dialogue.explain.answers.events.beliefs import how_sure
+from xavi_dialogue.explain.answers.events.decisions import changed
+from xavi_dialogue.explain.answers.measuring.rivals import rivals
+from xavi_dialogue.explain.answers.measuring.summits import peak
+from xavi_dialogue.explain.answers.propositions.duties import blamed
+from xavi_dialogue.explain.answers.propositions.happenings import doing, when
+from xavi_dialogue.explain.answers.propositions.identify import identify
+from xavi_dialogue.explain.answers.propositions.lasting import how_long
+from xavi_dialogue.explain.answers.propositions.verdicts import claim, whether
+from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.requests import request
-from xavi_dialogue.explain.answers.rivals import rivals
-from xavi_dialogue.explain.answers.summits import peak
+from xavi_dialogue.explain.answers.ride.places import where, whither
 from xavi_dialogue.explain.answers.talk import feel, social
 from xavi_dialogue.explain.answers.turns import how_many, how_much, who
-from xavi_dialogue.explain.answers.verdicts import claim, whether
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 

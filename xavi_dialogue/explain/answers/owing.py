@@ -11,11 +11,11 @@ from xavi_dialogue.domain.facts import Look
 from xavi_dialogue.domain.meaning import Why
 from xavi_dialogue.domain.terms import Ego, Event, Happens, Proposition, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.answers import reasons
-from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.moments import Window, is_past, window
-from xavi_dialogue.explain.answers.naming import number, somebodies
-from xavi_dialogue.explain.answers.priority import goes_first, priority_at
+from xavi_dialogue.explain.answers.propositions import reasons
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.moments import Window, is_past, window
+from xavi_dialogue.explain.answers.reference.naming import number, somebodies
+from xavi_dialogue.explain.answers.ride.priority import goes_first, priority_at
 
 Grounds: TypeAlias = Literal["right", "across", "beside", "on-foot", "road"]
 LETTING: Final = frozenset[ActionName](("wait", "give-way", "let-go"))

@@ -6,8 +6,8 @@ from xavi_dialogue.domain.answers import Answer
 from xavi_dialogue.domain.facts import Somebody
 from xavi_dialogue.domain.meaning import Which
 from xavi_dialogue.domain.terms import Ego, Feature, Proposition, Related, Vehicle, Wanted
-from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.identify import identified, which
+from xavi_dialogue.explain.answers.propositions.identify import identified, which
+from xavi_dialogue.explain.answers.reference.asked import Asked
 
 APART: Final = 15.0  # [m] between two who stand in one row
 SLOW: Final = 3.0  # [m/s] up to which somebody is in it

@@ -14,18 +14,25 @@ from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Request
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
-from xavi_dialogue.explain.answers import motions, refraining
-from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.durations import remaining_wait, stands
-from xavi_dialogue.explain.answers.findings import known
-from xavi_dialogue.explain.answers.foreseen import HALTS, STARTS, TURNING, YIELDS, macros, sided
-from xavi_dialogue.explain.answers.happenings import activity
-from xavi_dialogue.explain.answers.naming import number
-from xavi_dialogue.explain.answers.nearing import past_leader
-from xavi_dialogue.explain.answers.occasions import occasion
-from xavi_dialogue.explain.answers.plans import foreseen, plan_ahead
+from xavi_dialogue.explain.answers.expectations.foreseen import (
+    HALTS,
+    STARTS,
+    TURNING,
+    YIELDS,
+    macros,
+    sided,
+)
+from xavi_dialogue.explain.answers.expectations.plans import foreseen, plan_ahead
+from xavi_dialogue.explain.answers.measuring.durations import remaining_wait, stands
+from xavi_dialogue.explain.answers.measuring.nearing import past_leader
+from xavi_dialogue.explain.answers.propositions.happenings import activity
+from xavi_dialogue.explain.answers.reasons import motions, refraining
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.findings import known
+from xavi_dialogue.explain.answers.reference.naming import number
+from xavi_dialogue.explain.answers.reference.occasions import occasion
 from xavi_dialogue.explain.answers.talk import speed_of
-from xavi_dialogue.explain.causes.options import options_at
+from xavi_dialogue.explain.causes.plans.options import options_at
 
 #: Requests to be told how fast we are, and those to be told when we are there.
 SPEEDS: frozenset[ActionName] = frozenset(("slow-down", "speed-up", "brake"))

@@ -19,16 +19,16 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import FeelingKind
-from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.closeness import closeness
-from xavi_dialogue.explain.answers.comfort import BRAKING, HARD, comfort_of
-from xavi_dialogue.explain.answers.durations import remaining_wait, stands
-from xavi_dialogue.explain.answers.findings import known
-from xavi_dialogue.explain.answers.happenings import activity
-from xavi_dialogue.explain.answers.moments import RECENT, Window, window
-from xavi_dialogue.explain.answers.naming import is_us, number
-from xavi_dialogue.explain.answers.occasions import occasion
-from xavi_dialogue.explain.answers.places import time_to_go
+from xavi_dialogue.explain.answers.measuring.closeness import closeness
+from xavi_dialogue.explain.answers.measuring.durations import remaining_wait, stands
+from xavi_dialogue.explain.answers.propositions.happenings import activity
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.findings import known
+from xavi_dialogue.explain.answers.reference.moments import RECENT, Window, window
+from xavi_dialogue.explain.answers.reference.naming import is_us, number
+from xavi_dialogue.explain.answers.reference.occasions import occasion
+from xavi_dialogue.explain.answers.ride.comfort import BRAKING, HARD, comfort_of
+from xavi_dialogue.explain.answers.ride.places import time_to_go
 
 NEAR = 8.0  # [m] within which a vehicle may be what startles somebody
 FRIGHT: frozenset[FeelingKind] = frozenset(("afraid", "nervous", "startled", "distrustful"))

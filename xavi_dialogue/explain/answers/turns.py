@@ -29,14 +29,16 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.answers import counting, measures, queues
-from xavi_dialogue.explain.answers.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.lights_turn import held
-from xavi_dialogue.explain.answers.moments import Window, is_past
-from xavi_dialogue.explain.answers.naming import number, somebodies
+from xavi_dialogue.explain.answers import queues
+from xavi_dialogue.explain.answers.lights.lights_turn import held
+from xavi_dialogue.explain.answers.measuring import counting
 from xavi_dialogue.explain.answers.owing import DUTIES, LETTING, grounds, reason
-from xavi_dialogue.explain.answers.priority import priority_at
-from xavi_dialogue.explain.answers.reasons import why
+from xavi_dialogue.explain.answers.propositions import measures
+from xavi_dialogue.explain.answers.propositions.reasons import why
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.moments import Window, is_past
+from xavi_dialogue.explain.answers.reference.naming import number, somebodies
+from xavi_dialogue.explain.answers.ride.priority import priority_at
 
 GOING: Final = frozenset[ActionName](("go", "move", "enter", "cross", "turn", "continue", "pass"))
 WAITS: Final[tuple[ActionName, ...]] = ("give-way", "wait")

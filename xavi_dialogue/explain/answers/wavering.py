@@ -8,11 +8,11 @@ from xavi_dialogue.domain.answers import Answer, Wavered
 from xavi_dialogue.domain.journeys import Waver
 from xavi_dialogue.domain.meaning import Why
 from xavi_dialogue.domain.terms import Happens
-from xavi_dialogue.explain.answers import reasons
-from xavi_dialogue.explain.answers.asked import Asked
-from xavi_dialogue.explain.answers.moments import Window, window
-from xavi_dialogue.explain.answers.reading import unwrapped
-from xavi_dialogue.explain.causes.options import of_trace
+from xavi_dialogue.explain.answers.propositions import reasons
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.moments import Window, window
+from xavi_dialogue.explain.answers.reference.reading import unwrapped
+from xavi_dialogue.explain.causes.plans.options import of_trace
 from xavi_dialogue.explain.history.ride import planned
 
 BACK: Final = 20.0  # [s] that "each time" reaches back where no time is said

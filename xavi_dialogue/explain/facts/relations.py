@@ -10,9 +10,9 @@ from xavi_dialogue.domain.vocabulary import Relation
 from xavi_dialogue.explain.facts import bodies
 from xavi_dialogue.explain.facts.actions import somebody
 from xavi_dialogue.explain.facts.bearings import Offset, oncoming
-from xavi_dialogue.explain.facts.meetings import crossings, followings
+from xavi_dialogue.explain.facts.episodes.meetings import crossings, followings
+from xavi_dialogue.explain.facts.episodes.waiting import top_holders, waits
 from xavi_dialogue.explain.facts.states import States
-from xavi_dialogue.explain.facts.waiting import top_holders, waits
 from xavi_dialogue.explain.history.motion import EPSILON
 from xavi_dialogue.explain.history.thresholds import NEAR, ROAD_WIDTH, SAME_LANE, STANDING
 

@@ -16,7 +16,7 @@ from xavi_dialogue.domain.traffic_lights import (
     LightColour,
     Shown,
 )
-from xavi_dialogue.explain.facts.light_waits import facing
+from xavi_dialogue.explain.facts.episodes.light_waits import facing
 from xavi_dialogue.explain.history.nearing import driven, speed_at
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride
 from xavi_dialogue.explain.history.thresholds import STALE

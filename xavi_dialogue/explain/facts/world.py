@@ -7,9 +7,10 @@ from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
 from xavi_dialogue.domain.terms import Event, Thing
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute, Extreme, Relation
-from xavi_dialogue.explain.facts import beliefs, happening, looks, plans, relations
+from xavi_dialogue.explain.facts import beliefs, looks, plans, relations
 from xavi_dialogue.explain.facts.actions import covered, mirrored, somebody
-from xavi_dialogue.explain.facts.light_events import light_episodes
+from xavi_dialogue.explain.facts.episodes import happening
+from xavi_dialogue.explain.facts.episodes.light_events import light_episodes
 from xavi_dialogue.explain.facts.measures import extremes, measuring
 from xavi_dialogue.explain.facts.states import states_of
 from xavi_dialogue.explain.history.motion import EPSILON

@@ -15,13 +15,7 @@ from planner.motion.everybody import everybody_in
 from planner.record.trace import Action, PlanTrace, VehiclePrediction, WhatIf
 from sim.scene import EGO, Scene
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
-from xavi_dialogue.domain.answers import (
-    NeedRollout,
-    NotApplicable,
-    NotRecorded,
-    Refusal,
-    TooLittle,
-)
+from xavi_dialogue.domain.answers import NeedRollout, NotApplicable, NotRecorded, Refusal, TooLittle
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.explain.history.deeds import Deed, read_deeds
 from xavi_dialogue.explain.history.joining import Joined, Seen, joined

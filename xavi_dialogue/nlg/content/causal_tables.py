@@ -1,21 +1,22 @@
 """Tables: the planner of each type of causal answer, and of refusals."""
 
 from xavi_dialogue.domain import answers, hidden_areas, traffic_lights
-from xavi_dialogue.nlg.content import insights, refusals
-from xavi_dialogue.nlg.content.clarifications import plan_which_one
-from xavi_dialogue.nlg.content.corrections import plan_did_not_happen
-from xavi_dialogue.nlg.content.going import plan_going, plan_unslowed
-from xavi_dialogue.nlg.content.hidden_areas import plan_seeing
-from xavi_dialogue.nlg.content.motives import plan_motion
-from xavi_dialogue.nlg.content.others import plan_other, plan_place, plan_signal
-from xavi_dialogue.nlg.content.own_suppositions import plan_supposed_of_us
-from xavi_dialogue.nlg.content.plan import Planner
-from xavi_dialogue.nlg.content.reactions import plan_reaction
-from xavi_dialogue.nlg.content.reasons import plan_choice
-from xavi_dialogue.nlg.content.signals import plan_own_signal
-from xavi_dialogue.nlg.content.suppositions import plan_supposed_of_other
-from xavi_dialogue.nlg.content.suspects import plan_nobody_else
-from xavi_dialogue.nlg.content.traffic_lights import plan_supposed_light
+from xavi_dialogue.nlg.content.clauses.plan import Planner
+from xavi_dialogue.nlg.content.clauses.traffic_lights import plan_supposed_light
+from xavi_dialogue.nlg.content.observed.corrections import plan_did_not_happen
+from xavi_dialogue.nlg.content.reasons import insights
+from xavi_dialogue.nlg.content.reasons.going import plan_going, plan_unslowed
+from xavi_dialogue.nlg.content.reasons.hidden_areas import plan_seeing
+from xavi_dialogue.nlg.content.reasons.motives import plan_motion
+from xavi_dialogue.nlg.content.reasons.others import plan_other, plan_place, plan_signal
+from xavi_dialogue.nlg.content.reasons.own_suppositions import plan_supposed_of_us
+from xavi_dialogue.nlg.content.reasons.reactions import plan_reaction
+from xavi_dialogue.nlg.content.reasons.reasons import plan_choice
+from xavi_dialogue.nlg.content.reasons.signals import plan_own_signal
+from xavi_dialogue.nlg.content.reasons.suppositions import plan_supposed_of_other
+from xavi_dialogue.nlg.content.reasons.suspects import plan_nobody_else
+from xavi_dialogue.nlg.content.talk import refusals
+from xavi_dialogue.nlg.content.talk.clarifications import plan_which_one
 
 CAUSES: dict[type, Planner] = {
     answers.ChoiceReason: plan_choice,

@@ -1,27 +1,28 @@
 """Tables: the planner of each type of factual answer, and of replies to talk."""
 
 from xavi_dialogue.domain import answers, hidden_areas, traffic_lights
-from xavi_dialogue.nlg.content import (
+from xavi_dialogue.nlg.content.clauses import traffic_lights as lights
+from xavi_dialogue.nlg.content.clauses.joint_measures import (
+    plan_lasted,
+    plan_measures,
+    plan_staying,
+)
+from xavi_dialogue.nlg.content.clauses.plan import Planner
+from xavi_dialogue.nlg.content.observed import (
     beliefs,
-    clarifications,
     conduct,
     courses,
     dangers,
     people,
-    quizzes,
-    requests,
     safety,
     summits,
-    talk,
     turns,
     whereabouts,
 )
-from xavi_dialogue.nlg.content import traffic_lights as lights
-from xavi_dialogue.nlg.content.happenings import plan_happenings
-from xavi_dialogue.nlg.content.hidden_areas import plan_sight
-from xavi_dialogue.nlg.content.joint_measures import plan_lasted, plan_measures, plan_staying
-from xavi_dialogue.nlg.content.plan import Planner
-from xavi_dialogue.nlg.content.verdicts import plan_verdict
+from xavi_dialogue.nlg.content.observed.happenings import plan_happenings
+from xavi_dialogue.nlg.content.observed.verdicts import plan_verdict
+from xavi_dialogue.nlg.content.reasons.hidden_areas import plan_sight
+from xavi_dialogue.nlg.content.talk import clarifications, quizzes, requests, talk
 
 FACTS: dict[type, Planner] = {
     answers.Measures: plan_measures,

@@ -30,27 +30,33 @@ from xavi_dialogue.domain.terms import (
     Together,
     Vehicle,
 )
-from xavi_dialogue.nlu.compose.blames import blamed_for, of_one_alone
-from xavi_dialogue.nlu.compose.choosing import options_of
-from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.existence import if_alone
-from xavi_dialogue.nlu.compose.expecting import as_expected, feared
+from xavi_dialogue.nlu.compose.alternatives.blames import blamed_for, of_one_alone
+from xavi_dialogue.nlu.compose.alternatives.choosing import options_of
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.hedged import as_when, supposing
+from xavi_dialogue.nlu.compose.clauses.peaks import extreme_told
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, as_thing
+from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, node_of, words_of
 from xavi_dialogue.nlu.compose.fragments import Fragments
-from xavi_dialogue.nlu.compose.frames import is_short
-from xavi_dialogue.nlu.compose.hedged import as_when, supposing
 from xavi_dialogue.nlu.compose.orders import Orders
-from xavi_dialogue.nlu.compose.peaks import extreme_told
-from xavi_dialogue.nlu.compose.phrases import Phrases
-from xavi_dialogue.nlu.compose.propositions import Propositions
+from xavi_dialogue.nlu.compose.propositions.phrases import Phrases
+from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
+from xavi_dialogue.nlu.compose.propositions.severally import apart, asked_each, of_rival
+from xavi_dialogue.nlu.compose.propositions.tally import among
 from xavi_dialogue.nlu.compose.questions import Questions
-from xavi_dialogue.nlu.compose.sem import Group, Notes, as_thing
-from xavi_dialogue.nlu.compose.severally import apart, asked_each, of_rival
 from xavi_dialogue.nlu.compose.statements import Acts, Found, Statements, disputed
+from xavi_dialogue.nlu.compose.states.existence import if_alone
 from xavi_dialogue.nlu.compose.suppositions import goes_on, supposes
 from xavi_dialogue.nlu.compose.talk import called, says, stirred, talk_act
-from xavi_dialogue.nlu.compose.tally import among
-from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of, words_of
-from xavi_dialogue.nlu.compose.whys import RUN_ON, SWALLOWED, lacking, runs_on, swallows
+from xavi_dialogue.nlu.compose.verbs.expecting import as_expected, feared
+from xavi_dialogue.nlu.compose.wh_questions.frames import is_short
+from xavi_dialogue.nlu.compose.wh_questions.whys import (
+    RUN_ON,
+    SWALLOWED,
+    lacking,
+    runs_on,
+    swallows,
+)
 from xavi_dialogue.nlu.grammar.chart import Budget, Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 

@@ -31,13 +31,13 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Unsaid,
 )
-from xavi_dialogue.nlu.compose.adoption import with_fields
-from xavi_dialogue.nlu.compose.clause import PASSED_OVER, Clause
-from xavi_dialogue.nlu.compose.sem import Measure, Moment, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
+from xavi_dialogue.nlu.compose.clauses.clause import PASSED_OVER, Clause
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.compose.suppositions import Suppositions
-from xavi_dialogue.nlu.compose.tree import leaves_of
-from xavi_dialogue.nlu.compose.wh import NEXT, Wh, is_that
-from xavi_dialogue.nlu.compose.whys import pace_asked, sided
+from xavi_dialogue.nlu.compose.wh_questions.wh import NEXT, Wh, is_that
+from xavi_dialogue.nlu.compose.wh_questions.whys import pace_asked, sided
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 
 Found = list[tuple[tuple[Act, ...], float]]

@@ -30,11 +30,11 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
 )
-from xavi_dialogue.nlu.compose.adoption import adopted
 from xavi_dialogue.nlu.compose.bare import BareQuestions, Found
-from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.nominal import asked_of
-from xavi_dialogue.nlu.compose.sem import (
+from xavi_dialogue.nlu.compose.clauses.adoption import adopted
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.nominal import asked_of
+from xavi_dialogue.nlu.compose.clauses.sem import (
     Group,
     Measure,
     Noun,
@@ -43,12 +43,12 @@ from xavi_dialogue.nlu.compose.sem import (
     is_thing,
     members_of,
 )
-from xavi_dialogue.nlu.compose.severally import asked_each, towards
-from xavi_dialogue.nlu.compose.states import state_of
+from xavi_dialogue.nlu.compose.clauses.tree import leaves_of, words_of
+from xavi_dialogue.nlu.compose.propositions.severally import asked_each, towards
+from xavi_dialogue.nlu.compose.states.states import state_of
 from xavi_dialogue.nlu.compose.suppositions import suppose
 from xavi_dialogue.nlu.compose.talk import bodily
-from xavi_dialogue.nlu.compose.tree import leaves_of, words_of
-from xavi_dialogue.nlu.compose.whys import reason_for, sided
+from xavi_dialogue.nlu.compose.wh_questions.whys import reason_for, sided
 from xavi_dialogue.nlu.compose.wishes import bare_wish
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf

@@ -2,15 +2,7 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.meaning import (
-    Act,
-    Ask,
-    Quizzing,
-    Repair,
-    Summarise,
-    Whether,
-    Why,
-)
+from xavi_dialogue.domain.meaning import Act, Ask, Quizzing, Repair, Summarise, Whether, Why
 from xavi_dialogue.domain.terms import (
     Compares,
     Ego,
@@ -23,12 +15,12 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Related,
 )
-from xavi_dialogue.nlu.compose.candidates import Special
-from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.others import is_other
-from xavi_dialogue.nlu.compose.sem import as_thing
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import as_thing
 from xavi_dialogue.nlu.compose.telling import Telling
-from xavi_dialogue.nlu.compose.wh import fact
+from xavi_dialogue.nlu.compose.verbs.others import is_other
+from xavi_dialogue.nlu.compose.wh_questions.wh import fact
 from xavi_dialogue.nlu.compose.wishes import paced, request
 
 _TELLING = frozenset(

@@ -4,13 +4,7 @@ from typing import Any, cast
 
 from msgspec import structs
 
-from xavi_dialogue.domain.meaning import (
-    Fault,
-    HowSure,
-    Question,
-    Which,
-    Why,
-)
+from xavi_dialogue.domain.meaning import Fault, HowSure, Question, Which, Why
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -22,13 +16,11 @@ from xavi_dialogue.domain.terms import (
     That,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.asking import Asking
-from xavi_dialogue.nlu.compose.clause import Clause, Complement, wanted_pronoun
-from xavi_dialogue.nlu.compose.expecting import hindsight
-from xavi_dialogue.nlu.compose.nominal import deed_of, event_in, propose
-from xavi_dialogue.nlu.compose.options import WEAK, Options, alternatives, several_of
-from xavi_dialogue.nlu.compose.peaks import nearest_of, peak_of
-from xavi_dialogue.nlu.compose.sem import (
+from xavi_dialogue.nlu.compose.alternatives.options import WEAK, Options, alternatives, several_of
+from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement, wanted_pronoun
+from xavi_dialogue.nlu.compose.clauses.nominal import deed_of, event_in, propose
+from xavi_dialogue.nlu.compose.clauses.peaks import nearest_of, peak_of
+from xavi_dialogue.nlu.compose.clauses.sem import (
     Measure,
     Moment,
     Notes,
@@ -38,10 +30,12 @@ from xavi_dialogue.nlu.compose.sem import (
     as_thing,
     is_thing,
 )
-from xavi_dialogue.nlu.compose.tree import leaf_of, leaves_of, node_of
-from xavi_dialogue.nlu.compose.trends import believed
-from xavi_dialogue.nlu.compose.wh import Wh, is_that
-from xavi_dialogue.nlu.compose.what import going_on, purpose
+from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, node_of
+from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
+from xavi_dialogue.nlu.compose.verbs.trends import believed
+from xavi_dialogue.nlu.compose.wh_questions.asking import Asking
+from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, is_that
+from xavi_dialogue.nlu.compose.wh_questions.what import going_on, purpose
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 

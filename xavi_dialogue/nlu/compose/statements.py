@@ -39,20 +39,20 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import Manner
-from xavi_dialogue.nlu.compose.candidates import Special
-from xavi_dialogue.nlu.compose.clause import Clause
+from xavi_dialogue.nlu.compose.alternatives.polar import judged
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.peaks import extreme_told
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, words_of
 from xavi_dialogue.nlu.compose.orders import Orders, wavers
-from xavi_dialogue.nlu.compose.peaks import extreme_told
-from xavi_dialogue.nlu.compose.phrases import Phrases
-from xavi_dialogue.nlu.compose.polar import judged
-from xavi_dialogue.nlu.compose.propositions import Propositions
+from xavi_dialogue.nlu.compose.propositions.phrases import Phrases
+from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
+from xavi_dialogue.nlu.compose.propositions.tally import counts, tallied
 from xavi_dialogue.nlu.compose.questions import Questions
-from xavi_dialogue.nlu.compose.sem import Measure, Noun, as_thing
-from xavi_dialogue.nlu.compose.states import ungoverned
+from xavi_dialogue.nlu.compose.states.states import ungoverned
 from xavi_dialogue.nlu.compose.talk import and_you, bodily, feeling_of
-from xavi_dialogue.nlu.compose.tally import counts, tallied
-from xavi_dialogue.nlu.compose.tree import leaf_of, words_of
-from xavi_dialogue.nlu.compose.wh import fact
+from xavi_dialogue.nlu.compose.wh_questions.wh import fact
 from xavi_dialogue.nlu.compose.wishes import wished
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf

@@ -2,24 +2,13 @@
 
 from typing import Any
 
-from xavi_dialogue.domain.meaning import (
-    Act,
-    Ask,
-    Elliptic,
-    WhatIf,
-)
-from xavi_dialogue.domain.terms import (
-    Ego,
-    Happens,
-    Not,
-    Proposition,
-    Unsaid,
-)
-from xavi_dialogue.nlu.compose.adoption import with_fields
-from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.frames import is_short
-from xavi_dialogue.nlu.compose.sem import Measure, Noun, Sem, as_thing
-from xavi_dialogue.nlu.compose.tree import leaf_of, node_of, words_of
+from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, WhatIf
+from xavi_dialogue.domain.terms import Ego, Happens, Not, Proposition, Unsaid
+from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, node_of, words_of
+from xavi_dialogue.nlu.compose.wh_questions.frames import is_short
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 

@@ -32,10 +32,10 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import FeelingKind
-from xavi_dialogue.nlu.compose.candidates import Special
-from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.sem import Noun, Sem, as_thing
-from xavi_dialogue.nlu.compose.tree import leaves_of
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 

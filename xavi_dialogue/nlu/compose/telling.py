@@ -40,15 +40,15 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
     Within,
 )
-from xavi_dialogue.nlu.compose.adoption import timed, with_fields
-from xavi_dialogue.nlu.compose.candidates import Special
-from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.frames import is_short
-from xavi_dialogue.nlu.compose.nominal import asked_of, counted, propose
-from xavi_dialogue.nlu.compose.others import is_person
-from xavi_dialogue.nlu.compose.sem import Group, Measure, Moment, Noun, Sem, as_thing
-from xavi_dialogue.nlu.compose.severally import asked_each, towards
-from xavi_dialogue.nlu.compose.wh import Wh
+from xavi_dialogue.nlu.compose.clauses.adoption import timed, with_fields
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.nominal import asked_of, counted, propose
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Moment, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.propositions.severally import asked_each, towards
+from xavi_dialogue.nlu.compose.verbs.others import is_person
+from xavi_dialogue.nlu.compose.wh_questions.frames import is_short
+from xavi_dialogue.nlu.compose.wh_questions.wh import Wh
 
 _SHOWING = frozenset(
     {"give", "show", "describe", "report", "provide", "present", "walk me through"}

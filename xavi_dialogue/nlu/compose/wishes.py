@@ -18,8 +18,8 @@ from xavi_dialogue.domain.terms import (
     Proposition,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.nlu.compose.clause import Clause
-from xavi_dialogue.nlu.compose.sem import Measure
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import Measure
 
 CONTRARY: Final[dict[str, ActionName]] = {"fast": "slow-down", "slowly": "speed-up"}
 _PACED: Final = frozenset({"go", "move", "continue", "speed-up", "slow-down", "stop"})

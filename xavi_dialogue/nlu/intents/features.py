@@ -10,7 +10,7 @@ from typing import Final
 
 from xavi_dialogue.domain.meaning import Reading, TokenShare
 from xavi_dialogue.nlu.intents.signature import signature
-from xavi_dialogue.nlu.sentences import sentences
+from xavi_dialogue.nlu.joining.sentences import sentences
 from xavi_dialogue.nlu.text.tokens import tokenise
 
 ENDING: Final = 4  # words at the end that count once more

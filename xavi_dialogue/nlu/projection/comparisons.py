@@ -1,14 +1,7 @@
 """Comparisons: which of two courses is better, as query fields."""
 
 from xavi_dialogue.domain.meaning import Compare
-from xavi_dialogue.domain.terms import (
-    Compares,
-    Ego,
-    Happens,
-    Measured,
-    Pronoun,
-    That,
-)
+from xavi_dialogue.domain.terms import Compares, Ego, Happens, Measured, Pronoun, That
 from xavi_dialogue.nlu.projection.fields import QueryFields
 from xavi_dialogue.nlu.projection.propositions import PROPOSITIONS, subject
 from xavi_dialogue.nlu.projection.terms import actor_of, event_actions, plain, tense_of

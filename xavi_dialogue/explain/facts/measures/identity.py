@@ -9,9 +9,9 @@ from xavi_dialogue.domain.vocabulary import Bearing, Side
 from xavi_dialogue.explain.facts import beliefs
 from xavi_dialogue.explain.facts.actions import SIDES
 from xavi_dialogue.explain.facts.bearings import offset
+from xavi_dialogue.explain.facts.episodes.ways import ways
 from xavi_dialogue.explain.facts.looks import kind_of
 from xavi_dialogue.explain.facts.measures.asked import Asked
-from xavi_dialogue.explain.facts.ways import ways
 from xavi_dialogue.explain.history.nearing import still_to
 from xavi_dialogue.explain.history.thresholds import BIG, OPPOSITE, SAME_WAY, SMALL
 

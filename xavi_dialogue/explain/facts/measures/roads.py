@@ -6,8 +6,8 @@ from planner.record.places import RouteStep
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.terms import Junction
+from xavi_dialogue.explain.facts.episodes.ways import ways
 from xavi_dialogue.explain.facts.measures.asked import Asked
-from xavi_dialogue.explain.facts.ways import ways
 from xavi_dialogue.explain.history.nearing import still_to
 
 

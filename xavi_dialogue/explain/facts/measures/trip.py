@@ -11,12 +11,12 @@ from xavi_dialogue.causal.effects import HIGH, LOW
 from xavi_dialogue.causal.model import Intervention
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.explain.facts.actions import somebody
+from xavi_dialogue.explain.facts.episodes.speeds import speeds
+from xavi_dialogue.explain.facts.episodes.waiting import waits
 from xavi_dialogue.explain.facts.measures.asked import Asked
 from xavi_dialogue.explain.facts.measures.between import to_place
 from xavi_dialogue.explain.facts.plans import plan_of
-from xavi_dialogue.explain.facts.speeds import speeds
 from xavi_dialogue.explain.facts.states import States
-from xavi_dialogue.explain.facts.waiting import waits
 from xavi_dialogue.explain.history.nearing import driven
 from xavi_dialogue.explain.history.thresholds import STANDING
 

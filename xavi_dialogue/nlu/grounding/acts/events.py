@@ -29,7 +29,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.facts.lead_in import held_since
+from xavi_dialogue.explain.facts.episodes.lead_in import held_since
 from xavi_dialogue.nlu.grounding.acts.afoot import afoot
 from xavi_dialogue.nlu.grounding.acts.generic import specified
 from xavi_dialogue.nlu.grounding.acts.hiding import out_of

@@ -9,12 +9,7 @@ from xavi_dialogue.nlu.grounding.completion.ellipsis import complete as ellipsis
 from xavi_dialogue.nlu.grounding.completion.ellipsis import under_discussion
 from xavi_dialogue.nlu.grounding.completion.replacing import with_thing
 from xavi_dialogue.nlu.grounding.context import Grounder
-from xavi_dialogue.nlu.grounding.things.looks import (
-    bearing_cost,
-    colour_cost,
-    kind_cost,
-    size_cost,
-)
+from xavi_dialogue.nlu.grounding.things.looks import bearing_cost, colour_cost, kind_cost, size_cost
 from xavi_dialogue.nlu.grounding.things.match import MISS
 
 

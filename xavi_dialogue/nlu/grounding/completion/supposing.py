@@ -4,16 +4,7 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import (
-    Act,
-    Ask,
-    Elliptic,
-    Question,
-    WhatIf,
-    When,
-    Whether,
-    Why,
-)
+from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, Question, WhatIf, When, Whether, Why
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     Described,

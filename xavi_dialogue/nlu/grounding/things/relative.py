@@ -8,16 +8,7 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.rewriting import first
-from xavi_dialogue.domain.terms import (
-    Back,
-    Described,
-    Ego,
-    Event,
-    Pronoun,
-    Thing,
-    Vehicle,
-    Wanted,
-)
+from xavi_dialogue.domain.terms import Back, Described, Ego, Event, Pronoun, Thing, Vehicle, Wanted
 from xavi_dialogue.nlu.grounding.context import Context, Grounder, Window
 from xavi_dialogue.nlu.grounding.kin import like
 

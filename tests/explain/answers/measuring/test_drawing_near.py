@@ -1,0 +1,66 @@
+"""Whether we come closer to somebody, and whether somebody moves over, by how both drive now."""
+
+import pytest
+
+from tests.explain.answers.given import NOW, Given, look, their
+from xavi_dialogue.domain.terms import Ego, Event, Now, Vehicle
+from xavi_dialogue.explain.answers.measuring.nearing import (
+    ASIDE_IN,
+    SINCE,
+    closes,
+    moves_over,
+    past_leader,
+)
+
+NEARS = Event("approach", Ego(), Vehicle(1), time=Now(), tense="present")
+
+
+@pytest.mark.parametrize(("before", "holds"), [(16.0, True), (15.5, False), (15.0, False)])
+def test_we_come_closer_to_somebody_whose_gap_to_us_shrinks(before: float, holds: bool) -> None:
+    def seen(at: float) -> object:
+        return look(1, distance=15.5 if at > NOW - SINCE / 2.0 else before)
+
+    found = closes(Given(looks={1: seen}).asked(), NEARS)
+    assert found is not None
+    assert found.holds is holds
+
+
+@pytest.mark.parametrize(
+    ("action", "side", "shift", "holds"),
+    [
+        ("change-lane", "right", -0.3, True),
+        ("change-lane", "left", 0.3, True),
+        ("change-right", "right", -0.3, True),
+        ("change-left", "right", -0.3, None),
+        ("change-lane", "right", 0.3, None),
+        ("change-lane", "right", -0.1, None),
+        ("overtake", "right", -0.3, None),
+    ],
+)
+def test_who_indicates_and_drives_to_that_side_moves_over(
+    action: str, side: str, shift: float, holds: bool | None
+) -> None:
+    def seen(at: float) -> object:
+        return look(1, left=shift if at > NOW - ASIDE_IN / 2.0 else 0.0)
+
+    given = Given(looks={1: seen}, deeds=[their(1, "signal", NOW - 2.0, side=side)])
+    found = moves_over(given.asked(), Event(action, Vehicle(1), tense="present"))  # type: ignore[arg-type]
+    assert (None if found is None else found.holds) is holds
+
+
+@pytest.mark.parametrize(
+    ("where", "action"),
+    [
+        ({}, "overtake"),
+        ({"left": 3.2}, "pass"),  # in another lane
+        ({"speed": 0.0}, "pass"),  # it stands
+        ({"ahead": -15.0, "bearing": "behind"}, "pass"),
+        ({"oncoming": True}, "pass"),
+        ({"in_view": False}, "pass"),
+    ],
+)
+def test_going_past_who_drives_ahead_in_our_lane_is_overtaking(
+    where: dict[str, object], action: str
+) -> None:
+    asked = Given(looks={1: look(1, **where)}).asked()
+    assert past_leader(asked, Event("pass", Ego(), Vehicle(1))).action == action

@@ -1,0 +1,112 @@
+"""What we did ourselves, as our events tell it."""
+
+from collections.abc import Callable
+
+import pytest
+
+from planner.record.events import Event
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
+from planner.record.trace import Action
+from tests.explain.facts.scenes import Actor, made, speeds
+from xavi_dialogue.domain.terms import Destination, Ego, Junction, Vehicle
+from xavi_dialogue.explain.facts.episodes.own import own
+from xavi_dialogue.explain.facts.episodes.ways import ways
+from xavi_dialogue.explain.facts.states import States
+
+
+def place(edge: str, lane: int | None = 0, ring: bool = False, inside: bool = False) -> RoadPlace:
+    return RoadPlace(edge, lane, 3, 14.0, inside, ring)
+
+
+def done(action: Action, begin: float, end: float) -> tuple[Event, ...]:
+    return (
+        Event("action-started", begin - 1.0, action, 1),
+        Event("action-committed", begin, action, 1),
+        Event("action-ended", end, action, 1),
+    )
+
+
+SLOWING = Actor(speeds(0.0, 0.0, ((0.0, 12.0), (12.0, 0.0))))
+
+
+@pytest.mark.parametrize(
+    ("action", "side", "at"),
+    [
+        ("change-left", "left", None),
+        ("exit-right", "right", Junction("junction", time=4.0)),
+        ("exit-straight", "straight", Junction("junction", time=4.0)),
+        ("continue-next-exit", None, Junction("junction", time=4.0)),
+    ],
+)
+def test_what_we_did_stands_in_our_events(
+    action: Action, side: str | None, at: Junction | None
+) -> None:
+    (found,) = ways(States(made({0: SLOWING}, 10.0, events=done(action, 4.0, 7.0))), 0)
+    assert (found.actor, found.action, found.begin, found.end) == (Ego(), action, 4.0, 7.0)
+    assert (found.side, found.place) == (side, at)
+    assert (found.speed_from, found.speed_to) == pytest.approx((8.0, 5.0))
+
+
+def test_driving_on_and_stopping_are_no_ways() -> None:
+    for action in ("continue", "stop"):
+        assert ways(States(made({0: SLOWING}, 12.0, events=done(action, 4.0, 7.0))), 0) == []
+
+
+def test_what_we_are_doing_has_the_speed_of_now() -> None:
+    (found,) = ways(States(made({0: SLOWING}, 8.0, events=done("exit-left", 4.0, 7.0)[:2])), 0)
+    assert found.end is None
+    assert (found.speed_from, found.speed_to) == pytest.approx((8.0, 4.0))
+
+
+def ring(begin: float, end: float, numbers: dict[float, int]) -> Callable[[float], RoadFacts]:
+    """On the ring at some decisions; which exit the route has at others."""
+
+    def roads(time: float) -> RoadFacts:
+        number = next((n for since, n in sorted(numbers.items(), reverse=True) if since <= time), 9)
+        step = RouteStep(20.0, "roundabout", "exit-left", number, 4, 4, "give-way")
+        first = RouteStep(10.0, "junction", "exit-left", None, None, 4, "give-way")
+        return RoadFacts({0: place("a", ring=begin <= time <= end)}, (first, step))
+
+    return roads
+
+
+def test_an_exit_is_that_which_was_planned_before_the_roundabout() -> None:
+    numbers = {0.0: 1, 2.0: 2, 5.0: 3, 9.0: 4}
+    enter, leave = ways(States(made({0: SLOWING}, 11.0, roads=ring(6.0, 8.0, numbers))), 0)
+    assert (enter.action, enter.begin, enter.exit) == ("enter", 5.5, 3)
+    assert (leave.action, leave.begin, leave.exit) == ("leave", 8.5, 3)
+
+
+def test_a_route_of_long_before_tells_no_exit() -> None:
+    """Only decisions of the last four seconds before the ring count: 1.5 s is too early."""
+
+    def roads(time: float) -> RoadFacts:
+        facts = ring(6.0, 8.0, {0.0: 1})(time)
+        return facts if time <= 1.0 else RoadFacts(facts.places)
+
+    enter, _ = ways(States(made({0: SLOWING}, 11.0, roads=roads)), 0)
+    assert enter.exit is None
+
+
+def test_a_turn_on_a_ring_is_at_the_roundabout() -> None:
+    roads = ring(4.0, 8.0, {0.0: 2})
+    for begin, end, form in ((5.0, 6.0, "roundabout"), (9.0, 10.0, "junction")):
+        ride = made({0: SLOWING}, 11.0, roads=roads, events=done("exit-right", begin, end))
+        (found,) = (e for e in ways(States(ride), 0) if e.action == "exit-right")
+        assert found.place == Junction(form, time=3.5 if form == "roundabout" else begin)  # type: ignore[arg-type]
+
+
+def test_what_our_events_tell() -> None:
+    events = (
+        Event("action-started", 1.0, "continue", 1),
+        Event("collided", 5.0, vehicle=3),
+        Event("collided", 6.0),
+        Event("arrived", 7.0),
+    )
+    found = own(States(made({0: SLOWING}, 8.0, events=events)))
+    assert [(e.actor, e.action, e.begin, e.end, e.object) for e in found] == [
+        (Ego(), "collide", 5.0, 5.0, Vehicle(3)),
+        (Ego(), "collide", 6.0, 6.0, None),
+        (Ego(), "arrive", 7.0, 7.0, Destination()),
+        (Ego(), "continue", 1.0, 5.0, None),
+    ]

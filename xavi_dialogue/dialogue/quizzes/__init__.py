@@ -1,0 +1,1 @@
+"""Questions of ours to the passenger, and their solutions."""

@@ -1,0 +1,1 @@
+"""The state of a conversation: its turns, and what later turns may draw on."""

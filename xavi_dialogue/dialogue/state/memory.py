@@ -1,0 +1,113 @@
+"""Memory: what later turns may draw on, read off the turns of a conversation.
+
+Vehicles and offers belong to the ride in which they came up; how much the passenger wants to
+hear outlasts it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from xavi_dialogue.dialogue.state.discourse import causes_of, discourse_of
+from xavi_dialogue.dialogue.state.turn import Quiz, Turn
+from xavi_dialogue.domain.answers import Answer, Refusal
+from xavi_dialogue.domain.discourse import Discourse, GroundedAct
+from xavi_dialogue.domain.meaning import Act, Ask, Claim, Feel, Repair, Request
+from xavi_dialogue.nlg.context import Detail, Told
+
+_FRESH = 3  # replies after which the same may be suggested again
+_STANDING = 2  # requests in a row for more, or less, that make it the rule
+_WISHES: dict[str, Detail] = {"longer": "more", "shorter": "less", "simpler": "simpler"}
+
+
+@dataclass(frozen=True, slots=True)
+class Memory:
+    """What a conversation has come to."""
+
+    turns: tuple[Turn, ...]  # about this ride, oldest first
+    discourse: Discourse
+    named: frozenset[int]  # vehicles that were spoken of
+    last: Turn | None  # the last turn that was about the drive
+    detail: Detail  # how much the passenger wants to hear
+    missed: frozenset[int]  # vehicles whose part in things the passenger got wrong
+    quizzed: tuple[Quiz, ...]  # questions put to the passenger so far
+    suggested: frozenset[str]  # what the last replies said could be asked
+
+    @property
+    def is_quizzing(self) -> bool:
+        """Tell whether the last turn put a question to the passenger, or judged the reply."""
+        last = self.turns[-1] if self.turns else None
+        return last is not None and (last.quiz is not None or last.answered is not None)
+
+    @property
+    def told(self) -> Told:
+        """Return the causes that the passenger was told of, and did not get wrong since."""
+        causes = {
+            cause for turn in self.turns for result in turn.results for cause in causes_of(result)
+        }
+        return frozenset(cause for cause in causes if cause[0] not in self.missed)
+
+    def answered(self, act: GroundedAct, result: Answer | Refusal) -> bool:
+        """Tell whether the same was answered before to a question of the same kind."""
+        return any(
+            part.act is not None and _kind(part.act.act) == _kind(act.act) and part.result == result
+            for turn in self.turns
+            for part in turn.parts
+        )
+
+
+def remember(turns: Sequence[Turn], ride: str | None) -> Memory:
+    """Return what the turns of a conversation, oldest first, come to during a ride."""
+    here = tuple(turn for turn in turns if turn.ride == ride)
+    about = [turn for turn in here if is_about_drive(turn)]
+    return Memory(
+        turns=here,
+        discourse=discourse_of(here),
+        named=frozenset(name for turn in here for name in turn.mentioned),
+        last=about[-1] if about else None,
+        detail=_detail(turns),
+        missed=_missed(here),
+        quizzed=tuple(turn.quiz for turn in here if turn.quiz is not None),
+        suggested=frozenset(
+            offer
+            for turn in here[-_FRESH:]
+            for offer in turn.reply.suggestions
+            if offer in turn.reply.text
+        ),
+    )
+
+
+def is_about_drive(turn: Turn) -> bool:
+    """Tell whether a turn was about the drive; what is asked about it then stands."""
+    return any(isinstance(one.act, Ask | Claim | Request | Feel) for one in turn.acts)
+
+
+def _kind(act: Act) -> type:
+    """Return the kind of an act; of a question, what it asks for."""
+    return type(act.question if isinstance(act, Ask) else act)
+
+
+def _detail(turns: Sequence[Turn]) -> Detail:
+    """Return what was asked for twice in a row, until something else is asked for."""
+    standing: Detail = "usual"
+    run: list[Detail] = []
+    for turn in turns:
+        for act in turn.acts:
+            if not isinstance(act.act, Repair) or act.act.kind not in _WISHES:
+                continue
+            wanted = _WISHES[act.act.kind]
+            run = [*run, wanted] if run[-1:] == [wanted] else [wanted]
+            if wanted != standing:
+                standing = "usual"
+            if len(run) >= _STANDING:
+                standing = wanted
+    return standing
+
+
+def _missed(turns: Sequence[Turn]) -> frozenset[int]:
+    missed: set[int] = set()
+    for turn in turns:
+        if turn.answered is None or turn.right is None:
+            continue
+        vehicles = {vehicle for result in turn.results for vehicle, _ in causes_of(result)}
+        missed = missed - vehicles if turn.right else missed | vehicles
+    return frozenset(missed)

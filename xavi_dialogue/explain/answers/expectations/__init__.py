@@ -1,0 +1,1 @@
+"""What the car expected and planned at a decision."""

@@ -1,0 +1,119 @@
+"""Precedence: who comes first where ways meet, as foreseen; on a ring, at a red light."""
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Final, Literal, TypeAlias
+
+from planner.record.places import RoadFacts
+from planner.record.trace import SAMPLE_PERIOD, PlanTrace, TrajectoryPrediction
+from sim.scene import EGO, Point
+from xavi_dialogue.explain.causes.vehicles.course import lines
+from xavi_dialogue.explain.history.motion import Motion
+from xavi_dialogue.explain.history.ride import planned
+
+MEETING: Final = 2.0  # [m] within which two lines meet
+MOVING: Final = 0.5  # [m/s] from which a vehicle drives along its line
+TURNED: Final = math.radians(35.0)  # up to which a direction counts as the same
+BESIDE: Final = 9.0  # [m] sideways up to which somebody is on our road
+SHORTLY: Final = 4.0  # [s] before us within which somebody passes in front of us
+SAME_PLACE: Final = 3.0  # [m] by which a junction and its light differ in distance
+AHEAD: Final = 15.0  # [m] of our way that tell how our road runs
+
+First: TypeAlias = Literal["we", "they", "nobody"]
+
+
+def first(trace: PlanTrace, way: TrajectoryPrediction) -> First | None:
+    """Tell who is first where our ways meet; nobody where they do not. None: it is not known."""
+    ours = planned_line(trace)
+    if ours is None or not way.path or not way.speed:
+        return None
+    for k, (place, speed) in enumerate(zip(way.path, way.speed, strict=False)):
+        if speed <= MOVING:
+            continue
+        there = _reached(ours, place)
+        if there is not None:
+            return "they" if trace.sim_time + k * SAMPLE_PERIOD <= there else "we"
+    return "nobody"
+
+
+def before_us(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
+    """Tell whether a way leads shortly before us past a place of ours; None: it is not known."""
+    ours = planned_line(trace)
+    if ours is None or not way.path or not way.speed:
+        return None
+    for k, (place, speed) in enumerate(zip(way.path, way.speed, strict=False)):
+        there = _reached(ours, place) if speed > MOVING else None
+        if there is not None and 0.0 <= there - trace.sim_time - k * SAMPLE_PERIOD <= SHORTLY:
+            return True
+    return False
+
+
+def into_our_road(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
+    """Tell whether a way leads into the road that we are on; None: it is not known."""
+    ours = planned_line(trace)
+    if ours is None or len(way.path) < 2:
+        return None
+    here = ours.position[0]
+    ends = [p for p in ours.position if math.dist(here, p) <= AHEAD]
+    road, last = _direction(ends), _direction(way.path[-4:])
+    if road is None or last is None:
+        return None
+    turned = abs(math.remainder(last - road, math.pi))
+    dx, dy = way.path[-1][0] - here[0], way.path[-1][1] - here[1]
+    return turned <= TURNED and abs(dy * math.cos(road) - dx * math.sin(road)) <= BESIDE
+
+
+def planned_line(trace: PlanTrace) -> Motion | None:
+    """The line that goes farthest of those that drive as planned."""
+    plan, known = planned(trace)[:1], lines(trace)
+    fitting = [
+        known[r.index]
+        for r in trace.rollouts
+        if r.index in known and tuple(a.action for a in r.actions[:1]) == plan
+    ]
+    fitting = [line for line in fitting if len(line.position) > 1]
+    return max(fitting, key=lambda line: line.arc[-1] if line.arc else 0.0, default=None)
+
+
+def _reached(ours: Motion, place: Point) -> float | None:
+    """When [s] we pass a place; None where our line does not lead past it."""
+    best = min((_apart(a, b, place), k) for k, (a, b) in enumerate(pairwise(ours.position)))
+    return ours.time[best[1]] if best[0] <= MEETING else None
+
+
+def _apart(a: Point, b: Point, place: Point) -> float:
+    """How far [m] a place is from the line between two others."""
+    (ax, ay), (bx, by), (x, y) = a, b, place
+    length = (bx - ax) ** 2 + (by - ay) ** 2
+    along = 0.0 if length == 0.0 else ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length
+    along = min(max(along, 0.0), 1.0)
+    return math.hypot(x - ax - along * (bx - ax), y - ay - along * (by - ay))
+
+
+def _direction(points: Sequence[Point]) -> float | None:
+    """In which direction points lead; None where they stay in one place."""
+    if len(points) < 2 or math.dist(points[0], points[-1]) < MOVING:
+        return None
+    (ax, ay), (bx, by) = points[0], points[-1]
+    return math.atan2(by - ay, bx - ax)
+
+
+def at_ring(road: RoadFacts | None) -> bool:
+    """Tell whether the next junction is that of a roundabout, or we are on one."""
+    coming = road is not None and bool(road.route) and road.route[0].kind == "roundabout"
+    return coming or on_ring(road)
+
+
+def on_ring(road: RoadFacts | None) -> bool:
+    """Tell whether we are on a roundabout, where those who come to it have to wait."""
+    place = None if road is None else road.places.get(EGO)
+    return place is not None and place.roundabout
+
+
+def red_ahead(road: RoadFacts | None) -> bool:
+    """Tell whether the next junction on our way has a light, and that is red for us."""
+    if road is None or not road.lights or not road.route:
+        return False
+    next_one = abs(road.lights[0].distance - road.route[0].distance) < SAME_PLACE
+    return next_one and road.lights[0].state in "rR"

@@ -1,0 +1,121 @@
+"""Lights: who answers questions about traffic lights.
+
+Who asks of a thing that is a traffic light is answered here, whatever the form of the question;
+why we stopped for one is told with the other reasons.
+"""
+
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+from xavi_dialogue.domain.answers import Answer
+from xavi_dialogue.domain.meaning import (
+    Ask,
+    Claim,
+    Doing,
+    HowKnow,
+    HowLong,
+    HowMany,
+    HowMuch,
+    HowSure,
+    Identify,
+    WhatIf,
+    When,
+    Where,
+    Whether,
+    Which,
+    Why,
+)
+from xavi_dialogue.domain.terms import Believed, Feature, Has, Measured
+from xavi_dialogue.explain.answers.lights import (
+    lights_ahead,
+    lights_seen,
+    lights_supposed,
+    lights_turn,
+)
+from xavi_dialogue.explain.answers.lights.lights_read import (
+    may_pass,
+    of_another,
+    of_showing,
+    passing,
+    stated,
+    things,
+)
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.reading import unwrapped
+from xavi_dialogue.explain.facts.traffic_lights import light_in
+
+Explainer: TypeAlias = Callable[[Any, Asked], Answer]
+
+
+def explainer(act: object, scene: Asked) -> Explainer | None:
+    """Find who answers an act about a traffic light; None where it is about none."""
+    if isinstance(act, Claim):
+        if of_another(act.that):
+            return lights_seen.unseen_claim
+        return lights_seen.claimed if stated(act.that) is not None else None
+    if not isinstance(act, Ask):
+        return None
+    match act.question:
+        case Whether(that) | HowKnow(that) | When(that) | HowLong(that) if isinstance(
+            that, Believed
+        ) and lights_ahead.concerns(that.content):
+            return _asked(lights_ahead.expected)
+        case Whether(that) if lights_ahead.is_to_come(that, scene):
+            return _asked(lights_ahead.coming)
+        case Whether(that) if stated(that) is not None:
+            return _asked(lights_seen.whether)
+        case Whether(that) if lights_turn.is_turn(that, scene):
+            return _asked(lights_turn.whether)
+        case Whether(that) if may_pass(that):
+            return _asked(lights_seen.ours)
+        case Whether(that) if lights_supposed.turns_on_red(unwrapped(that)[0]) is not None:
+            return _asked(lights_supposed.whether_turn)
+        case Whether(that) if of_another(that):
+            return _asked(lights_seen.unseen)
+        case HowSure(of) if of is not None and lights_ahead.concerns(of):
+            return _asked(lights_ahead.how_sure)
+        case When(of) if lights_ahead.is_to_come(of, scene):
+            return _asked(lights_ahead.when)
+        case HowKnow(of) if of is not None and lights_ahead.is_change(of):
+            return _asked(lights_ahead.how_known)
+        case WhatIf(supposed) if lights_ahead.concerns(unwrapped(supposed)[0]):
+            return _asked(lights_supposed.supposed)
+    return _of_fact(act.question)
+
+
+def _asked(found: Explainer) -> Explainer:
+    return lambda act, scene: found(act.question, scene)
+
+
+def _of_fact(question: object) -> Explainer | None:
+    """Who answers what a light is, was, where it is, or why it is so."""
+    match question:
+        case HowMuch(Measured(attribute="colour" | "kind", thing=Feature(kind="light"))):
+            return _asked(lights_seen.colour)
+        case HowMuch(Measured(attribute="distance" | "place", thing=thing, to=to)) if (
+            light_in(thing, to) is not None
+        ):
+            return _asked(lights_seen.where)
+        case Where(Feature(kind="light")) | Identify(Feature(kind="light")):
+            return _asked(lights_seen.where)
+        case Doing(actor=Feature(kind="light")):
+            return _asked(lights_seen.colour)
+        case Which(thing=Feature(kind="light")):
+            return _asked(lights_seen.seen_any)
+        case Which(such=Has(attribute="colour", thing=Feature(kind="light"))):
+            return _asked(lights_seen.ours)
+        case HowMany(of) if light_in(of, *things(of)) is not None:
+            return _asked(lights_seen.count)
+        case When(of) if of_showing(of) is not None:
+            return _asked(lights_seen.when)
+        case HowLong(of) if of_showing(of) is not None:
+            return _asked(lights_seen.how_long)
+        case HowKnow(of) if of_showing(of) is not None:
+            return _asked(lights_seen.how_known)
+        case Why(of) if of_showing(unwrapped(of)[0]) is not None:
+            return _asked(lights_seen.why)
+        case Why(of) if passing(of) is not None:
+            return _asked(lights_seen.why_passed)
+        case Why(of) if lights_supposed.turn_on_red(of) is not None:
+            return _asked(lights_supposed.why_not_turn)
+    return None

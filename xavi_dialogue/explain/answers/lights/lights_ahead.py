@@ -1,0 +1,132 @@
+"""Lights ahead: when a traffic light is, or was, expected to change.
+
+What is to come is a belief, told with its range: the courses that the planner drew from.
+"""
+
+from typing import Any
+
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import Answer
+from xavi_dialogue.domain.meaning import HowKnow, HowSure, When, Whether
+from xavi_dialogue.domain.terms import Believed, Feature, Happens, Has, Proposition
+from xavi_dialogue.domain.traffic_lights import COLOURS, LightColour, LightForeseen, LightTold
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.reading import unwrapped
+from xavi_dialogue.explain.facts.episodes.light_events import SHOWING, light_of
+from xavi_dialogue.explain.facts.episodes.light_waits import holds
+from xavi_dialogue.explain.facts.traffic_lights import SAID, foreseen, meant, shown_at
+from xavi_dialogue.explain.history.traffic_lights import stretches
+
+LATELY = 20.0  # [s] since when a change of a light is what was expected
+
+
+def concerns(of: Proposition | None) -> bool:
+    """Tell whether a proposition is about what a light shows or turns to."""
+    of, _ = unwrapped(of)
+    match of:
+        case Has(attribute="colour", thing=Feature(kind="light")):
+            return True
+        case Happens(event) if event.action in SHOWING:
+            return light_of(event) is not None
+    return False
+
+
+def wanted_of(of: Proposition | None) -> tuple[Feature, LightColour | None]:
+    """Find the light, and what it is said to show."""
+    of, _ = unwrapped(of)
+    match of:
+        case Has(value=value, thing=Feature() as light):
+            return light, SAID.get(value)
+        case Happens(event):
+            colour = getattr(event.object, "colour", None) or ""
+            return light_of(event) or Feature("light"), SAID.get(colour)
+    return Feature("light"), None
+
+
+def is_to_come(of: Proposition | None, scene: Asked) -> bool:
+    """Tell whether it is asked what a light will show, or that it is about to change."""
+    if not concerns(of):
+        return False
+    inner, _ = unwrapped(of)
+    event = inner.event if isinstance(inner, Happens) else None
+    tense = event.tense if event is not None else getattr(inner, "tense", "present")
+    ahead_of = scene.span is not None and scene.span.ahead
+    modal = event is not None and event.modal in ("will", "might", "could", "can")
+    turning = event is not None and event.action == "turn-colour" and tense == "present"
+    return tense == "future" or ahead_of or modal or turning
+
+
+def is_change(of: Proposition | None) -> bool:
+    """Tell whether a proposition is that a light changes."""
+    inner, _ = unwrapped(of)
+    return concerns(of) and isinstance(inner, Happens) and inner.event.action == "turn-colour"
+
+
+def when(question: When, scene: Asked) -> Answer:
+    """Tell when a light is expected to change."""
+    return _forecast(question.of, scene, "when")
+
+
+def coming(question: Whether, scene: Asked) -> Answer:
+    """Tell whether a light is expected to change soon."""
+    return _forecast(question.that, scene, "whether")
+
+
+def how_sure(question: HowSure, scene: Asked) -> Answer:
+    """Tell how sure we are that a light changes."""
+    return _forecast(question.of, scene, "how-sure")
+
+
+def _forecast(of: Proposition | None, scene: Asked, asked: Any) -> Answer:
+    light, wanted = wanted_of(of)
+    signal = meant(scene.ride, light, scene.now)
+    one = shown_at(scene.ride, light, scene.now)
+    found = None if signal is None else foreseen(scene.ride, signal, scene.now, wanted)
+    whether = asked == "whether" and found is not None
+    negated = unwrapped(of)[1]
+    holds = (found.middle is not None) != negated if whether and found is not None else None
+    if found is None and one is not None and wanted != one.colour:
+        return LightTold("colour", one, time=scene.now)
+    return LightForeseen(found, one, asked=asked, holds=holds)
+
+
+def how_known(question: HowKnow, scene: Asked) -> Answer:
+    """Tell on what grounds a light is expected to change."""
+    return _forecast(question.of, scene, "when")
+
+
+def expected(question: Any, scene: Asked) -> Answer:
+    """Tell what was expected of a light before it changed last; else what is expected now."""
+    believed = question.that if isinstance(question, Whether) else question.of
+    assert isinstance(believed, Believed)
+    light, wanted = wanted_of(believed.content)
+    at = _when_expected(scene, light, wanted, past=believed.tense != "present")
+    if at is None:
+        return _forecast(believed.content, scene, "whether")
+    signal = meant(scene.ride, light, at)
+    found = None if signal is None else foreseen(scene.ride, signal, at, wanted)
+    holds = None if found is None else found.middle is not None
+    return LightForeseen(found, shown_at(scene.ride, light, at), True, "whether", holds)
+
+
+def _when_expected(
+    scene: Asked, light: Feature, wanted: LightColour | None, *, past: bool
+) -> float | None:
+    """The moment [s] whose expectation is asked about; None: now."""
+    if not past:
+        return None
+    if scene.past is not None and scene.past.said:
+        return scene.past.begin
+    signal = meant(scene.ride, light, scene.now)
+    known = () if signal is None else stretches(scene.ride, signal)
+    changes = [
+        one.begin
+        for one in known
+        if one.begun and (wanted is None or COLOURS.get(one.state) == wanted)
+    ]
+    late = [at for at in changes if scene.now - LATELY <= at]
+    if late:
+        held = [h.begin for h in holds(scene.ride, EGO) if h.begin < late[-1] <= h.end + 2.0]
+        return max(held[-1], late[-1] - LATELY) if held else late[-1] - 1.0
+    held = [h.begin for h in holds(scene.ride, EGO) if h.goes_on]
+    return held[-1] if held else None

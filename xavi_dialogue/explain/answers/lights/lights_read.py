@@ -1,0 +1,133 @@
+"""Lights read: what a question says of a traffic light, and the moment that it asks about."""
+
+from sim.scene import Signal
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Exists,
+    Feature,
+    Happens,
+    Has,
+    Is,
+    Proposition,
+    Related,
+    Unsaid,
+)
+from xavi_dialogue.domain.traffic_lights import LightColour, Shown
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.reading import is_own, unwrapped
+from xavi_dialogue.explain.facts.episodes.light_events import PASSING, SHOWING, light_of
+from xavi_dialogue.explain.facts.traffic_lights import SAID, light_in, meant
+from xavi_dialogue.explain.history.traffic_lights import Passing, ahead, passings
+
+POSSIBLE = ("can", "could", "should", "would", "must")
+GOING = frozenset(("go", "move", "continue", "exit-straight"))
+
+
+def things(of: object) -> tuple[object, ...]:
+    """List who acts in an event, and upon what."""
+    return (of.actor, of.object) if isinstance(of, Event) else ()
+
+
+def of_showing(of: object) -> tuple[Feature, LightColour | None] | None:
+    """The light of which it is said that it shows, or turns to, a colour."""
+    match of:
+        case Has(attribute="colour", value=value, thing=Feature(kind="light") as light):
+            return light, SAID.get(value)
+    event = of.event if isinstance(of, Happens) else of
+    if not isinstance(event, Event) or event.action not in SHOWING:
+        return None
+    found = light_of(event)
+    return None if found is None else (found, SAID.get(_object_colour(event)))
+
+
+def _object_colour(event: Event) -> str:
+    return getattr(event.object, "colour", None) or ""
+
+
+def passing(of: Proposition | None) -> Event | None:
+    """The event of our passing a light."""
+    inner, negated = unwrapped(of)
+    if not isinstance(inner, Happens) or negated or not is_own(inner.event.actor):
+        return None
+    event = inner.event
+    found = light_in(event.object, None if event.where is None else event.where.to)
+    said = found is not None and event.action in PASSING | GOING
+    return event if said and event.modal not in POSSIBLE else None
+
+
+def may_pass(of: Proposition | None) -> bool:
+    """Tell whether it is asked if we could or should pass a light."""
+    inner, _ = unwrapped(of)
+    if not isinstance(inner, Happens) or not is_own(inner.event.actor):
+        return False
+    event = inner.event
+    passes = event.action in PASSING and light_in(event.object) is not None
+    return passes and event.modal in POSSIBLE
+
+
+def of_another(that: Proposition | None) -> bool:
+    """Whether it is said that another vehicle passed a light: of whom that is not recorded."""
+    of, _ = unwrapped(that)
+    if not isinstance(of, Happens) or is_own(of.event.actor) or of.event.action not in PASSING:
+        return False
+    return light_in(of.event.object) is not None
+
+
+def stated(that: Proposition | None) -> Proposition | None:
+    """What is said of a light, where facts tell whether it is so."""
+    of, _ = unwrapped(that)
+    match of:
+        case Has() | Happens() if of_showing(of) is not None:
+            return of
+        case Exists(Feature(kind="light")) | Is(state="present", thing=Feature(kind="light")):
+            return of
+        case Related("can-see", Ego(), Feature(kind="light")):
+            return of
+    return of if passing(that) is not None else None
+
+
+def alike(one: Shown, wanted: LightColour) -> bool:
+    """Tell whether a light showed what is said, red and amber being red."""
+    return one.colour == wanted or (wanted == "red" and one.colour == "red-amber")
+
+
+def moment(of: object, scene: Asked, light: Feature) -> tuple[float, bool]:
+    """The moment [s] asked about, and whether it lies behind.
+
+    Spoken of in the past with no time said, it is when we passed the last light's line.
+    """
+    tense = getattr(of, "tense", None) or getattr(getattr(of, "event", None), "tense", "present")
+    span = scene.past
+    if span is not None and (span.said or tense in ("past", "perfect")):
+        inside = within(scene, span.begin, span.end)
+        if inside is not None:
+            return inside.time, True
+        time = span.end if span.begin < span.end else span.begin
+        return time, time < scene.now - 1.0
+    if light.time is not None:
+        return light.time, light.time < scene.now - 1.0
+    done = passings(scene.ride)
+    if light.rank == -1 and done:
+        return done[-1].time, True
+    if tense == "past" and done and isinstance(getattr(of, "time", Unsaid()), Unsaid):
+        return done[-1].time, True
+    return scene.now, False
+
+
+def within(scene: Asked, begin: float, end: float) -> Passing | None:
+    """Find the last line that we passed between two times [s]."""
+    found = [p for p in passings(scene.ride) if begin - 1.0 <= p.time <= end + 1.0]
+    return found[-1] if found else None
+
+
+def place(scene: Asked, light: Feature, time: float) -> dict[str, float | None]:
+    """How far ahead of us a light is at a time [s], or when we passed it."""
+    signal = meant(scene.ride, light, time)
+    far = (x.distance for x in ahead(scene.ride, time) if _is(signal, x.controller, x.place))
+    done = [p.time for p in passings(scene.ride) if p.signal == signal]
+    return {"distance": next(far, None), "passed": done[-1] if done else None}
+
+
+def _is(signal: Signal | None, controller: str, place: int) -> bool:
+    return signal == Signal(controller, place)

@@ -1,0 +1,234 @@
+"""Lights seen: what a light showed, since when, where it is, and how we passed its line."""
+
+from typing import Any
+
+from xavi_dialogue.domain.answers import Answer, Verdict
+from xavi_dialogue.domain.meaning import (
+    Claim,
+    Doing,
+    HowKnow,
+    HowLong,
+    HowMany,
+    HowMuch,
+    Identify,
+    When,
+    Whether,
+    Which,
+    Why,
+)
+from xavi_dialogue.domain.terms import Event, Exists, Feature, Happens, Proposition, Relative
+from xavi_dialogue.domain.traffic_lights import LightColour, LightPassed, LightTold
+from xavi_dialogue.explain.answers.lights import lights_ahead
+from xavi_dialogue.explain.answers.lights.lights_read import (
+    alike,
+    moment,
+    of_showing,
+    passing,
+    place,
+    things,
+    within,
+)
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.reading import unwrapped
+from xavi_dialogue.explain.facts.traffic_lights import (
+    colour_of,
+    crossed,
+    light_in,
+    meant,
+    shown_at,
+    told,
+)
+from xavi_dialogue.explain.history.ride import ROUNDING
+from xavi_dialogue.explain.history.traffic_lights import passings, stretches
+
+
+def unseen(question: Whether, scene: Asked) -> Answer:
+    """Tell that it is not recorded how another vehicle passed a light."""
+    del scene
+    return Verdict(question.that, None, gap="not-recorded")
+
+
+def unseen_claim(act: Claim, scene: Asked) -> Answer:
+    """Tell the same to who says that it did."""
+    del scene
+    return Verdict(act.that, None, gap="not-recorded", claim=True)
+
+
+def claimed(act: Claim, scene: Asked) -> Answer:
+    """Hold a claim about a light against what was seen of it."""
+    return _judged(act.that, scene, claim=True)
+
+
+def whether(question: Whether, scene: Asked) -> Answer:
+    """Tell whether a light shows or showed something, or was there."""
+    return _judged(question.that, scene, claim=False)
+
+
+def _judged(that: Proposition, scene: Asked, *, claim: bool) -> Answer:
+    """Hold what is said of a light against what was seen of it."""
+    of, negated = unwrapped(that)
+    event = passing(that)
+    if event is not None:
+        return _passed(event, scene, claim=claim)
+    found = of_showing(of)
+    if found is None:
+        return _seen(of, scene, negated=negated)
+    light, wanted = found
+    before = light.rank == -1 or isinstance(getattr(of, "time", None), Relative)
+    if before and not passings(scene.ride):
+        return _passed(Event("pass", object=Feature("light", colour=wanted)), scene, claim=claim)
+    turned = isinstance(of, Happens) and of.event.action == "turn-colour"
+    time, past = moment(of, scene, light)
+    one = shown_at(scene.ride, light, time)
+    if one is None:
+        return LightTold("colour", past=past, time=time, whose=light.of)
+    if turned:
+        holds = _has_turned(scene, light, wanted)
+    else:
+        holds = wanted is None or alike(one, wanted)
+    asked: Any = "claim" if claim else "whether"
+    return LightTold(
+        asked,
+        one,
+        wanted,
+        holds != negated,
+        past,
+        time,
+        **place(scene, light, time),  # type: ignore[arg-type]
+    )
+
+
+def _has_turned(scene: Asked, light: Feature, wanted: LightColour | None) -> bool:
+    """Whether the light was seen to turn to a colour in the time asked about."""
+    past = scene.past
+    begin, end = (0.0, scene.now) if past is None else (past.begin, past.end)
+    event = Event("turn-colour", light, Feature("light", colour=wanted))
+    return bool(scene.world.holds(event, begin, end))
+
+
+def _seen(of: Proposition | None, scene: Asked, *, negated: bool) -> Answer:
+    light = light_in(*(getattr(of, name, None) for name in ("thing", "to"))) or Feature("light")
+    time, past = moment(of, scene, light)
+    one = shown_at(scene.ride, light, time)
+    spot = place(scene, light, time)
+    there = one is not None and (past or spot["passed"] is None)
+    if past and one is None and passings(scene.ride):
+        last = passings(scene.ride)[-1]
+        one, there, spot = crossed(scene.ride, last).shown, True, {"passed": last.time}
+    shown = one if there else None
+    return LightTold("seen", shown, holds=there != negated, past=past, time=time, **spot)  # type: ignore[arg-type]
+
+
+def _asked_of(question: HowMuch | Doing) -> tuple[object, ...]:
+    return (question.actor,) if isinstance(question, Doing) else (question.of.thing,)
+
+
+def colour(question: HowMuch | Doing, scene: Asked) -> Answer:
+    """Tell what a light shows or showed."""
+    light = light_in(*_asked_of(question)) or Feature("light")
+    time, past = moment(getattr(question, "of", question), scene, light)
+    one = shown_at(scene.ride, light, time)
+    return LightTold("colour", one, past=past, time=time, whose=light.of)
+
+
+def seen_any(question: Which, scene: Asked) -> Answer:
+    """Tell which light was seen: the one on our way."""
+    return _seen(Exists(Feature("light")), scene, negated=False)
+
+
+def ours(question: Which, scene: Asked) -> Answer:
+    """Who has green: that is known of us alone."""
+    return LightTold("colour", shown_at(scene.ride, Feature("light"), scene.now), time=scene.now)
+
+
+def where(question: Any, scene: Asked) -> Answer:
+    """Tell how far ahead a light is, or when we passed it."""
+    of = question.thing if isinstance(question, Identify) else question.of
+    light = light_in(of, getattr(of, "thing", None), getattr(of, "to", None)) or Feature("light")
+    one = shown_at(scene.ride, light, scene.now)
+    return LightTold("where", one, **place(scene, light, scene.now))  # type: ignore[arg-type]
+
+
+def count(question: HowMany, scene: Asked) -> Answer:
+    """Tell how many lights we have passed."""
+    every = tuple(crossed(scene.ride, one) for one in passings(scene.ride))
+    wanted = colour_of(light_in(question.of, *things(question.of)))
+    found = every
+    if wanted is not None:
+        found = tuple(c for c in every if c.shown is not None and alike(c.shown, wanted))
+    others = tuple(one for one in every if one not in found)
+    return LightTold(
+        "count", count=len(found), crossed=found, others=others, wanted=wanted, past=True
+    )
+
+
+def when(question: When, scene: Asked) -> Answer:
+    """When it came to show a colour: the last time up to the moment asked about."""
+    found = of_showing(question.of)
+    tense = getattr(question.of, "tense", "past")
+    one = shown_at(scene.ride, found[0], scene.now) if found is not None else None
+    if tense == "present" and found is not None and one is not None and one.colour != found[1]:
+        return lights_ahead.when(question, scene)  # "when do we get green?"
+    return _stretch(question.of, scene, "when")
+
+
+def how_long(question: HowLong, scene: Asked) -> Answer:
+    """Tell for how long a light has shown something, or did."""
+    return _stretch(question.of, scene, "how-long")
+
+
+def _stretch(of: object, scene: Asked, asked: Any) -> Answer:
+    found = of_showing(of)
+    light, wanted = found if found is not None else (Feature("light"), None)
+    time, past = moment(of, scene, light)
+    time = max(time, scene.now) if asked == "when" and not scene.past else time
+    signal = meant(scene.ride, light, time)
+    if signal is None:
+        return LightTold(asked, wanted=wanted, past=past, time=time)
+    rows = [s for s in stretches(scene.ride, signal) if s.begin <= time + ROUNDING]
+    seen = [told(scene.ride, signal, one, light) for one in rows]
+    such = [one for one in seen if wanted is None or alike(one, wanted)]
+    one = next(iter(such[-1:] or seen[-1:]), None)
+    return LightTold(asked, one, wanted or (one.colour if one else None), past=past, time=time)
+
+
+def how_known(question: HowKnow, scene: Asked) -> Answer:
+    """Tell how we know what a light shows: it is seen."""
+    found = of_showing(question.of)
+    light = found[0] if found is not None else Feature("light")
+    time, past = moment(question.of, scene, light)
+    return LightTold("how-known", shown_at(scene.ride, light, time), past=past, time=time)
+
+
+def why(question: Why, scene: Asked) -> Answer:
+    """Tell that we see what a light shows, and not why."""
+    of, _ = unwrapped(question.of)
+    found = of_showing(of)
+    light = found[0] if found is not None else Feature("light")
+    time, past = moment(of, scene, light)
+    return LightTold("why", shown_at(scene.ride, light, time), past=past, time=time)
+
+
+def why_passed(question: Why, scene: Asked) -> Answer:
+    """Tell how we passed a light, of which it is asked why we did."""
+    event = passing(question.of)
+    assert event is not None
+    found = _passed(event, scene, claim=False)
+    return LightPassed(found.crossed, found.claimed, found.holds, "why", found.ahead)
+
+
+def _passed(event: Event, scene: Asked, *, claim: bool) -> LightPassed:
+    """Hold how we passed a light against what is said of it: by default, that it was red."""
+    light = light_in(event.object, None if event.where is None else event.where.to)
+    wanted = colour_of(light)
+    past = scene.past
+    done = passings(scene.ride)
+    inside = None if past is None else within(scene, past.begin, past.end)
+    one = inside or (done[-1] if done else None)
+    asked: Any = "claim" if claim else "whether"
+    if one is None:
+        now = shown_at(scene.ride, Feature("light"), scene.now)
+        return LightPassed(None, wanted, False, asked, now)
+    found = crossed(scene.ride, one)
+    holds = None if found.shown is None else wanted is None or alike(found.shown, wanted)
+    return LightPassed(found, wanted, holds, asked)

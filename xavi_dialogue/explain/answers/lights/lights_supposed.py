@@ -1,0 +1,208 @@
+"""Lights supposed: what if a light had shown another thing, and why we do not turn on red.
+
+The decision at which it would have mattered is planned again with what the light is supposed to
+show for good.
+"""
+
+from typing import Any, Literal
+
+from planner.record.light_record import GREENS
+from planner.record.trace import PlanTrace
+from sim.scene import EGO, LightState, Signal
+from xavi_dialogue.domain.answers import Answer, NotRecorded
+from xavi_dialogue.domain.meaning import Question, WhatIf, Whether, Why
+from xavi_dialogue.domain.terms import Event, Feature, Happens, Proposition
+from xavi_dialogue.domain.traffic_lights import LightColour, Shown, SupposedOfLight, TurnOnRed
+from xavi_dialogue.explain.answers.lights.lights_ahead import wanted_of
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.reading import event_of, is_own, unwrapped
+from xavi_dialogue.explain.causes.driving.traffic_lights import with_light
+from xavi_dialogue.explain.causes.plans.contrast import factual
+from xavi_dialogue.explain.causes.vehicles.course import lines
+from xavi_dialogue.explain.facts.episodes.light_events import HELD
+from xavi_dialogue.explain.facts.episodes.light_waits import held_at, holds
+from xavi_dialogue.explain.facts.traffic_lights import light_in, meant, shown_at
+from xavi_dialogue.explain.history.ride import ROUNDING, Ride, planned
+from xavi_dialogue.explain.history.traffic_lights import ahead, passings
+
+STANDING = 0.3  # [m/s]
+STATES: dict[LightColour, str] = {
+    "red": LightState.RED.value, "amber": LightState.AMBER.value, "green": LightState.GREEN.value,
+    "red-amber": LightState.RED_AMBER.value, "off": LightState.OFF.value,
+    "flashing": LightState.FLASHING.value,
+}  # fmt: skip
+GOING = frozenset(("go", "move", "continue", "pass", "cross", "enter"))
+TURNS: dict[str, Literal["left", "right", "straight"]] = {
+    "exit-left": "left", "exit-right": "right", "exit-straight": "straight",
+}  # fmt: skip
+
+
+def supposed(question: WhatIf, scene: Asked) -> Answer:
+    """Tell what would have been, or would be, had a light shown something else, or stayed so.
+
+    Raises:
+        Unanswered: no decision knows the light; or it must be planned again first.
+    """
+    of, negated = unwrapped(question.supposed)
+    light, wanted = wanted_of(of)
+    now = shown_at(scene.ride, light, scene.now)
+    wanted = _meant_colour(wanted, now, negated=negated)
+    done = passings(scene.ride)
+    tense = getattr(of, "tense", "present")
+    if isinstance(of, Happens):
+        tense = of.event.tense
+    stays = isinstance(of, Happens) and of.event.action == "show" and _is_open(now, wanted)
+    past = tense in ("past", "perfect") and not stays
+    trace, signal = _decision(scene, light, wanted, past=past)
+    one = shown_at(scene.ride, light, trace.sim_time)
+    if one is None or signal is None:
+        raise Unanswered(NotRecorded("not-recorded", since=trace.sim_time))
+    again = with_light(scene.ride, trace, signal, STATES[wanted])
+    if again is None:
+        raise Unanswered(NotRecorded("not-recorded", since=trace.sim_time))
+    passed = next((p.time for p in done if p.signal == signal and p.time > trace.sim_time), None)
+    passing = _passing(scene.ride, trace, again, signal)
+    waits = _held(again, signal)
+    return SupposedOfLight(
+        one,
+        wanted,
+        trace.sim_time,
+        planned(trace),
+        planned(again),
+        same=one.colour == wanted,
+        waits=waits,
+        passing=None if waits else passing,
+        passed=passed,
+        past=past,
+        standing=trace.scene[EGO].speed < STANDING,
+        holds=_would(question.then, waits=waits),
+    )
+
+
+def _would(then: Question | None, *, waits: bool) -> bool | None:
+    """The reply where it is asked whether we would have stopped then, or driven on."""
+    event = event_of(then.that) if isinstance(then, Whether) else None
+    if event is None or not is_own(event.actor):
+        return None
+    return waits if event.action in HELD else not waits if event.action in GOING else None
+
+
+def _meant_colour(wanted: LightColour | None, now: Shown | None, *, negated: bool) -> LightColour:
+    """What a light is supposed to show: "green", "not red", "changed", "not changed"."""
+    red = now is not None and now.colour in ("red", "red-amber")
+    if wanted is None:
+        return "red" if red == negated else "green"
+    if negated:
+        return "green" if wanted in ("red", "amber") else "red"
+    return wanted
+
+
+def _is_open(now: Shown | None, wanted: LightColour) -> bool:
+    """Whether what is supposed in the past tense may still come: "if it stayed red"."""
+    return now is not None and now.end is None and now.colour == wanted
+
+
+def _decision(
+    scene: Asked, light: Feature, wanted: LightColour, *, past: bool
+) -> tuple[PlanTrace, Signal | None]:
+    """The decision at which it would have mattered, and the light.
+
+    Supposed green, that is the first at which it held us; else the last before we passed it.
+    """
+    ride = scene.ride
+    time = scene.moment if past else scene.now
+    known = [t for t in ride.traces if t.lights and t.road is not None and t.road.lights]
+    if past and STATES[wanted] in GREENS:
+        held = [h for h in holds(ride, EGO) if h.begin <= max(time, scene.now) + ROUNDING]
+        first = [t for h in held[-1:] for t in known if t.sim_time >= h.begin - ROUNDING]
+        if first:
+            return first[0], held[-1].signal
+    if past:
+        done = [p for p in passings(ride) if p.time <= scene.now]
+        known = [t for p in done[-1:] for t in known if t.sim_time < p.time] or known
+    known = [t for t in known if t.sim_time <= scene.now]
+    free = [t for t in known if t.under_way is None] or known
+    if not free:
+        raise Unanswered(NotRecorded("not-recorded", since=scene.now))
+    trace = free[-1]
+    first_ahead = trace.road.lights[0] if trace.road is not None else None
+    here = None if first_ahead is None else Signal(first_ahead.controller, first_ahead.place)
+    return trace, meant(ride, light, trace.sim_time) or here
+
+
+def _held(again: PlanTrace, signal: Signal) -> bool:
+    """Whether the light holds us under what would then be planned."""
+    found = held_at(again, EGO)
+    if found is not None and found[0] == signal:
+        return True
+    drives = [
+        r for r in again.rollouts if r.actions and r.actions[0].action == again.plan[0].action
+    ]
+    held = sum(any(h.place == signal.index for h in r.held_by_lights) for r in drives)
+    return 2 * held > len(drives) > 0
+
+
+def _passing(ride: Ride, trace: PlanTrace, again: PlanTrace, signal: Signal) -> float | None:
+    """When [s] we would have passed the line, in the drives that are planned then."""
+    far = [x.distance for x in ahead(ride, trace.sim_time) if _signal(x) == signal]
+    if not far:
+        return None
+    try:
+        plan = factual(ride.model(again), again)
+    except Unanswered:
+        return None
+    known, times = lines(again), []
+    for result, weight in zip(plan.results, plan.weights, strict=True):
+        line = known.get(result.rollout.index)
+        if line is None or weight <= 0.0:
+            continue
+        gone = 0.0
+        for k in range(1, len(line.time)):
+            gone += 0.5 * (line.speed[k] + line.speed[k - 1]) * (line.time[k] - line.time[k - 1])
+            if gone >= far[0]:
+                times.append((weight, line.time[k]))
+                break
+    total = sum(weight for weight, _ in times)
+    return sum(w * t for w, t in times) / total if total > 0.5 else None
+
+
+def _signal(light: Any) -> Signal:
+    return Signal(light.controller, light.place)
+
+
+# --- turning on red -------------------------------------------------------------------------------
+
+
+def turn_on_red(of: Proposition | None) -> Event | None:
+    """Find the turn of ours of which it is asked why it is not made on red."""
+    inner, negated = unwrapped(of)
+    return turns_on_red(inner) if negated else None
+
+
+def turns_on_red(of: Proposition | None) -> Event | None:
+    """Find a turn of ours on red."""
+    if not isinstance(of, Happens) or not is_own(of.event.actor):
+        return None
+    event = of.event
+    light = light_in(event.object, None if event.where is None else event.where.to)
+    on_red = light is not None and light.colour == "red"
+    return event if on_red and event.action in TURNS else None
+
+
+def why_not_turn(question: Why, scene: Asked) -> Answer:
+    """Tell why we do not turn on red: what the light on our way shows, and which way that is."""
+    return _turning(turn_on_red(question.of), scene)
+
+
+def whether_turn(question: Whether, scene: Asked) -> Answer:
+    """Tell whether we may turn on red, likewise."""
+    return _turning(turns_on_red(unwrapped(question.that)[0]), scene)
+
+
+def _turning(event: Event | None, scene: Asked) -> Answer:
+    assert event is not None
+    one = shown_at(scene.ride, Feature("light"), scene.now)
+    road = scene.world.road(scene.now)
+    step = next(iter(() if road is None else road.route), None)
+    way = None if step is None else TURNS.get(step.turn)
+    return TurnOnRed(one, way, TURNS[event.action])

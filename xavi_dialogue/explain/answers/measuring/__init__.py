@@ -1,0 +1,1 @@
+"""Distances, durations, counts and extremes."""

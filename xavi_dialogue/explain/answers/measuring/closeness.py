@@ -1,0 +1,104 @@
+"""Closeness: how near a vehicle came, how soon it could have been hit, and what the risk was."""
+
+from typing import Literal
+
+from msgspec.structs import replace
+
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import Closeness
+from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.findings import Assurance
+from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.explain.answers.expectations.foreseen import collision_chance, simulated
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.moments import SHORT, Window
+from xavi_dialogue.explain.answers.ride.priority import rule_between
+from xavi_dialogue.explain.history.thresholds import STANDING
+
+How = Literal["safe", "dangerous", "close", "hit", "room", "grounds"]
+#: Who has to let the other one go first by a rule.
+_YIELDS: dict[str, Literal["we", "they"]] = {"give-way": "we", "priority": "they"}
+FADING = 0.3  # [m/s] by which what lies further back counts as further away
+NEARER = 0.5  # [m] by which a vehicle was nearer at another time
+URGENT = 10.0  # [s] beyond which a time to collision says nothing
+
+
+def closeness(
+    asked: Asked, vehicle: int | None, about: Window, how: How, *, past: bool = True
+) -> Closeness:
+    """Tell how close a vehicle came in a stretch of the ride, or the one that came closest.
+
+    Args:
+        asked: the act and its setting.
+        vehicle: the one asked about; None: whichever came closest.
+        about: the stretch of the ride.
+        how: what was asked.
+        past: whether it is asked of what lies behind; else of now and what is to come.
+    """
+    near = about.widened() if about.instant else about
+    seen = near if past else Window(asked.now, asked.now)  # a present tense speaks of now
+    fading = 0.0 if seen.said else FADING
+    who = nearest_vehicle(asked, seen, fading) if vehicle is None else vehicle
+    risk = collision_chance(asked, about.begin if past else asked.now, vehicle)
+    if who is None:
+        return Closeness(None, None, None, risk, how, about.end, past)
+    closest = closest_approach(asked, who, seen)
+    ever = closest_approach(asked, who, Window(asked.world.begin, asked.now))
+    least, then = ever.value or 0.0, closest.value
+    nearer = then is not None and least < then - NEARER
+    soon = shortest_time(asked, who, near)
+    return Closeness(who, closest, soon, risk, how, about.end, past, overall=not nearer)
+
+
+def assured(asked: Asked, vehicle: int | None) -> Closeness:
+    """Tell why no collision is expected: what is expected of a vehicle, and what was simulated.
+
+    Args:
+        asked: the act and its setting.
+        vehicle: the one asked about; None: anybody.
+    """
+    now = asked.now
+    found = closeness(asked, vehicle, Window(now, now), "grounds", past=False)
+    situations, struck = simulated(asked, now, vehicle)
+    if vehicle is None:
+        return replace(found, grounds=Assurance(situations, struck))
+    met = rule_between(asked, vehicle, Window(now, now))
+    speed = asked.world.measure("speed", Vehicle(vehicle), now).value
+    seen = asked.world.states.offset(EGO, vehicle, now)
+    reasons = Assurance(
+        situations, struck, asked.world.belief(vehicle, now),
+        stands=speed is not None and speed < STANDING,
+        yields=None if met is None else _YIELDS.get(met[1]),
+        behind=seen is not None and seen.same_way and seen.ahead + seen.clear < 0.0,
+    )  # fmt: skip
+    return replace(found, grounds=reasons)
+
+
+def closest_approach(asked: Asked, vehicle: int, about: Window) -> Measure:
+    """Give the smallest distance between a vehicle and us in a stretch of the ride."""
+    world = asked.world
+    begin, end = max(about.begin, world.begin), min(about.end, asked.now)
+    if end - begin <= SHORT / 10.0:
+        return world.measure("distance", Ego(), end, Vehicle(vehicle))
+    return world.extreme("distance", Ego(), "lowest", begin, end, Vehicle(vehicle))
+
+
+def shortest_time(asked: Asked, vehicle: int, about: Window) -> Measure | None:
+    """Give the shortest time to a collision in a stretch of the ride, where it was ever short."""
+    begin, end = max(about.begin, asked.world.begin), min(about.end, asked.now)
+    found = asked.world.extreme("time-to-collision", Ego(), "lowest", begin, end, Vehicle(vehicle))
+    short = found.value is not None and found.value <= URGENT
+    return found if short else None
+
+
+def nearest_vehicle(asked: Asked, about: Window, fading: float = 0.0) -> int | None:
+    """Give the vehicle that came closest to us in a stretch of the ride.
+
+    Args:
+        asked: the act and its setting.
+        about: the stretch of the ride.
+        fading: [m/s] by which what lies further back counts as further away.
+    """
+    found = ((v, closest_approach(asked, v, about)) for v in asked.world.vehicles)
+    ranked = [(m.value + fading * (about.end - m.time), v) for v, m in found if m.value is not None]
+    return min(ranked, default=(0.0, None))[1]

@@ -1,0 +1,249 @@
+"""Durations: how long something lasted, how long one waited, and what a manoeuvre cost."""
+
+from msgspec.structs import replace
+
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import Answer, Happenings, Measures
+from xavi_dialogue.domain.facts import Episode, Measure
+from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle, WholeRide
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.expectations.foreseen import EXPECTED, HALTS
+from xavi_dialogue.explain.answers.expectations.plans import foreseen, horizon, moving_on
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.moments import Window, is_ahead, window
+from xavi_dialogue.explain.answers.reference.naming import is_us, looks, number
+from xavi_dialogue.explain.answers.reference.occasions import (
+    did_not_happen,
+    duration,
+    merged,
+    occasion,
+    occasions,
+    overlaps,
+)
+from xavi_dialogue.explain.answers.ride.places import time_to_go
+from xavi_dialogue.explain.history.thresholds import STANDING
+
+SOON = 3.0  # [s] within which one is about to stop
+LATELY = 15.0  # [s] since when what held us up is still spoken of
+CREEPING = 4.0  # [s] between two halts at one place
+PAUSE = 3.0  # [s] between two slowings that make one
+TRAILED = 80.0  # [m] up to which somebody ahead of us slows us down
+ASIDE = 2.5  # [m] sideways up to which he is in our lane
+JOINED = 0.5  # [s] between what belongs together
+#: What costs time.
+HELD: tuple[ActionName, ...] = ("slow-down", "brake", "wait", "stop", "stand", "give-way")
+HALTED: tuple[ActionName, ...] = ("wait", "stand", "stop")
+WAITS: tuple[ActionName, ...] = ("wait", "stand", "stop", "give-way")
+
+
+def event_lasting(event: Event, asked: Asked) -> Answer:
+    """Tell how long something lasted, has lasted so far, or is expected to last.
+
+    Raises:
+        Unanswered: it did not happen.
+    """
+    if event.action == "arrive" or (
+        event.action in ("do", "happen", "move") and is_us(event.actor)
+    ):
+        return _ride_time(asked, event)
+    ahead = is_ahead(asked, event.time, event.tense) or (
+        event.modal == "must" and event.tense == "present"
+    )
+    if ahead and event.action in HALTS and is_us(event.actor) and halted(asked):
+        return Measures((remaining_wait(asked),))
+    found = occasion(asked, event)
+    if found is None and event.action in HALTS:
+        found = _standing(asked, event)
+    if found is None:
+        raise did_not_happen(asked, event)
+    halts = _halts(asked, event, found)
+    if len(halts) > 1 and halts[-1].end is not None:
+        total = sum(duration(asked, halt) for halt in halts)
+        return Measures((Measure("waiting-time", Ego(), halts[0].begin, value=round(total, 2),
+                                 until=asked.now, extreme="total"),))  # fmt: skip
+    return lasting(asked, found, event)
+
+
+def _halts(asked: Asked, event: Event, found: Episode) -> list[Episode]:
+    """List the halts of ours that belong to one: with a little creeping between, or of the ride."""
+    if not is_us(event.actor) or event.object is not None or event.action not in HALTS:
+        return []
+    every = asked.world.episodes(actor=Ego(), actions=HALTED)
+    stood = merged(asked, [e for e in every if e.action in HALTED and duration(asked, e) > 0.0])
+    if isinstance(event.time, WholeRide):
+        return list(stood)
+    rows: list[list[Episode]] = []
+    for halt in stood:
+        last = rows[-1][-1] if rows else None
+        if last is None or halt.begin - (last.end or asked.now) > CREEPING:
+            rows.append([])
+        rows[-1].append(halt)
+    about = Window(found.begin, found.end or asked.now)
+    return next((row for row in rows if any(overlaps(asked, e, about) for e in row)), [])
+
+
+def lasting(asked: Asked, episode: Episode, event: Event | None = None) -> Happenings:
+    """Tell how long an episode lasted; of one that goes on, also what is still expected."""
+    value = Measure(
+        "duration", episode.actor, episode.begin, value=round(duration(asked, episode), 2),
+        until=episode.end, at_least=episode.end is None or episode.begin <= asked.world.begin,
+    )  # fmt: skip
+    known: tuple[Measure, ...] = (value,)
+    on = episode.end is None or episode.end >= asked.now - 0.5
+    if on and isinstance(episode.actor, Ego) and stands(asked):
+        known += (remaining_wait(asked),)
+    other = episode.actor if isinstance(episode.actor, Vehicle) else episode.object
+    seen = looks(asked, (other.number,), episode.begin) if isinstance(other, Vehicle) else ()
+    return Happenings(
+        "how-long", (episode,), episode.actor, measures=known, looks=seen, asked=event
+    )
+
+
+def remaining_wait(asked: Asked) -> Measure:
+    """Tell how long our car still stands, by its plan; at least so long, where it does not tell."""
+    now, found = asked.now, moving_on(asked)
+    if found is not None and found.share >= 0.5:
+        low, middle, high = (
+            round(max(t - now, 0.0), 2) for t in (found.low, found.moment, found.high)
+        )
+        return Measure(
+            "waiting-time", Ego(), now, value=middle, until=now + middle, low=low, high=high
+        )
+    end = horizon(asked)
+    if end is None:
+        return Measure("waiting-time", Ego(), now, gap="in-future")
+    value = round(max(end - now, 0.0), 2)
+    return Measure("waiting-time", Ego(), now, value=value, until=now + value, at_least=True)
+
+
+def waited(asked: Asked, who: Thing, whom: Thing | None, about: Window) -> Measure:
+    """Tell how long somebody stood in a stretch of the ride, or for another vehicle."""
+    if about.instant:
+        about = Window(asked.world.begin, asked.now)
+    actor: Thing = Ego() if is_us(who) else who
+    event = Event("wait", actor, whom) if whom is not None else Event("stand", actor)
+    found = [e for e in occasions(asked, event) if overlaps(asked, e, about)]
+    if whom is not None and not found:
+        found = list(occasions(asked, Event("give-way", actor, whom)))
+    total = sum(duration(asked, e) for e in merged(asked, found))
+    return Measure(
+        "waiting-time", actor, about.begin, value=round(total, 2), to=whom, until=about.end,
+        extreme="total", at_least=_lost(asked, about),
+    )  # fmt: skip
+
+
+def stands(asked: Asked) -> bool:
+    """Tell whether our car stands now."""
+    motion = asked.ride.motion(EGO)
+    return bool(motion.speed) and motion.speed[-1] < STANDING
+
+
+def halted(asked: Asked) -> bool:
+    """Tell whether our car stands, waits, or is about to come to a halt."""
+    if _waits(asked):
+        return True
+    found = foreseen(asked, Event("stop"))
+    return found is not None and found.share >= EXPECTED and found.moment - asked.now < SOON
+
+
+def _waits(asked: Asked) -> bool:
+    """Tell whether our car stands, or is about to wait."""
+    on = asked.world.episodes(actor=Ego(), actions=WAITS)
+    return stands(asked) or any(e.end is None for e in on)
+
+
+def _standing(asked: Asked, event: Event) -> Episode | None:
+    """Give a wait of another name: standing is giving way or stopping to a passenger."""
+    for action in WAITS:
+        if action != event.action:
+            other = Event(action, event.actor, event.object, time=event.time, tense=event.tense)
+            if (found := occasion(asked, other)) is not None and _halted(asked, found):
+                return found
+    return None
+
+
+def _halted(asked: Asked, episode: Episode) -> bool:
+    return episode.standing or episode.action == "stand" or duration(asked, episode) > 0.0
+
+
+def _ride_time(asked: Asked, event: Event) -> Answer:
+    """Tell how long the ride still takes, or has taken."""
+    if event.action == "arrive" or is_ahead(asked, event.time, event.tense):
+        return Measures((time_to_go(asked, asked.now),))
+    world, about = asked.world, window(asked, event.time)
+    whole = Measure(
+        "time", Ego(), world.begin, value=about.end - world.begin, until=about.end,
+        extreme="total",
+    )  # fmt: skip
+    left = () if asked.ride.arrived else (time_to_go(asked, asked.now),)
+    return Measures((whole, *left))
+
+
+def _lost(asked: Asked, about: Window) -> bool:
+    return any(b <= about.end and e >= about.begin for b, e in asked.ride.gaps)
+
+
+def cost_of(asked: Asked, event: Event | None, about: Window) -> Measure:
+    """Tell what an episode of ours cost in time, with all the slowing and waiting around it.
+
+    Raises:
+        Unanswered: there was none.
+    """
+    behind = [] if event is None or event.object is None else _slowed_behind(asked, event.object)
+    if event is not None and event.action == "block" and behind:
+        found: Episode | None = max(behind, key=lambda e: duration(asked, e))
+    elif event is not None and event.action != "block":
+        found = occasion(asked, event)
+    else:
+        slow = list(asked.world.episodes(actor=Ego(), actions=HELD))
+        near = [e for e in slow if overlaps(asked, e, about.widened())]
+        late = [e for e in near if e.end is None or e.end >= asked.now - LATELY]
+        found = max(late or near or slow[-1:], key=lambda e: duration(asked, e), default=None)
+    if found is None:
+        raise did_not_happen(asked, event or Event("slow-down"))
+    return lost(asked, found) or asked.world.delay(found)
+
+
+def held_for(asked: Asked, other: Thing) -> Event:
+    """Name what we did last for another vehicle that held us up."""
+    found = asked.world.episodes(Ego(), HELD, object=other)
+    trailed = asked.world.episodes(Ego(), ("follow",), object=other)
+    named = found or trailed
+    if not named and _slowed_behind(asked, other):
+        return Event("block", object=other)  # others were between it and us
+    return Event(named[-1].action if named else "give-way", object=other)
+
+
+def _slowed_behind(asked: Asked, other: Thing) -> list[Episode]:
+    """List when we slowed down or stood behind others with somebody ahead of them in our lane."""
+    vehicle = number(other)
+    if vehicle is None:
+        return []
+    found = []
+    for one in asked.world.episodes(Ego(), HELD):
+        end = asked.now if one.end is None else one.end
+        seen = asked.world.look(vehicle, (one.begin + end) / 2.0)
+        along = seen is not None and seen.in_view and not seen.oncoming
+        along = along and bool(asked.world.episodes(Ego(), ("follow",), one.begin, end))
+        if along and seen is not None and abs(seen.left) <= ASIDE and 0.0 < seen.ahead <= TRAILED:
+            found.append(one)
+    return found
+
+
+def lost(asked: Asked, deed: Episode) -> Measure | None:
+    """Tell how much time [s] the slowing and waiting cost of which a deed of ours is a part."""
+    deed = replace(deed, begin=_since(asked, deed))
+    end = asked.now if deed.end is None else deed.end
+    part = asked.world.episodes(Ego(), HELD, deed.begin - JOINED, end + JOINED)
+    costs = [asked.world.delay(e) for e in (deed, *part)]
+    told = [cost for cost in costs if cost.value is not None]
+    return max(told, key=lambda cost: cost.value or 0.0, default=None)
+
+
+def _since(asked: Asked, deed: Episode) -> float:
+    """Tell since when [s] we had slowed down again and again, with hardly a pause."""
+    begin = deed.begin
+    for one in sorted(asked.world.episodes(Ego(), HELD), key=lambda e: -e.begin):
+        if one.end is not None and one.begin < begin <= one.end + PAUSE:
+            begin = one.begin
+    return begin

@@ -1,0 +1,69 @@
+"""Limits: whether somebody keeps to the speed limit, is fast, or slow."""
+
+from dataclasses import replace
+
+from msgspec import structs
+
+from xavi_dialogue.domain.facts import Episode, Measure
+from xavi_dialogue.domain.terms import Ego, Event, Is, Thing
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.expectations.plans import foreseen, slowest_ahead
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.findings import EXPECTED, Finding, known, unknown
+from xavi_dialogue.explain.answers.reference.moments import SHORT, instant
+from xavi_dialogue.explain.answers.reference.naming import is_us, somebodies
+
+OVER = 0.5  # [m/s] above the limit that is no more than rounding
+SOON = 5.0  # [s] within which we are about to slow down
+SLOWING: tuple[ActionName, ...] = ("slow-down", "brake")
+SLOW = 0.6  # share of the limit below which a vehicle is slow
+
+
+def within_limit(asked: Asked, thing: Thing, at: float, *, allowed: bool) -> Finding:
+    """Tell whether somebody keeps to the limit, or drives faster than it."""
+    who = (somebodies(asked, thing, at) or (Ego(),))[0]
+    speed = asked.world.measure("speed", who, at)
+    limit = asked.world.measure("limit", who, at)
+    if speed.value is None or limit.value is None:
+        return unknown(speed.gap or limit.gap or "not-recorded", *known(speed, limit))
+    beside = Measure("speed", who, at, value=speed.value, reference=limit.value)
+    over = speed.value > limit.value + OVER
+    return Finding(over != allowed, (beside,))
+
+
+def fast(of: Is, asked: Asked) -> Finding:
+    """Tell whether somebody is fast, over the limit, or slow, far below it."""
+    at = instant(asked, of.time, of.tense)
+    if of.state == "fast":
+        found = within_limit(asked, _whose(of), at, allowed=False)
+        ours = is_us(_whose(of)) and asked.now - at < SHORT
+        return replace(found, facts=(*found.facts, *slowing(asked))) if ours else found
+    found = within_limit(asked, _whose(of), at, allowed=True)
+    speed = next((f for f in found.facts if isinstance(f, Measure)), None)
+    if speed is None or speed.value is None or speed.reference is None:
+        return found
+    return Finding(speed.value < SLOW * speed.reference, found.facts)
+
+
+def slowing(asked: Asked) -> tuple[Episode, ...]:
+    """Give our braking that is under way, or about to begin, with the speed it leads to."""
+    world = asked.world
+    found = world.episodes(actor=Ego(), actions=SLOWING)
+    if going := [e for e in found if e.end is None]:
+        low = slowest_ahead(asked)
+        slower = low is not None and low < (going[-1].speed_to or 0.0)
+        return (structs.replace(going[-1], speed_to=low) if slower else going[-1],)
+    coming = foreseen(asked, Event("slow-down"))
+    if coming is None or coming.share < EXPECTED or coming.moment > asked.now + SOON:
+        return ()
+    speed = world.measure("speed", Ego(), asked.now).value
+    begin, low = max(coming.moment, asked.now), slowest_ahead(asked)
+    speed = None if low is None else speed
+    return (Episode(Ego(), "slow-down", begin, speed_from=speed, speed_to=low),)
+
+
+def _whose(of: Is) -> Thing:
+    """Tell whose speed it is: ours where nobody is named."""
+    if of.thing is not None:
+        return of.thing
+    return Ego() if of.event is None else of.event.actor

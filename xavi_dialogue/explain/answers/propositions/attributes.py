@@ -1,0 +1,251 @@
+"""Attributes: those whose value takes more than a look: waits, costs, places, right of way."""
+
+from collections.abc import Callable, Mapping
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import (
+    Answer,
+    ChoiceReason,
+    Evidence,
+    Identified,
+    Located,
+    Measures,
+    NotRecorded,
+    Options,
+)
+from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.meaning import HowMany, HowMuch, HowSure, WhatIf, Where, Whither, Why
+from xavi_dialogue.domain.terms import (
+    At,
+    Ego,
+    Event,
+    Everyone,
+    Happens,
+    Junction,
+    Measured,
+    Not,
+    Vehicle,
+)
+from xavi_dialogue.domain.vocabulary import ActionName, Attribute
+from xavi_dialogue.explain.answers import causal
+from xavi_dialogue.explain.answers.events.beliefs import how_sure
+from xavi_dialogue.explain.answers.measuring.counting import how_many
+from xavi_dialogue.explain.answers.measuring.durations import (
+    cost_of,
+    event_lasting,
+    held_for,
+    remaining_wait,
+    stands,
+    waited,
+)
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.moments import (
+    SHORT,
+    Window,
+    instant,
+    is_ahead,
+    is_past,
+    was_said,
+    window,
+)
+from xavi_dialogue.explain.answers.reference.naming import (
+    first_look,
+    is_us,
+    looks,
+    number,
+    somebodies,
+)
+from xavi_dialogue.explain.answers.reference.occasions import did_not_happen, occasion
+from xavi_dialogue.explain.answers.ride.comfort import asked_stretch, comfort
+from xavi_dialogue.explain.answers.ride.onward import which_way
+from xavi_dialogue.explain.answers.ride.passages import cost_of_passage
+from xavi_dialogue.explain.answers.ride.places import gone, locate, where, whither
+from xavi_dialogue.explain.answers.ride.priority import right_of_way, where_rule_holds
+from xavi_dialogue.explain.causes.plans.options import options_at
+
+GOING: frozenset[ActionName] = frozenset(("move", "go", "follow", "continue"))
+#: What is chosen, and whose cost is told by what else could have been chosen.
+CHOSEN: frozenset[ActionName] = frozenset(
+    ("change-left", "change-right", "change-lane", "overtake")
+)
+
+
+def _waiting(of: Measured, asked: Asked) -> Answer:
+    """Tell how long somebody waited; of a wait that goes on, also what is still expected."""
+    about = window(asked, of.time, of.tense)
+    if is_ahead(asked, of.time, of.tense) and stands(asked):
+        return Measures((remaining_wait(asked),))
+    return Measures((waited(asked, of.thing, of.to, about),))
+
+
+def _options(of: Measured, asked: Asked) -> Answer:
+    """Tell how the options of a decision were valued."""
+    at = instant(asked, of.time, of.tense)
+    trace = asked.ride.at(at)
+    known = options_at(asked.ride, at)
+    if trace is None or not known:
+        raise Unanswered(NotRecorded("not-recorded", about=of.attribute, since=at))
+    return Options(known, trace.sim_time, Evidence("tree", traces=(trace.trace_id,)))
+
+
+def _comfort(of: Measured, asked: Asked) -> Answer:
+    return comfort(asked, of.event, asked_stretch(asked, of.event))
+
+
+def _duration(of: Measured, asked: Asked) -> Answer:
+    return event_lasting(of.event or Event("do", of.thing, time=of.time), asked)
+
+
+def _delay(of: Measured, asked: Asked) -> Answer:
+    """Tell what a manoeuvre cost: of one that was chosen, as the causal explainers tell."""
+    if of.event is not None and of.event.action == "overtake":
+        of = replace(of, event=replace(of.event, side=None))
+    if of.event is not None and (undone := _not_done(of, of.event, asked)) is not None:
+        supposed = WhatIf(Happens(undone), HowMuch(Measured("delay")))
+        if (suppose := causal.explainer(supposed, asked)) is not None:
+            return suppose(supposed, asked)
+    if of.event is not None and of.event.action in CHOSEN:
+        why = Why(Happens(of.event))
+        explainer = causal.explainer(why, asked)
+        if explainer is not None:
+            explained = explainer(why, asked)
+            gained = _gained(explained)
+            if gained is not None:
+                return Measures((gained,))
+            return _instead(of.event, asked) or explained
+    event = of.event
+    if event is not None and event.action in GOING and number(event.object) is not None:
+        event = held_for(asked, event.object or Ego())  # "crawling behind the van"
+    spent = cost_of_passage(asked, of.thing) if isinstance(of.thing, Junction) else None
+    if spent is not None:
+        return Measures((spent,))
+    if event is None and number(of.thing) is not None:
+        event = held_for(asked, of.thing)
+    return Measures((cost_of(asked, event, window(asked, of.time)),))
+
+
+def _not_done(of: Measured, event: Event, asked: Asked) -> Event | None:
+    """Give a choice of which it is asked what it would have cost: one that we did not make."""
+    if not is_us(event.actor) or event.action not in (*CHOSEN, "stop"):
+        return None
+    at = of.time if isinstance(of.time, At) else event.time
+    meant = replace(event, time=at, tense="past")
+    if event.modal == "would":
+        return meant  # "would stopping have cost us time?"
+    return meant if occasion(asked, replace(meant, time=event.time)) is None else None
+
+
+def _instead(event: Event, asked: Asked) -> Answer | None:
+    """Tell what would have been without a choice, where no difference in time is known."""
+    supposed = WhatIf(Not(Happens(event)), HowMuch(Measured("delay")))
+    suppose = causal.explainer(supposed, asked)
+    return None if suppose is None else suppose(supposed, asked)
+
+
+def _gained(explained: Answer) -> Measure | None:
+    """Tell what a choice cost or saved in time against what else there was, where that is known."""
+    if not isinstance(explained, ChoiceReason) or explained.deed is None:
+        return None
+    effects = explained.contrast.effects
+    saved = next((e.delta for e in effects if e.component == "time"), None)
+    deed = explained.deed
+    return None if saved is None else Measure("delay", Ego(), deed.begin, value=-saved)
+
+
+def _probability(of: Measured, asked: Asked) -> Answer:
+    about = of.about
+    if about is None and of.event is not None:
+        about = Happens(of.event)
+    return how_sure(HowSure(about, time=of.time), asked)
+
+
+def _place(of: Measured, asked: Asked) -> Answer:
+    return where(Where(of.thing, of.time), asked)
+
+
+def _heading(of: Measured, asked: Asked) -> Answer:
+    return whither(Whither(of.thing, of.time), asked)
+
+
+def _name(of: Measured, asked: Asked) -> Answer:
+    at = instant(asked, of.time, of.tense)
+    if is_us(of.thing):
+        return Measures((asked.world.measure("name", Ego(), at),))
+    numbers = tuple(v.number for v in somebodies(asked, of.thing, at) if isinstance(v, Vehicle))
+    return Identified(looks(asked, numbers, at), none=not numbers)
+
+
+def _turn(of: Measured, asked: Asked) -> Answer:
+    """Tell which way is taken next: of others, where they are thought to be going, or went."""
+    other = number(of.thing)
+    if other is not None and is_past(asked, of.time, of.tense) and not was_said(asked, of.time):
+        return gone(asked, Vehicle(other))
+    if other is not None:
+        return whither(Whither(of.thing, of.time), asked)
+    return which_way(of, asked)
+
+
+def _speed_change(of: Measured, asked: Asked) -> Answer:
+    """Tell by how much the speed changed: over the time said, else in the latest change."""
+    at = instant(asked, of.time, of.tense)
+    who = (somebodies(asked, of.thing, at) or (Ego(),))[0]
+    about = window(asked, of.time, of.tense)
+    if of.event is not None or about.instant or not was_said(asked, of.time):
+        changes: tuple[ActionName, ...] = ("slow-down", "brake", "speed-up", "stop")
+        wanted = changes if of.event is None else (of.event.action, "brake", "stop")
+        found = asked.world.episodes(actor=who, actions=wanted, end=about.end + SHORT)
+        if not found:
+            raise did_not_happen(asked, of.event or Event("slow-down", who))
+        last = max(found, key=lambda e: e.begin)
+        about = Window(last.begin, asked.now if last.end is None else last.end)
+    first, after = (asked.world.measure("speed", who, t) for t in (about.begin, about.end))
+    if first.value is None or after.value is None:
+        return Measures((first if first.value is None else after,))
+    change = Measure(
+        "speed-change", who, about.begin, value=after.value - first.value, until=about.end,
+        low=first.value, high=after.value,
+    )  # fmt: skip
+    return Measures((change,))
+
+
+def _count(of: Measured, asked: Asked) -> Answer:
+    return how_many(HowMany(of.thing if number(of.thing) is not None else Everyone()), asked)
+
+
+def _right_of_way(of: Measured, asked: Asked) -> Answer:
+    about = where_rule_holds(asked, None, window(asked, of.time, of.tense))
+    return right_of_way(asked, of.thing, of.to, about)
+
+
+def _origin(of: Measured, asked: Asked) -> Answer:
+    """Tell where somebody came from: as the record has it, else where it was first seen."""
+    at, vehicle = instant(asked, of.time, of.tense), number(of.thing)
+    if vehicle is None:
+        return locate(asked, of.thing, asked.world.begin)
+    known = asked.world.measure("origin", of.thing, at)
+    if known.gap is None:
+        return Measures((known,))
+    first = first_look(asked, vehicle, asked.world.begin)
+    return Located(of.thing, () if first is None else (first,), gap=known.gap)
+
+
+SPECIAL: Mapping[Attribute, Callable[[Measured, Asked], Answer]] = {
+    "waiting-time": _waiting,
+    "speed-change": _speed_change,
+    "value": _options,
+    "cost": _options,
+    "comfort": _comfort,
+    "duration": _duration,
+    "delay": _delay,
+    "probability": _probability,
+    "place": _place,
+    "heading": _heading,
+    "name": _name,
+    "right-of-way": _right_of_way,
+    "origin": _origin,
+    "route": _heading,
+    "turn": _turn,
+    "exit-number": _turn,
+    "count": _count,
+}

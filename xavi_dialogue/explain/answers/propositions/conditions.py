@@ -1,0 +1,324 @@
+"""Conditions: whether a thing or an event is safe, free, over, fast, close, possible, ..."""
+
+from collections.abc import Callable, Mapping
+
+from msgspec.structs import replace as with_fields
+
+from xavi_dialogue.domain.answers import Answer, Measures, NotApplicable
+from xavi_dialogue.domain.facts import Fact, Gap
+from xavi_dialogue.domain.meaning import Fault, HowSure, Question, Why
+from xavi_dialogue.domain.meaning import Whether as WhetherQuestion
+from xavi_dialogue.domain.reasons import Asking
+from xavi_dialogue.domain.terms import (
+    Destination,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Lane,
+    Vehicle,
+    Vehicles,
+    Wanted,
+)
+from xavi_dialogue.domain.vocabulary import ActionName, State
+from xavi_dialogue.explain.answers import causal
+from xavi_dialogue.explain.answers.events.stages import actor, late, over, still, stuck
+from xavi_dialogue.explain.answers.expectations.foreseen import macros
+from xavi_dialogue.explain.answers.measuring.closeness import How, closeness
+from xavi_dialogue.explain.answers.measuring.limits import fast, within_limit
+from xavi_dialogue.explain.answers.propositions.duties import blamed
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
+from xavi_dialogue.explain.answers.reference.foils import MANOEUVRES
+from xavi_dialogue.explain.answers.reference.moments import (
+    RECENT,
+    Window,
+    instant,
+    is_ahead,
+    is_past,
+    window,
+)
+from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, look_of, looks, number
+from xavi_dialogue.explain.answers.reference.occasions import (
+    did_not_happen,
+    occasion,
+    occasions,
+    taken_place,
+)
+from xavi_dialogue.explain.answers.ride.comfort import comfort_of, stretch
+from xavi_dialogue.explain.answers.ride.mistakes import broken_down, wrong
+from xavi_dialogue.explain.answers.ride.places import to_go
+from xavi_dialogue.explain.answers.ride.priority import lawful, owed, right_of_way, where_rule_holds
+from xavi_dialogue.explain.answers.sight.room import free
+from xavi_dialogue.explain.answers.sight.sight import busy, minded
+from xavi_dialogue.explain.answers.suppositions.own_suppositions import of_us
+from xavi_dialogue.explain.causes.plans.options import options_at
+from xavi_dialogue.explain.causes.vehicles.actions import names_of
+from xavi_dialogue.explain.history.thresholds import STANDING
+
+NEAR_GAP = 2.0  # [s] of headway below which a vehicle is close
+NEAR = 5.0  # [m] below which a vehicle beside or crossing is close
+HUGGING = 1.0  # [m] below which one that we stand behind is too close
+BIG = 7.0  # [m] from which a vehicle is big
+#: What goes on all the time: how it feels is asked of the ride.
+GOING_ON = ("follow", "keep-lane", "continue", "move", "stand", "wait")
+#: What we do because something hinders us, what people see of it first.
+HINDERED: tuple[ActionName, ...] = ("stand", "stop", "brake", "slow-down", "wait", "give-way")
+JUST = 0.3  # [s] for which what is over still goes on, to people
+LATELY = 6.0  # [s] for which what is over is what "that" was
+RIGHT_OF_WAY = (
+    "enter",
+    "turn",
+    "exit-left",
+    "exit-right",
+    "exit-straight",
+    "cross",
+    "go",
+    "merge",
+    "pull-out",
+    "move",
+)
+
+
+def condition(of: Is, asked: Asked) -> Finding:
+    """Weigh that a thing or an event is in a state.
+
+    Raises:
+        Unanswered: it is of what is unknown, or of an event that did not happen.
+    """
+    return STATES[of.state](of, asked)
+
+
+def handed(question: Question, asked: Asked) -> Answer | None:
+    """Give the answer of the causal explainers, where the question is one of theirs."""
+    explainer = causal.explainer(question, asked)
+    return None if explainer is None else explainer(question, asked)
+
+
+def _about(of: Is, asked: Asked) -> Window:
+    """Give the stretch of the ride that a state is about: that of its event, where it has one."""
+    if of.event is not None:
+        found = occasion(asked, of.event)
+        if found is not None:
+            return stretch(asked, found)
+    return window(asked, of.time, of.tense)
+
+
+def _safe(of: Is, asked: Asked) -> Finding:
+    if of.state == "roomy" and isinstance(of.thing, Lane):
+        return free(of, asked)
+    how: How = "room" if of.state == "roomy" else "safe" if of.state == "safe" else "dangerous"
+    past = is_past(asked, of.time, of.tense) and not is_ahead(asked, of.time, of.tense)
+    if of.event is not None and past:
+        if not isinstance(of.event.object, Wanted | Vehicles) and not occasions(asked, of.event):
+            raise did_not_happen(asked, of.event)
+    elif of.event is not None and _is_option(of.event, asked):
+        form: Asking = "safe" if of.state == "safe" else "crash"
+        return Finding(None, answer=of_us(of.event, asked, form))
+    other = number(of.thing)
+    if other is None and of.event is not None:
+        other = number(of.event.actor) or number(of.event.object)
+    about = _about(of, asked) if past else Window(asked.now, asked.now)
+    return Finding(None, answer=closeness(asked, other, about, how, past=past))
+
+
+def _is_option(event: Event, asked: Asked) -> bool:
+    """Whether we could do something now that we are not doing."""
+    if not is_us(event.actor) or not set(names_of(event)) & MANOEUVRES:
+        return False
+    return occasion(asked, event) is None
+
+
+def _comfortable(of: Is, asked: Asked) -> Finding:
+    if of.event is not None and of.event.action in GOING_ON:
+        of = with_fields(of, event=None)
+    if of.event is not None:
+        taken_place(asked, of.event)
+    about, begin = _about(of, asked), asked.world.begin
+    told = of.event is not None or (about.said and about.end < asked.now - RECENT)
+    if not told and about.instant and is_past(asked, of.time, of.tense):
+        about = Window(max(begin, asked.now - RECENT), asked.now)
+    elif not told and about.instant and asked.past is None:
+        about = Window(begin, asked.now)
+    found = comfort_of(asked, about)
+    return Finding(found.hard == (of.state == "uncomfortable"), answer=found)
+
+
+def _allowed(of: Is, asked: Asked) -> Finding:
+    """Tell what the rules of the road say: of speed the limit, of going first the right of way."""
+    event = of.event
+    if event is None and of.thing is None:
+        about = _about(of, asked) if is_past(asked, of.time, of.tense) else None
+        return Finding(None, answer=lawful(asked, about))
+    if event is not None and event.action in RIGHT_OF_WAY and not _of_speed(event):
+        about = _about(of, asked)
+        past = is_past(asked, of.time, of.tense)
+        about = where_rule_holds(asked, of, about) if past else about
+        found = right_of_way(asked, event.object, event.actor, about)
+        if found.rule != "none" or "first" in event.manner:
+            return owed(found, ours_yield=not is_us(event.actor))
+    limited = within_limit(asked, actor(of), instant(asked, of.time, of.tense), allowed=True)
+    fast = limited.holds is False and event is not None and not is_us(event.actor)
+    if event is not None and not _of_speed(event) and not fast:
+        about = _about(of, asked) if is_past(asked, of.time, of.tense) else None
+        return Finding(None, answer=lawful(asked, about, number(event.actor)))
+    return limited
+
+
+def _of_speed(event: Event) -> bool:
+    """Tell whether an event is named for how fast it is."""
+    return "fast" in event.manner or "slowly" in event.manner
+
+
+def _judged(of: Is, asked: Asked) -> Finding:
+    """Tell whether it was necessary, worth it or better: the causal explainers know."""
+    for question in (
+        WhetherQuestion(of),
+        *(() if of.event is None else (Why(Happens(of.event)),)),
+    ):
+        answer = handed(question, asked)
+        if answer is not None:
+            return Finding(None, answer=answer)
+    return unknown("not-recorded")
+
+
+def _amiss(of: Is, asked: Asked) -> Finding:
+    """Tell what hinders us now, or that all is well, where it is asked whether all is well."""
+    if of.thing is not None or of.event is not None:
+        return wrong(of, asked)
+    found = asked.world.episodes(actor=Ego(), actions=HINDERED, begin=asked.now - JUST)
+    doing = [e for e in found if e.end is None or e.end >= asked.now - JUST]
+    plainest = min((e.action for e in doing), key=HINDERED.index, default=None)
+    why = None if plainest is None else Why(Happens(Event(plainest, tense="present")))
+    answer = None if why is None else handed(why, asked)
+    if answer is None:
+        return _safe(with_fields(of, state="dangerous"), asked)
+    return Finding(None, answer=answer)
+
+
+def _possible(of: Is, asked: Asked) -> Finding:
+    """Tell whether an action can be taken: whether the decision then had it among its options."""
+    if of.event is None:
+        return unknown("not-recorded")
+    names = macros(of.event)
+    at = instant(asked, of.time, of.tense)
+    trace = asked.ride.at(at)
+    if trace is None or not names:
+        return unknown("not-recorded")
+    options = [o for o in options_at(asked.ride, at) if o.action in names]
+    if options:
+        return Finding(True, tuple(options))
+    for entry in trace.not_applicable:
+        if not entry.node and entry.action in names:
+            raise Unanswered(NotApplicable((entry.action,), entry.reason, trace.sim_time))
+    return Finding(False if trace.under_way is not None else None, gap="not-recorded")
+
+
+def _seen(of: Is, asked: Asked) -> Finding:
+    """Tell whether somebody is in view, hidden or lost."""
+    vehicle = number(actor(of))
+    about = window(asked, of.time, of.tense)
+    if isinstance(of.thing, Vehicles):
+        wanted = of.state in ("visible", "present")
+        every = looks(asked, of.thing.numbers, about.end)
+        others = tuple(look for look in every if look.in_view != wanted)
+        return Finding(not others, others or every)
+    if vehicle is None:
+        return unknown("not-sensed" if not is_us(actor(of)) else "not-applicable")
+    look = asked.world.look(vehicle, about.end)
+    if look is None:
+        first = first_look(asked, vehicle, about.end)
+        return Finding(of.state in ("hidden", "lost"), () if first is None else (first,))
+    hidden = asked.world.measure("visibility", Vehicle(vehicle), about.end)
+    facts: tuple[Fact, ...] = (look, *known(hidden))
+    return Finding(look.in_view == (of.state in ("visible", "present")), facts)
+
+
+def _is_told(asked: Asked) -> bool:
+    """Tell whether the passenger said when."""
+    return asked.past is not None and asked.past.said
+
+
+def _close(of: Is, asked: Asked) -> Finding:
+    if isinstance(of.thing, Destination):
+        return Finding(None, answer=Measures(to_go(asked, asked.now)))
+    vehicle = number(actor(of))
+    past = is_past(asked, of.time, of.tense)
+    about = _about(of, asked) if past else Window(asked.now, asked.now)
+    if past:
+        if vehicle is not None and asked.now - about.end <= LATELY and not _is_told(asked):
+            about = Window(about.begin, asked.now)  # what came nearest may be just over
+        return Finding(None, answer=closeness(asked, vehicle, about, "close"))
+    if vehicle is None:
+        return Finding(None, answer=closeness(asked, None, about, "close", past=False))
+    other = Vehicle(vehicle)
+    gap, headway, distance = (
+        asked.world.measure(a, Ego(), asked.now, other) for a in ("gap", "headway", "distance")
+    )
+    if distance.value is None and of.state == "far" and not asked.ride.arrived:
+        return Finding(None, answer=Measures(to_go(asked, asked.now)))  # "is it a long way?"
+    if distance.value is None:
+        return unknown(distance.gap or "out-of-view")
+    speed = asked.world.measure("speed", Ego(), asked.now).value
+    if of.too and of.state == "close" and speed is not None and speed < STANDING:
+        return Finding(distance.value < HUGGING, known(distance))  # as in any queue
+    if headway.value is not None:
+        if of.too and NEAR_GAP / 2.0 <= headway.value < NEAR_GAP:
+            return Finding(None, answer=Measures(known(gap, headway)))  # a matter of opinion
+        near = headway.value < (NEAR_GAP if not of.too else NEAR_GAP / 2.0)
+        return Finding(near == (of.state == "close"), known(gap, headway))
+    return Finding((distance.value < NEAR) == (of.state == "close"), known(distance))
+
+
+def _sure(of: Is, asked: Asked) -> Finding:
+    done = Event("do", Ego(), tense="past") if of.tense in ("past", "perfect") else None
+    event = of.event or done  # "were you ever unsure?": of what we did
+    about = None if event is None else Happens(event)
+    return Finding(None, answer=handed(HowSure(about, of.time), asked))
+
+
+def _at_fault(of: Is, asked: Asked) -> Finding:
+    about = None if of.event is None else Happens(of.event)
+    return Finding(None, answer=blamed(Fault(about, of.thing), asked))
+
+
+def _first(of: Is, asked: Asked) -> Finding:
+    about = where_rule_holds(asked, None, _about(of, asked))
+    other = None if is_us(actor(of)) else actor(of)
+    found = right_of_way(asked, other, Ego(), about)
+    if found.first is None:
+        return Finding(None, answer=found)
+    ours = isinstance(found.first, Ego)
+    first = ours == is_us(actor(of))
+    return Finding(first == (of.state == "first"), answer=found)
+
+
+def _big(of: Is, asked: Asked) -> Finding:
+    size = asked.world.measure("size", actor(of), asked.now)
+    if size.value is None:
+        return unknown(size.gap or "not-recorded")
+    look = look_of(asked, actor(of), asked.now)
+    return Finding(size.value >= BIG, (size, *(() if look is None else (look,))))
+
+
+def _constant(holds: bool | None, gap: Gap | None = None) -> Callable[[Is, Asked], Finding]:
+    return lambda of, asked: Finding(holds, gap=gap)
+
+
+STATES: Mapping[State, Callable[[Is, Asked], Finding]] = {
+    "safe": _safe, "dangerous": _safe, "roomy": _safe,
+    "comfortable": _comfortable, "uncomfortable": _comfortable,
+    "allowed": _allowed, "necessary": _judged, "worth-it": _judged, "better": _judged,
+    "possible": _possible, "free": free,
+    "visible": _seen, "hidden": _seen, "present": _seen, "lost": _seen,
+    "stationary": still, "moving": still,
+    "fast": fast, "slow": fast, "close": _close, "far": _close,
+    "sure": _sure, "over": over, "late": late, "stuck": stuck,
+    "wrong": _amiss, "right": _amiss, "at-fault": _at_fault,
+    "first": _first, "last": _first, "big": _big, "busy": busy,
+    "normal": _constant(None, "not-recorded"),
+    "dirty": _constant(None, "not-sensed"),
+    "faulty": broken_down,
+    "awake": minded, "upset": minded,
+    "autonomous": _constant(True),
+}  # fmt: skip

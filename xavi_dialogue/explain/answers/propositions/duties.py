@@ -1,0 +1,345 @@
+"""Duties: whether somebody has to, or should, let another go first, and what we should have done.
+
+The rule comes from the record of the road. What we should have done otherwise is no matter of
+record: such advice is met with the reason why we did not.
+"""
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Answer, Priority, Verdict
+from xavi_dialogue.domain.meaning import Fault, Whether, Why
+from xavi_dialogue.domain.terms import (
+    Both,
+    Ego,
+    Event,
+    Everyone,
+    Happens,
+    Is,
+    Not,
+    Proposition,
+    Related,
+    Thing,
+    Unsaid,
+    Vehicle,
+    Vehicles,
+    Wanted,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers import causal
+from xavi_dialogue.explain.answers.expectations.foreseen import chance
+from xavi_dialogue.explain.answers.expectations.precedence import on_ring
+from xavi_dialogue.explain.answers.lights.lights_turn import held
+from xavi_dialogue.explain.answers.propositions.halting import to_come
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.findings import Finding
+from xavi_dialogue.explain.answers.reference.moments import Window, is_past, window
+from xavi_dialogue.explain.answers.reference.naming import is_us, number
+from xavi_dialogue.explain.answers.reference.occasions import occasion
+from xavi_dialogue.explain.answers.ride.priority import fault, owed, priority_at, where_rule_holds
+
+#: What somebody does who lets another go first.
+YIELDING: tuple[ActionName, ...] = ("give-way", "let-go", "wait")
+#: What he does for another one, where that one is named.
+FOR_ANOTHER: tuple[ActionName, ...] = ("stop", "brake", "slow-down")
+GOING: tuple[ActionName, ...] = ("go", "enter", "cross", "merge", "pull-out", "turn", "pass")
+#: What we are said to do who cannot go on.
+STUCK: tuple[ActionName, ...] = ("keep-lane", "stand", "wait")
+#: What somebody does who comes into another one's way.
+INTO_PATH: tuple[ActionName, ...] = ("pull-out", "cut-in", "cross", "block")
+WAITING: tuple[ActionName, ...] = ("give-way", "wait")
+LATELY = 6.0  # [s] since when who waited for others was not held up by us
+LIKELY = 0.5  # probability from which somebody is expected to stop for us all the same
+DUTIES = frozenset(("must", "should"))
+
+
+def duty(asked: Asked, event: Event) -> Finding | None:
+    """Weigh that somebody has to, or should, do something; None where it is no such duty.
+
+    Raises:
+        Unanswered: a vehicle was never seen, or the record does not hold the rule.
+    """
+    past = event.tense in ("past", "perfect")
+    if event.modal == "could" and past and is_us(event.actor):
+        told = Whether(Happens(event))
+        explainer = causal.explainer(told, asked)
+        return None if explainer is None else Finding(None, answer=explainer(told, asked))
+    if event.modal is None and past and event.action in GOING and "first" in event.manner:
+        return _went_first(asked, event)
+    if event.modal is None and event.action in INTO_PATH and is_us(event.actor):
+        return _before_him(asked, event)
+    if event.modal not in DUTIES:
+        return _unwilling(asked, event)
+    if event.modal == "should" and past and is_us(event.actor) and event.action in YIELDING:
+        return _handed(asked, Why(Not(Happens(replace(event, modal=None, time=Unsaid())))))
+    pair = _pair(event)
+    if pair is None and event.then is not None and _pair(event.then) is not None:
+        event = replace(event.then, actor=event.actor, modal=event.modal, tense=event.tense)
+        pair = _pair(event)
+    if pair is not None:
+        return _owed(asked, event, *pair)
+    if event.modal == "should" and is_us(event.actor):
+        return _advised(asked, event)
+    if event.modal == "must" and past and is_us(event.actor):
+        return _needed(asked, event)
+    return None
+
+
+def _went_first(asked: Asked, event: Event) -> Finding | None:
+    """Tell who of both went first; None where neither has gone, or nobody is named."""
+    vehicle = number(event.actor) or number(event.object)
+    if vehicle is None:
+        return None
+    found = priority_at(asked, vehicle, window(asked, event.time, "past"))
+    if found.first is None and found.rule == "none":
+        return None
+    if found.first is None:
+        return Finding(None, answer=found)
+    holds = isinstance(found.first, Ego) == is_us(event.actor)
+    return Finding(holds, answer=replace(found, holds=holds))
+
+
+def _before_him(asked: Asked, event: Event) -> Finding | None:
+    """Tell of somebody whose way we came into at a junction that we went first."""
+    vehicle = number(event.object)
+    if vehicle is None or event.tense == "future" or occasion(asked, event) is not None:
+        return None
+    found = priority_at(asked, vehicle, window(asked, event.time, "past"))
+    crossing = found.rule in ("give-way", "equal", "depends")
+    if crossing and isinstance(found.first, Ego):
+        holds = not found.stood  # whom we passed as it stood, we took nothing from
+        return Finding(holds, answer=replace(found, holds=holds))
+    waits = asked.world.episodes(Vehicle(vehicle), WAITING, begin=asked.now - LATELY)
+    held = [e for e in waits if not is_us(e.object)]
+    return Finding(False, tuple(held[-1:])) if held and found.first is None else None
+
+
+def _unwilling(asked: Asked, event: Event) -> Finding | None:
+    """Tell of somebody who is asked to stop for us that he goes first, where the rule is so."""
+    if event.action in ("give-way", "let-go") and is_us(event.actor):
+        meant = event.tense == "future" or (event.modal == "want" and event.tense == "present")
+        if not meant or number(event.object) is None:
+            return _not_given(asked, event)
+        owed_him = _owed(asked, replace(event, tense="present"), event.actor, event.object)
+        return owed_him if owed_him.holds else None
+    towards_us = event.action in (*YIELDING, *FOR_ANOTHER) and is_us(event.object)
+    to_come = event.tense in ("present", "future") and event.modal in (None, "will")
+    if not towards_us or not to_come or number(event.actor) is None:
+        return None
+    present = replace(event, tense="present")
+    if occasion(asked, present) is not None:
+        return None
+    found = _owed(asked, present, event.actor, event.object)
+    if found.holds and isinstance(found.answer, Priority):
+        return found  # it slows down to, if it does not stand yet
+    if (chance(asked, event, asked.now) or 0.0) >= LIKELY:
+        return None
+    return found if found.holds is False and isinstance(found.answer, Priority) else None
+
+
+def _not_given(asked: Asked, event: Event) -> Finding | None:
+    """Tell of way that we did not give who had it, and who went first; None where we gave it."""
+    past = event.tense in ("past", "perfect") and event.modal is None
+    if not past or occasion(asked, event) is not None:
+        return None
+    vehicle = number(event.object)
+    light = None if asked.past is not None and asked.past.said else held(asked)
+    if light is not None:
+        return Finding(None, answer=light)  # the light holds us, though others go
+    about = window(asked, event.time, "past")
+    about = about if vehicle is not None else where_rule_holds(asked, None, about)
+    found = priority_at(asked, vehicle, about)
+    if vehicle is not None and found.first is None and found.rule == "give-way":
+        return Finding(True, answer=replace(found, holds=True))  # we are about it
+    ours = isinstance(found.first, Ego) and found.rule == "give-way"
+    return Finding(False, answer=replace(found, holds=False)) if ours else None
+
+
+def is_owed(of: Proposition) -> bool:
+    """Tell whether it is said of somebody that he has to let another go first."""
+    return isinstance(of, Happens) and of.event.modal in DUTIES and _pair(of.event) is not None
+
+
+def of_order(of: Both) -> Related | None:
+    """Give the right of way that is asked after by "do they go first or do we?"; None: else."""
+    for part in of.contents:
+        match part:
+            case Related(relation="has-priority-over" | "must-yield-to", tense="present"):
+                return part
+            case Happens(event=Event(action=action, tense="present", modal=None) as event) if (
+                action in GOING and "first" in event.manner
+            ):
+                return Related("has-priority-over", event.actor, Ego(), event.time)
+            case Happens(event=Event(tense="present", modal=None) as event) if (
+                event.action in YIELDING and number(event.actor) and is_us(event.object)
+            ):  # "does he wait for us, or we for him?"
+                return Related("must-yield-to", event.actor, Ego(), event.time)
+    return None
+
+
+def _pair(event: Event) -> tuple[Thing | None, Thing | None] | None:
+    """Give who is to yield and to whom; None where the event is not of that."""
+    if event.action in YIELDING:
+        return event.actor, event.object
+    if event.action in FOR_ANOTHER and number(event.actor) is not None and is_us(event.object):
+        past_fact = event.modal == "must" and event.tense in ("past", "perfect")
+        return None if past_fact else (event.actor, event.object)
+    if event.action in GOING and ("first" in event.manner or number(event.object) is not None):
+        return event.object, event.actor
+    return None
+
+
+def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None) -> Finding:
+    """Tell whether one has to yield to another, by the rule between them."""
+    several = next((t.numbers for t in (yielder, other) if isinstance(t, Vehicles)), ())
+    every = Everyone() if isinstance(yielder, Everyone) or isinstance(other, Everyone) else None
+    vehicle = number(yielder) or number(other)
+    past = is_past(asked, event.time, event.tense)
+    about = window(asked, event.time, "past") if past else Window(asked.now, asked.now)
+    ours = is_us(yielder) or (yielder is None and not is_us(other))
+    if vehicle is None and other is None and ours and not past:
+        told = _to_all(asked, about, yielder, other)
+        if told is not None:
+            return Finding(True, answer=replace(told, holds=True))
+    if vehicle is None:
+        about = where_rule_holds(asked, None, about)
+    if several or every is not None:
+        return owed_to_all(asked, several or asked.world.in_view(about.end), about, ours=ours)
+    found = owed(priority_at(asked, vehicle, about), ours_yield=ours)
+    if found.holds is not None or not is_us(yielder):
+        return found
+    plain = replace(event, modal=None, tense="past" if past else "present")
+    held = occasion(asked, plain)
+    return found if held is None else Finding(True, (held,))
+
+
+def owed_to_all(asked: Asked, among: tuple[int, ...], about: Window, *, ours: bool) -> Finding:
+    """Tell to whom of several we have to yield, or who of them has to yield to us."""
+    rules = {v: priority_at(asked, v, about).rule for v in among}
+    wanted = "give-way" if ours else "priority"
+    if about.end >= asked.now - 0.1 and on_ring(asked.world.road(asked.now)):
+        return owed(priority_at(asked, None, Window(asked.now, asked.now)), ours_yield=ours)
+    those = tuple(v for v in among if rules[v] == wanted)
+    if not ours:  # say so where people on foot go first
+        those = those or tuple(v for v in among if rules[v] == "give-way")
+    if not those:
+        return owed(priority_at(asked, None, about), ours_yield=ours)
+    found = owed(priority_at(asked, those[0], about), ours_yield=ours)
+    if isinstance(found.answer, Priority):
+        told = replace(found.answer, others=those[1:], first=None)
+        return Finding(found.holds, answer=told)
+    return found
+
+
+def _advised(asked: Asked, event: Event) -> Finding | None:
+    """Tell why we do not, or did not, do what we should, or that we do."""
+    plain = replace(event, modal=None)
+    if event.action in FOR_ANOTHER and event.tense in ("present", "future"):
+        present = replace(plain, tense="present", time=Unsaid())
+        if occasion(asked, present) is not None:
+            return _handed(asked, Why(Happens(present)))
+        if (coming := to_come(asked, present)) is not None:
+            return Finding(None, answer=coming)
+    paced = {"fast", "slowly"} & set(event.manner) or event.action in ("speed-up", "slow-down")
+    held = None if event.action in GOING or paced else occasion(asked, plain)
+    if held is not None:
+        that = Not(Happens(plain))
+        return Finding(None, answer=Verdict(that, False, (held,), claim=True, challenge=True))
+    return _handed(asked, Why(Not(Happens(plain))))
+
+
+def _handed(asked: Asked, question: Why) -> Finding | None:
+    """Give the answer of the causal explainers, where they have one."""
+    explainer = causal.explainer(question, asked)
+    return None if explainer is None else Finding(None, answer=explainer(question, asked))
+
+
+def _needed(asked: Asked, event: Event) -> Finding | None:
+    """Tell whether what we did was necessary: the causal explainers know."""
+    plain = replace(event, modal=None)
+    question = Whether(Is("necessary", event=plain))
+    explainer = causal.explainer(question, asked)
+    if explainer is None or occasion(asked, plain) is None:
+        return None
+    return Finding(None, answer=explainer(question, asked))
+
+
+def blamed(question: Fault, asked: Asked) -> Answer:
+    """Tell the facts of a question of fault: for what we did ourselves, its reason.
+
+    Raises:
+        Unanswered: a vehicle is unknown, nothing is recorded of it, or rollouts are needed.
+    """
+    event = question.of.event if isinstance(question.of, Happens) else None
+    struck = event is not None and event.action in ("collide", "nearly-collide")
+    if event is None or not is_us(event.actor) or struck or question.legal:
+        return fault(question, asked)
+    plain: Proposition = Happens(replace(event, modal=None))
+    if event.action in STUCK:
+        plain = Not(Happens(Event("go", tense="present")))
+    why = Why(plain, suspect=question.suspect)
+    explainer = causal.explainer(why, asked)
+    return fault(question, asked) if explainer is None else explainer(why, asked)
+
+
+def who_first(asked: Asked, such: Proposition | None) -> Priority | None:
+    """Tell who goes first, where that is what is asked of anybody; None where it is not.
+
+    Raises:
+        Unanswered: a vehicle was never seen, or the record does not hold the rule.
+    """
+    pair: tuple[Thing | None, Thing | None]
+    match such:
+        case Related(relation="has-priority-over" | "must-yield-to"):
+            pair, time, tense = (such.thing, such.to), such.time, such.tense
+        case Is(state="allowed", event=Event() as event) if (found := _may(event)) is not None:
+            pair, time, tense = found, event.time, event.tense
+        case Happens(event=event) if (found := _pair(event)) is not None and _duty_of(event):
+            pair, time, tense = found, event.time, event.tense
+        case _:
+            return None
+    vehicle = next((n for thing in pair if (n := number(thing)) is not None), None)
+    past = is_past(asked, time, tense)
+    about = window(asked, time, "past") if past else Window(asked.now, asked.now)
+    several = next((t.numbers for t in pair if isinstance(t, Vehicles)), ())
+    before = (n for n in several if priority_at(asked, n, about).rule == "give-way")
+    vehicle = vehicle if vehicle is not None else next(before, None)
+    if past and vehicle is None:
+        about = where_rule_holds(asked, None, about)
+    if vehicle is None and not past and (every := _to_all(asked, about, *pair)) is not None:
+        return every
+    told = priority_at(asked, vehicle, about)
+    if told.rule == "none" and vehicle is None:
+        told = priority_at(asked, None, where_rule_holds(asked, None, _ride(asked)))
+    return told
+
+
+def _may(event: Event) -> tuple[Thing | None, Thing | None] | None:
+    """Give who is to yield and to whom, where it is asked who may do something."""
+    if isinstance(event.actor, Wanted) and event.action in GOING:
+        return event.object, event.actor
+    return _pair(event)
+
+
+def _to_all(
+    asked: Asked, about: Window, yielder: Thing | None, other: Thing | None
+) -> Priority | None:
+    """Tell to whom we have to yield now, or who all has to yield to us; None where nobody has."""
+    road = asked.world.road(asked.now)
+    if road is None or is_us(yielder) == is_us(other) or on_ring(road):
+        return None
+    near = {fact.vehicle for fact in road.priority}
+    among = tuple(v for v in asked.world.in_view(asked.now) if v in near)
+    found = owed_to_all(asked, among, about, ours=is_us(yielder))
+    told = found.answer
+    return replace(told, holds=None) if isinstance(told, Priority) and found.holds else None
+
+
+def _ride(asked: Asked) -> Window:
+    """Give the whole ride so far."""
+    return Window(asked.world.begin, asked.now)
+
+
+def _duty_of(event: Event) -> bool:
+    """Tell whether it is asked who is to, not who did."""
+    first = event.action in GOING and event.tense == "present"
+    return event.modal in DUTIES or (first and event.modal in (None, "can"))

@@ -1,0 +1,83 @@
+"""Halting: whether we stop for somebody or drive on, where both are asked about."""
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Verdict
+from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.meaning import Why
+from xavi_dialogue.domain.terms import Between, Both, Ego, Event, Happens, Next, Now, Unsaid
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.expectations.plans import MOVES, foreseen, plan_ahead, steps
+from xavi_dialogue.explain.answers.propositions import reasons
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.findings import EXPECTED, Finding
+from xavi_dialogue.explain.answers.reference.naming import is_us, number
+from xavi_dialogue.explain.answers.reference.occasions import occasion
+
+HALTS = frozenset[ActionName](("stop", "wait", "stand", "give-way", "let-go"))
+SLOWS = frozenset[ActionName](("brake", "slow-down"))
+GOES = frozenset[ActionName](("enter", "go", "move", "cross", "merge", "pull-out", "pass", "turn",
+                              "exit-left", "exit-right", "exit-straight"))  # fmt: skip
+
+
+def to_come(asked: Asked, event: Event) -> Verdict | None:
+    """Tell when we are going to do something by our plan; None where we hardly do."""
+    found = foreseen(asked, event)
+    if found is None or found.share < EXPECTED:
+        return None
+    now = asked.now
+    time = Measure(
+        "time", Ego(), now, value=max(found.moment, now), low=max(found.low, now),
+        high=max(found.high, now),
+    )  # fmt: skip
+    of = Happens(replace(event, tense="future", modal=None, time=Unsaid(), manner=()))
+    return Verdict(of, True, (time,), probability=found.share, either=True)
+
+
+def _under_way(asked: Asked, event: Event) -> Verdict | None:
+    """Tell that we are doing something already; None where we are not."""
+    present = replace(event, tense="present", modal=None)
+    found = occasion(asked, present)
+    return None if found is None else Verdict(Happens(present), True, (found,), either=True)
+
+
+def stop_or_go(of: Both, asked: Asked) -> Finding | None:
+    """Tell whether we stop, slow down without stopping, or go; None where it is not asked."""
+    events = [part.event for part in of.contents if isinstance(part, Happens)]
+    ahead = all(is_us(e.actor) and e.tense in ("present", "future") for e in events)
+    meant = all(e.action in HALTS | GOES | SLOWS for e in events)
+    if len(events) < len(of.contents) or not ahead or not meant:
+        return None
+    said = asked.past is not None and asked.past.said
+    if said or not all(isinstance(e.time, Unsaid | Now | Next | Between) for e in events):
+        return None
+    events = [replace(e, time=Unsaid()) for e in events]
+    halts = [e for e in events if e.action in HALTS]
+    goes = [e for e in events if e.action in GOES | SLOWS]
+    done = asked.world.episodes(actor=Ego(), actions=tuple(HALTS | SLOWS))
+    held = [e for e in done if e.end is None]
+    if len({e.action for e in events}) == 1 and events[0].action in HALTS | SLOWS:
+        return Finding(None, answer=reasons.why(Why(Happens(_deed(events[0].action))), asked))
+    if held and halts:
+        return Finding(None, answer=reasons.why(Why(Happens(_deed(held[-1].action))), asked))
+    if not halts or not goes:
+        return _moving(asked, events)
+    stops = to_come(asked, replace(halts[0], action="stop", object=None))
+    slows = next((to_come(asked, e) for e in goes if e.action in SLOWS), None)
+    told = stops or slows or _under_way(asked, goes[0]) or to_come(asked, goes[0])
+    return None if told is None else Finding(None, answer=told)
+
+
+def _moving(asked: Asked, events: list[Event]) -> Finding | None:
+    """Tell when we move out or in next, where it is asked before or behind whom we do."""
+    near = [e for e in events if e.where is not None or number(e.object) is not None]
+    if not near or any(e.action in SLOWS for e in events):
+        return None
+    begins = (to_come(asked, Event(action)) for action, _ in steps(asked) if action in MOVES)
+    told = next((found for found in begins if found is not None), None)
+    return Finding(None, answer=told or plan_ahead(asked))
+
+
+def _deed(action: ActionName) -> Event:
+    """Name what we are doing."""
+    return Event(action, tense="present")

@@ -1,0 +1,262 @@
+"""Happenings: when something came, and what somebody does, did or will do."""
+
+from collections.abc import Sequence
+from typing import Literal
+
+from msgspec.structs import replace
+
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import (
+    Activity,
+    Answer,
+    Happenings,
+    Identified,
+    Measures,
+    NotRecorded,
+    Verdict,
+)
+from xavi_dialogue.domain.facts import Episode, Fact, Look, Measure
+from xavi_dialogue.domain.meaning import Doing, When, Whither
+from xavi_dialogue.domain.terms import (
+    At,
+    Believed,
+    Ego,
+    Event,
+    Happens,
+    Not,
+    Proposition,
+    Related,
+    Vehicle,
+    WholeRide,
+)
+from xavi_dialogue.explain.answers.events.accounts import TOLD, select, summary, taking_part
+from xavi_dialogue.explain.answers.events.beliefs import since_when
+from xavi_dialogue.explain.answers.expectations.foreseen import besides, chance
+from xavi_dialogue.explain.answers.expectations.plans import foreseen, plan_ahead
+from xavi_dialogue.explain.answers.propositions.weighing import weigh
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.findings import known as valued
+from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, instant, is_ahead, window
+from xavi_dialogue.explain.answers.reference.naming import (
+    first_look,
+    is_us,
+    look_of,
+    number,
+    somebodies,
+)
+from xavi_dialogue.explain.answers.reference.occasions import (
+    PLAIN,
+    did_not_happen,
+    duration,
+    occasion,
+)
+from xavi_dialogue.explain.answers.ride.onward import leaves_when
+from xavi_dialogue.explain.answers.ride.places import time_to_go, whither
+from xavi_dialogue.explain.answers.ride.reaching import reaching
+from xavi_dialogue.explain.causes.vehicles.announced import announced
+from xavi_dialogue.explain.history.motion import Trend
+
+CHANGING = 0.1  # [m/s2] from which a speed still changes
+
+
+def when(question: When, asked: Asked) -> Answer:
+    """Tell when something came, or is going to.
+
+    Raises:
+        Unanswered: it did not happen and is not going to.
+    """
+    of = question.of.content if isinstance(question.of, Not) else question.of
+    if not isinstance(of, Happens):
+        return _first_held(of, asked)
+    event = of.event
+    soon = reaching(asked, event) if is_ahead(asked, event.time, event.tense) else None
+    if soon is not None:
+        return soon
+    if event.action == "arrive" and is_us(event.actor) and not asked.ride.arrived:
+        arrival = asked.world.measure("arrival-time", Ego(), asked.now)
+        return Measures(valued(arrival) or (time_to_go(asked, asked.now),))
+    leaving = leaves_when(asked, event)
+    if leaving is not None:
+        return leaving
+    ahead = is_ahead(asked, event.time, event.tense)
+    if ahead and event.action == "move" and event.object is None and is_us(event.actor):
+        event = replace(event, action="go")
+        of = Happens(event)
+    under_way = occasion(asked, replace(event, tense="present")) if ahead else None
+    if ahead and under_way is None:
+        return _to_come(asked, of)
+    found = under_way or occasion(asked, event) or _entered(asked, event)
+    if found is None:
+        raise did_not_happen(asked, event, planned=_planned(asked, event))
+    form: Literal["how-long", "when"] = "how-long" if question.edge == "end" else "when"
+    return Happenings(
+        form, (found,), found.actor, looks=taking_part(asked, (found,)), asked=event,
+        measures=_until(asked, found) if question.edge == "end" else (),
+    )  # fmt: skip
+
+
+def _entered(asked: Asked, event: Event) -> Episode | None:
+    """Give our way through the junction that we entered, or drove into, last."""
+    if event.action != "enter" or not is_us(event.actor) or event.tense == "future":
+        return None
+    about = window(asked, event.time, event.tense)
+    ways = asked.world.episodes(Ego(), ("exit-left", "exit-right", "exit-straight"), end=about.end)
+    return ways[-1] if ways else None
+
+
+def doing(question: Doing, asked: Asked) -> Answer:
+    """Tell what somebody is doing, did at a time, or will do next; or what happened.
+
+    Raises:
+        Unanswered: it is unknown, or not in the record.
+    """
+    if question.actor is None and is_ahead(asked, question.time, question.tense):
+        return plan_ahead(asked)
+    if question.actor is None:
+        about = window(asked, question.time, question.tense)
+        if question.tense == "present" and about.end >= asked.now:
+            return activity(asked, Ego(), asked.now)
+        return summary(asked, None, about, ride=isinstance(question.time, WholeRide))
+    ahead = is_ahead(asked, question.time, question.tense)
+    at = asked.now if ahead else instant(asked, question.time, question.tense)
+    who = somebodies(asked, question.actor, at)
+    if not who:
+        raise Unanswered(NotRecorded("not-recorded", question.actor, about="doing"))
+    if len(who) > 1:
+        return _several(asked, who, at)
+    if ahead and is_us(who[0]):
+        return plan_ahead(asked)
+    if ahead and isinstance(who[0], Vehicle) and question.tense != "present":
+        return intent(asked, who[0].number)
+    about = window(asked, question.time, question.tense)
+    if question.tense in ("past", "perfect") and not about.instant and not ahead:
+        return _did(asked, who[0], about)
+    return activity(asked, who[0], at)
+
+
+def intent(asked: Asked, vehicle: int) -> Answer:
+    """Tell what somebody else is up to: what its indicator announces, else what is expected."""
+    lit = [
+        e
+        for e in asked.world.episodes(actor=Vehicle(vehicle), actions=("signal",))
+        if e.begin <= asked.now and e.end is None
+    ]
+    told = announced(asked.ride, asked.world, vehicle, lit[-1], asked.now) if lit else None
+    return told or whither(Whither(Vehicle(vehicle)), asked)
+
+
+def activity(asked: Asked, actor: Ego | Vehicle, at: float) -> Activity:
+    """Tell what somebody is doing at a time [s], how fast, and what it is expected to do."""
+    world = asked.world
+    on = world.episodes(actor=actor, begin=at - 0.3, end=at + 0.1)
+    if not on and isinstance(actor, Ego):
+        on = world.episodes(actor=actor, actions=("continue",), begin=at, end=at)
+    speed = world.measure("speed", actor, at)
+    vehicle = number(actor)
+    trend = _trend(asked, EGO if vehicle is None else vehicle, at)
+    look = look_of(asked, actor, at)
+    belief = None if vehicle is None else world.belief(vehicle, at)
+    lost = look is not None and not look.in_view
+    return Activity(
+        actor, at, () if lost else on, None if lost else speed.value,
+        None if lost else trend, look, belief,
+    )  # fmt: skip
+
+
+def _trend(asked: Asked, vehicle: int, at: float) -> Trend | None:
+    """Tell what a speed is doing at a time [s], over as soon as the newest scene shows it over."""
+    trend, scene = asked.ride.motion(vehicle).until(at).trend, asked.ride.scene
+    seen = None if scene is None or at < scene.time else scene.vehicles.get(vehicle)
+    if seen is None or trend not in ("slowing", "speeding-up"):
+        return trend
+    rate = seen.acceleration if trend == "speeding-up" else -seen.acceleration
+    return trend if rate > CHANGING else "steady"
+
+
+def _to_come(asked: Asked, of: Happens) -> Answer:
+    """Tell when something is to come: by our plan; of others there is only how probable it is."""
+    event = of.event
+    if is_us(event.actor):
+        found = foreseen(asked, event)
+        if found is None or found.share < 0.5:
+            past = occasion(asked, replace(event, tense="past"))
+            raise (
+                did_not_happen(asked, event)
+                if past is None
+                else did_not_happen(asked, replace(event, tense="future"))
+            )
+        time = Measure(
+            "time", Ego(), asked.now, value=max(found.moment, asked.now),
+            low=max(found.low, asked.now), high=max(found.high, asked.now),
+        )  # fmt: skip
+        return Verdict(of, True, (time,), probability=found.share, either=True)
+    vehicle = number(event.actor)
+    share = chance(asked, event, asked.now)
+    belief = None if vehicle is None else asked.world.belief(vehicle, asked.now)
+    if belief is not None:
+        belief = replace(belief, expectations=besides(belief, event))
+    return Verdict(
+        of, None, gap="in-future", believed=() if belief is None else (belief,), probability=share
+    )
+
+
+def _planned(asked: Asked, event: Event) -> float | None:
+    """Tell when [s] our plan comes to an event that has not happened; None where it does not."""
+    found = foreseen(asked, event) if is_us(event.actor) and asked.past is None else None
+    return None if found is None or found.share < 0.5 else max(found.moment, asked.now)
+
+
+def _first_held(of: Proposition, asked: Asked) -> Answer:
+    """Tell when a state or relation held first, of the moments at which we decided."""
+    match of:
+        case Believed(content=Happens(event=event)) if number(event.actor) is not None:
+            return since_when(asked, event)
+        case Related(relation="can-see", thing=thing, to=Vehicle(number=seen)) if is_us(thing):
+            first = first_look(asked, seen, asked.world.begin)
+            if first is not None:
+                sight = Episode(Ego(), "see", first.time, first.time, Vehicle(seen))
+                return Happenings("when", (sight,), Ego(), looks=(first,))
+    about = window(asked)
+    for trace in asked.ride.traces:
+        at = trace.sim_time
+        if not about.begin - SHORT <= at <= about.end:
+            continue
+        moment = replace(of, time=At(at)) if hasattr(of, "time") else of
+        found = weigh(moment, asked)
+        if found.holds:
+            return Verdict(moment, True, found.facts)
+    return Verdict(of, False)
+
+
+def _until(asked: Asked, episode: Episode) -> tuple[Measure, ...]:
+    """Tell when an episode ended, or how long it goes on still."""
+    return (
+        Measure(
+            "duration", episode.actor, episode.begin, value=round(duration(asked, episode), 2),
+            until=episode.end, at_least=episode.end is None,
+        ),
+    )  # fmt: skip
+
+
+def _did(asked: Asked, actor: Ego | Vehicle, about: Window) -> Answer:
+    """Tell what somebody did in a stretch of the ride."""
+    begin, end = max(about.begin, asked.world.begin), min(about.end, asked.now)
+    told = [e for e in asked.world.account(begin, end) if e.actor == actor]
+    told = told or list(asked.world.episodes(actor=actor, begin=begin, end=end))
+    chosen = select(asked, [e for e in told if e.action not in PLAIN] or told, TOLD)
+    looks = taking_part(asked, chosen)
+    if not looks and isinstance(actor, Vehicle):
+        look = first_look(asked, actor.number, begin)
+        looks = () if look is None else (look,)
+    return Happenings("doing", chosen, actor, begin, end, looks=looks)
+
+
+def _several(asked: Asked, who: Sequence[Ego | Vehicle], at: float) -> Answer:
+    """Tell what several are doing: how each looks, with its speed and what it is about."""
+    looks: list[Look] = []
+    facts: list[Fact] = []
+    for actor in who:
+        found = activity(asked, actor, at)
+        looks += [] if found.look is None else [found.look]
+        facts += [*valued(asked.world.measure("speed", actor, at)), *found.doing[-1:]]
+    return Identified(tuple(looks), facts=tuple(facts))

@@ -1,0 +1,244 @@
+"""Verdicts: yes or no questions, and claims checked against the record."""
+
+from dataclasses import replace as refound
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Answer, Beliefs, NeedRollout, Priority, Verdict, Wavered
+from xavi_dialogue.domain.meaning import Claim, HowMuch, Whether, Why
+from xavi_dialogue.domain.terms import (
+    Believed,
+    Caused,
+    Compares,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Measured,
+    Not,
+    Now,
+    Proposition,
+    Quantity,
+    Related,
+    Unsaid,
+    Vehicle,
+    WholeRide,
+)
+from xavi_dialogue.domain.vocabulary import State
+from xavi_dialogue.explain.answers.propositions.conditions import handed
+from xavi_dialogue.explain.answers.propositions.lasting import staying
+from xavi_dialogue.explain.answers.propositions.weighing import weigh
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.findings import Finding
+from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, number
+from xavi_dialogue.explain.answers.reference.occasions import occasion
+from xavi_dialogue.explain.answers.ride.onward import WAYS, whether_ours
+from xavi_dialogue.explain.answers.suppositions.own_suppositions import claimed, claimed_in, of_us
+
+#: Manners that are a matter of opinion: what we did so is met with its reason.
+JUDGED = frozenset(("late", "early", "long"))
+PACES: dict[str, State] = {"fast": "fast", "slowly": "slow"}
+PASSING = frozenset(("pass", "overtake"))
+DRIVING = frozenset(("move", "go", "turn", "exit-left", "exit-right", "enter", "pass"))
+
+
+def whether(question: Whether, asked: Asked) -> Answer:
+    """Tell whether something holds, with what bears it out or is so instead.
+
+    Raises:
+        Unanswered: it is of what is unknown or did not happen; or rollouts are needed.
+    """
+    ours = whether_ours(question, asked)
+    if ours is not None:
+        return ours
+    that = _as_state(_as_it_was(_affirmed(question.that), asked))
+    if (behind := _stays_behind(that, asked)) is not None:
+        return staying(asked, behind)
+    if (why := _disputed(that, asked)) is not None:
+        return why
+    found = _seen_since(that, weigh(that, asked), asked)
+    if question.tag and that != question.that and found.holds and found.answer is None:
+        told = _seen_since(Not(that), found.negated(), asked)
+        return told.verdict(Not(that), claim=True)  # "actually", as "yes" is open
+    if found.holds is False and (kept := _kept_behind(that, found, asked)) is not None:
+        return kept
+    if found.holds is False and isinstance(that, Happens) and "safely" in that.event.manner:
+        that = Happens(replace(that.event, manner=()))  # it has not done so at all
+    return found.answer if found.answer is not None else found.verdict(that)
+
+
+def _kept_behind(that: Proposition, found: Finding, asked: Asked) -> Answer | None:
+    """Tell why we are not going to overtake, where it is asked whether we are."""
+    match that:
+        case Happens(event=Event(action="overtake", actor=Ego(), tense="future") as event):
+            reason = Why(Not(Happens(replace(event, tense="present", modal=None, time=Now()))))
+            try:
+                return handed(reason, asked) if not found.facts else None
+            except Unanswered as unanswered:
+                if isinstance(unanswered.result, NeedRollout):
+                    raise
+    return None
+
+
+def _stays_behind(that: Proposition, asked: Asked) -> Vehicle | None:
+    """Find the vehicle ahead behind which we are asked to be about to stay."""
+    match that:
+        case Happens(
+            event=Event(action="follow", actor=Ego(), object=Vehicle() as leader) as event
+        ):
+            if event.modal not in (None, "will", "want"):
+                return None
+            lasts = "long" in event.manner or isinstance(event.time, WholeRide)
+            onward = event.tense == "future" or (event.tense == "present" and lasts)
+            look = asked.world.look(leader.number, asked.now)
+            ahead = look is not None and look.in_view and not look.oncoming and look.ahead > 0.0
+            over = asked.past is not None and event.tense == "present"
+            return leader if onward and ahead and not over else None
+    return None
+
+
+def _as_it_was(that: Proposition, asked: Asked) -> Proposition:
+    """Take overtaking of somebody who stood or came towards us for driving past."""
+    if not isinstance(that, Happens) or that.event.action != "overtake":
+        return that
+    world, passed = asked.world, replace(that.event, action="pass")
+    if world.holds(that.event, world.begin, asked.now):
+        return that
+    return Happens(passed) if world.holds(passed, world.begin, asked.now) else that
+
+
+def _as_state(that: Proposition) -> Proposition:
+    """Take "he is going too fast" for what it says of him: that he is fast."""
+    match that:
+        case Not(content=content):
+            return replace(that, content=_as_state(content))
+        case Happens(event=event) if event.action in PASSING and "fast" in event.manner:
+            return Happens(replace(event, manner=()))  # "he shot past"
+        case Happens(event=event) if event.action in ("go", "move") and event.modal is None:
+            state = next((PACES[m] for m in event.manner if m in PACES), None)
+            if state is not None and (state == "fast" or not is_us(event.actor)):
+                return Is(state, event.actor, time=event.time, tense=event.tense)
+    return that
+
+
+def _affirmed(that: Proposition) -> Proposition:
+    """Take the negation and "do you think" off a question: "yes" affirms the fact as such."""
+    while (isinstance(that, Not) and not that.lexical) or (
+        isinstance(that, Believed)
+        and that.tense == "present"
+        and isinstance(that.time, Unsaid | Now)
+    ):
+        that = that.content
+    return that
+
+
+def claim(act: Claim, asked: Asked) -> Answer:
+    """Tell whether a claim is right: agreed, denied with what was so, or not to be told.
+
+    Raises:
+        Unanswered: it is of what is unknown, or rollouts are needed.
+    """
+    act = replace(act, that=_as_state(act.that))
+    if (why := _disputed(act.that, asked) or _our_way(act.that, asked)) is not None:
+        return why
+    if (wavering := _wavered(act.that, asked)) is not None:
+        return wavering
+    found = _seen_since(act.that, weigh(act.that, asked), asked)
+    if isinstance(found.answer, Priority):
+        return replace(found.answer, claim=True)
+    if isinstance(found.answer, Beliefs):
+        return found.answer
+    if found.answer is not None and (found.holds is None or _own_type(act.that)):
+        return found.answer
+    return _checked(found, act)
+
+
+def _wavered(that: Proposition, asked: Asked) -> Answer | None:
+    """Tell why we gave up a plan, where we are said to be undecided, or to start and stop."""
+    match that:
+        case Happens(event=Event(action="change-plan", actor=Ego(), modal=None) as event):
+            pass
+        case Happens(
+            event=Event(
+                action="go" | "move", actor=Ego(), then=Event(action="stop" | "brake")
+            ) as event
+        ):
+            pass
+        case _:
+            return None
+    changed = replace(event, action="change-plan", time=Unsaid(), then=None)
+    try:
+        found = handed(Why(Happens(changed)), asked)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    return replace(found, claim=True) if isinstance(found, Wavered) else None
+
+
+def _our_way(that: Proposition, asked: Asked) -> Answer | None:
+    """Tell our way, where it is said which way we were or were not meant to go."""
+    content = that.content if isinstance(that, Not) else that
+    match content:
+        case Happens(event=Event(actor=Ego(), modal="should" | "must") as event) if (
+            event.action in WAYS or event.action == "leave"
+        ):
+            meant = replace(event, tense="present", modal=None, time=Unsaid())
+            found = whether_ours(Whether(Happens(meant)), asked)
+            return None if found is None else replace(found, holds=None)
+    return None
+
+
+def _disputed(that: Proposition, asked: Asked) -> Answer | None:
+    """Give the reason for what we did that is said to be late, early or long, or what it cost."""
+    match that:
+        case Not(content=Happens(event=Event(modal="should" | "would") as event)) if is_us(
+            event.actor
+        ):  # "I would not have stopped there"
+            done = replace(event, modal=None, tense="past", time=Unsaid())
+            return handed(Why(Happens(done)), asked) if occasion(asked, done) else None
+        case Happens(event=event) if event.modal is None and is_us(event.actor):
+            slow = "slowly" in event.manner and event.action in DRIVING
+            judged = bool(set(event.manner) & JUDGED) and occasion(asked, event) is not None
+            return handed(Why(that), asked) if slow or judged else None
+        case Compares(left=Measured(attribute="delay") as left, right=None | Quantity(unit="s")):
+            return claimed(_cost(HowMuch(left), asked), claimed_in(that))
+        case Compares(left=Measured(attribute="duration") as left, right=None):
+            timed = number(left.thing) is not None
+            return _cost(HowMuch(replace(left, attribute="delay")), asked) if timed else None
+    return None
+
+
+def _cost(question: HowMuch, asked: Asked) -> Answer:
+    """Tell what something cost in time, where it is said or asked whether it cost any."""
+    # Deferred: measures may themselves be of what holds.
+    from xavi_dialogue.explain.answers.propositions.measures import how_much
+
+    event = question.of.event
+    if event is not None and event.modal in ("would", "could"):
+        return of_us(event, asked, "quicker")
+    return how_much(question, asked)
+
+
+def _seen_since(that: Proposition, found: Finding, asked: Asked) -> Finding:
+    """Put when we first saw a vehicle in the place of where it is, where seeing it is denied."""
+    match that:
+        case Not(content=Related(relation="can-see", to=Vehicle(number=vehicle))):
+            first = first_look(asked, vehicle, asked.world.begin)
+            if first is not None and found.holds is False:
+                return refound(found, facts=(first,))
+    return found
+
+
+def _checked(found: Finding, act: Claim) -> Verdict:
+    return found.verdict(act.that, claim=True, challenge=act.challenge)
+
+
+def _own_type(that: Proposition) -> bool:
+    """Tell whether an answer of another type replies to such a claim better than a verdict does."""
+    content = that.content if isinstance(that, Not) else that
+    if isinstance(content, Caused):
+        return True
+    if isinstance(content, Is):
+        return content.state not in ("right", "wrong")
+    return not isinstance(content, Happens)

@@ -1,0 +1,290 @@
+"""Weighing: a proposition of any kind against the record."""
+
+from collections.abc import Iterable
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Measures, Priority, Verdict
+from xavi_dialogue.domain.facts import Fact, Look, Measure, Relating
+from xavi_dialogue.domain.meaning import Whither, Why
+from xavi_dialogue.domain.terms import (
+    Believed,
+    Both,
+    Caused,
+    Compares,
+    Event,
+    Exists,
+    Happens,
+    Has,
+    Is,
+    Measured,
+    Nobody,
+    Not,
+    Proposition,
+    Related,
+    That,
+    Thing,
+    Time,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.domain.vocabulary import Relation
+from xavi_dialogue.explain.answers.events.beliefs import foreknown, time_of
+from xavi_dialogue.explain.answers.events.happens import happens
+from xavi_dialogue.explain.answers.expectations.foreseen import macros
+from xavi_dialogue.explain.answers.propositions.comparisons import compares, has
+from xavi_dialogue.explain.answers.propositions.conditions import condition, handed
+from xavi_dialogue.explain.answers.propositions.duties import duty, is_owed, of_order, who_first
+from xavi_dialogue.explain.answers.propositions.halting import stop_or_go
+from xavi_dialogue.explain.answers.propositions.measures import values
+from xavi_dialogue.explain.answers.propositions.relations import related
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.findings import Finding, unknown
+from xavi_dialogue.explain.answers.reference.moments import instant, is_past
+from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, number
+from xavi_dialogue.explain.answers.reference.occasions import occasion
+from xavi_dialogue.explain.answers.ride.conduct import conduct
+from xavi_dialogue.explain.answers.ride.existing import exists
+from xavi_dialogue.explain.answers.ride.places import locate, whither
+from xavi_dialogue.explain.answers.suppositions.pulling_up import pulls_up
+from xavi_dialogue.explain.history.ride import planned
+
+#: Where a thing is from another one.
+BEARINGS: frozenset[Relation] = frozenset(
+    ("ahead-of", "behind", "left-of", "right-of", "beside", "oncoming-to")
+)
+
+
+def weigh(of: Proposition, asked: Asked) -> Finding:
+    """Weigh a proposition against the record.
+
+    Raises:
+        Unanswered: it is of what is unknown or did not happen; or rollouts are needed.
+    """
+    match of:
+        case Happens(event=event):
+            owed = pulls_up(asked, event) or duty(asked, event) or conduct(asked, event)
+            return owed or happens(of, asked)
+        case Related(thing=Nobody(described=None)):
+            return _nobody(of, asked)
+        case Related():
+            return related(of, asked)
+        case Is():
+            return condition(of, asked)
+        case Has():
+            return has(of, asked)
+        case Compares():
+            return compares(of, asked)
+        case Exists():
+            return exists(of, asked)
+        case Caused():
+            return _caused(of, asked)
+        case Believed():
+            return _believed(of, asked)
+        case Not():
+            return _contrary(weigh(of.content, asked))
+        case Both():
+            return _joined(of, asked)
+        case That():
+            return unknown("not-recorded")
+
+
+def _nobody(of: Related, asked: Asked) -> Finding:
+    """Tell whether nobody stands in a relation, or who does."""
+    at = instant(asked, of.time, of.tense)
+    each = [related(replace(of, thing=Vehicle(v)), asked) for v in asked.world.in_view(at)]
+    seen = [fact for one in each if one.holds for fact in one.facts if isinstance(fact, Look)]
+    if not seen:
+        return Finding(True)
+    nearest = min(seen, key=lambda look: look.distance)
+    there = Not(replace(of, thing=Vehicle(nearest.vehicle)))
+    return Finding(False, answer=Verdict(there, False, (nearest,), claim=True))
+
+
+def _contrary(found: Finding) -> Finding:
+    return found.negated() if found.holds is not None or found.answer is None else found
+
+
+def _joined(of: Both, asked: Asked) -> Finding:
+    """Give several together: all must hold, or one of them."""
+    if len(set(of.contents)) == 1:
+        return weigh(of.contents[0], asked)
+    if (feared := _feared(of, asked)) is not None:
+        return weigh(feared, asked)
+    if of.join == "or" and (halting := stop_or_go(of, asked)) is not None:
+        return halting
+    if of.join == "or" and (first := of_order(of)) is not None:
+        rule = who_first(asked, first)
+        if rule is not None and (rule.rule != "none" or rule.vehicle is not None):
+            return Finding(None, answer=replace(rule, holds=None))
+    owed = next((part for part in of.contents if is_owed(part)), None)
+    if owed is not None:  # the rule decides, also over what goes with it
+        return _open_to_all(weigh(owed, asked)) if of.join == "or" else weigh(owed, asked)
+    if of.join == "or" and (chosen := either(of, asked)) is not None:
+        return chosen
+    found = [weigh(part, asked) for part in of.contents]
+    holds = [one.holds for one in found]
+    failing = [(p, one) for p, one in zip(of.contents, found, strict=True) if one.holds is False]
+    if of.join == "and" and len(failing) == 1:  # what is not so is what makes it false
+        part, one = failing[0]
+        return Finding(False, one.facts, answer=one.answer or one.verdict(part))
+    decided = of.join != "and"
+    whole = decided if decided in holds else (None if None in holds else not decided)
+    told = [one for one in found if of.join == "and" or one.holds or whole is not True]
+    deeds = whole is False and all(isinstance(part, Happens) for part in of.contents)
+    facts = () if deeds else _told_once(fact for one in told for fact in one.facts)
+    gap = next((one.gap for one in found if one.gap is not None), None) if whole is None else None
+    believed = tuple(belief for one in told for belief in one.believed)
+    return Finding(whole, facts, gap, believed, any(one.mistaken for one in told))
+
+
+def _feared(of: Both, asked: Asked) -> Proposition | None:
+    """Find the collision that is asked about beside what comes before it or instead of it."""
+    for part in of.contents:
+        match part:
+            case Happens(event=Event(action="collide" | "nearly-collide") as event) if not is_past(
+                asked, event.time, event.tense
+            ):
+                return part
+    return None
+
+
+def _told_once(facts: Iterable[Fact]) -> tuple[Fact, ...]:
+    """Leave out what the clauses deny by themselves, and where a vehicle is a second time."""
+    found: dict[object, Fact] = {}
+    for fact in facts:
+        if isinstance(fact, Relating) and not fact.holds:
+            continue
+        of_place = isinstance(fact, Measure) and fact.attribute in ("distance", "gap")
+        key = isinstance(fact, Look) or of_place
+        found.setdefault("place" if key else fact, fact)
+    return tuple(found.values())
+
+
+def _open_to_all(found: Finding) -> Finding:
+    """Leave out yes or no: it was asked which of several holds."""
+    if not isinstance(found.answer, Priority):
+        return found
+    return Finding(None, answer=replace(found.answer, holds=None))
+
+
+def either(of: Both, asked: Asked) -> Finding | None:
+    """Tell which of several holds: a place or a value as such, else the one that does.
+
+    None where none of them does, or it cannot be told.
+    """
+    first = of.contents[0] if of.contents else None
+    match first:
+        case Related(thing=Vehicle()) if all(_placed(p, first.thing) for p in of.contents):
+            if not is_past(asked, first.time, first.tense):
+                return Finding(None, answer=locate(asked, first.thing, asked.now))
+        case Has() if all(_alike(part, first) for part in of.contents):
+            measured = Measured(first.attribute, first.thing, time=first.time, tense=first.tense)
+            return Finding(None, answer=Measures(values(asked, measured)))
+    found = [(part, weigh(part, asked)) for part in of.contents]
+    if isinstance(first, Compares) and all(one.holds is False for _, one in found):
+        same = replace(first, comparator="same")  # "is it shrinking or growing?"
+        told = Finding(True, found[0][1].facts)
+        return Finding(True, told.facts, answer=replace(told.verdict(same), either=True))
+    likely = [(p, one) for p, one in found if one.holds]
+    deeds = {part.event.action for part, _ in likely if isinstance(part, Happens)}
+    if len(likely) > 1 and len(likely) == len(found) and len(deeds) == 1:
+        both = replace(of, join="and")
+        return Finding(True, answer=replace(Finding(True).verdict(both), either=True))
+    if len(likely) != 1:
+        return _way_of(of, asked)
+    part, one = likely[0]
+    answer = one.answer or replace(one.verdict(part), either=True)
+    return Finding(True, one.facts, answer=answer)
+
+
+def _way_of(of: Both, asked: Asked) -> Finding | None:
+    """Tell where another vehicle is going, where it is asked which of several ways it takes."""
+    events = [part.event for part in of.contents if isinstance(part, Happens)]
+    ahead = all(event.tense in ("present", "future") for event in events)
+    actors = {event.actor for event in events}
+    actor = next(iter(actors), None)
+    if len(events) < len(of.contents) or len(actors) != 1 or not ahead or asked.past is not None:
+        return None
+    if not isinstance(actor, Vehicle):
+        return None
+    return Finding(None, answer=whither(Whither(actor), asked))
+
+
+def _placed(of: Proposition, thing: Thing) -> bool:
+    """Tell whether it is where a thing is from us."""
+    return isinstance(of, Related) and of.relation in BEARINGS and of.thing == thing
+
+
+def _alike(of: Proposition, first: Has) -> bool:
+    return isinstance(of, Has) and (of.attribute, of.thing) == (first.attribute, first.thing)
+
+
+def _caused(of: Caused, asked: Asked) -> Finding:
+    """Tell whether it is because of that: the causal explainers know."""
+    effect = of.effect if of.effect is not None else That()
+    suspect = _suspect(of)
+    answer = handed(Why(effect, suspect=suspect), asked)
+    if answer is not None:
+        return Finding(None, answer=answer)
+    return unknown("not-recorded")
+
+
+def _suspect(of: Caused) -> Thing | None:
+    """Tell who is taken for the cause: of a fact, whoever it is about."""
+    match of.cause:
+        case Happens(event=event):
+            return event.actor
+        case Related(thing=thing):
+            return thing
+        case Is(thing=thing) | Exists(thing=thing):
+            return thing
+        case Has(thing=thing):
+            return thing
+        case Compares(left=left):
+            return left.thing
+        case Caused() | Believed() | Not() | Both() | That():
+            return None
+    return of.cause
+
+
+def _believed(of: Believed, asked: Asked) -> Finding:
+    """Tell whether we believed something: by the probability that it had for us then."""
+    content, negated = of.content, False
+    while isinstance(content, Not):
+        content, negated = content.content, not negated
+    found = _held(of, content, asked)
+    return found.negated() if negated else found
+
+
+def _held(of: Believed, content: Proposition, asked: Asked) -> Finding:
+    time = of.time if not isinstance(of.time, Unsaid) else time_of(content)
+    match content:
+        case Happens(event=event) if number(event.actor) is not None and event.action != "see":
+            return foreknown(asked, event, time)
+        case Happens(event=event) if is_us(event.actor) and macros(event):
+            return _planned(asked, event, time)
+        case Exists(thing=thing) | Is(thing=thing, state="present" | "visible"):
+            if number(thing) is not None:
+                return _saw(asked, number(thing) or 0, time)
+    return weigh(content, asked)
+
+
+def _planned(asked: Asked, event: Event, time: Time) -> Finding:
+    """Tell whether we meant to do something at that time."""
+    at = instant(asked, time, "past")
+    trace = asked.ride.at(at)
+    if trace is None:
+        return unknown("before-record")
+    meant = any(step in macros(event) for step in planned(trace))
+    done = occasion(asked, event)
+    return Finding(meant, () if done is None else (done,))
+
+
+def _saw(asked: Asked, vehicle: int, time: Time) -> Finding:
+    """Tell whether we knew of a vehicle, and since when."""
+    at = instant(asked, time, "past")
+    first = first_look(asked, vehicle, asked.world.begin)
+    if first is None:
+        return Finding(False)
+    return Finding(first.time <= at, (first,))

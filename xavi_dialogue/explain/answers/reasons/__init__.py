@@ -1,0 +1,1 @@
+"""Why we, or other vehicles, did or did not do something."""

@@ -1,0 +1,318 @@
+"""Knowing: on what evidence something is believed, how sure the car is, and how it decides."""
+
+from itertools import pairwise
+
+from msgspec.structs import replace
+
+from planner.record.trace import PlanTrace
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Beliefs,
+    Certainty,
+    Method,
+    NeedRollout,
+    NotRecorded,
+    Priority,
+    Verdict,
+)
+from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.facts import Belief, Episode
+from xavi_dialogue.domain.meaning import HowDecide, HowKnow, HowSure
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Now, Proposition, Related, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.events.beliefs import ruled, since_when
+from xavi_dialogue.explain.answers.expectations.foreseen import besides, chance, collision_chance
+from xavi_dialogue.explain.answers.measuring.closeness import assured
+from xavi_dialogue.explain.answers.measuring.nearing import BEFORE_US, POSSIBLE, comes_before
+from xavi_dialogue.explain.answers.reasons import choices, others
+from xavi_dialogue.explain.answers.reasons.motions import motion
+from xavi_dialogue.explain.answers.reference import foils
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.moments import Window, window
+from xavi_dialogue.explain.answers.reference.reading import (
+    check_seen,
+    event_of,
+    foil_subject,
+    is_own,
+    is_past,
+    subject,
+    unwrapped,
+    vehicle_in,
+)
+from xavi_dialogue.explain.answers.ride.priority import priority_at, right_of_way
+from xavi_dialogue.explain.causes.plans import certainty, options
+from xavi_dialogue.explain.causes.plans.premise import Premise, about_foil, premise
+from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, EXITS, HALTS, YIELDS, to_macros
+from xavi_dialogue.explain.causes.vehicles.conduct import (
+    belief_of,
+    conduct_names,
+    last_with,
+    probability,
+)
+from xavi_dialogue.explain.causes.vehicles.grounds import grounds
+from xavi_dialogue.explain.history.ride import prediction
+
+COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
+SPEEDS = frozenset[ActionName](("brake", "slow-down", "speed-up"))
+FORESEEN = 12.0  # [s] within which what came is what was foreseen
+MOVED = 0.05  # of probability, from which a belief has moved
+
+
+def how_know(question: HowKnow, scene: Asked) -> Answer:
+    """Tell on what evidence something was believed or decided.
+
+    Of another vehicle, how the belief grew; of a deed of ours, how we came to expect what the
+    vehicle would do because of which we did it, else how we decided.
+
+    Raises:
+        Unanswered: nothing was believed of it; or the record lacks it.
+    """
+    of, _ = unwrapped(question.of)
+    if isinstance(of, Related) and of.relation in ("has-priority-over", "must-yield-to"):
+        about = window(scene, of.time, of.tense)
+        return replace(right_of_way(scene, of.thing, of.to, about), grounds=True)
+    event = event_of(of)
+    vehicle = _whom(scene, of, event)
+    yields = event is not None and event.action in YIELDS | {"wait"}
+    if vehicle is not None and event is not None and yields:
+        return since_when(scene, event)
+    if event is not None and event.action in COLLIDING and not is_past(scene, event):
+        return assured(scene, vehicle or vehicle_in(event.object))
+    if event is not None and vehicle is not None and event.action in BEFORE_US:
+        told = comes_before(scene, event)
+        open_ = told is not None and (told.probability is None or told.probability >= POSSIBLE)
+        if told is not None and open_:
+            return told.answer or told.verdict(Happens(event))
+        return assured(scene, vehicle)
+    if vehicle is not None:
+        names = () if event is None else conduct_names(event)
+        held = event is None or event.modal == "would" or not isinstance(event.time, Now)
+        return grounds(scene.ride, vehicle, names, scene.moment, held=held)
+    rule = None if event is None else _owed(event, scene)
+    if rule is not None:
+        return rule
+    held_up = None if event is None else _because_of(event, scene)
+    if held_up is not None:
+        return grounds(scene.ride, held_up, (), scene.moment)
+    return how_decide(HowDecide(of), scene)
+
+
+def how_sure(question: HowSure, scene: Asked) -> Answer:
+    """Tell how probable the car holds something, or how sure it was of what it did.
+
+    Raises:
+        Unanswered: the record lacks it.
+    """
+    of, negated = unwrapped(question.of)
+    if isinstance(of, Related) and of.relation == "has-priority-over":
+        rule = ruled(scene, of)
+        if rule is not None:
+            return rule
+    event = event_of(of)
+    vehicle = _whom(scene, of, event)
+    if vehicle is not None and event is not None and _stays(event, vehicle, scene):
+        return others.why(Event("stand", Vehicle(vehicle), tense="present"), scene, negated=False)
+    if vehicle is not None:
+        of_it = event is not None and event.action != "do"
+        found = beliefs(scene, vehicle, event if of_it else None)
+        off = negated and event is not None and event.action in ("go", "move")
+        if off and found.probability is not None:  # "that it would not move off"
+            stays = replace(event, action="stand") if event is not None else None
+            found = replace(found, of=stays, probability=1.0 - found.probability, besides=())
+        return replace(found, changed=question.changed)
+    if event is not None and event.action in ("collide", "nearly-collide"):
+        struck = vehicle_in(event.object)
+        share = collision_chance(scene, scene.moment, struck)
+        if struck is not None:
+            event = replace(event, actor=Vehicle(struck), object=Ego())
+        return Verdict(Happens(event), None, probability=share, either=True)
+    return certain(scene, event, negated=negated)
+
+
+def _stays(event: Event, vehicle: int, scene: Asked) -> bool:
+    """Tell whether it is asked if one that stands now goes on standing: what for tells that."""
+    here = event.action in HALTS and not is_past(scene, event)
+    return here and scene.ride.motion(vehicle).trend == "standing"
+
+
+def certain(scene: Asked, event: Event | None, *, negated: bool) -> Certainty:
+    """Tell how surely a deed was better than the best alternative, or the plan goes well.
+
+    Raises:
+        Unanswered: the deed did not happen, or the record lacks it.
+    """
+    ride = scene.ride
+    if event is None and scene.past is None:
+        found = Premise(ride.latest, None)
+        chosen = certainty.of_choice(ride, options.free(ride, found))
+        return chosen or certainty.of_plan(ride, found)
+    if event is not None and (negated or event.modal == "would"):  # what was not done
+        about = foil_subject(scene, event)
+        names = foils.settled(scene, event)[:1]
+        found = about_foil(ride, about, names)
+        foil = to_macros(ride.model(found.trace), names, found.node)
+        return certainty.of_choice(ride, found, foil) or certainty.of_plan(ride, found)
+    if event is not None and not choices.is_choice(event):
+        found = Premise(_trace_at(scene), None)
+        if event.action in SPEEDS:  # no option of its own: it comes of the plan
+            return certainty.of_plan(ride, found)
+    else:
+        found = premise(ride, subject(scene, event))
+    return certainty.of_choice(ride, found) or certainty.of_plan(ride, found)
+
+
+def _in_order(rows: tuple[Belief, ...]) -> tuple[Belief, ...]:
+    return tuple(sorted(rows, key=lambda belief: belief.time))
+
+
+def _held(scene: Asked, vehicle: int, event: Event, trace: PlanTrace) -> float:
+    """Tell how probable conduct was for a decision, as when it is asked whether it comes."""
+    found = chance(scene, replace(event, actor=Vehicle(vehicle)), trace.sim_time)
+    if found is not None:
+        return found
+    return probability(scene.ride, trace, vehicle, conduct_names(event))
+
+
+def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
+    """Tell what was believed of a vehicle, how it moved, and what came of it.
+
+    Raises:
+        Unanswered: no decision expects anything of it.
+    """
+    ride, at = scene.ride, scene.moment
+    known = [t for t in ride.traces if prediction(t, vehicle) is not None]
+    if not known:
+        raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=at))
+    names = () if event is None else conduct_names(event)
+    trace = last_with(ride, vehicle, at) if known[0].sim_time <= at else known[0]
+    rows = [belief_of(ride, t, vehicle) for t in known]
+    current = belief_of(ride, trace, vehicle)
+    chances = [0.0 if event is None else _held(scene, vehicle, event, t) for t in known]
+    moved = _moved(rows, chances, asked=bool(names))
+    told = _turning(rows, chances, asked=bool(names))
+    done = () if event is None else scene.world.holds(event, 0.0, scene.now)
+    return Beliefs(
+        vehicle=vehicle,
+        of=event,
+        history=moved if current in moved else _in_order((*moved, current)),
+        probability=None if event is None else _held(scene, vehicle, event, trace),
+        time=trace.sim_time,
+        why=None if told is None else _meanwhile(scene, vehicle, told),
+        turning=told,
+        came=done[-1] if done else _went(scene, vehicle, trace.sim_time, names),
+        besides=() if event is None else besides(current, event),
+    )
+
+
+def how_decide(question: HowDecide, scene: Asked) -> Answer:
+    """Tell what was compared at a decision, and on how many situations it rests.
+
+    Raises:
+        Unanswered: what the question names did not happen; or there is too little evidence.
+    """
+    event = event_of(question.of)
+    ride = scene.ride
+    if event is not None and is_own(event.actor) and not choices.is_choice(event):
+        found = Premise(_trace_at(scene), None)
+    else:
+        found = premise(ride, subject(scene, event if event and is_own(event.actor) else None))
+    found = options.free(ride, found)
+    count = len(found.trace.predictions)
+    rows, rests_on = options.weighed(ride, found), options.situations(found)
+    tried = len(ride.model(found.trace).options(found.node))
+    return Method(found.trace.sim_time, rows, rests_on, count, tried)
+
+
+def _trace_at(scene: Asked) -> PlanTrace:
+    return scene.ride.at(scene.moment) or scene.ride.latest
+
+
+def _whom(scene: Asked, of: Proposition | None, event: Event | None) -> int | None:
+    """The other vehicle that a proposition is about."""
+    if event is not None:
+        return check_seen(scene, event.actor)
+    thing = getattr(of, "thing", None)
+    found = check_seen(scene, thing)
+    return found if found is not None else vehicle_in(getattr(of, "to", None))
+
+
+def _owed(event: Event, scene: Asked) -> Priority | None:
+    """Give the right of way for which we gave way, or waited; None: it was not for that."""
+    whom = vehicle_in(event.object)
+    if event.action not in YIELDS | {"wait"} or not is_own(event.actor):
+        return None
+    about = scene.past or Span(scene.now, scene.now)
+    try:
+        found = priority_at(scene, whom, Window(about.begin, about.end))
+    except Unanswered:
+        return None
+    return found if found.rule == "give-way" else None
+
+
+def _because_of(event: Event, scene: Asked) -> int | None:
+    """Because of whom we chose to do so, or drove so.
+
+    Raises:
+        Unanswered: rollouts are needed.
+    """
+    whom = vehicle_in(event.object)
+    if whom is not None and event.action in HALTS | YIELDS:
+        return whom
+    try:
+        choice = choices.is_choice(event)
+        found = choices.why(event, scene) if choice else motion(event, scene)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    against = getattr(found, "contrast", None)
+    causes = getattr(found, "causes", ()) if against is None else against.causes
+    return next((cause.vehicle for cause in causes if cause.vehicle), None)
+
+
+def _moved(rows: list[Belief], chances: list[float], *, asked: bool) -> tuple[Belief, ...]:
+    """The beliefs where they moved, the first and the last."""
+    kept: list[int] = []
+    for k, row in enumerate(rows):
+        if kept and k < len(rows) - 1:
+            before = rows[kept[-1]]
+            same = abs(chances[k] - chances[kept[-1]]) < MOVED if asked else _alike(before, row)
+            if same:
+                continue
+        kept.append(k)
+    return tuple(rows[k] for k in kept)
+
+
+def _alike(one: Belief, other: Belief) -> bool:
+    if not one.expectations or not other.expectations:
+        return one.expectations == other.expectations
+    first, second = one.expectations[0], other.expectations[0]
+    return first.actions == second.actions and abs(first.probability - second.probability) < MOVED
+
+
+def _turning(
+    rows: list[Belief], chances: list[float], *, asked: bool
+) -> tuple[float, float] | None:
+    """Between which decisions [s] the belief moved most."""
+    values = chances if asked else [r.expectations[0].probability for r in rows if r.expectations]
+    steps = [abs(b - a) for a, b in pairwise(values)]
+    best = max(range(len(steps)), key=lambda k: steps[k], default=None)
+    if best is None or steps[best] < MOVED or len(values) != len(rows):
+        return None
+    return rows[best].time, rows[best + 1].time
+
+
+def _meanwhile(scene: Asked, vehicle: int, told: tuple[float, float]) -> Episode | None:
+    """What a vehicle did while the belief moved."""
+    seen = scene.world.episodes(Vehicle(vehicle), begin=told[0], end=told[1])
+    real = [e for e in seen if e.action not in ("appear", "disappear", "follow", "move")]
+    return real[-1] if real else None
+
+
+def _went(
+    scene: Asked, vehicle: int, since: float, names: tuple[ActionName, ...]
+) -> Episode | None:
+    """Where a vehicle went after a time [s], or to which lane where that was asked about."""
+    kinds = CHANGES if set(names) & set(CHANGES) else EXITS
+    found = scene.world.episodes(Vehicle(vehicle), tuple(kinds), begin=since)
+    return next((one for one in found if since <= one.begin <= since + FORESEEN), None)

@@ -1,0 +1,332 @@
+"""Motions: why we slowed, stood, waited, gave way, drove slowly or fast, or stayed behind."""
+
+import dataclasses
+
+from msgspec.structs import replace
+
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import (
+    Answer,
+    ChoiceReason,
+    Contrast,
+    DidNotHappen,
+    MotionCause,
+    MotionReason,
+    NeedRollout,
+    NotRecorded,
+)
+from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Compares, Ego, Event, Measured
+from xavi_dialogue.domain.vocabulary import ActionName, Manner
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.reading import is_own, is_past, vehicle_in
+from xavi_dialogue.explain.causes.driving.driving import Reasons, as_of, reasons_for
+from xavi_dialogue.explain.causes.driving.roadside import limit_at, setting_off
+from xavi_dialogue.explain.causes.driving.slowness import AT_LIMIT, Slowness, slowness, with_nearest
+from xavi_dialogue.explain.causes.plans.natural import stopping
+from xavi_dialogue.explain.causes.plans.premise import episode_of
+from xavi_dialogue.explain.causes.plans.terms import RISK
+from xavi_dialogue.explain.causes.vehicles import when
+from xavi_dialogue.explain.history.nearing import speed_at
+from xavi_dialogue.explain.history.ride import chose
+
+SLOWING: tuple[ActionName, ...] = ("slow-down", "brake")
+#: What was done, by what it may be called; the first of several rows that has an episode counts,
+#: and from the second on the question did not call it what it was.
+KINDS: dict[ActionName, tuple[tuple[ActionName, ...], ...]] = {
+    "slow-down": (SLOWING, ("stop", "stand")),
+    "brake": (SLOWING, ("stop", "stand")),
+    "stop": (("stop", "stand"), SLOWING),
+    "stand": (("stop", "stand"), SLOWING),
+    "wait": (("wait", "give-way", "stop", "stand"), SLOWING),
+    "give-way": (("give-way",), ("wait", "stop"), SLOWING),
+    "let-go": (("give-way",), ("wait", "stop"), SLOWING),
+    "speed-up": (("speed-up", "go"),),
+    "block": (("stop", "stand"), SLOWING),
+    "avoid": (SLOWING, ("stop", "stand")),
+}
+STILL: tuple[ActionName, ...] = ("stop", "stand")
+FREE = frozenset(("limit", "plan", "starting"))  # kinds of reasons by which nothing is in our way
+STANDING = 0.3  # [m/s]
+CREEPING = 2.5  # [m/s] down to which one has not stopped
+RISKY = 0.05  # risk of a collision by which driving on is worse where somebody is in the way too
+BEGUN = 0.3  # [s] after which the decision that led to it was in force
+WIDER = 4.0  # [s] around a moment in which what began or ended is meant by it
+
+
+def motion(event: Event, scene: Asked, *, asked: ActionName | None = None) -> Answer:
+    """Tell why we drove as an event says.
+
+    Raises:
+        Unanswered: we did not; or the record lacks it; or rollouts are needed.
+    """
+    named = asked or event.action
+    rows = KINDS.get(named, (SLOWING,))
+    present = not is_past(scene, event)
+    for rank, kinds in enumerate(rows):
+        deed = _episode(scene, event, kinds, present=present)
+        if deed is not None:
+            return _told(scene, event, deed, named, premise=rank == 0)
+    if present and named != "speed-up":
+        return _state(scene, event, named)
+    raise _denied(scene, event, rows)
+
+
+def along_lane(event: Event, scene: Asked) -> MotionReason | None:
+    """Tell that our lane runs to a side, where it is asked why we bore to it; None of others."""
+    if event.action != "swerve":
+        return None
+    made = scene.world.episodes(Ego(), ("swerve", "change-left", "change-right"))
+    meant = [e for e in made if event.side in (None, e.side)]
+    deed = scene.pick(sorted(meant, key=lambda e: e.begin), lambda e: (e.begin, e.end))
+    if deed is None or deed.action != "swerve":
+        return None
+    return MotionReason(deed, (MotionCause("lane"),), asked="swerve", past=is_past(scene, event))
+
+
+def is_our_speed(of: Compares) -> bool:
+    """Tell whether our own speed is compared."""
+    right = isinstance(of.right, Measured) and is_own(of.right.thing)
+    return of.left.attribute == "speed" and (is_own(of.left.thing) or right)
+
+
+def is_slowing(scene: Asked) -> bool:
+    """Tell whether we are slowing down, and still drive."""
+    found = scene.world.episodes(Ego(), SLOWING)
+    speed = speed_at(scene.ride, scene.now)
+    return any(e.end is None for e in found) and speed is not None and speed >= STANDING
+
+
+def standing_or_slow(scene: Asked, event: Event | None = None) -> Answer:
+    """Tell why we stand, where we do; else why we drive no faster.
+
+    Raises:
+        Unanswered: the record lacks it; or rollouts are needed.
+    """
+    time = _time(scene, event)
+    speed = speed_at(scene.ride, time)
+    if speed is not None and speed < STANDING:
+        return motion(Event("stand", tense="present"), scene, asked="stand")
+    return slow(scene, event=event)
+
+
+def _time(scene: Asked, event: Event | None) -> float:
+    """When [s] a state is asked about: now in the present, or where what is asked of goes on."""
+    if event is not None and event.tense == "present":
+        return scene.now
+    past = scene.past
+    perfect = event is not None and event.tense == "perfect"
+    if past is not None and perfect and (not past.said or past.end >= scene.now - when.RECENT):
+        return scene.now
+    return scene.moment
+
+
+def slow(scene: Asked, manner: Manner = "slowly", event: Event | None = None) -> Answer:
+    """Tell why we drive, or drove, no faster: the state, not slowing down.
+
+    Raises:
+        Unanswered: the record lacks it; or rollouts are needed.
+    """
+    found = slowness(scene.ride, scene.world, _time(scene, event))
+    speed = found.deed.speed_to
+    found = _picking_up(scene, found)
+    rising = found.reasons.causes[:1] == (MotionCause("picking-up"),)
+    if (
+        not rising
+        and found.is_slow is not False
+        and not any(cause.vehicle for cause in found.reasons.causes)
+    ):
+        found = _slowed_for(scene, found)
+    if speed is not None and speed < STANDING and manner == "slowly":
+        return standing_or_slow(scene)
+    return MotionReason(
+        deed=found.deed,
+        causes=with_nearest(scene.ride, scene.world, found.reasons.causes, found.deed.begin),
+        premise=manner != "slowly" or found.is_slow is not False,
+        asked="move",
+        evidence=found.reasons.evidence,
+        manner=manner,
+        limit=found.limit,
+        cleared=found.reasons.cleared,
+        causation=found.reasons.causation,
+    )
+
+
+def _picking_up(scene: Asked, found: Slowness) -> Slowness:
+    """With picking up speed for the limit, where that is the reason and we are well below it."""
+    causes = found.reasons.causes
+    alone = all(cause.kind in ("limit", "plan") for cause in causes)
+    motion = scene.ride.motion(EGO).until(found.deed.begin)
+    if not found.is_slow or not alone or motion.trend != "speeding-up":
+        return found
+    reasons = dataclasses.replace(found.reasons, causes=(MotionCause("picking-up"),))
+    return dataclasses.replace(found, reasons=reasons)
+
+
+def _slowed_for(scene: Asked, found: Slowness) -> Slowness:
+    """With those for whom we have just slowed down, where nobody else makes us slow."""
+    time = found.deed.begin
+    slowing = scene.world.episodes(Ego(), (*SLOWING, "give-way"), time - when.RECENT, time)
+    slowing = tuple(e for e in slowing if e.action in (*SLOWING, "give-way"))
+    if not slowing:
+        return found
+    reasons = reasons_for(scene.ride, scene.world, slowing[-1])
+    if not any(c.vehicle is not None and c.kind != "give-way-line" for c in reasons.causes):
+        return found
+    causes = as_of(scene.ride, reasons.causes, time)
+    if not any(cause.vehicle for cause in causes):
+        return found
+    reasons = dataclasses.replace(reasons, causes=causes)
+    return dataclasses.replace(found, reasons=reasons)
+
+
+def fast(scene: Asked) -> Answer:
+    """Tell why we drive as fast as we do: who or what keeps us below the limit, else the limit.
+
+    Raises:
+        Unanswered: the record lacks it; or rollouts are needed.
+    """
+    time = scene.moment
+    speed = speed_at(scene.ride, time)
+    if speed is None:
+        raise Unanswered(NotRecorded("before-record", since=time))
+    limit = limit_at(scene.ride, time)
+    starts = setting_off(scene.ride, time)
+    held = None if limit is None or starts or speed >= AT_LIMIT * limit else _held(scene)
+    if held is not None:
+        return held
+    causes: list[MotionCause] = []
+    if starts:
+        causes.append(MotionCause("starting"))
+    if limit is not None:
+        causes.append(MotionCause("limit", value=limit))
+    end = None if time >= scene.now - 0.5 else time
+    return MotionReason(
+        deed=Episode(Ego(), "move", time, end, speed_from=speed, speed_to=speed),
+        causes=tuple(causes) or (MotionCause("plan"),),
+        premise=limit is None or speed > limit,
+        asked="move",
+        manner="fast",
+        limit=limit,
+    )
+
+
+def _held(scene: Asked) -> MotionReason | None:
+    """Tell why we do not drive at the limit; None where nothing is known to keep us from it."""
+    try:
+        found = slow(scene)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    if not isinstance(found, MotionReason) or all(c.kind in FREE for c in found.causes):
+        return None
+    return replace(found, premise=True)
+
+
+def _episode(
+    scene: Asked, event: Event, kinds: tuple[ActionName, ...], *, present: bool
+) -> Episode | None:
+    """The episode of some kinds that is asked about, of those about the object where there are."""
+    found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
+    about = vehicle_in(event.object)
+    if about is not None:
+        found = [e for e in found if vehicle_in(e.object) == about] or found
+    if present and scene.past is None:
+        found = [e for e in found if e.end is None or e.end >= scene.now - when.RECENT]
+    return scene.pick(_preferring(found, kinds), lambda e: (e.begin, e.end))
+
+
+def _preferring(found: list[Episode], kinds: tuple[ActionName, ...]) -> list[Episode]:
+    """Those in order of their end; of several that meet, the kind that is named first last."""
+    rank = {kind: -k for k, kind in enumerate(kinds)}
+    return sorted(found, key=lambda e: (round(e.begin / WIDER), rank[e.action], e.begin))
+
+
+def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premise: bool) -> Answer:
+    reasons = reasons_for(scene.ride, scene.world, deed, scene.moment)
+    ours = [cause for cause in reasons.causes if cause.vehicle is not None]
+    lit = any(cause.kind == "light" for cause in reasons.causes)
+    if not lit and deed.action in (*STILL, *SLOWING) and chose(reasons.trace, "stop"):
+        going_on = deed.end is None and scene.moment >= scene.now - BEGUN
+        contrast = stopping(scene.ride, reasons.trace, going_on=going_on)
+        if _speaks(contrast, somebody=bool(ours)):
+            return ChoiceReason("why", deed, contrast, past=is_past(scene, event))
+        if not ours and _given_up(scene, deed):
+            reasons = dataclasses.replace(reasons, causes=(MotionCause("given-up"),))
+    time = scene.now if deed.end is None else deed.begin
+    return MotionReason(
+        deed=deed,
+        causes=with_nearest(scene.ride, scene.world, reasons.causes, time),
+        premise=premise,
+        asked=named,
+        evidence=reasons.evidence,
+        manner=next(iter(event.manner), None),
+        limit=limit_at(scene.ride, deed.begin),
+        cleared=reasons.cleared,
+        causation=reasons.causation,
+        past=(event.tense == "past" and deed.end is not None) or _before(scene),
+        halted=_halted(scene, deed, reasons),
+    )
+
+
+def _before(scene: Asked) -> bool:
+    """Tell whether a moment is named that lies behind: "why not three seconds ago?"."""
+    named = scene.past
+    return named is not None and named.said and named.end < scene.now - when.RECENT / 2.0
+
+
+def _halted(scene: Asked, deed: Episode, reasons: Reasons) -> float | None:
+    """Tell when, while slowing down already, it was decided to stop; None where it was not."""
+    stops = chose(reasons.trace, "stop") and not chose(scene.ride.latest, "continue")
+    later = reasons.trace.sim_time > deed.begin + BEGUN
+    given_up = any(cause.kind == "given-up" for cause in reasons.causes)
+    return reasons.trace.sim_time if stops and later and not given_up else None
+
+
+def _speaks(contrast: Contrast, *, somebody: bool) -> bool:
+    """Whether what driving on would come to tells why we stop, rather than who is in our way."""
+    risk = contrast.collision - contrast.fact_collision
+    if contrast.decisive == "collision" or contrast.close:
+        return risk >= (RISKY if somebody else RISK)
+    if somebody:
+        return False
+    slower = contrast.decisive in ("late", "time") and bool(contrast.causes)
+    return slower or contrast.decisive == "dead"
+
+
+def _given_up(scene: Asked, deed: Episode) -> bool:
+    """Whether a stop that had been decided was given up before we stood."""
+    if deed.action in STILL or chose(scene.ride.latest, "stop"):
+        return False
+    return deed.speed_to is None or deed.speed_to > CREEPING
+
+
+def _state(scene: Asked, event: Event, named: ActionName) -> Answer:
+    """What goes on now where nothing of what is asked about does: driving slowly, or it is over."""
+    speed = speed_at(scene.ride, scene.now)
+    found = slowness(scene.ride, scene.world, scene.now)
+    if found.is_slow and speed is not None and speed >= STANDING:
+        reason = slow(scene)
+        if isinstance(reason, MotionReason):
+            return replace(reason, premise=False, asked=named)
+    rows = KINDS.get(named, (SLOWING,))
+    raise _denied(scene, event, rows)
+
+
+def _denied(scene: Asked, event: Event, rows: tuple[tuple[ActionName, ...], ...]) -> Unanswered:
+    """The refusal where we did not drive so; with when we did, or what we did instead."""
+    for kinds in rows:
+        others = scene.world.episodes(Ego(), kinds)
+        near = when.pick(_loose(scene), others, lambda e: (e.begin, e.end))
+        if near is not None:
+            return Unanswered(DidNotHappen(event, (near,), elsewhen=near.begin))
+    moves = [deed for deed in scene.ride.deeds if deed.action != "continue"]
+    deed = scene.pick(moves, lambda d: d.span)
+    return Unanswered(DidNotHappen(event, () if deed is None else (episode_of(deed),)))
+
+
+def _loose(scene: Asked) -> Span | None:
+    """The span as one that was only inferred, so that the nearest is found."""
+    return None if scene.span is None else replace(scene.span, said=False)

@@ -1,0 +1,71 @@
+"""Nobody else: whether others than the causes told of a deed mattered for it.
+
+All others who were seen at the decision that explains the deed are taken away together, and the
+decision is made again. Where something else is done then, the nearest are tried one by one.
+"""
+
+import math
+from typing import Final
+
+from planner.record.trace import PlanTrace
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import Answer, ChoiceReason, MotionReason, NobodyElse, TooLittle
+from xavi_dialogue.explain.answers.reasons.suspects import blamed, causation_of
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.causes.driving.driving import Reasons
+from xavi_dialogue.explain.causes.driving.suppositions import happens_without, planned_without
+
+TRIED: Final = 3  # of the others, the nearest first, who are tried one by one where all matter
+
+
+def mattered(scene: Asked, found: Answer) -> Answer:
+    """Tell whether others than the causes of what we did mattered; a reason of no vehicle stays.
+
+    Raises:
+        Unanswered: the decision must be planned again first.
+    """
+    if not isinstance(found, ChoiceReason | MotionReason):
+        return found
+    causation = causation_of(found)
+    tried = () if causation is None else causation.vehicles
+    named = tuple(dict.fromkeys((*blamed(found), *tried)))
+    evidence = found.contrast.evidence if isinstance(found, ChoiceReason) else found.evidence
+    trace = _decision(scene, evidence.traces)
+    if not named or trace is None:
+        return found
+    others = tuple(v for v in trace.scene if v not in (EGO, *named))
+    matter = _matter(scene, found, trace, others) if others else False
+    if matter:
+        nearest = sorted(others, key=lambda vehicle: _away(trace, vehicle))[:TRIED]
+        needed = [
+            one for one in nearest if len(others) > 1 and _matter(scene, found, trace, (one,))
+        ]
+        others = tuple(needed) or others
+    past = found.past or trace is not scene.ride.latest
+    return NobodyElse(named, others, matter, trace.sim_time, past)
+
+
+def _away(trace: PlanTrace, vehicle: int) -> float:
+    """How far [m] away a vehicle was."""
+    return math.dist(trace.scene[vehicle].position, trace.scene[EGO].position)
+
+
+def _decision(scene: Asked, names: tuple[str, ...]) -> PlanTrace | None:
+    """The recorded decision that a reason rests on."""
+    return next((t for t in scene.ride.traces if t.trace_id in names), None)
+
+
+def _matter(
+    scene: Asked, found: ChoiceReason | MotionReason, trace: PlanTrace, others: tuple[int, ...]
+) -> bool | None:
+    """Tell whether something else is done without the others; None where that is not known."""
+    try:
+        if isinstance(found, ChoiceReason):
+            return not planned_without(scene.ride, trace, others).same
+        reasons = Reasons(found.causes, found.causation, found.evidence, trace)
+        same = happens_without(scene.ride, reasons, others)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, TooLittle):
+            return None
+        raise
+    return None if same is None else not same

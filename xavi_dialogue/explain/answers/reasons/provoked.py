@@ -1,0 +1,62 @@
+"""Provoked: whether another vehicle braked or stopped because of us."""
+
+from msgspec.structs import replace
+
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import Answer, MotionCause, OtherReason
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.meaning import Why
+from xavi_dialogue.domain.terms import Ego, Happens, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.reasons import others
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.reading import unwrapped
+
+#: By what we come in ahead of somebody.
+ENTRIES = frozenset[ActionName](
+    ("change-left", "change-right", "merge", "enter", "pull-out", "exit-left", "exit-right")
+)
+BEFORE = 4.0  # [s] for which we have only just come in ahead of somebody
+SOON = 2.0  # [s] within which he who brakes for us does so after we begin
+REACH = 60.0  # [m] behind us up to which somebody brakes for us
+
+
+def because_of_us(question: Why, scene: Asked) -> Answer:
+    """Tell whether it was for us that another vehicle braked or stopped, and for what else.
+
+    Raises:
+        Unanswered: it did not brake, or was never seen.
+    """
+    of, negated = unwrapped(question.of)
+    assert isinstance(of, Happens)
+    past = of.event.tense in ("past", "perfect")
+    plain = replace(of.event, modal=None)
+    found = others.why(plain, scene, negated=negated)
+    if not isinstance(found, OtherReason) or found.deed is None:
+        return found
+    if found.asked is not None and not any(cause.vehicle == EGO for cause in found.causes):
+        return found
+    deed: Episode = found.deed
+    if past and deed.end is None:
+        deed = replace(deed, end=scene.now)
+    found = replace(found, deed=deed, asked=None)
+    if any(cause.vehicle == EGO for cause in found.causes):
+        ranked = sorted(found.causes, key=lambda cause: cause.vehicle != EGO)
+        return replace(found, causes=tuple(ranked), ours=True)
+    if _came_in(scene, found.vehicle, deed):
+        return replace(found, causes=(MotionCause("cut-in", EGO),), goal=None, ours=True)
+    return replace(found, ours=False)
+
+
+def _came_in(scene: Asked, vehicle: int, deed: Episode) -> bool:
+    """Tell whether it began to brake while or just after we came in ahead of it."""
+    world, begin = scene.world, deed.begin
+    entries = world.episodes(Ego(), ENTRIES, begin - BEFORE, begin + SOON)
+    if not any(entry.begin <= begin for entry in entries):
+        return False
+    for time in (begin, min(begin + SOON, scene.now)):
+        look = world.look(vehicle, time)
+        near = look is not None and look.in_view and look.distance <= REACH and look.ahead < 0.0
+        if near and world.relation("ahead-of", Ego(), Vehicle(vehicle), time):
+            return True
+    return False

@@ -1,0 +1,196 @@
+"""Refraining: why we did not wait, stop, slow down, or stay behind somebody."""
+
+import math
+
+from msgspec import structs
+
+from planner.record.trace import Action as MacroAction
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Bystander,
+    DidNotHappen,
+    GoReason,
+    MotionReason,
+    NeedRollout,
+)
+from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.terms import Ego, Event, Lane, Related, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.reasons import choices, going, motions
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.moments import Window
+from xavi_dialogue.explain.answers.reference.reading import foil_subject, is_past, vehicle_in
+from xavi_dialogue.explain.answers.ride.priority import priority_at
+from xavi_dialogue.explain.causes.driving.yielding import leads
+from xavi_dialogue.explain.causes.plans.premise import is_open
+from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, HALTS
+from xavi_dialogue.explain.history.deeds import Deed
+
+#: What one does who goes on behind somebody, or lets him go first.
+REFRAINS = HALTS | frozenset[ActionName](
+    ("slow-down", "brake", "follow", "keep-distance", "keep-lane")
+)
+APART = 2.0  # [m] sideways from which somebody drives in another lane
+FRESH = 5.0  # [s] since when it is, though nothing says that staying behind is meant
+#: By which change of lanes a lane is left.
+LEFT_BY: dict[str, MacroAction] = {
+    "right": "change-left",
+    "rightmost": "change-left",
+    "left": "change-right",
+    "leftmost": "change-right",
+}
+BESIDE = 5.0  # [m] sideways up to which somebody in front of us is on our road
+SLOWER = 0.5  # [m/s] from which somebody is slower than us
+LATELY = 12.0  # [s] since when a change of lanes may be what was done instead of staying behind
+
+
+def refrained(event: Event, scene: Asked) -> Answer:
+    """Tell why we did not wait, stop, slow down or stay behind: what we did instead decides.
+
+    Raises:
+        Unanswered: the record lacks it; or rollouts are needed.
+    """
+    change, crossed = _change(scene), going.crossed(scene)
+    behind = isinstance(event.where, Related) and event.where.relation == "behind"
+    stays = behind or event.action in ("follow", "keep-distance", "keep-lane")
+    stays |= change is not None and _passed_by(event, scene, change)
+    since = math.inf if change is None else scene.moment - change.time
+    own = event.action in ("slow-down", "brake", "stop")  # each is compared by itself
+    fresh = crossed is None and not own and (since <= FRESH or event.action == "wait")
+    if change is not None and (stays or fresh):
+        past = change.ended is not None
+        foil = Event("keep-lane", tense="past" if past else event.tense, time=event.time)
+        return choices.why_not(foil, scene, Event(change.action, tense="past"))
+    aside = _aside(event, scene)
+    if aside is not None:
+        return choices.why_not(structs.replace(event, action=aside, object=None), scene)
+    if stays:
+        return choices.why_not(Event("keep-lane", tense=event.tense, time=event.time), scene)
+    if crossed is None or _is_over(event, scene, crossed):
+        return _undone(event, scene)
+    return _went(event, scene, crossed)
+
+
+def _is_over(event: Event, scene: Asked, crossed: Deed) -> bool:
+    """Tell whether a junction lies behind where stopping is asked of no junction and no time."""
+    named = event.object is not None or event.where is not None or foil_subject(scene, event).span
+    if event.action != "stop" or named or crossed.ended is None:
+        return False
+    trace = scene.ride.at(scene.now)
+    return trace is not None and is_open(scene.ride, trace, ("stop",))
+
+
+def _passed_by(event: Event, scene: Asked, change: Deed) -> bool:
+    """Tell whether slowing down is for whom we changed lanes for: staying behind it, then."""
+    slowing = event.action in ("slow-down", "brake")
+    return slowing and leads(scene.world, vehicle_in(event.object), change.time)
+
+
+def _aside(event: Event, scene: Asked) -> ActionName | None:
+    """Find the change of lanes by which one would get behind whom one is asked to follow."""
+    vehicle = vehicle_in(event.object)
+    look = None if vehicle is None else scene.world.look(vehicle, scene.moment)
+    if event.action != "follow" or look is None or look.oncoming or abs(look.left) < APART:
+        return None
+    return "change-left" if look.left > 0.0 else "change-right"
+
+
+def _change(scene: Asked) -> Deed | None:
+    """The change of lanes at the moment asked about, or shortly before it."""
+    made = [d for d in scene.ride.deeds if d.action in CHANGES]
+    before = [d for d in made if d.time <= scene.moment + 1.0]
+    late = [d for d in before if d.ended is None or d.ended >= scene.moment - LATELY]
+    return late[-1] if late else None
+
+
+def _went(event: Event, scene: Asked, crossed: Deed) -> Answer:
+    """Why we went on at a junction: who had gone, was far or stood, or was not in our way."""
+    reason = going.went(Event("go", tense="past"), scene)
+    if not isinstance(reason, GoReason):
+        return _undone(event, scene)
+    asked = vehicle_in(event.object)
+    others = reason.others
+    if asked is not None:
+        named = tuple(one for one in others if one.vehicle == asked)
+        if any(one.gone for one in named):
+            return _done(event, scene)
+        others = named or (Bystander(asked, first="none"),)
+    short = event.action if event.action in HALTS else "wait"
+    return structs.replace(reason, others=others, refrained=short, past=True)
+
+
+def _done(event: Event, scene: Asked) -> Answer:
+    """We did just that: for whom, and why."""
+    answer = motions.motion(structs.replace(event, action="give-way", tense="past"), scene)
+    if isinstance(answer, MotionReason):
+        return structs.replace(answer, form="did")
+    return answer
+
+
+def _undone(event: Event, scene: Asked) -> Answer:
+    """Why we did not, where no junction and no other lane is in question."""
+    vehicle = vehicle_in(event.object)
+    if vehicle is not None and event.action in ("let-go", "give-way", "wait"):
+        past = scene.past or Span(scene.now, scene.now)
+        rule = priority_at(scene, vehicle, Window(past.begin, past.end))
+        if rule.rule == "priority":
+            return rule
+    if is_past(scene, event) and event.action != "stop":
+        try:
+            return _done(structs.replace(event, object=None), scene)
+        except Unanswered as unanswered:
+            if not isinstance(unanswered.result, DidNotHappen):
+                raise
+    if event.action in ("slow-down", "brake") and not is_past(scene, event):
+        return motions.fast(scene) if vehicle is None else _kept_speed(event, vehicle, scene)
+    foil = Event("stop", tense=event.tense, time=event.time)
+    return choices.why_not(foil, scene)
+
+
+def _kept_speed(event: Event, vehicle: int, scene: Asked) -> Answer:
+    """Why we do not slow down for somebody: how far ahead it is, and whether it is slower."""
+    at = scene.moment
+    look = scene.world.look(vehicle, at)
+    theirs = scene.world.measure("speed", Vehicle(vehicle), at).value
+    ours = scene.world.measure("speed", Ego(), at).value
+    if look is None or theirs is None or ours is None:
+        return motions.fast(scene)
+    in_front = look.ahead > 0.0 and abs(look.left) < BESIDE and not look.oncoming
+    rule = None if in_front else priority_at(scene, vehicle, Window(at, at), blame=True).rule
+    found = Bystander(
+        vehicle,
+        first="ahead" if in_front else "ego" if rule == "priority" else "none",
+        trend="steady" if theirs >= ours - SLOWER else "slowing",
+        distance=look.distance,
+    )
+    return GoReason(None, (found,), past=False, refrained=event.action)
+
+
+def left_lane(event: Event, scene: Asked) -> Event | None:
+    """Find the change of lanes by which we left the lane in which we are asked to have stayed."""
+    lane = event.object
+    if event.action != "keep-lane" or not isinstance(lane, Lane) or lane.which not in LEFT_BY:
+        return None
+    change = LEFT_BY[lane.which]
+    made = [d for d in scene.ride.deeds if d.action == change and d.time <= scene.moment + 1.0]
+    return Event(change, tense="past") if made else None
+
+
+def is_refraining(event: Event) -> bool:
+    """Tell whether an event is one of waiting, slowing down or staying behind."""
+    if event.action == "keep-lane":
+        return not isinstance(event.object, Lane) or event.object.which == "own"
+    return event.action in REFRAINS
+
+
+def not_passed(event: Event, scene: Asked) -> Answer | None:
+    """Tell why we stay behind a vehicle that we could overtake; None: we could not."""
+    ahead = event.action == "follow" and vehicle_in(event.object) is not None
+    if not ahead or is_past(scene, event):
+        return None
+    try:
+        return choices.why_not(Event("overtake", object=event.object, tense="present"), scene)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+    return None

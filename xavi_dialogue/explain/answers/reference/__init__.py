@@ -1,0 +1,1 @@
+"""What a question refers to: moments, vehicles, episodes, and what was not done."""

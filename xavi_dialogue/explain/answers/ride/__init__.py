@@ -1,0 +1,1 @@
+"""What the ride was like: its way, places, delays, comfort and right of way."""

@@ -1,0 +1,125 @@
+"""Crossings: whose way met ours at a junction, who came there first, and who stood meanwhile."""
+
+import math
+from itertools import pairwise
+
+from sim.scene import EGO
+from xavi_dialogue.domain.facts import Episode, Somebody
+from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.moments import Window
+from xavi_dialogue.explain.answers.reference.naming import number
+from xavi_dialogue.explain.answers.reference.occasions import overlaps
+
+NEAR = 6.0  # [s] before and after a crossing in which way is given for it
+MEETING = 2.5  # [m] within which two lines meet
+MOVING = 0.5  # [m/s] from which a vehicle drives along its line
+
+
+def crossing_now(asked: Asked) -> int | None:
+    """Tell whose way crosses ours next: whom we give way to, else the nearest."""
+    road = asked.world.road(asked.now)
+    if road is None:
+        return None
+    waiting = asked.world.episodes(actor=Ego(), actions=("give-way",))
+    given = {number(e.object) for e in waiting if e.end is None}
+    found = [
+        (fact.vehicle not in given, fact.who != "vehicle", look.distance, fact.vehicle)
+        for fact in road.priority
+        if (look := asked.world.look(fact.vehicle, asked.now)) is not None and look.in_view
+    ]
+    return min(found)[-1] if found else None
+
+
+def went_first(
+    asked: Asked, vehicle: int | None, near: Window, waited: Episode | None
+) -> Somebody | None:
+    """Tell who went first: where their lines meet, else out of the junction; else who waited."""
+    if vehicle is None:
+        return None
+    order = line_order(asked, vehicle, near)
+    if order is not None:
+        return Ego() if order[0] < order[1] else Vehicle(vehicle)
+    entered = any(near.begin <= t for t in entries(asked))
+    inside = _inside(asked, vehicle, near)
+    if entered and inside and not any(one for _, one in inside) and _let_us(asked, vehicle, near):
+        return Ego()  # it waits before the junction that we are in or have crossed
+    if not entered and _left(asked, vehicle, near) is not None:
+        return Vehicle(vehicle)
+    over = waited is not None and waited.end is not None and waited.standing
+    return Vehicle(vehicle) if over else None
+
+
+def _let_us(asked: Asked, vehicle: int, near: Window) -> bool:
+    """Tell whether a vehicle stood, or waited for us, in a stretch of the ride."""
+    kinds: tuple[ActionName, ...] = ("give-way", "wait", "stop", "stand")
+    found = asked.world.episodes(actor=Vehicle(vehicle), actions=kinds)
+    return any(overlaps(asked, e, near) for e in found)
+
+
+def stood(asked: Asked, vehicle: int, near: Window) -> bool:
+    """Tell whether a vehicle was at a standstill when we came into the junction."""
+    entered = [t for t in entries(asked) if near.begin <= t <= near.end]
+    speeds = [asked.world.measure("speed", Vehicle(vehicle), t + 1.0).value for t in entered[-1:]]
+    return any(speed is not None and speed < MOVING for speed in speeds)
+
+
+def met_about(asked: Asked, about: Window) -> int | None:
+    """Tell whose way crossed ours in a stretch of the ride: the last, or whom we waited for."""
+    found = [
+        (trace.sim_time, fact.vehicle)
+        for trace in asked.ride.traces
+        if trace.road is not None and about.begin - NEAR <= trace.sim_time <= about.end
+        for fact in trace.road.priority
+        if fact.who != "depends"
+    ]
+    last = max((time for time, _ in found), default=None)
+    those = {vehicle for time, vehicle in found if time == last}
+    waited = [
+        number(e.object)
+        for e in asked.world.episodes(actor=Ego(), actions=("give-way",))
+        if number(e.object) in those
+    ]
+    return waited[-1] if waited else max(those, default=None)
+
+
+def line_order(asked: Asked, vehicle: int, near: Window) -> tuple[float, float] | None:
+    """Tell when [s] we and a vehicle came to where our lines meet; None where they do not."""
+    ours, other = asked.ride.motion(EGO), asked.ride.motion(vehicle)
+    mine = [k for k in ours.within(near.begin, near.end) if ours.speed[k] > MOVING]
+    theirs = [k for k in other.within(near.begin, near.end) if other.speed[k] > MOVING]
+    meetings = [
+        (math.dist(ours.position[i], other.position[k]), ours.time[i], other.time[k])
+        for i in mine
+        for k in theirs
+    ]
+    close = [m for m in meetings if m[0] <= MEETING]
+    if not close:
+        return None
+    _, first, second = min(close, key=lambda m: min(m[1], m[2]))
+    return first, second
+
+
+def _inside(asked: Asked, vehicle: int, near: Window) -> list[tuple[float, bool]]:
+    """Tell whether a vehicle was inside a junction, at each decision of a stretch of the ride."""
+    found = []
+    for trace in asked.ride.traces:
+        if trace.road is not None and near.begin <= trace.sim_time <= near.end:
+            place = trace.road.places.get(vehicle)
+            if place is not None:
+                found.append((trace.sim_time, place.in_junction or place.roundabout))
+    return found
+
+
+def _left(asked: Asked, vehicle: int, near: Window) -> float | None:
+    """Tell when [s] a vehicle was first seen out of a junction or roundabout that it was in."""
+    pairs = pairwise(_inside(asked, vehicle, near))
+    return next((later[0] for before, later in pairs if before[1] and not later[1]), None)
+
+
+def entries(asked: Asked) -> list[float]:
+    """Tell when [s] we were first seen inside each junction that we crossed so far."""
+    inside = _inside(asked, EGO, Window(asked.world.begin, asked.now))
+    first = [inside[0][0]] if inside and inside[0][1] else []
+    return first + [later[0] for before, later in pairwise(inside) if later[1] and not before[1]]

@@ -1,0 +1,45 @@
+"""Leaving: whom we have left behind, who is still there, and how far two others are apart."""
+
+from xavi_dialogue.domain.facts import Fact
+from xavi_dialogue.domain.terms import Ego, Event, Related, Vehicle
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
+from xavi_dialogue.explain.answers.reference.moments import window
+from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, look_of, number
+from xavi_dialogue.explain.answers.reference.occasions import occasion
+
+
+def left_behind(asked: Asked, event: Event) -> Finding | None:
+    """Tell that somebody is behind us who was not at first, though no overtaking is on record."""
+    if event.action not in ("overtake", "pass") or not is_us(event.actor):
+        return None
+    vehicle = number(event.object)
+    look = None if vehicle is None else look_of(asked, event.object, asked.now)
+    first = None if vehicle is None else first_look(asked, vehicle, asked.world.begin)
+    if look is None or first is None or look.oncoming or not look.in_view:
+        return None
+    behind = look.ahead < -look.length and first.ahead > -look.length
+    that = Related("behind", Vehicle(look.vehicle), Ego(), tense="present")
+    return Finding(True, (look,), answer=Finding(True, (look,)).verdict(that)) if behind else None
+
+
+def still_there(asked: Asked, event: Event) -> tuple[Fact, ...]:
+    """Tell where somebody is whom we have not passed, or who has not passed us."""
+    if event.action not in ("overtake", "pass") or event.tense == "present":
+        return ()
+    other = event.object if is_us(event.actor) else event.actor
+    look = None if number(other) is None else look_of(asked, other, asked.now)
+    return () if look is None or not look.in_view else (look,)
+
+
+def apart(asked: Asked, event: Event) -> Finding:
+    """Tell how far two others are apart, of whom it is asked whether they hit each other.
+
+    The risk that is computed is that of our own collisions.
+    """
+    at = min(window(asked, event.time, event.tense).end, asked.now)
+    crash = occasion(asked, Event("collide", event.actor, event.object, time=event.time))
+    if crash is not None:
+        return Finding(True, (crash,))
+    gap = asked.world.measure("distance", event.actor, at, event.object)
+    return unknown("not-recorded", *known(gap))

@@ -1,0 +1,110 @@
+"""Mistakes: what we expected of others that came otherwise, and whether anything was amiss."""
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.facts import Belief, Episode
+from xavi_dialogue.domain.terms import Ego, Event, Is, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.expectations.foreseen import came_of, wrong_belief
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
+from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, window
+from xavi_dialogue.explain.answers.reference.naming import is_us, number
+from xavi_dialogue.explain.answers.reference.occasions import overlaps, taken_place
+from xavi_dialogue.explain.answers.ride.comfort import HARD, stretch
+
+#: What tells which way a vehicle went.
+WAYS: tuple[ActionName, ...] = (
+    "exit-left",
+    "exit-right",
+    "exit-straight",
+    "leave",
+    "change-left",
+    "change-right",
+)
+
+
+def mistakes(
+    asked: Asked, vehicle: int | None, about: Window
+) -> tuple[tuple[Belief, Episode], ...]:
+    """List the beliefs that what came contradicts, each with what came, oldest first.
+
+    Args:
+        asked: the act and its setting.
+        vehicle: of whom; None: of anybody.
+        about: when it came.
+    """
+    who = asked.world.vehicles if vehicle is None else (vehicle,)
+    near = about.widened() if about.instant else about
+    found: list[tuple[Belief, Episode]] = []
+    for one in who:
+        for came in asked.world.episodes(actor=Vehicle(one), actions=WAYS):
+            if not overlaps(asked, came, near):
+                continue
+            event = Event(came.action, Vehicle(one))
+            spent = Window(came.begin, came.begin)
+            wrong = wrong_belief(asked, event, spent, came=True)
+            if wrong is not None:
+                found.append((wrong, came))
+    return tuple(sorted(found, key=lambda pair: pair[1].begin))
+
+
+def wrong(of: Is, asked: Asked) -> Finding:
+    """Tell whether we were wrong in what we expected, of a vehicle or of anybody."""
+    if of.event is not None and is_us(of.event.actor):
+        return _trouble(of, asked, of.event)
+    about, vehicle = window(asked, of.time, "past"), number(of.thing)
+    found = mistakes(asked, vehicle, about)
+    if not found:
+        right = Finding(of.state == "right")
+        return right if vehicle is None else _borne_out(of, asked, vehicle, about)
+    facts = tuple(episode for _, episode in found)
+    believed = tuple(belief for belief, _ in found)
+    return Finding(of.state == "wrong", facts, None, believed, mistaken=True)
+
+
+def _borne_out(of: Is, asked: Asked, vehicle: int, about: Window) -> Finding:
+    """Tell what we believed of a vehicle, where it came so or is yet to be seen."""
+    whole = asked.past is None and not about.instant
+    ways = asked.world.episodes(actor=Vehicle(vehicle), actions=WAYS)
+    at = ways[-1].begin - SHORT if whole and ways else asked.now if whole else about.begin
+    belief = asked.world.belief(vehicle, at)
+    if belief is None:
+        return unknown("not-recorded")
+    came = came_of(asked, vehicle, belief.time)
+    if came is None or came.action == "stop":
+        return Finding(None, (belief, *(() if came is None else (came,))), "in-future")
+    return Finding(of.state == "right", (came,), None, (belief,))
+
+
+def _trouble(of: Is, asked: Asked, event: Event) -> Finding:
+    """Tell whether there was anything amiss in what we did: a collision, or hard braking."""
+    found = taken_place(asked, event)
+    crashed = asked.world.episodes(actor=Ego(), actions=("collide", "nearly-collide"))
+    near = [e for e in crashed if overlaps(asked, e, stretch(asked, found).widened())]
+    amiss = bool(near) or (found.peak or 0.0) >= HARD
+    return Finding(amiss == (of.state == "wrong"), (found, *near))
+
+
+def broken_down(of: Is, asked: Asked) -> Finding:
+    """Tell what shows of whether a vehicle has broken down: since when it stands, and for whom."""
+    if isinstance(of.thing, Ego):
+        return Finding(False, known(asked.world.measure("speed", Ego(), asked.now)))
+    who = number(of.thing)
+    if who is None:
+        return unknown("not-recorded")
+    speed = asked.world.measure("speed", Vehicle(who), asked.now).value
+    if speed is None:
+        return unknown("out-of-view")
+    if speed > 0.0:
+        return Finding(False, known(asked.world.measure("speed", Vehicle(who), asked.now)))
+    waits: tuple[ActionName, ...] = ("give-way", "wait")
+    on = [e for e in asked.world.episodes(actor=Vehicle(who), actions=waits) if e.end is None]
+    if on:
+        return Finding(False, tuple(on[-1:]))
+    stands = [
+        replace(e, action="stand")
+        for e in asked.world.episodes(actor=Vehicle(who), actions=("stand", "stop"))
+        if e.end is None
+    ]
+    return unknown("not-sensed", *stands[-1:])

@@ -1,0 +1,278 @@
+"""Onward: our way ahead, as the record has it: junctions, exits, turns left, the road."""
+
+from msgspec.structs import replace
+
+from planner.record.places import RouteStep
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import Answer, Course, Measures, NotRecorded
+from xavi_dialogue.domain.journeys import WayStep
+from xavi_dialogue.domain.meaning import Whether
+from xavi_dialogue.domain.terms import (
+    Destination,
+    Ego,
+    Event,
+    Exists,
+    Exit,
+    Happens,
+    Junction,
+    Measured,
+    Next,
+    Not,
+    Now,
+    Proposition,
+    Related,
+    Road,
+    Thing,
+    Unsaid,
+    WholeRide,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.moments import SHORT, instant, is_past, window
+from xavi_dialogue.explain.answers.reference.naming import is_us, number
+from xavi_dialogue.explain.answers.reference.occasions import occasion, overlaps
+from xavi_dialogue.explain.history.nearing import junctions_ahead
+
+WAYS: tuple[ActionName, ...] = ("turn", "exit-left", "exit-right", "exit-straight")
+STRAIGHT: frozenset[ActionName] = frozenset(("exit-straight", "continue"))
+MODALS = (None, "will", "must", "want", "should")
+
+
+def steps_ahead(asked: Asked) -> tuple[WayStep, ...]:
+    """List the junctions on our way from now on, nearest first.
+
+    Raises:
+        Unanswered: the record does not hold our way.
+    """
+    road = asked.world.road(asked.now)
+    if road is None:
+        raise Unanswered(NotRecorded("not-recorded", about="route"))
+    place = road.places.get(EGO)
+    inside = place is not None and place.roundabout
+    return tuple(
+        _step(step, rank, inside and rank == 1 and step.kind == "roundabout")
+        for rank, step in enumerate(junctions_ahead(asked.ride, asked.now), start=1)
+    )
+
+
+def _step(step: RouteStep, rank: int, inside: bool) -> WayStep:
+    return WayStep(step.kind, step.turn, round(step.distance, 1), rank, step.exit, inside)
+
+
+def course(asked: Asked, form: str, steps: tuple[WayStep, ...], **more: object) -> Course:
+    """Give our way ahead, with how far it is to the destination."""
+    left = asked.world.measure("distance-to-go", Ego(), asked.now, Destination())
+    return Course(form, steps, left=left.value, **more)  # type: ignore[arg-type]
+
+
+def which_way(of: Measured, asked: Asked) -> Answer:
+    """Tell which way we take at the junction asked about; in the past, which way we took."""
+    past = is_past(asked, of.time, of.tense) and not _to_come(of)
+    at = instant(asked, of.time, of.tense)
+    if past or at < asked.now - SHORT:
+        return _way_taken(of, asked, at)
+    steps = steps_ahead(asked)
+    if of.event is not None:  # "after how many metres do we turn?"
+        return course(asked, "way", _turning(steps, of.event)[:1])
+    round_ = isinstance(of.to, Junction) and of.to.form == "roundabout"
+    if round_ or of.attribute == "exit-number":
+        steps = tuple(s for s in steps if s.kind == "roundabout")
+    rank = of.to.rank if isinstance(of.to, Junction) and of.to.rank is not None else 1
+    found = steps[-1:] if rank < 0 else steps[rank - 1 : rank]
+    if of.attribute == "exit-number" and not found:
+        turning = tuple(s for s in steps_ahead(asked) if s.turn != "exit-straight")[:1]
+        return course(asked, "way" if turning else "road", turning)
+    return course(asked, "way", found, then=rank > 1)
+
+
+def _to_come(of: Measured) -> bool:
+    return isinstance(of.time, Next) or of.tense == "future"
+
+
+def _way_taken(of: Measured, asked: Asked, at: float) -> Answer:
+    """Give the turn of ours at a time, as it was; else what the record had as our way then."""
+    about = window(asked, of.time, of.tense)
+    kinds: tuple[ActionName, ...] = ("exit-left", "exit-right", "exit-straight", "leave")
+    found = asked.world.episodes(actor=Ego(), actions=kinds)
+    near = [e for e in found if overlaps(asked, e, about.widened())] or list(found[-1:])
+    if near:
+        return Measures((asked.world.measure(of.attribute, Ego(), near[-1].begin - SHORT),))
+    return Measures((asked.world.measure(of.attribute, Ego(), at),))
+
+
+def turns_left(asked: Asked, event: Event) -> Course:
+    """Tell how many turns are still to come, and which: roundabouts count."""
+    return course(asked, "turns", _turning(steps_ahead(asked), event))
+
+
+def _turning(steps: tuple[WayStep, ...], event: Event) -> tuple[WayStep, ...]:
+    """List where we turn as asked about: roundabouts count."""
+    wanted = None if event.action == "turn" else event.action
+    return tuple(
+        s for s in steps
+        if s.kind == "roundabout" or (s.turn == wanted if wanted else s.turn != "exit-straight")
+    )  # fmt: skip
+
+
+def junctions_left(asked: Asked, of: Junction) -> Course:
+    """Tell how many junctions or roundabouts are still to come, and what we do there."""
+    steps = [s for s in steps_ahead(asked) if of.form == "junction" or s.kind == "roundabout"]
+    return course(asked, "junctions" if of.form == "junction" else "roundabouts", tuple(steps))
+
+
+def leaves_when(asked: Asked, event: Event) -> Course | None:
+    """Tell when we get off: at which exit; where there is none, that we stay on the road."""
+    to_come = event.tense in ("present", "future") and is_us(event.actor)
+    if event.action != "leave" or not to_come or number(event.object) is not None:
+        return None
+    steps = steps_ahead(asked)
+    ring = tuple(s for s in steps if s.kind == "roundabout")[:1]
+    if ring:
+        return course(asked, "way", ring)
+    turning = tuple(s for s in steps if s.turn != "exit-straight")[:1]
+    return course(asked, "way" if turning else "road", turning)
+
+
+def stays_on(asked: Asked, event: Event) -> Course | None:
+    """Tell that we stay on the road, where it is asked why we do not leave it; None: else."""
+    over = asked.past is not None and asked.past.end < asked.now - SHORT
+    found = None if over else leaves_when(asked, event)
+    return found if found is not None and found.form == "road" else None
+
+
+def whether_ours(question: Whether, asked: Asked) -> Course | None:
+    """Answer whether we turn, go straight on, take an exit or stay on the road; None: else."""
+    place = _ahead_of_us(question.that)
+    if place is not None and asked.past is None:
+        found = junctions_left(asked, place)
+        if found.steps and not isinstance(question.that, Exists):  # "are we going round it?"
+            return course(asked, "way", found.steps[:1], holds=True)
+        return replace(found, holds=bool(found.steps))
+    if _is_turning(question.that) and asked.past is None and (next_ := steps_ahead(asked)[:1]):
+        turned = next_[0].exit == 1 if next_[0].inside else _turned(next_[0])
+        return course(asked, "way", next_, holds=turned)
+    missed = _missed(question.that, asked)
+    if missed is not None:
+        left = _by_exit(asked, steps_ahead(asked), missed)
+        return None if left is None else replace(left, holds=False)
+    event = _own_way(question.that)
+    if event is None or (asked.past is not None and not isinstance(event.time, WholeRide)):
+        return None
+    steps = steps_ahead(asked)
+    if isinstance(event.object, Road):
+        turning = tuple(s for s in steps if s.turn != "exit-straight" or s.kind == "roundabout")
+        if event.action == "leave" and turning:
+            return course(asked, "way", turning[:1], holds=True)
+        return course(asked, "road", turning[:1], holds=not turning)
+    if event.tense == "present" and occasion(asked, event) is not None:
+        return None
+    if event.action == "circle":
+        ring = tuple(s for s in steps if s.kind == "roundabout")[:1]
+        return course(asked, "way", ring, holds=False) if ring else None
+    if event.action == "enter":
+        ring = tuple(s for s in steps if s.kind == "roundabout")[:1]
+        return course(asked, "way", ring) if ring else None
+    if isinstance(event.object, Exit) or event.action == "leave":
+        return _by_exit(asked, steps, event)
+    rank = event.object.rank if isinstance(event.object, Junction) else None
+    step = steps[(rank or 1) - 1] if len(steps) >= max(rank or 1, 1) else None
+    if step is None:
+        return course(asked, "way", (), holds=event.action in STRAIGHT)
+    later = [] if rank else [s for s in steps[1:] if s.turn != "exit-straight"][:1]
+    plain = step.turn == "exit-straight" and step.kind == "junction"
+    shown = (step, *(later if plain and _turns(event) else ()))
+    return course(asked, "way", shown, holds=_agrees(event, step))
+
+
+def _ahead_of_us(that: Proposition) -> Junction | None:
+    """Find the sort of junction of which it is asked whether there is one on our way."""
+    while isinstance(that, Not):
+        that = that.content
+    if isinstance(that, Exists) and that.tense != "past" and isinstance(that.thing, Junction):
+        return that.thing
+    match that:  # "are we going on the roundabout?"
+        case Happens(event=Event(action="enter", actor=Ego(), object=Junction() as place) as event):
+            ahead = place.form == "roundabout" and event.tense in ("present", "future")
+            return place if ahead and event.modal is None else None
+    return None
+
+
+def _is_turning(that: Proposition) -> bool:
+    """Tell whether it is asked whether a place is where we turn: "is this our turning?"."""
+    return (
+        isinstance(that, Related)
+        and that.relation == "same-as"
+        and isinstance(that.thing, Junction | Exit)
+    )
+
+
+def _missed(that: Proposition, asked: Asked) -> Event | None:
+    """Take "did we go past our exit?" for whether we have left, where we did not pass one."""
+    match that:
+        case Happens(
+            event=Event(
+                action="pass" | "continue-next-exit" | "leave" as action, object=Exit()
+            ) as event
+        ) if is_us(event.actor) and event.tense in ("past", "perfect"):
+            if action == "continue-next-exit" or occasion(asked, event) is None:
+                return replace(event, action="leave", object=None, tense="present", time=Now())
+    return None
+
+
+def _own_way(that: Proposition) -> Event | None:
+    """Find an event of ours at a junction to come, that is asked about."""
+    while isinstance(that, Not):
+        that = that.content
+    if not isinstance(that, Happens) or not is_us(that.event.actor):
+        return None
+    event = that.event
+    onward = Unsaid | Now | Next | WholeRide
+    timely = isinstance(event.time, onward) and event.tense in ("present", "future")
+    if not timely or event.modal not in MODALS or number(event.object) is not None:
+        return None
+    if event.action == "continue":
+        return event if event.object is None or isinstance(event.object, Road) else None
+    if event.action == "enter":
+        return event if event.object == Junction("roundabout") else None
+    if event.action == "circle":
+        return event
+    if event.action == "leave":
+        placed = isinstance(event.object, Road) or _is_exit(event.object)
+        return event if event.object is None or placed else None
+    return event if event.action in WAYS and not isinstance(event.object, Road) else None
+
+
+def _is_exit(thing: Thing | None) -> bool:
+    return isinstance(thing, Exit) or (isinstance(thing, Junction) and thing.form == "roundabout")
+
+
+def _by_exit(asked: Asked, steps: tuple[WayStep, ...], event: Event) -> Course | None:
+    """Compare the exit that we take with the one asked about."""
+    ring = next((s for s in steps if s.kind == "roundabout"), None)
+    rank = event.object.rank if isinstance(event.object, Exit) else None
+    if ring is None or ring.exit is None:
+        turning = tuple(s for s in steps if _turned(s))[:1]
+        if not turning:
+            return course(asked, "road", ())
+        if rank is not None and 0 < rank <= len(steps):
+            step = steps[rank - 1]
+            turned = _turned(step) if event.action == "leave" else _agrees(event, step)
+            return course(asked, "way", (step,), holds=turned)
+        return course(asked, "way", turning, holds=False)
+    holds = ring.exit == (rank or 1) if rank is not None or ring.inside else None
+    return course(asked, "way", (ring,), holds=holds)
+
+
+def _turns(event: Event) -> bool:
+    return event.action not in STRAIGHT
+
+
+def _agrees(event: Event, step: WayStep) -> bool:
+    """Tell whether what is asked is what we do at a junction."""
+    if event.action == "turn":
+        return step.turn != "exit-straight"
+    return event.action == step.turn or (event.action == "continue" and not _turned(step))
+
+
+def _turned(step: WayStep) -> bool:
+    return step.turn != "exit-straight"

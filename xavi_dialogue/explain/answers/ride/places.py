@@ -1,0 +1,283 @@
+"""Places: where somebody or something is or was, and where somebody is going."""
+
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import Answer, Bound, Identified, Located, NotRecorded, PlanAhead
+from xavi_dialogue.domain.facts import Belief, Episode, Measure
+from xavi_dialogue.domain.meaning import Where, Whither
+from xavi_dialogue.domain.terms import (
+    Destination,
+    Ego,
+    Event,
+    Everyone,
+    Exit,
+    Junction,
+    Lane,
+    Nobody,
+    Passenger,
+    Road,
+    Thing,
+    Vehicle,
+    Vehicles,
+)
+from xavi_dialogue.domain.vocabulary import ActionName, Attribute
+from xavi_dialogue.explain.answers.expectations.foreseen import came_of
+from xavi_dialogue.explain.answers.expectations.plans import current_plan, plan_ahead
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.moments import SHORT, instant
+from xavi_dialogue.explain.answers.reference.naming import (
+    check_sense,
+    first_look,
+    looks,
+    somebodies,
+)
+from xavi_dialogue.explain.answers.reference.occasions import taken_place
+from xavi_dialogue.explain.causes.vehicles.announced import announced
+from xavi_dialogue.explain.history.nearing import still_to
+
+TOLD = 2  # most vehicles whose whereabouts one answer gives
+HERE: tuple[Attribute, ...] = ("lane", "turn", "distance-to-go")
+#: What somebody did of whom it is asked where he has gone.
+LEAVING: frozenset[ActionName] = frozenset(
+    ("go", "move", "head", "leave", "disappear", "turn", "continue")
+)
+WAY: tuple[Attribute, ...] = ("turn", "exit-number", "distance-to-go", "time-to-go")
+
+
+def where(question: Where, asked: Asked) -> Answer:
+    """Tell where a thing is or was, or where an event took place.
+
+    Raises:
+        Unanswered: it is unknown, or did not take place.
+    """
+    of = question.of
+    if isinstance(of, Event):
+        if isinstance(of.actor, Vehicle) and of.action in LEAVING and of.object is None:
+            return gone(asked, of.actor)
+        if isinstance(of.actor, Everyone) and of.action in LEAVING:
+            return _vehicles(asked, Vehicles(_left_behind(asked)), asked.now)
+        return took_place(asked, of)
+    at = instant(asked, question.time)
+    if isinstance(of, Everyone) and not asked.world.in_view(at):
+        return Identified((), none=True)
+    return locate(asked, of, at)
+
+
+def locate(asked: Asked, thing: Thing, at: float) -> Answer:
+    """Tell where a thing is at a time [s].
+
+    Raises:
+        Unanswered: it is unknown.
+    """
+    check_sense(thing)
+    match thing:
+        case Vehicle() | Vehicles() | Everyone():
+            return _vehicles(asked, thing, at)
+        case Destination():
+            return Located(thing, (), to_go(asked, at))
+        case Ego() | Passenger() | Lane() | Road():
+            return Located(Ego(), (), here(asked, at))
+        case Junction():
+            found = (junction(asked, thing, at), *measured(asked, ("turn", "exit-number"), at))
+            return Located(thing, (), told(found), gap=found[0].gap)
+        case Exit():
+            return Located(thing, (), told(measured(asked, ("exit-number", "turn"), at)))
+        case Nobody():
+            return Located(thing, looks(asked, asked.world.in_view(at), at))
+    raise Unanswered(NotRecorded("not-recorded", thing=thing, about="place"))
+
+
+EVEN = 0.5  # chance from which somebody is expected to go somewhere
+
+
+def whither(question: Whither, asked: Asked) -> Answer:
+    """Tell where somebody is going, was going, or has gone.
+
+    Raises:
+        Unanswered: it was never seen.
+    """
+    at = instant(asked, question.time)
+    found = somebodies(asked, question.actor, at)
+    if not found or isinstance(found[0], Ego):
+        return our_way(asked, at)
+    vehicle = found[0].number
+    past = asked.now - at > SHORT
+    look = asked.world.look(vehicle, asked.now)
+    lost = look is not None and not look.in_view
+    belief = asked.world.belief(vehicle, at)
+    went = came_of(asked, vehicle, at) if past or lost else None
+    if not past and not lost and (shown := _shows(asked, vehicle, belief)) is not None:
+        return shown
+    if went is None and lost:
+        went = _last_way(asked, vehicle)
+    return Bound(found[0], belief, went, look if lost or past else None)
+
+
+def _shows(asked: Asked, vehicle: int, belief: Belief | None) -> Answer | None:
+    """Tell what a vehicle of which nothing is expected for certain announces by its indicator."""
+    likeliest = belief.expectations[:1] if belief is not None else ()
+    lit = [e for e in asked.world.episodes(Vehicle(vehicle), "signal") if e.end is None]
+    if not lit or any(one.probability >= EVEN for one in likeliest):
+        return None
+    return announced(asked.ride, asked.world, vehicle, lit[-1], asked.now)
+
+
+def gone(asked: Asked, who: Vehicle) -> Bound:
+    """Tell where a vehicle has gone: which way it took last, and where it is or was seen last."""
+    look = asked.world.look(who.number, asked.now)
+    return Bound(who, None, _last_way(asked, who.number), look)
+
+
+def our_way(asked: Asked, at: float) -> Answer:
+    """Give our way: the next junction, and how far it still is; or that we are there."""
+    if asked.ride.arrived and at >= asked.now - SHORT:
+        return PlanAhead((), arrived=True)
+    if at < asked.now - SHORT:
+        return Bound(Ego(), measures=told(measured(asked, ("distance-to-go",), at)))
+    ring = junction(asked, Junction("roundabout", 1), at)
+    known = measured(asked, WAY, at)
+    if ring.gap is not None:  # what exit was taken is past
+        known = tuple(m for m in known if m.attribute != "exit-number")
+    return Bound(Ego(), measures=told((*known, ring)))
+
+
+def next_turn(asked: Asked, at: float) -> PlanAhead:
+    """Tell what we come to next, and which way we take there."""
+    return plan_ahead(asked) if at >= asked.now - SHORT else PlanAhead((), here(asked, at))
+
+
+def here(asked: Asked, at: float) -> tuple[Measure, ...]:
+    """Tell where we are at a time [s]: the lane, how far to what comes next and to the end."""
+    road = asked.world.road(at)
+    step = road.route[0] if road is not None and road.route else None
+    found = list(measured(asked, ("lane",), at))
+    if step is not None:
+        place = road.places.get(EGO) if road is not None else None
+        inside = place is not None and place.roundabout
+        goal: Thing = Exit(step.exit) if inside else Junction(step.kind, 1, at)
+        found.append(_to_junction(asked, goal, step.distance, at))
+    return told((*found, *to_go(asked, at)))
+
+
+def junction(asked: Asked, thing: Junction, at: float) -> Measure:
+    """Tell how far it is to a junction or roundabout ahead, or that one is not recorded."""
+    road = asked.world.road(at)
+    if road is None:
+        return Measure("distance", Ego(), at, to=thing, gap="not-recorded")
+    fits = [s for s in road.route if thing.form == "junction" or s.kind == "roundabout"]
+    rank = (thing.rank or 1) - 1
+    if thing.rank == -1 and fits:
+        rank = len(fits) - 1
+    if not 0 <= rank < len(fits):
+        return Measure("distance", Ego(), at, to=thing, gap="not-applicable")
+    return _to_junction(asked, thing, fits[rank].distance, at)
+
+
+def to_go(asked: Asked, at: float) -> tuple[Measure, ...]:
+    """Tell how far and how long it still is to the destination."""
+    world = asked.world
+    return (world.measure("distance-to-go", Ego(), at, Destination()), time_to_go(asked, at))
+
+
+def time_to_go(asked: Asked, at: float) -> Measure:
+    """Tell how long it still takes; where the record has no such fact, as the plan foresees it."""
+    found = asked.world.measure("time-to-go", Ego(), at, Destination())
+    if found.gap is None or at < asked.now - SHORT:
+        return found
+    if asked.ride.arrived:
+        return Measure("time-to-go", Ego(), at, value=0.0, to=Destination())
+    known = current_plan(asked)
+    if known is None:
+        return found
+    trace, plan = known
+    passed, times = at - trace.sim_time, plan.present("time")
+    if trace.waypoint is not None or plan.likeliest != "done" or not times:
+        least = min((t for _, _, t in times), default=trace.settings.horizon) - passed
+        least = trace.settings.horizon - passed if plan.likeliest == "termination" else least
+        return Measure(
+            "time-to-go", Ego(), at, value=max(least, 0.0), to=Destination(),
+            low=max(least, 0.0), at_least=True,
+        )  # fmt: skip
+    expected = plan.expectation("time") or 0.0
+    values = sorted(max(t - passed, 0.0) for _, _, t in times)
+    return Measure(
+        "time-to-go", Ego(), at, value=max(expected - passed, 0.0), to=Destination(),
+        low=values[0], high=values[-1],
+    )  # fmt: skip
+
+
+def measured(asked: Asked, attributes: tuple[Attribute, ...], at: float) -> tuple[Measure, ...]:
+    """Give several measures of our car at a time [s]."""
+    return tuple(
+        time_to_go(asked, at)
+        if attribute == "time-to-go"
+        else asked.world.measure(attribute, Ego(), at, _aim(attribute))
+        for attribute in attributes
+    )
+
+
+def told(measures: tuple[Measure, ...]) -> tuple[Measure, ...]:
+    """Keep those that have a value; all where none has one, so that the reason can be said."""
+    known = tuple(m for m in measures if m.gap is None)
+    return known or measures
+
+
+def took_place(asked: Asked, event: Event) -> Located:
+    """Tell where an event took place: the place of its episode, and where we were then.
+
+    Raises:
+        Unanswered: it did not take place.
+    """
+    episode = taken_place(asked, event)
+    return place_of(asked, episode)
+
+
+def place_of(asked: Asked, episode: Episode) -> Located:
+    """Tell where an episode took place, by where it began."""
+    at = episode.begin
+    if isinstance(episode.actor, Vehicle):
+        look = first_look(asked, episode.actor.number, at)
+        return Located(episode.actor, () if look is None else (look,), here(asked, at))
+    thing: Thing = episode.place if episode.place is not None else Ego()
+    return Located(thing, (), here(asked, at))
+
+
+def _vehicles(asked: Asked, thing: Thing, at: float) -> Located:
+    found = somebodies(asked, thing, at)
+    numbers = tuple(v.number for v in found if isinstance(v, Vehicle))
+    seen = looks(asked, numbers, at)
+    if not seen and numbers:
+        first = (first_look(asked, v, at) for v in numbers)
+        return Located(thing, tuple(x for x in first if x is not None), gap="out-of-view")
+    lost = bool(seen) and not any(look.in_view for look in seen)
+    return Located(thing, seen, gap="out-of-view" if lost else None)
+
+
+def _left_behind(asked: Asked) -> tuple[int, ...]:
+    """Tell who is no longer around: those out of view, else those behind us."""
+    seen = looks(asked, asked.world.vehicles, asked.now)
+    lost = sorted((x for x in seen if not x.in_view), key=lambda x: -(x.seen or 0.0))
+    gone_by = tuple(look.vehicle for look in seen if look.ahead < 0.0)
+    return tuple(look.vehicle for look in lost[:TOLD]) or gone_by[:TOLD]
+
+
+def _last_way(asked: Asked, vehicle: int) -> Episode | None:
+    """Tell which way a vehicle took last, before it was lost from view."""
+    ways: tuple[ActionName, ...] = (
+        "exit-left",
+        "exit-right",
+        "exit-straight",
+        "change-left",
+        "change-right",
+    )
+    found = asked.world.episodes(actor=Vehicle(vehicle), actions=ways)
+    return found[-1] if found else None
+
+
+def _to_junction(asked: Asked, thing: Thing, distance: float, at: float) -> Measure:
+    """Give the distance to a junction: as last recorded, less what was driven since."""
+    left = still_to(asked.ride, distance, at)
+    return Measure("distance", Ego(), at, value=max(left, 0.0), to=thing)
+
+
+def _aim(attribute: Attribute) -> Destination | None:
+    return Destination() if attribute in ("distance-to-go", "time-to-go") else None

@@ -1,0 +1,344 @@
+"""Priority: who has or had right of way, who went first, and the facts behind a question of fault.
+
+The rule follows from the road (`RoadFacts`), and from whom way was given to in fact. It is told
+who had to yield and who did; whose fault something is, is not.
+"""
+
+from typing import Any, Literal, TypeAlias, cast
+
+from msgspec.structs import replace as changed
+
+from planner.record.places import RoadFacts
+from planner.record.trace import ON_FOOT
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import Answer, NotRecorded, Priority
+from xavi_dialogue.domain.facts import Episode, Measure, Somebody
+from xavi_dialogue.domain.meaning import Fault, Question
+from xavi_dialogue.domain.terms import Ego, Happens, Proposition, Thing, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.expectations.precedence import at_ring, on_ring, red_ahead
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.findings import Finding
+from xavi_dialogue.explain.answers.reference.moments import Window, window
+from xavi_dialogue.explain.answers.reference.naming import known, number, somebodies
+from xavi_dialogue.explain.answers.reference.occasions import PLAIN, occasion, overlaps
+from xavi_dialogue.explain.answers.ride.comfort import HARD, stretch
+from xavi_dialogue.explain.answers.ride.crossings import (
+    NEAR,
+    crossing_now,
+    entries,
+    met_about,
+    stood,
+    went_first,
+)
+from xavi_dialogue.explain.facts.episodes.waiting import top_holders
+from xavi_dialogue.explain.history.ride import planned
+
+Rule: TypeAlias = Literal[
+    "priority", "give-way", "equal", "depends", "none", "we-change", "it-changes"
+]
+CROSSINGS: tuple[ActionName, ...] = (
+    "exit-left",
+    "exit-right",
+    "exit-straight",
+    "continue-next-exit",
+    "enter",
+    "turn",
+)
+MINOR: tuple[ActionName, ...] = ("speed-up", "change-plan", "leave")
+#: Whether it is us who have to let the other one go first.
+YIELDS: dict[str, bool] = {
+    "priority": False, "give-way": True, "we-change": True, "it-changes": False,
+}  # fmt: skip
+CHANGES: tuple[ActionName, ...] = ("change-left", "change-right", "merge")
+STILL = 0.5  # [m/s] below which somebody stands
+GOING = 1.0  # [m/s] from which we go
+ASIDE = 1.5  # [m] sideways from which somebody is in another lane
+LEAD = 3.0  # [s] before a crossing at which its rule is read off
+
+
+def fault(question: Fault, asked: Asked) -> Answer:
+    """Tell the facts that a question of fault or law turns on.
+
+    Raises:
+        Unanswered: a vehicle is unknown, or nothing is recorded of it.
+    """
+    event = question.of.event if isinstance(question.of, Happens) else None
+    episode = None if event is None else occasion(asked, event)
+    about = window(asked, tense="past") if episode is None else stretch(asked, episode)
+    vehicle = number(question.suspect)
+    if vehicle is None and event is not None:
+        vehicle = number(event.actor) or number(event.object)
+    whole = episode is None and _whole(asked, about)
+    near = _last_crossing(asked, about) if whole else about
+    found = priority_at(asked, vehicle, near, blame=True)
+    if not question.legal:
+        return found
+    driver = number(question.suspect)
+    limit = _limit(asked, about, Ego() if driver is None else Vehicle(driver))
+    return changed(found, legal=True, limit=limit)
+
+
+def lawful(asked: Asked, about: Window | None, vehicle: int | None = None) -> Priority:
+    """Tell what bears on whether we, or a vehicle, may do that: the limit, and who goes first.
+
+    Raises:
+        Unanswered: the record does not hold it.
+    """
+    near = Window(asked.now, asked.now) if about is None else about
+    whole = about is not None and _whole(asked, about)
+    crossing = _last_crossing(asked, near) if whole else near
+    found = priority_at(asked, vehicle, crossing, blame=True)
+    who = Ego() if vehicle is None else Vehicle(vehicle)
+    return changed(found, legal=True, limit=_limit(asked, near, who), deeds=())
+
+
+def right_of_way(asked: Asked, thing: Thing | None, to: Thing | None, about: Window) -> Priority:
+    """Tell who goes first of two, or of us and whoever crosses our way.
+
+    Raises:
+        Unanswered: a vehicle is unknown, or the record does not hold it.
+    """
+    vehicle = number(thing) or number(to)
+    return priority_at(asked, vehicle, about)
+
+
+def priority_at(
+    asked: Asked, vehicle: int | None, about: Window, *, blame: bool = False
+) -> Priority:
+    """Tell who has or had right of way in a stretch of the ride, and who went first.
+
+    Raises:
+        Unanswered: the vehicle is unknown, or the record does not hold it.
+    """
+    general = vehicle is None
+    if vehicle is not None:
+        known(asked, Vehicle(vehicle), about.end)
+    present = about.instant and about.end >= asked.now - 0.1
+    ringed = general and present and on_ring(asked.world.road(asked.now))
+    if vehicle is None and not ringed:
+        vehicle = crossing_now(asked) if present else met_about(asked, about)
+    met = None if vehicle is None else rule_between(asked, vehicle, about)
+    time = _rule_time(asked, about) if met is None else met[0]
+    near = Window(time - NEAR, max(about.end, time) + NEAR)
+    waited = _waited(asked, vehicle, near)
+    if general and present and (ringed or (waited is not None and waited.end is not None)):
+        waited = None  # it is asked of now
+    if vehicle is None and waited is not None:
+        vehicle = number(waited.object)
+    rule: Rule | None = rule_for(asked.world.road(time), vehicle, waited is not None)
+    rule = rule if met is None else met[1]
+    if rule == "none" and vehicle is not None:
+        rule = _changing(asked, vehicle, about) or rule
+    rule = _walks_first(asked, vehicle, about, waited) or rule
+    if rule is None and not blame:
+        raise Unanswered(NotRecorded("not-recorded", about="right-of-way", since=time))
+    crossing = rule in ("priority", "give-way", "equal", "depends")
+    first = went_first(asked, vehicle, near, waited) if crossing else None
+    return Priority(
+        time, rule or "none", vehicle, first, waited, blame,
+        conflict=_conflict(asked, vehicle, near) if blame else None,
+        deeds=_deeds(asked, vehicle, about) if blame else (),
+        stood=vehicle is not None and _let_by(asked, vehicle, first, near, about),
+        ring=general and at_ring(asked.world.road(time)),
+        light=general and present and red_ahead(asked.world.road(time)),
+    )  # fmt: skip
+
+
+def _let_by(
+    asked: Asked, vehicle: int, first: Somebody | None, near: Window, about: Window
+) -> bool:
+    """Tell whether a vehicle stood when we went, or stands now that we go."""
+    if first is None and about.instant and about.end >= asked.now - 0.1:
+        theirs = asked.world.measure("speed", Vehicle(vehicle), asked.now).value
+        ours = asked.world.measure("speed", Ego(), asked.now).value
+        return theirs is not None and theirs < STILL and ours is not None and ours > GOING
+    return isinstance(first, Ego) and stood(asked, vehicle, near)
+
+
+def goes_first(question: Question, asked: Asked) -> Answer:
+    """Tell who has right of way, where it is asked why somebody goes before us.
+
+    Raises:
+        Unanswered: the vehicle is unknown, or the record does not hold the rule.
+    """
+    event: Any = getattr(getattr(question, "of", None), "event", None)
+    past = event.tense in ("past", "perfect")
+    about = window(asked, event.time, "past") if past else Window(asked.now, asked.now)
+    who = [n for v in somebodies(asked, event.actor, asked.now) if (n := number(v)) is not None]
+    told = [priority_at(asked, n, about) for n in who] or [priority_at(asked, None, about)]
+    return next((one for one in told if one.rule == "give-way"), told[0])
+
+
+def owed(found: Priority, *, ours_yield: bool) -> Finding:
+    """Give what a rule says of a claim that we, or the others, have to yield."""
+    yields = YIELDS.get(found.rule)
+    if yields is None:
+        told = changed(found, holds=False if found.rule == "none" else None)
+        return Finding(None, answer=told)
+    holds = yields == ours_yield
+    return Finding(holds, answer=changed(found, holds=holds))
+
+
+def rule_between(asked: Asked, vehicle: int, about: Window) -> tuple[float, Rule] | None:
+    """Give the rule between us and a vehicle, and when [s] it held, closest to a stretch.
+
+    None where their ways never met, or not near the moment that is asked about.
+    """
+    found = [
+        (trace.sim_time, fact.who)
+        for trace in asked.ride.traces
+        if trace.road is not None and trace.sim_time <= asked.now
+        for fact in trace.road.priority
+        if fact.vehicle == vehicle
+    ]
+    settled = [one for one in found if one[1] != "depends"] or found
+    near = about.widened(NEAR) if about.instant else about
+    inside = [one for one in settled if near.begin <= one[0] <= near.end]
+    if not inside:
+        return None
+    last = about.end
+    time, who = min(inside, key=lambda one: (abs(one[0] - last), -one[0]))
+    return time, _WHO[who]
+
+
+def _changing(asked: Asked, vehicle: int, about: Window) -> Rule | None:
+    """Tell who of both changed lanes about then, or is about to."""
+    near = about.widened(NEAR)
+    for who, rule in ((Ego(), "we-change"), (Vehicle(vehicle), "it-changes")):
+        found = asked.world.episodes(actor=who, actions=CHANGES)
+        if any(overlaps(asked, e, near) for e in found):
+            return cast(Rule, rule)
+    if _indicates_to_us(asked, vehicle, about.end):
+        return "it-changes"
+    trace = asked.ride.at(about.end)
+    meant = () if trace is None else planned(trace)[:1]
+    return "we-change" if any(step in CHANGES for step in meant) else None
+
+
+def _walks_first(
+    asked: Asked, vehicle: int | None, about: Window, waited: Episode | None
+) -> Rule | None:
+    """Tell whether we have to let somebody on foot go first: that is planned so, or done."""
+    if vehicle is None:
+        return None
+    look, trace = asked.world.look(vehicle, about.end), asked.world.states.trace(about.end)
+    if look is None or look.kind not in ON_FOOT or trace is None:
+        return None
+    crossing = asked.world.episodes(actor=Vehicle(vehicle), actions=("cross",), object=Ego())
+    first = waited is not None or any(overlaps(asked, e, about) for e in crossing)
+    held = first or (vehicle, "right-of-way") in top_holders(asked.world.states, trace, EGO)
+    return "give-way" if held else None
+
+
+def _indicates_to_us(asked: Asked, vehicle: int, at: float) -> bool:
+    """Tell whether a vehicle beside or behind us on our road indicates towards our lane."""
+    look = asked.world.look(vehicle, at)
+    shown = asked.world.episodes(actor=Vehicle(vehicle), actions=("signal",), begin=at, end=at)
+    sides = {e.side for e in shown if e.begin <= at and (e.end is None or e.end >= at)}
+    road = asked.world.road(at)
+    places = {} if road is None else road.places
+    here, there = places.get(EGO), places.get(vehicle)
+    if look is None or not sides or here is None or there is None or here.edge != there.edge:
+        return False
+    return ("left" if look.left < 0.0 else "right") in sides and abs(look.left) > ASIDE
+
+
+_WHO: dict[str, Rule] = {"ego": "priority", "vehicle": "give-way", "depends": "depends"}
+
+
+def rule_for(road: RoadFacts | None, vehicle: int | None, gave_way: bool) -> Rule | None:
+    """Give the rule for us against a vehicle, or all at the next junction; None: not recorded."""
+    if road is None:
+        return "give-way" if gave_way else None
+    for fact in road.priority:
+        if fact.vehicle == vehicle:
+            return _WHO[fact.who]
+    if vehicle is not None and gave_way:
+        return "give-way"
+    if vehicle is not None:
+        return "none"
+    return road.route[0].rule if road.route else "none"
+
+
+def where_rule_holds(asked: Asked, of: Proposition | None, about: Window) -> Window:
+    """Give the stretch of the ride whose right of way is asked about: the last crossing, or now."""
+    del of
+    return _last_crossing(asked, about) if _whole(asked, about) else about
+
+
+def _rule_time(asked: Asked, about: Window) -> float:
+    """Tell when [s] the rule is read off: shortly before we came into the junction; else then."""
+    if about.instant and about.end >= asked.now - 0.1:
+        return asked.now
+    near = [t for t in entries(asked) if about.begin - NEAR <= t <= about.end + NEAR]
+    if near:
+        entry = min(near, key=lambda t: max(about.begin - t, t - about.end, 0.0))
+        return max(entry - LEAD, asked.world.begin)
+    found = asked.world.episodes(actor=Ego(), actions=CROSSINGS)
+    crossing = next((e for e in found if overlaps(asked, e, about)), None)
+    return about.begin if crossing is None else max(crossing.begin, asked.world.begin)
+
+
+def _last_crossing(asked: Asked, about: Window) -> Window:
+    entered = entries(asked)
+    if entered:
+        return Window(entered[-1], entered[-1])
+    begun = asked.world.episodes(actor=Ego(), actions=CROSSINGS)
+    return stretch(asked, begun[-1]) if begun else Window(about.end, about.end)
+
+
+def _waited(asked: Asked, vehicle: int | None, near: Window) -> Episode | None:
+    """Give our giving way within a stretch of the ride: to a vehicle, or to anybody."""
+    found = [
+        e
+        for e in asked.world.episodes(actor=Ego(), actions=("give-way", "wait"))
+        if e.how in (None, "right-of-way")
+        and overlaps(asked, e, near)
+        and (vehicle is None or number(e.object) == vehicle)
+    ]
+    return next((e for e in found if isinstance(e.object, Vehicle)), None)
+
+
+def _conflict(asked: Asked, vehicle: int | None, near: Window) -> bool | None:
+    """Tell whether one of both had to brake hard; None where it is not known."""
+    begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
+    who: tuple[Somebody, ...] = (Ego(),) if vehicle is None else (Ego(), Vehicle(vehicle))
+    peaks = [asked.world.extreme("deceleration", one, "highest", begin, end) for one in who]
+    values = [m.value for m in peaks if m.gap is None and m.value is not None]
+    return max(values) >= HARD if values else None
+
+
+def _limit(asked: Asked, about: Window, who: Somebody) -> Measure | None:
+    """Give somebody's highest speed then, beside the limit."""
+    near = about.widened() if about.instant else about
+    begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
+    if about.instant and about.end >= asked.now:
+        found = asked.world.measure("speed", who, asked.now)
+    else:
+        found = asked.world.extreme("speed", who, "highest", begin, end)
+    if found.gap is not None or found.reference is not None:
+        return found if found.gap is None else None
+    limit = asked.world.measure("limit", who, found.time)
+    if limit.gap is not None:
+        return None
+    return Measure(
+        "speed", who, found.time, value=found.value, extreme="highest", reference=limit.value
+    )
+
+
+def _deeds(asked: Asked, vehicle: int | None, about: Window) -> tuple[Episode, ...]:
+    """Tell what the vehicle and we did then that bears on it."""
+    near = about.widened(NEAR / 2.0)
+    begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
+    names = [Ego()] if vehicle is None else [Vehicle(vehicle), Ego()]
+    found = [
+        e
+        for e in asked.world.account(begin, end)
+        if e.actor in names and e.action not in PLAIN and e.action not in MINOR
+    ]
+    return tuple(found[:4])
+
+
+def _whole(asked: Asked, about: Window) -> bool:
+    return about.begin <= asked.world.begin and about.end >= asked.now - 0.1

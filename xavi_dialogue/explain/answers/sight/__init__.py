@@ -1,0 +1,1 @@
+"""What can be seen, what cannot, and which lanes are free."""

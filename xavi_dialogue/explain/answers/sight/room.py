@@ -1,0 +1,52 @@
+"""Room: whether a lane beside us, or ours ahead, is free."""
+
+from planner.record.places import RoadPlace
+from sim.scene import EGO
+from xavi_dialogue.domain.terms import Ego, Is, Lane
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
+from xavi_dialogue.explain.answers.reference.moments import instant
+from xavi_dialogue.explain.answers.reference.naming import looks
+
+FREE = (15.0, 30.0)  # [m] behind and ahead of us that a free lane has nobody in
+
+
+def free(of: Is, asked: Asked) -> Finding:
+    """Tell whether there is room in a lane beside us, or nobody ahead in ours."""
+    at = instant(asked, of.time, of.tense)
+    lane = of.thing.which if isinstance(of.thing, Lane) else "own"
+    road = asked.world.road(at)
+    seen = looks(asked, asked.world.in_view(at), at)
+    if road is None or EGO not in road.places:
+        return unknown("not-recorded")
+    places = {look.vehicle: road.places.get(look.vehicle) for look in seen}
+    own = road.places[EGO]
+    wanted = _lane(own, lane)
+    if wanted is None:
+        return Finding(False, known(asked.world.measure("lane", Ego(), at)))
+    there = [
+        look
+        for look in seen
+        if _same_lane(places[look.vehicle], own, wanted)
+        and -FREE[0] <= look.ahead <= FREE[1]
+        and not look.oncoming
+    ]
+    nearest = sorted(there, key=lambda look: look.distance)
+    return Finding(not there, tuple(nearest))
+
+
+def _lane(own: RoadPlace, which: str) -> int | None:
+    """Give the index of a lane from the right; None where there is none."""
+    if own.lane is None:
+        return None
+    lanes = {
+        "own": own.lane, "left": own.lane + 1, "right": own.lane - 1, "rightmost": 0,
+        "leftmost": own.lanes - 1,
+        "other": own.lane + 1 if own.lane + 1 < own.lanes else own.lane - 1,
+    }  # fmt: skip
+    found = lanes.get(which, own.lane)
+    return found if 0 <= found < own.lanes else None
+
+
+def _same_lane(place: RoadPlace | None, own: RoadPlace, lane: int) -> bool:
+    return place is not None and place.edge == own.edge and place.lane == lane

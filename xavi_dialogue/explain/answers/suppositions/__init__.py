@@ -1,0 +1,1 @@
+"""What would have come of something else, and what could have been done."""

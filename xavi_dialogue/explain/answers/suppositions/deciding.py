@@ -1,0 +1,311 @@
+"""Deciding: options and comparisons, whether it was needed, what would change it, how to avoid."""
+
+import dataclasses
+from typing import Literal
+
+from msgspec.structs import replace
+
+from planner.record.trace import Action as MacroAction
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import (
+    Answer,
+    ChoiceReason,
+    Compared,
+    Contrast,
+    DidNotHappen,
+    MotionReason,
+    Options,
+    Pivot,
+)
+from xavi_dialogue.domain.meaning import Compare, HowAvoid, Listing, WhatWouldChange, Whether
+from xavi_dialogue.domain.reasons import Asking
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Is, Proposition, Thing
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.reasons import choices, motions
+from xavi_dialogue.explain.answers.reference import foils
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.reading import (
+    event_of,
+    foil_subject,
+    subject,
+    unwrapped,
+)
+from xavi_dialogue.explain.answers.suppositions.own_suppositions import of_us
+from xavi_dialogue.explain.causes.plans import avoidance, options, pivot
+from xavi_dialogue.explain.causes.plans.contrast import alternatives, contrast
+from xavi_dialogue.explain.causes.plans.premise import Premise, Subject, about_foil, premise
+from xavi_dialogue.explain.causes.vehicles.actions import (
+    DRIVING,
+    STRAIGHT,
+    is_macro,
+    names_of,
+    same,
+    to_macros,
+)
+from xavi_dialogue.explain.causes.vehicles.course import hard_braking
+from xavi_dialogue.explain.history.ride import planned
+
+EQUAL = 0.25  # [s] of value within which two options are the same
+#: What is asked of one option that is compared with what was decided.
+FORMS: dict[str, Asking] = {"safety": "safer", "best": "better"}
+EVEN = 0.01  # probability of a collision within which two options are equally safe
+
+
+def needed(question: Whether, scene: Asked) -> Answer:
+    """Tell whether what we did was necessary, worth it, or better than the alternative.
+
+    Raises:
+        Unanswered: we did not do it; or the record lacks it; or rollouts are needed.
+    """
+    of, _ = unwrapped(question.that)
+    event = of.event if isinstance(of, Is) else event_of(of)
+    state = of.state if isinstance(of, Is) else "necessary"
+    if event is not None and isinstance(of, Is) and of.tense == "past":
+        event = replace(event, tense="past")
+    form: Literal["necessary", "worth-it"] = "necessary" if state == "necessary" else "worth-it"
+    if event is not None and not choices.is_choice(event):
+        found = _moved(event, scene)
+        if isinstance(found, MotionReason):
+            return replace(found, form="necessary")
+        return found
+    return choices.needed(event, scene, form)
+
+
+def _moved(event: Event, scene: Asked) -> Answer:
+    """Why we drove so: at the time meant, or at whatever time we did where none was said.
+
+    Raises:
+        Unanswered: we did not; or rollouts are needed.
+    """
+    try:
+        return motions.motion(event, scene)
+    except Unanswered as unanswered:
+        said = scene.past is not None and scene.past.said
+        if said or not isinstance(unanswered.result, DidNotHappen):
+            raise
+        return motions.motion(event, dataclasses.replace(scene, span=None))
+
+
+def listed(question: Listing, scene: Asked) -> Answer:
+    """List what could have been done, best first.
+
+    Raises:
+        Unanswered: the record lacks it, or has too little evidence.
+    """
+    ride, said = scene.ride, scene.past
+    moment = None
+    if said is not None and said.said and said.begin == said.end:
+        moment = ride.at(said.begin)
+    if moment is None:  # of the deed that was spoken of before, where no time is said
+        found = options.with_choice(ride, premise(ride, Subject(None, (), False, scene.span)))
+    else:
+        found = options.with_choice(ride, Premise(moment, None))
+    rows = options.weighed(ride, found)
+    rests_on = options.situations(found)
+    del question
+    decided = found.trace.sim_time
+    return Options(rows, decided, rests_on, earlier=decided < ride.latest.sim_time)
+
+
+def compared(question: Compare, scene: Asked) -> Answer:
+    """Compare two of our options by a measure; what was done with what was not.
+
+    Raises:
+        Unanswered: an option did not apply; or the record lacks it; or rollouts are needed.
+    """
+    named = [option for option in question.options if _own_event(option) is not None]
+    events = [event for option in named if (event := _own_event(option)) is not None]
+    if not events:
+        return listed(Listing("options"), scene)
+    kept = events[0].action == "keep-lane"  # going straight on is another action
+    single = len(question.options) == 1 and (kept or not _was_done(scene, events[0]))
+    if single and question.by in ("time", "speed", "best", "safety"):
+        form: Asking = FORMS.get(question.by, "quicker")
+        return of_us(replace(events[0], tense="past"), scene, form)
+    found, fact, foil = _sides(scene, events)
+    ride = scene.ride
+    against = contrast(ride, found.trace, foil, found.node)
+    first, second = _named(named, events, fact, foil)
+    better = _better(question.by, against, swapped=not _is_fact(events[0], fact))
+    return Compared(question.by, first, second, better, contrast=against)
+
+
+def what_would_change(question: WhatWouldChange, scene: Asked) -> Answer:
+    """Tell what would have made us decide otherwise, or what mattered most.
+
+    Raises:
+        Unanswered: we did not do it; or the record lacks it; or rollouts are needed.
+    """
+    of, negated = unwrapped(question.of)
+    event = event_of(of)
+    if question.most:
+        return _factor(event, scene, negated=negated)
+    if event is not None and not choices.is_choice(event) and not negated:
+        return _motive(event, scene)
+    ride = scene.ride
+    if event is not None and (negated or not _was_done(scene, event)):
+        found, foil = foils.foil_at(event, scene)
+        return pivot.towards(ride, found, foil)
+    found = options.free(ride, premise(ride, subject(scene, event)))
+    plan = planned(found.trace)
+    others = alternatives(ride.model(found.trace), plan[len(found.node)], found.node)
+    if not others:
+        return Pivot("none", None)
+    return pivot.towards(ride, found, others[0][0][len(found.node) :])
+
+
+def how_avoid(question: HowAvoid, scene: Asked) -> Answer:
+    """Tell which option would have avoided what happened, or that none would.
+
+    Raises:
+        Unanswered: it did not happen; or the record lacks the decisions before it.
+    """
+    of, _ = unwrapped(question.of)
+    event = event_of(of)
+    if event is not None and choices.is_choice(event) and event.action not in ("collide", "avoid"):
+        return choices.needed(event, scene)
+    mishap, moment = _mishap(scene, event)
+    found = avoidance.avoiding(scene.ride, mishap, moment)
+    crash = avoidance.crashed(scene.ride)
+    if mishap == "collide" and crash is not None:
+        return replace(found, impact=avoidance.impact_of(crash))
+    return found
+
+
+def _mishap(scene: Asked, event: Event | None) -> tuple[ActionName, float]:
+    """What happened and when [s]: what the question names, else the worst.
+
+    Raises:
+        Unanswered: it did not happen.
+    """
+    crash = avoidance.crashed(scene.ride)
+    if crash is not None and (event is None or event.action in ("collide", "happen", "do")):
+        return "collide", crash.sim_time
+    if event is not None and event.action in ("collide", "nearly-collide"):
+        raise Unanswered(DidNotHappen(event))
+    hard = hard_braking(scene.ride.motion(EGO))
+    kinds: tuple[ActionName, ...] = ("stop", "give-way", "slow-down", "brake")
+    if event is not None and event.action in DRIVING:
+        kinds = motions.KINDS.get(event.action, (kinds,))[0]
+    elif hard is not None:
+        return "brake", hard
+    found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
+    last = scene.pick(found, lambda e: (e.begin, e.end))
+    if last is None:
+        raise Unanswered(DidNotHappen(event or Event("happen")))
+    name: ActionName = "slow-down" if last.action == "brake" else last.action
+    return name, last.begin
+
+
+def _factor(event: Event | None, scene: Asked, *, negated: bool) -> Answer:
+    """The first cause of a deed; where no vehicle is, what the choice turned on."""
+    chosen = event is not None and (choices.is_choice(event) or event.action == "stop")
+    undone = event is not None and chosen and not _was_done(scene, event)
+    if event is not None and (negated or undone):
+        found = choices.why_not(event, scene)
+    elif event is not None and not choices.is_choice(event):
+        return _motive(event, scene, most=True)
+    else:
+        found = choices.why(event, scene)
+    assert isinstance(found, ChoiceReason)
+    against = found.contrast
+    ranked = sorted(against.causes, key=pivot.weight)
+    if not ranked:
+        return Pivot("factor", against, most=True)
+    first = ranked[0]
+    return Pivot("factor", against, first.vehicle, first.actions, first.probability, most=True)
+
+
+def _motive(event: Event, scene: Asked, *, most: bool = False) -> Answer:
+    """What a way of driving hung on: without whom it would not have come about."""
+    found = motions.motion(event, scene)
+    if not isinstance(found, MotionReason):
+        return found
+    first = next((cause for cause in found.causes if cause.vehicle is not None), None)
+    if first is None or first.necessary is False:
+        return found
+    kind: Literal["removal", "factor"] = "factor" if most else "removal"
+    return Pivot(kind, None, first.vehicle, first.actions, first.probability, most)
+
+
+def _own_event(option: Proposition | Thing) -> Event | None:
+    of, _ = unwrapped(option) if isinstance(option, Happens) else (option, False)
+    return of.event if isinstance(of, Happens) else None
+
+
+def _was_done(scene: Asked, event: Event) -> bool:
+    names = names_of(event)
+    turn = foils.at_turn(scene, names, past=True) if names == ("exit-straight",) else None
+    if turn is not None:
+        return planned(turn.trace)[len(turn.node)] in STRAIGHT
+    deeds = [d for d in scene.ride.deeds if any(same(name, d.action) for name in names)]
+    plan = planned(scene.ride.latest)[:1]
+    return bool(deeds) or any(same(name, step) for name in names for step in plan)
+
+
+def _sides(
+    scene: Asked, events: list[Event]
+) -> tuple[Premise, tuple[MacroAction, ...], tuple[MacroAction, ...]]:
+    """The decision, what was done, and the foil, of one or two options named."""
+    done = next((event for event in events if _was_done(scene, event)), None)
+    others = [event for event in events if event is not done]
+    if done is not None and others:
+        found, foil = foils.foil_at(others[0], scene, done)
+    else:
+        about = foil_subject(scene, events[0])
+        names = foils.settled(scene, events[-1])
+        found = about_foil(scene.ride, about, names[:1])
+        foil = to_macros(scene.ride.model(found.trace), names[:1], found.node)
+    return found, planned(found.trace)[len(found.node) :][:1], foil
+
+
+def _is_fact(event: Event, fact: tuple[MacroAction, ...]) -> bool:
+    return any(same(name, step) for name in names_of(event) for step in fact)
+
+
+def _named(
+    named: list[Proposition | Thing],
+    events: list[Event],
+    fact: tuple[MacroAction, ...],
+    foil: tuple[MacroAction, ...],
+) -> tuple[Proposition | Thing, Proposition | Thing]:
+    """The two options as they are to be named, in the order of the question."""
+    if len(named) > 1:
+        return named[0], named[1]
+    ours = fact[0] if fact and not _is_fact(events[0], fact) else None
+    if ours is not None:
+        return named[0], Happens(Event(ours))
+    return named[0], Happens(Event(foil[0])) if foil and is_macro(foil[0]) else named[0]
+
+
+def _better(
+    by: str, against: Contrast, *, swapped: bool
+) -> Literal["first", "second", "same", "unknown"]:
+    """Which of fact (first) and foil is better by a measure."""
+    gain = _gain(by, against)
+    if gain is None:
+        return "unknown"
+    if gain == 0.0:
+        return "same"
+    return "first" if (gain > 0.0) != swapped else "second"
+
+
+def _gain(by: str, against: Contrast) -> float | None:
+    """By how much the fact is better, in the measure's own unit; 0 where it is the same."""
+    effects = {effect.component: effect.delta for effect in against.effects}
+    if by == "safety":
+        gain = against.collision - against.fact_collision
+        return gain if abs(gain) >= EVEN else 0.0
+    if by in ("time", "speed"):
+        sides = (against.outcome, against.fact_outcome)
+        arrives, arrived = (side is None or side.name == "done" for side in sides)
+        if not (arrives and arrived):
+            return None if arrives == arrived else -1.0 if arrives else 1.0
+        delta = effects.get("time")
+        return None if delta is None else delta if abs(delta) >= EQUAL else 0.0
+    if by == "comfort":
+        parts = [effects.get("jerk"), effects.get("angular-acceleration")]
+        known = [part for part in parts if part is not None]
+        return sum(known) if known else None
+    value = against.value
+    return None if value is None else value if abs(value) >= EQUAL else 0.0

@@ -1,0 +1,152 @@
+"""Hastening: what would come of not slowing down, not waiting, or going before another vehicle."""
+
+from msgspec import structs
+
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import (
+    Answer,
+    ChoiceReason,
+    DidNotHappen,
+    MotionCause,
+    MotionReason,
+    SupposedOfUs,
+    Unslowed,
+)
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.reasons import Asking
+from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.measuring.durations import lost
+from xavi_dialogue.explain.answers.reasons import motions
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.reading import manner_of, vehicle_in
+from xavi_dialogue.explain.causes.driving.crossing import Crossing, crossing
+from xavi_dialogue.explain.history.nearing import speed_at
+
+SLOW = 4.0  # [m/s] below which going now is setting off
+JOINED = 0.5  # [s] between what belongs together
+LATELY = 1.0  # [s] since when what is named is still now
+NEAR = 25.0  # [s] around the slowing in which somebody let go counts
+
+
+def hastened(
+    event: Event, scene: Asked, form: Asking = "what-if", struck: int | None = None
+) -> Answer:
+    """Tell who would have been in our way had we not slowed or waited, and how close.
+
+    Args:
+        event: what we are supposed to do: go, enter, not brake.
+        scene: the setting.
+        form: what is asked of it.
+        struck: the vehicle that is asked about, if any.
+
+    Raises:
+        Unanswered: rollouts are needed.
+    """
+    if event.action == "speed-up":
+        return motions.slow(scene)
+    named = struck or vehicle_in(event.object) or _ahead_of(event)
+    now = _now(event, scene)
+    letting = None if now is not None or named is None else _letting(scene, named)
+    deed = now or letting
+    causes: tuple[MotionCause, ...] = ()
+    if deed is None:
+        found = _cause(event, scene)
+        if isinstance(found, ChoiceReason) and form != "what-if":
+            return SupposedOfUs(found.contrast, past=found.past, form=form)
+        if not isinstance(found, MotionReason):
+            return found if found is not None else motions.slow(scene)
+        deed, causes = found.deed, found.causes
+    elif letting is not None and named is not None:
+        causes = (MotionCause("right-of-way", vehicle=named),)
+    met = _met(scene, deed, named, causes, setting_off=now is not None)
+    first = next((c for c in causes if met is None or c.vehicle == met.vehicle), None)
+    cost = None if now is not None else lost(scene, deed)
+    saved = None if cost is None else cost.value
+    due = scene.world.measure("arrival-time", Ego(), scene.now).value
+    whom = _let_go(scene, deed) | {c.vehicle for c in causes if c.kind == "right-of-way"}
+    return Unslowed(
+        deed,
+        first or next(iter(causes), None),
+        ours=None if met is None else met.ours,
+        theirs=None if met is None else met.theirs,
+        going=manner_of(event, "fast", "slowly") is None,
+        vehicle=None if met is None else met.vehicle,
+        right=met is None or met.vehicle in whom,
+        past=now is None,
+        form=form,
+        saved=saved,
+        arrival=None if due is None or saved is None else due - saved,
+    )
+
+
+def _ahead_of(event: Event) -> int | None:
+    """Ahead of whom it is supposed to be done."""
+    place = event.where
+    return vehicle_in(place.to) if place is not None and place.relation == "ahead-of" else None
+
+
+def _letting(scene: Asked, vehicle: int) -> Episode | None:
+    """The slowing or waiting for a vehicle that we let go first."""
+    gave = scene.world.episodes(Ego(), ("give-way", "wait"), object=Vehicle(vehicle))
+    if not gave:
+        return None
+    begin = gave[-1].begin
+    slowed = scene.world.episodes(Ego(), ("slow-down", "brake"), begin - JOINED, begin + JOINED)
+    known = [e for e in (*slowed, gave[-1]) if e.speed_from is not None]
+    return known[0] if known else gave[-1]
+
+
+def _now(event: Event, scene: Asked) -> Episode | None:
+    """The waiting that would end now, where it is asked of now; None where it is of the past."""
+    speed = speed_at(scene.ride, scene.now)
+    said = scene.past is not None and scene.past.said and scene.past.end < scene.now - LATELY
+    present = event.tense in ("present", "future") and not said
+    early = event.tense == "past" and event.modal is None and scene.past is None
+    if speed is None or not (present or (early and speed < SLOW)):
+        return None
+    action: ActionName = "wait" if speed < SLOW else "slow-down"
+    return Episode(Ego(), action, scene.now, speed_from=speed)
+
+
+def _cause(event: Event, scene: Asked) -> Answer | None:
+    """Why we slowed or waited then; None where we did not."""
+    name: ActionName = event.action if event.action in motions.KINDS else "slow-down"
+    asked = structs.replace(
+        event, action=name, object=None, manner=(), where=None, tense="past", modal=None
+    )
+    try:
+        return motions.motion(asked, scene)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, DidNotHappen):
+            return None
+        raise
+
+
+def _met(
+    scene: Asked,
+    deed: Episode,
+    named: int | None,
+    causes: tuple[MotionCause, ...],
+    *,
+    setting_off: bool,
+) -> Crossing | None:
+    """Whose way we would have crossed: the vehicle asked about, else the one closest in time."""
+    ride, speed = scene.ride, deed.speed_from or 0.0
+    others = {c.vehicle for c in causes if c.vehicle} | _let_go(scene, deed)
+    if setting_off:
+        others |= set(scene.world.in_view(scene.now))
+    asked = [named] if named is not None else sorted(v for v in others if v is not None)
+    starting = setting_off and speed < SLOW
+    found = [crossing(ride, v, deed.begin, speed, setting_off=starting) for v in asked]
+    met = [one for one in found if one is not None and one.theirs >= deed.begin - 1.0]
+    return min(met, key=lambda one: abs(one.ahead), default=None)
+
+
+def _let_go(scene: Asked, deed: Episode) -> set[int | None]:
+    """Whom we gave way to about then."""
+    end = scene.now if deed.end is None else deed.end
+    gave = scene.world.episodes(Ego(), ("give-way", "wait"), deed.begin - 1.0, end)
+    near = [e for e in gave if e.begin <= deed.begin + NEAR]
+    found: set[int | None] = {e.object.number for e in near if isinstance(e.object, Vehicle)}
+    return found - {EGO}

@@ -1,0 +1,282 @@
+"""Own suppositions: what would have come of it, had we done otherwise."""
+
+from dataclasses import replace
+from typing import TypeGuard
+
+from msgspec import structs
+
+from xavi_dialogue.domain.answers import (
+    Answer,
+    ChoiceReason,
+    Contrast,
+    DidNotHappen,
+    MotionCause,
+    SupposedOfUs,
+)
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.meaning import Compare, HowMuch, Question, When, Whether
+from xavi_dialogue.domain.reasons import Asking
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Ego,
+    Event,
+    Exists,
+    Happens,
+    Is,
+    Lane,
+    Measured,
+    Proposition,
+    Quantity,
+    Unsaid,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.measuring.closeness import closeness
+from xavi_dialogue.explain.answers.reasons import choices
+from xavi_dialogue.explain.answers.reasons.against import against
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.foils import Did
+from xavi_dialogue.explain.answers.reference.moments import Window
+from xavi_dialogue.explain.answers.reference.reading import (
+    event_of,
+    is_own,
+    is_past,
+    manner_of,
+    vehicle_in,
+)
+from xavi_dialogue.explain.answers.suppositions import reacting
+from xavi_dialogue.explain.answers.suppositions.hastening import hastened
+from xavi_dialogue.explain.causes.driving.blocking import blocking
+from xavi_dialogue.explain.causes.plans.contrast import alone, factual
+from xavi_dialogue.explain.causes.plans.natural import STAYING, natural
+from xavi_dialogue.explain.causes.plans.premise import happened, manoeuvre
+from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, DRIVING, names_of
+from xavi_dialogue.explain.history.ride import planned
+
+STANDING = 0.5  # [m/s]
+LATELY = 12.0  # [s] since when it may be our braking that is meant
+PAST = frozenset[ActionName](("overtake", "pass", "avoid"))
+SQUEEZING = frozenset[ActionName](("cut-in", "merge", "pull-out", "pass"))
+GOING = frozenset[ActionName](("go", "move", "enter", "cross", "speed-up", "continue"))
+
+
+def form_of(then: Question | None) -> Asking:
+    """Tell what is asked of a supposed world."""
+    if reacting.asks(then) == "collide":
+        return "crash"
+    if is_sooner(then):
+        return "quicker"
+    match then:
+        case Compare(by="safety"):
+            return "safer"
+        case Compare(by="time" | "speed"):
+            return "quicker"
+        case Whether(that=Is(state="possible", event=None)):
+            return "could"
+        case Whether(
+            that=Happens(event=Event(actor=Ego(), action="go" | "enter" | "arrive", manner=()))
+        ):
+            return "could"
+        case When(of=Happens(event=Event(action="arrive"))):
+            return "arrival"
+        case HowMuch(
+            of=Measured(attribute="arrival-time" | "time-to-go" | "delay" | "time" | "duration")
+        ):
+            return "arrival"
+    return "what-if"
+
+
+def claimed_in(that: Proposition | None) -> float | None:
+    """Tell how long [s] a delay is said or asked to be; None where nothing is said of it."""
+    match that:
+        case Compares(left=Measured(attribute="delay"), right=Quantity(value=value, unit="s")):
+            return value
+    return None
+
+
+def claimed(found: Answer, amount: float | None) -> Answer:
+    """Add what is claimed to be gained or lost, so that what it would be is held against it."""
+    if amount is None or not isinstance(found, SupposedOfUs):
+        return found
+    return structs.replace(found, claimed=amount, form="quicker")
+
+
+def is_sooner(then: Question | None) -> bool:
+    """Tell whether it is asked if we would have gone, or been there, sooner."""
+    event = event_of(then.that) if isinstance(then, Whether) else None
+    if event is None or event.action not in (*GOING, "arrive", "go"):
+        return False
+    return manner_of(event, "first", "early", "fast") is not None
+
+
+def struck_in(then: Question | None) -> int | None:
+    """Tell whom it is asked whether we would collide with."""
+    event = event_of(then.that) if isinstance(then, Whether) else None
+    if event is None or event.action not in reacting.COLLIDING:
+        return None
+    return vehicle_in(event.object) or vehicle_in(event.actor)
+
+
+def stays_ahead(event: Event | None) -> TypeGuard[Event]:
+    """Tell whether somebody is supposed to go on driving ahead of us."""
+    return event is not None and event.action == "continue" and event.object == Ego()
+
+
+def kept_ahead(event: Event, form: Asking) -> tuple[Proposition, bool]:
+    """Give what is tried for it, and whether denied: how much later with it is sooner without."""
+    if form == "arrival":
+        return Exists(event.actor), True
+    return Happens(structs.replace(event, object=None)), False
+
+
+def paced(of: Proposition | None) -> Event | None:
+    """Read that we were faster or slower as driving so."""
+    match of:
+        case Compares(left=Measured(attribute="speed", thing=thing, tense=tense), comparator=how):
+            if not is_own(thing):
+                return None
+            action: ActionName = "slow-down" if how == "less" else "go"
+            return Event(action, manner=("slowly" if how == "less" else "fast",), tense=tense)
+        case Is(state="fast" | "slow" as state, thing=thing, tense=tense) if is_own(thing):
+            if state == "slow":
+                return Event("slow-down", manner=("slowly",), tense=tense)
+            return Event("go", manner=("fast",), tense=tense)
+    return None
+
+
+def of_us(
+    event: Event, scene: Asked, form: Asking = "what-if", struck: int | None = None
+) -> Answer:
+    """Tell what would have come of another action of ours.
+
+    Raises:
+        Unanswered: it cannot be done; or rollouts are needed.
+    """
+    past = is_past(scene, event) or event.modal == "would"
+    asked, event = event, _staying(event, scene)
+    if asked.action == "wait" and event.action == "keep-lane":
+        scene = replace(scene, span=None)  # until when is no time at which it was chosen
+    if event.action in SQUEEZING and scene.world.episodes(Ego(), ("give-way",)):
+        return hastened(structs.replace(event, object=None), scene, form, struck)
+    if event.action in reacting.COLLIDING:
+        now = Window(scene.now, scene.now)
+        return closeness(scene, vehicle_in(event.object), now, "hit", past=False)
+    if event.action in GOING and (not _stopped(scene) or manner_of(event, "fast") is not None):
+        return hastened(event, scene, form, struck)
+    if event.action in GOING and event.side is None and event.object is None:
+        return undone(structs.replace(event, action="stop", manner=()), scene, form, struck)
+    if (drove := _drove(event, scene)) is not None:
+        raise Unanswered(DidNotHappen(event, (drove,)))
+    try:
+        tried = against(event, scene)
+    except Did as did:
+        if form == "crash":
+            return closeness(scene, struck, Window(scene.now, scene.now), "hit", past=False)
+        return _done(did, scene, form)
+    compared = tried.contrast
+    nearest = event.action if event.action in ("brake", "slow-down") else None
+    return SupposedOfUs(
+        compared,
+        past=past or tried.earlier,
+        asked=nearest,
+        form=form,
+        arrival=arrival(scene, compared),
+        ahead=_standing_ahead(scene, compared),
+        later=tried.later,
+        open_at=tried.open_at,
+    )
+
+
+def _drove(event: Event, scene: Asked) -> Episode | None:
+    """Find the braking or slowing that is asked about where we did so lately, or just then."""
+    plain = not event.manner and event.object is None and event.where is None
+    if event.action not in ("brake", "slow-down") or not plain or not is_past(scene, event):
+        return None
+    since = scene.now - LATELY if scene.past is None else scene.past.begin
+    until = scene.now if scene.past is None else scene.past.end
+    found = scene.world.episodes(Ego(), (event.action,), since, until)
+    return found[-1] if found else None
+
+
+def _standing_ahead(scene: Asked, against: Contrast) -> MotionCause | None:
+    """Tell who stood in our lane where it is supposed that we had stayed in it."""
+    fact = against.fact[:1]
+    if against.foil != STAYING or not fact or fact[0] not in CHANGES:
+        return None
+    found = blocking(scene.ride, scene.world, against.decided, fact[0])
+    return found if found is not None and (found.speed or 0.0) < STANDING else None
+
+
+def _staying(event: Event, scene: Asked) -> Event:
+    """Read staying or waiting behind somebody whom we moved out for as staying in our lane."""
+    behind = event.where is not None and event.where.relation == "behind"
+    lane = None if event.where is None else event.where.to
+    if isinstance(lane, Lane) and lane.which == "own" and event.action in ("pass", "overtake"):
+        return structs.replace(event, action="keep-lane", object=None, where=None)
+    lets = event.action in ("let-go", "give-way", "wait") and vehicle_in(event.object) is not None
+    stands = behind and event.action in ("stand", "wait", "stop")
+    bides = event.action == "wait" and event.object is None and event.where is None
+    if event.action != "follow" and not stands and not lets and not bides:
+        return event
+    deed = manoeuvre(scene.ride, None if bides else scene.span)
+    if bides and (deed is None or deed.action not in CHANGES):
+        return event
+    if deed is None or deed.action not in CHANGES:
+        return event if event.action != "follow" else structs.replace(event, action="slow-down")
+    time = Unsaid() if bides else event.time
+    return structs.replace(event, action="keep-lane", object=None, where=None, time=time)
+
+
+def arrival(scene: Asked, against: Contrast) -> float | None:
+    """Tell when [s] we would be there under the foil."""
+    due = scene.world.measure("arrival-time", Ego(), scene.now).value
+    later = next((e.delta for e in against.effects if e.component == "time"), None)
+    return None if due is None or later is None else due + later
+
+
+def _stopped(scene: Asked) -> bool:
+    """Whether a stop was chosen, so that driving on was the other choice."""
+    trace = scene.ride.at(scene.moment)
+    return trace is not None and "stop" in planned(trace)[:1]
+
+
+def _done(did: Did, scene: Asked, form: Asking) -> SupposedOfUs:
+    """It is just what we did, do or plan: beside what one would naturally do instead.
+
+    Raises:
+        Unanswered: there is too little evidence, or rollouts are needed.
+    """
+    ride, found = scene.ride, did.found
+    if found is None:
+        raise did
+    compared = natural(ride, found.trace, found.node)
+    foil, done = compared.foil[len(found.node) :], did.performed.action
+    elsewhere = done == "keep-lane" and not set(foil[:1]) & set(CHANGES)
+    if elsewhere or (foil == ("stop",) and done != "stop"):
+        model = ride.model(found.trace)  # stopping is nothing that one thinks of
+        compared = alone(ride, model, factual(model, found.trace))
+    past = did.performed.when == "did"
+    return SupposedOfUs(compared, done=did.performed, past=past, form=form)
+
+
+def undone(event: Event, scene: Asked, form: Asking, struck: int | None) -> Answer:
+    """Tell what would have been had we not done what we did: the best alternative.
+
+    Raises:
+        Unanswered: it cannot be told; or rollouts are needed.
+    """
+    names = names_of(event)
+    if happened(scene.ride, names, scene.span) is None and set(names) & DRIVING:
+        return hastened(event, scene, form, struck)  # no choice of its own
+    try:
+        reason = choices.why(event, scene)
+    except Unanswered as unanswered:
+        around = event.action in PAST and isinstance(unanswered.result, DidNotHappen)
+        moved = [deed for deed in scene.ride.deeds if deed.action in CHANGES]
+        if not around or not moved:
+            raise
+        reason = choices.why(Event(moved[-1].action), replace(scene, span=None))
+    assert isinstance(reason, ChoiceReason)
+    against = reason.contrast
+    past = reason.past or event.tense == "perfect"
+    due, ahead = arrival(scene, against), _standing_ahead(scene, against)
+    return SupposedOfUs(against, past=past, form=form, arrival=due, ahead=ahead)

@@ -1,0 +1,143 @@
+"""Pulling up: whether another vehicle, or we, stop in time for the other one.
+
+Of who comes up behind somebody, the distance tells it; of who crosses our way, the right of way.
+"""
+
+from msgspec.structs import replace
+
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import PullingUp
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.expectations.foreseen import chance, collision_chance
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.findings import Finding
+from xavi_dialogue.explain.answers.reference.moments import Window, is_ahead
+from xavi_dialogue.explain.answers.reference.naming import is_us, number
+from xavi_dialogue.explain.answers.ride.priority import rule_between
+from xavi_dialogue.explain.answers.suppositions.reacting import for_anybody
+from xavi_dialogue.explain.causes.driving.stopping import stopping_distance
+from xavi_dialogue.explain.facts.approach import following
+from xavi_dialogue.explain.facts.measures.between import leader
+from xavi_dialogue.explain.history.thresholds import STANDING
+
+HALTS: frozenset[ActionName] = frozenset(("stop", "brake", "stand"))
+SOON = 2.5  # [s] within which who brakes on comes to a standstill
+
+
+def pulls_up(asked: Asked, event: Event) -> Finding | None:
+    """Tell whether somebody stops in time; None where that is not asked."""
+    if event.action not in HALTS or not _of_now(asked, event):
+        return None
+    able = event.modal in ("can", "could") or "early" in event.manner
+    if is_us(event.actor):
+        return _we_stop(asked, event) if able else None
+    vehicle = number(event.actor)
+    look = None if vehicle is None else asked.world.look(vehicle, asked.now)
+    if vehicle is None or look is None or not look.in_view or asked.now < asked.world.begin:
+        return None
+    if look.speed < STANDING:
+        return Finding(True, answer=PullingUp(vehicle, "stands")) if able else None
+    behind = _comes_up(asked, vehicle, EGO) or (able and _follows(asked, vehicle))
+    met = rule_between(asked, vehicle, Window(asked.now, asked.now))
+    if not able and not is_us(event.object) and not behind and met is None:
+        return None
+    found = PullingUp(
+        vehicle, "apart", behind=behind,
+        braking=_braking(asked, vehicle),
+        distance=asked.world.measure("distance", Ego(), asked.now, Vehicle(vehicle)),
+        speed=asked.world.measure("speed", Vehicle(vehicle), asked.now),
+        risk=collision_chance(asked, asked.now, vehicle),
+    )  # fmt: skip
+    return Finding(None, answer=_from_behind(asked, found) if behind else _crossing(asked, found))
+
+
+def _of_now(asked: Asked, event: Event) -> bool:
+    """Tell whether it is asked of what is about to come."""
+    could = event.modal == "could" and "early" in event.manner  # "could we stop in time?"
+    if asked.past is not None or (event.tense in ("past", "perfect") and not could):
+        return False
+    return is_ahead(asked, event.time, event.tense) or event.modal in ("can", "could")
+
+
+def _comes_up(asked: Asked, one: int, other: int) -> bool:
+    """Tell whether one drives behind the other on one line."""
+    line = following(asked.world.states, one, other, asked.now)
+    return line is not None and line.behind == one
+
+
+def _follows(asked: Asked, vehicle: int) -> bool:
+    """Tell whether a vehicle drives our way behind us, be it in another lane."""
+    seen = asked.world.states.offset(EGO, vehicle, asked.now)
+    return seen is not None and seen.same_way and seen.ahead + seen.clear < 0.0
+
+
+def _braking(asked: Asked, vehicle: int) -> Episode | None:
+    """Find the braking of a vehicle that goes on."""
+    found = asked.world.episodes(actor=Vehicle(vehicle), actions=("brake",))
+    return next((e for e in reversed(found) if e.end is None), None)
+
+
+def _from_behind(asked: Asked, found: PullingUp) -> PullingUp:
+    """Judge by the room that it has to come down to our speed."""
+    ours = asked.world.measure("speed", Ego(), asked.now).value or 0.0
+    closing = max((found.speed.value if found.speed and found.speed.value else 0.0) - ours, 0.0)
+    needed = stopping_distance(closing)
+    room = found.distance.value if found.distance is not None else None
+    enough = room is None or needed <= room
+    how = "brakes" if found.braking is not None and enough else "able" if enough else "unable"
+    return replace(found, how=how, needed=needed)
+
+
+def _crossing(asked: Asked, found: PullingUp) -> PullingUp:
+    """Judge by the right of way, and by what is expected of it."""
+    met = rule_between(asked, found.vehicle, Window(asked.now, asked.now))
+    rule = None if met is None else met[1]
+    share = chance(asked, Event("let-go", Vehicle(found.vehicle), Ego()), asked.now)
+    found = replace(found, chance=share)
+    if _halts_soon(asked, found):
+        return replace(found, how="brakes")
+    if rule == "give-way":
+        return replace(found, how="goes-first")
+    if rule == "priority":
+        return replace(found, how="owes")
+    return replace(found, how="apart" if found.braking is None else "brakes")
+
+
+def _halts_soon(asked: Asked, found: PullingUp) -> bool:
+    """Tell whether it would stand within SOON seconds, were it to brake on as it does."""
+    speed = None if found.speed is None else found.speed.value
+    rate = asked.world.measure("deceleration", Vehicle(found.vehicle), asked.now).value
+    if found.braking is None or speed is None or rate is None:
+        return False
+    return speed <= rate * SOON
+
+
+def _we_stop(asked: Asked, event: Event) -> Finding | None:
+    """Judge whether we can stop behind whoever is ahead of us."""
+    named = number(event.object) or (None if event.where is None else number(event.where.to))
+    ahead = named if named is not None else leader(asked.world.states, EGO, asked.now)
+    if ahead is None or not _comes_up(asked, EGO, ahead):
+        told = for_anybody(event, asked) if "early" in event.manner else None
+        return None if told is None else Finding(None, answer=told)
+    speed = asked.world.measure("speed", Ego(), asked.now)
+    if speed.value is None or speed.value < STANDING:
+        return None
+    gap = asked.world.measure("gap", Ego(), asked.now, Vehicle(ahead))
+    theirs = asked.world.measure("speed", Vehicle(ahead), asked.now).value or 0.0
+    needed = stopping_distance(speed.value)
+    enough = gap.value is None or stopping_distance(max(speed.value - theirs, 0.0)) <= gap.value
+    try:
+        risk = collision_chance(asked, asked.now, ahead)
+    except Unanswered:
+        risk = None
+    return Finding(None, answer=PullingUp(
+        ahead, "able" if enough else "unable", ours=True, braking=_our_braking(asked),
+        distance=gap, speed=speed, needed=needed, risk=risk,
+    ))  # fmt: skip
+
+
+def _our_braking(asked: Asked) -> Episode | None:
+    found = asked.world.episodes(actor=Ego(), actions=("brake",))
+    return next((e for e in reversed(found) if e.end is None), None)

@@ -1,0 +1,160 @@
+"""Reacting: what another vehicle's sudden act would ask of us, and whether we could stop."""
+
+from typing import Literal
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import NotRecorded, Reaction
+from xavi_dialogue.domain.meaning import Question, Whether
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Exists,
+    Feature,
+    Is,
+    Nobody,
+    Proposition,
+    Vehicle,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.reading import event_of, is_own, manner_of, unwrapped
+from xavi_dialogue.explain.causes.driving.stopping import stopping, stopping_distance
+
+#: What another vehicle does all of a sudden, so that no decision is left to us but to brake.
+SUDDEN = frozenset[ActionName](
+    ("stop", "brake", "pull-out", "cut-in", "block", "swerve", "reverse", "merge", "stand")
+)
+#: What it is sudden not to do.
+DUTIES = frozenset[ActionName](("wait", "give-way", "let-go", "stop", "brake", "see", "slow-down"))
+IN_LANE = frozenset[ActionName](("stop", "brake", "slow-down", "stand", "go", "move", "speed-up"))
+#: What is sudden of whoever stands or was about to stop.
+STARTING = frozenset[ActionName](("go", "move", "enter", "cross"))
+HALTING = frozenset[ActionName](("stop", "brake", "slow-down", "avoid", "swerve"))
+COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
+LOOK_BACK = 15.0  # [s] in which what might have happened is looked for
+STEP = 0.5  # [s]
+
+Asks = Literal["stop", "collide"]
+
+
+def is_sudden(
+    event: Event,
+    then: Question | None,
+    scene: Asked,
+    vehicle: int,
+    time: float,
+    *,
+    negated: bool,
+) -> bool:
+    """Tell whether what is supposed of another vehicle leaves us nothing but to brake."""
+    if asks(then) is not None:
+        return True
+    if negated:
+        return event.action in DUTIES
+    if event.action in SUDDEN or manner_of(event, "suddenly", "hard") is not None:
+        return True
+    trend = scene.ride.motion(vehicle).until(time).trend
+    return event.action in STARTING and trend in ("slowing", "standing")
+
+
+def asks(then: Question | None) -> Asks | None:
+    """Tell whether a question is for stopping in time, or for a collision."""
+    if not isinstance(then, Whether):
+        return None
+    of, _ = unwrapped(then.that)
+    event = event_of(of)
+    if event is not None and event.action in COLLIDING:
+        return "collide"
+    if event is not None and is_own(event.actor) and event.modal in ("can", "could"):
+        return "stop" if event.action in HALTING else None
+    return "stop" if _is_room(of) else None
+
+
+def _is_room(of: Proposition | None) -> bool:
+    match of:
+        case Exists(thing=Feature(kind="space")):
+            return True
+        case Is(state="far" | "safe" | "possible" | "roomy", thing=thing):
+            return is_own(thing) or not isinstance(thing, Vehicle)
+    return False
+
+
+def reaction(
+    event: Event | None,
+    then: Question | None,
+    scene: Asked,
+    vehicle: int,
+    time: float,
+    *,
+    negated: bool = False,
+    past: bool = False,
+) -> Reaction:
+    """Tell whether we could stop, had another vehicle done something at a time [s].
+
+    Of what is past and not said when: at the time when it would have been closest.
+
+    Raises:
+        Unanswered: it is not known where it was.
+    """
+    action = None if event is None or negated else event.action
+    in_lane = action in IN_LANE
+    if past and not (scene.past is not None and scene.past.said):
+        ahead = _closest(scene, vehicle, scene.now, in_lane=in_lane)
+        if ahead is None and action in STARTING:  # it stood beside our way, not on it
+            in_lane = False
+            ahead = _closest(scene, vehicle, scene.now, in_lane=False)
+        time = scene.now if ahead is None else ahead
+    found = stopping(scene.world.states, vehicle, time, in_lane=in_lane)
+    if found is None:
+        raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=time))
+    along = in_lane and action in STARTING and found.left is not None  # it gets under way ahead
+    sayable = event if event is None or event.action not in ("do", "happen") else None
+    if sayable is not None and not isinstance(sayable.object, Ego | Vehicle):
+        sayable = replace(sayable, object=None)
+    return Reaction(
+        vehicle=vehicle,
+        kind="joins" if along else found.kind,
+        supposed=sayable,
+        time=time,
+        speed=found.speed,
+        needed=found.needed,
+        room=found.room,
+        left=found.left,
+        past=past,
+        negated=negated,
+        asked=asks(then),
+    )
+
+
+def _closest(scene: Asked, vehicle: int, last: float, *, in_lane: bool) -> float | None:
+    """The time [s] up to the last one at which a sudden act would have left us the least room.
+
+    Somebody who stops or brakes matters to us while it drives ahead of us, else while we wait;
+    None where it never did.
+    """
+    found = []
+    for k in range(round(LOOK_BACK / STEP) + 1):
+        time = last - k * STEP
+        one = stopping(scene.world.states, vehicle, time, in_lane=in_lane)
+        if one is None or one.room is None or (in_lane and one.kind == "first"):
+            continue
+        rank = 0 if one.left is not None else 1 if one.kind == "standing" or not in_lane else 2
+        if rank < 2:
+            found.append((rank, one.room - (one.needed or 0.0), time))
+    return min(found)[2] if found else None
+
+
+def is_somebody(event: Event | None) -> bool:
+    """Tell whether somebody who is not there is supposed to get in our way: a child, a dog."""
+    if event is None or not isinstance(event.actor, Nobody | Described):
+        return False
+    return event.action in SUDDEN or event.action in ("move", "go", "enter", "cross", "appear")
+
+
+def for_anybody(event: Event, scene: Asked) -> Reaction:
+    """Tell how far we need to stop for somebody who gets in our way."""
+    speed = scene.world.measure("speed", Ego(), scene.now).value or 0.0
+    needed = stopping_distance(speed)
+    return Reaction(None, "anybody", None, scene.now, speed, needed, past=event.tense == "perfect")

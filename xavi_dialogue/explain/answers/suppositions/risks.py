@@ -1,0 +1,54 @@
+"""Risks: with whom an option of a decision would have collided, in what was imagined of it."""
+
+from collections import Counter
+
+from msgspec.structs import replace
+
+from xavi_dialogue.causal.model import plan_of
+from xavi_dialogue.domain.answers import Answer, Options
+from xavi_dialogue.domain.meaning import WhatIf, Which
+from xavi_dialogue.domain.terms import Ego, Event, Happens
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.suppositions import supposing
+from xavi_dialogue.explain.causes.plans.options import of_trace, situations
+from xavi_dialogue.explain.causes.plans.premise import Premise
+from xavi_dialogue.explain.causes.vehicles.actions import names_of
+
+ONWARD = frozenset(("continue", "exit-straight"))
+
+
+def what_if(question: WhatIf, asked: Asked) -> Answer:
+    """Tell what would come of something, or whom an option would have struck.
+
+    Raises:
+        Unanswered: it cannot be supposed; or it is what was; or rollouts are needed.
+    """
+    return _struck_by(question, asked) or supposing.what_if(question, asked)
+
+
+def _struck_by(question: WhatIf, asked: Asked) -> Options | None:
+    """Tell whom an option would have struck; None where that is not asked, or not recorded."""
+    match question:
+        case WhatIf(
+            supposed=Happens(event=Event(actor=Ego()) as event),
+            then=Which(such=Happens(event=Event(action="collide", actor=Ego()))),
+        ):
+            pass
+        case _:
+            return None
+    trace = asked.ride.at(asked.moment)
+    if trace is None:
+        return None
+    names = set(names_of(event)) | (ONWARD if event.action in ONWARD else set())
+    known = of_trace(asked.ride, trace)
+    found = [option for option in known if option.action in names]
+    if not found:
+        return None
+    option, evidence = found[0], situations(Premise(trace, None))
+    begun = (r for r in trace.rollouts if r.actions and r.actions[0].action == option.action)
+    drives = {(r.samples, plan_of(r)): r for r in begun}  # each simulation once
+    struck = Counter(r.collided_with for r in drives.values() if r.collided_with is not None)
+    if option.collided_with is None and struck:
+        option = replace(option, collided_with=struck.most_common(1)[0][0])
+    hits = sum(struck.values())
+    return Options((option,), trace.sim_time, evidence, risk=True, hits=hits, drives=len(drives))

@@ -1,0 +1,143 @@
+"""Supposed when: at which decision something that is supposed is to be tried."""
+
+import dataclasses
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import NotRecorded
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.meaning import Compare, Doing, Question, Whether
+from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.explain.answers.reasons import choices, motions
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.reading import event_of, subject
+from xavi_dialogue.explain.answers.suppositions.own_suppositions import GOING
+from xavi_dialogue.explain.causes.driving.driving import reasons_for
+from xavi_dialogue.explain.causes.driving.suppositions import (
+    Supposed,
+    happens_without,
+    known_to,
+    planned_without,
+)
+from xavi_dialogue.explain.causes.plans.premise import happened, manoeuvre, premise
+from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names, probability
+
+POSSIBLE = 0.02  # probability from which it is open whether somebody does something
+
+
+def imagined(event: Event, then: Question | None, scene: Asked) -> tuple[Event, Asked]:
+    """Read "if you turned left" as of now, unless a time is said or the past is spoken of."""
+    said = scene.past is not None and (scene.past.said or not _of_now(then))
+    open_ = event.tense == "past" and event.modal is None and not said
+    if not open_ or event.action in GOING or not choices.is_choice(event):
+        return event, scene
+    return replace(event, tense="present"), dataclasses.replace(scene, span=None)
+
+
+def _of_now(then: Question | None) -> bool:
+    """Tell whether what is asked of a supposed world is of what would be, not have been."""
+    match then:
+        case Compare():
+            return True
+        case Whether(that=that):
+            asked = event_of(that)
+            tense = getattr(that, "tense", None) if asked is None else asked.tense
+            return tense == "present"
+        case Doing(tense=tense):
+            return tense != "past"
+    return False
+
+
+def driven(scene: Asked, then: Event | None) -> Episode | None:
+    """Find the episode of driving that is asked about, where it is one and no choice."""
+    if then is None:
+        return None
+    if choices.is_choice(then):
+        return None
+    for kinds in motions.KINDS.get(then.action, (motions.SLOWING,)):
+        found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
+        chosen = scene.pick(found, lambda e: (e.begin, e.end))
+        if chosen is not None:
+            stop = happened(scene.ride, ("stop",), scene.span)
+            end = scene.now if chosen.end is None else chosen.end
+            chose = stop is not None and stop.started <= end and chosen.begin <= stop.span[1]
+            return None if chose else chosen
+    return None
+
+
+def was_done(scene: Asked, then: Event) -> bool:
+    """Tell whether what is asked about came about, as a choice or in how we drove."""
+    if choices.is_choice(then):
+        return happened(scene.ride, subject(scene, then).names, scene.span) is not None
+    kinds = (*motions.KINDS.get(then.action, (motions.SLOWING,))[0], *motions.STILL)
+    found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
+    if scene.past is not None and scene.past.said:
+        return scene.pick(found, lambda e: (e.begin, e.end)) is not None
+    return bool(found)
+
+
+def without_at(
+    scene: Asked, drove: Episode, vehicles: tuple[int, ...]
+) -> tuple[Supposed, bool] | None:
+    """Tell whether we would have driven so without vehicles, as `why` tries it.
+
+    Args:
+        scene: the setting.
+        drove: how we drove.
+        vehicles: those that are supposed not to be there.
+
+    Returns:
+        The decision that explains it, planned again without them, and whether we would; None
+        where that cannot be planned.
+
+    Raises:
+        Unanswered: that decision does not know them; or what it shows is not sure.
+    """
+    reasons = reasons_for(scene.ride, scene.world, drove, scene.moment)
+    trace = reasons.trace
+    known = tuple(vehicle for vehicle in vehicles if vehicle in trace.scene)
+    if not known:
+        raise Unanswered(
+            NotRecorded("out-of-view", thing=Vehicle(vehicles[0]), since=trace.sim_time)
+        )
+    happens = happens_without(scene.ride, reasons, known)
+    return None if happens is None else (planned_without(scene.ride, trace, known), happens)
+
+
+def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bool) -> float:
+    """Find the time [s] of the decision that a supposition is about."""
+    if driven is not None:
+        return driven.begin  # once it is under way, planning again without its cause tells less
+    if then is not None and choices.is_choice(then):
+        try:
+            return premise(scene.ride, subject(scene, then)).trace.sim_time
+        except Unanswered:
+            return scene.moment
+    if then is not None:
+        stop = happened(scene.ride, ("stop",), scene.span)
+        if stop is not None:
+            try:
+                return scene.ride.choice_of(stop).sim_time
+            except Unanswered:
+                return stop.time
+    if past:
+        said = scene.past is not None and scene.past.said
+        deed = manoeuvre(scene.ride, scene.span if said else None)
+        if deed is not None and deed.action != "continue":
+            try:
+                return scene.ride.choice_of(deed).sim_time
+            except Unanswered:
+                return deed.time
+    return scene.moment
+
+
+def open_until(scene: Asked, vehicle: int, event: Event, moment: float) -> float:
+    """Find the last time [s] up to a moment at which it was open whether a vehicle would do so.
+
+    The moment itself where it never was: then it is planned again with what is supposed.
+    """
+    names = conduct_names(event)
+    known = [trace for trace in known_to(scene.ride, vehicle, moment) if trace.sim_time <= moment]
+    chances = [(t.sim_time, probability(scene.ride, t, vehicle, names)) for t in known]
+    open_ = [time for time, chance in chances if POSSIBLE < chance < 1.0 - POSSIBLE]
+    return open_[-1] if open_ else moment

@@ -1,0 +1,344 @@
+"""Supposing: what would have been if we, or another vehicle, had done otherwise."""
+
+from msgspec import structs
+
+from xavi_dialogue.domain.answers import Answer, CannotSay, Measures, SupposedOfOther, TooLittle
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.meaning import Doing, Question, WhatIf, Whether
+from xavi_dialogue.domain.terms import (
+    At,
+    Ego,
+    Event,
+    Everyone,
+    Exists,
+    Feature,
+    Happens,
+    Is,
+    Next,
+    Nobody,
+    Now,
+    Proposition,
+    Related,
+    Time,
+    Vehicle,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.events.beliefs import least_sure
+from xavi_dialogue.explain.answers.measuring.closeness import closeness
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.moments import Window
+from xavi_dialogue.explain.answers.reference.reading import (
+    check_seen,
+    event_of,
+    is_own,
+    manner_of,
+    unwrapped,
+)
+from xavi_dialogue.explain.answers.suppositions import reacting
+from xavi_dialogue.explain.answers.suppositions.freed import asks_pace, freed
+from xavi_dialogue.explain.answers.suppositions.hastening import hastened
+from xavi_dialogue.explain.answers.suppositions.jointly import Joint, is_absence, joint
+from xavi_dialogue.explain.answers.suppositions.own_suppositions import (
+    arrival,
+    claimed,
+    claimed_in,
+    form_of,
+    is_sooner,
+    kept_ahead,
+    of_us,
+    paced,
+    stays_ahead,
+    struck_in,
+    undone,
+)
+from xavi_dialogue.explain.answers.suppositions.supposed_when import (
+    driven,
+    imagined,
+    moment,
+    open_until,
+    was_done,
+    without_at,
+)
+from xavi_dialogue.explain.causes.driving.suppositions import (
+    Supposed,
+    otherwise,
+    share_of,
+    together,
+    without,
+)
+from xavi_dialogue.explain.causes.vehicles.actions import DRIVING, names_of, same
+from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names
+from xavi_dialogue.explain.history.ride import ROUNDING
+
+LIKELY = 0.5  # probability from which the ego is said to do something
+
+
+def what_if(question: WhatIf, scene: Asked) -> Answer:
+    """Tell what would have been, or would be, under a supposition.
+
+    Raises:
+        Unanswered: it cannot be supposed; or it is what was; or rollouts are needed.
+    """
+    form = form_of(question.then)
+    several = joint(question.supposed, scene)
+    if several is not None:
+        if _asks_of_other(question.then):
+            raise Unanswered(CannotSay("unsupported-condition"))
+        return _of_several(question, scene, several)
+    of, negated = unwrapped(question.supposed)
+    if _is_free_road(of, negated=negated):
+        free = Event("wait", tense="past", modal="would")
+        return hastened(free, scene, "arrival" if form == "what-if" else form)
+    event = event_of(of)
+    if event is not None and reacting.is_somebody(event) and not negated:
+        return reacting.for_anybody(event, scene)
+    of, negated = _mistaken(scene, of, negated=negated)
+    event = event_of(of)
+    vehicle = _whom(scene, of)
+    if stays_ahead(event) and not negated:
+        of, negated = kept_ahead(event, form)
+    if _asks_of_other(question.then):
+        if negated and (found := freed(question.then, vehicle, scene)) is not None:
+            return found
+        raise Unanswered(CannotSay("unsupported-condition"))
+    if vehicle is not None:
+        return _of_other(question, scene, of, vehicle, negated=negated)
+    event = event or _faster(paced(of), question.then)
+    if event is not None and event.object is not None and "fast" in event.manner:
+        form = "could"
+    if event is None or not is_own(event.actor):
+        raise Unanswered(CannotSay("unsupported-condition"))
+    struck = struck_in(question.then)
+    if negated:
+        return undone(event, scene, form, struck)
+    asked = question.then.that if isinstance(question.then, Whether) else None
+    event, scene = imagined(event, question.then, scene)
+    return claimed(of_us(event, scene, form, struck), claimed_in(asked))
+
+
+def _mistaken(
+    scene: Asked, of: Proposition | None, *, negated: bool
+) -> tuple[Proposition | None, bool]:
+    """Read "if you were wrong about it" as its not doing what is expected of it."""
+    if not isinstance(of, Is) or of.state != "wrong" or negated:
+        return of, negated
+    about = of.thing.number if isinstance(of.thing, Vehicle) else least_sure(scene, scene.moment)
+    belief = None if about is None else scene.world.belief(about, scene.moment)
+    if about is None or belief is None or not belief.expectations:
+        return of, negated
+    steps = belief.expectations[0].actions
+    step = next((a for a in steps if a != "continue"), steps[0])
+    return Happens(Event(step, Vehicle(about), tense=of.tense)), True
+
+
+def _faster(event: Event | None, then: Question | None) -> Event | None:
+    """Read "if you were faster, could you have gone before him?" as going before him."""
+    asked = event_of(then.that) if isinstance(then, Whether) else None
+    if event is None or asked is None or "fast" not in event.manner:
+        return event
+    if not is_own(asked.actor) or asked.object is None:
+        return event
+    return structs.replace(asked, modal="would", manner=(*asked.manner, "fast"))
+
+
+def _asks_of_other(then: Question | None) -> bool:
+    """Tell whether it is asked what another vehicle would have done: no plan tells that."""
+    event = event_of(then.that) if isinstance(then, Whether) else None
+    other = event is not None and isinstance(event.actor, Vehicle)
+    return other and event is not None and event.action not in reacting.COLLIDING
+
+
+def _is_free_road(of: Proposition | None, *, negated: bool) -> bool:
+    """Tell whether it is supposed that nobody, or no queue, had been in our way."""
+    match of:
+        case Exists(thing=Nobody()) | Related(thing=Nobody()):
+            return not negated
+        case Exists(thing=Feature(kind="queue" | "obstacle" | "light") | Everyone()):
+            return negated
+    return False
+
+
+def _whom(scene: Asked, of: Proposition | None) -> int | None:
+    match of:
+        case Happens(event):
+            return check_seen(scene, event.actor)
+        case Exists(thing) | Related(thing=thing) | Is(thing=thing):
+            return check_seen(scene, thing)
+    return None
+
+
+# --- of another -----------------------------------------------------------------------------------
+
+
+def _of_other(
+    question: WhatIf, scene: Asked, of: Proposition | None, vehicle: int, *, negated: bool
+) -> Answer:
+    event = event_of(of)
+    if event is not None and event.then is not None and negated:  # "does not leave and goes round"
+        event, negated = structs.replace(event.then, tense=event.tense), False
+        of = Happens(event)
+    if event is not None and event.then is not None and event.then.action in reacting.COLLIDING:
+        event = structs.replace(event, action="cut-in", object=None, then=None)
+        of = Happens(event)
+    past = _past(scene, of, _then(question.then), vehicle, now=_asks_now(question.then))
+    if event is not None and event.action in reacting.COLLIDING:
+        return closeness(scene, vehicle, Window(scene.now, scene.now), "hit", past=False)
+    here = scene.moment if past else scene.now
+    sudden = reacting.is_sudden
+    if event is not None and sudden(event, question.then, scene, vehicle, here, negated=negated):
+        return reacting.reaction(
+            event, question.then, scene, vehicle, here, negated=negated, past=past
+        )
+    quick = manner_of(event, "fast", "slowly", "early", "late") is not None
+    if quick or (event is None and not negated):  # nobody can be put where or how he was not
+        raise Unanswered(CannotSay("unsupported-condition"))
+    supposed = None if is_absence(of, negated=negated) else event
+    if supposed is None and not past and asks_pace(question.then):
+        return Measures((scene.world.measure("speed", Ego(), scene.now),))
+    one = Joint((vehicle,), supposed, negated=negated)
+    return _replanned(question, scene, one, past=past)
+
+
+def _of_several(question: WhatIf, scene: Asked, several: Joint) -> Answer:
+    """What would have been planned, had several vehicles done otherwise, or not been there."""
+    first, event = several.numbers[0], several.event
+    content, _ = unwrapped(question.supposed)
+    tense = content.tense if isinstance(content, Exists) else "present"  # "was gone" is of now
+    gone = Exists(Vehicle(first), tense=tense)
+    of = gone if event is None else Happens(event)
+    past = _past(scene, of, _then(question.then), first, now=_asks_now(question.then))
+    return _replanned(question, scene, several, past=past)
+
+
+def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> SupposedOfOther:
+    """What would have been planned, had vehicles done otherwise, or not been there."""
+    then, event = _then(question.then), of.event
+    drove = driven(scene, then)
+    at = moment(scene, then, drove, past=past)
+    numbers, left = of.numbers, of.left_out
+    if event is None:
+        tried = None if drove is None else without_at(scene, drove, numbers)
+        found = without(scene.ride, numbers, at) if tried is None else tried[0]
+        still = _still(found, then, drove) if tried is None else tried[1]
+        if drove is not None and tried is None and still:  # by another decision than explains it
+            raise Unanswered(TooLittle("too-little-evidence"))
+    else:
+        at = open_until(scene, numbers[0], event, at) if past else at
+        names, negated = conduct_names(event), of.negated
+        both = together(scene.ride, numbers, names, at, negated=negated) if numbers[1:] else None
+        if both is None:  # nothing in the record has them all do so
+            numbers, left = numbers[:1], (*numbers[1:], *left)
+        found = both or otherwise(scene.ride, numbers[0], names, at, negated=negated)
+        if found.proxy is not None and not negated and event.action in ("brake", "slow-down"):
+            event = structs.replace(event, action=found.proxy, manner=())
+        still = _still(found, then, drove)
+    undone = past and then is not None and not was_done(scene, then)
+    if undone and then is not None and still:  # what the plan has yet to do is not what it changes
+        still = not _comes_anyway(found, then)
+    return SupposedOfOther(
+        vehicle=numbers[0],
+        supposed=event,
+        negated=of.negated and event is not None,
+        prior=found.prior,
+        plan=found.here.plan,
+        then=found.there.plan,
+        same=found.same,
+        contrast=found.contrast,
+        past=past,
+        asked=then,
+        still=still,
+        form=form_of(question.then),
+        slows=_slows(found) if event is not None and not of.negated else None,
+        arrival=arrival(scene, found.contrast),
+        others=numbers[1:],
+        left_out=left,
+        everybody=of.everybody,
+        undone=undone,
+    )
+
+
+def _then(question: Question | None) -> Event | None:
+    """What is asked of the supposed world: whether we would still have done something."""
+    if isinstance(question, Whether):
+        slow = question.that
+        if isinstance(slow, Is) and slow.state == "slow" and is_own(slow.thing):
+            return Event("slow-down", tense=slow.tense, modal="would")  # "would we still be slow"
+        event = event_of(question.that)
+        own = event is not None and is_own(event.actor)
+        return event if own and not is_sooner(question) else None
+    return None
+
+
+def _still(found: Supposed, then: Event | None, driven: Episode | None) -> bool | None:
+    """Whether what is asked about would have come about."""
+    if then is None:
+        return None
+    names = names_of(then)
+    if driven is not None or set(names) & DRIVING:
+        name: ActionName = _mark(then.action, driven)
+        share = share_of(found.again, found.there, name)
+        return None if share is None else share >= LIKELY
+    plan = found.there.plan[:2] if found.there.plan[:1] == ("continue",) else found.there.plan[:1]
+    return any(same(name, step) for name in names for step in plan)
+
+
+def _comes_anyway(found: Supposed, then: Event) -> bool:
+    """Whether the plan, as things were, comes to drive so as well."""
+    if not set(names_of(then)) & DRIVING:
+        return False
+    share = share_of(found.trace, found.here, _mark(then.action, None))
+    return share is not None and share >= LIKELY
+
+
+def _slows(found: Supposed) -> bool | None:
+    """Whether we would have to slow down for it where we do not as things are."""
+    there = share_of(found.again, found.there, "slow-down")
+    here = share_of(found.trace, found.here, "slow-down")
+    if there is None or here is None:
+        return None
+    return there >= LIKELY > here
+
+
+def _mark(action: ActionName, driven: Episode | None) -> ActionName:
+    """The change of speed by which a way of driving is told in a rollout."""
+    if action in ("stop", "stand") or (driven is not None and driven.standing):
+        return "stop"
+    return "speed-up" if action == "speed-up" else "slow-down"
+
+
+def _past(
+    scene: Asked, of: Proposition | None, then: Event | None, vehicle: int, *, now: bool
+) -> bool:
+    """Whether it is supposed of what has been: "if he braked now" is not.
+
+    "If he stopped" may be either: it is of now as long as it can still come about.
+    """
+    event = event_of(of)
+    if event is not None and _is_now(event.time, scene):
+        return False
+    tense = event.tense if event is not None else getattr(of, "tense", "present")
+    said = scene.past is not None and scene.past.said
+    if tense in ("present", "future") and isinstance(of, Happens) and not said:
+        return False
+    if scene.past is not None or tense == "perfect" or (then is not None and then.tense == "past"):
+        return True
+    if now or tense != "past":
+        return False
+    if event is None:
+        return True
+    look = scene.world.look(vehicle, scene.now)
+    return look is None or not look.in_view or look.ahead < 0.0
+
+
+def _asks_now(question: Question | None) -> bool:
+    """Whether what is asked of the supposed world is what we would do, not have done."""
+    event = event_of(question.that) if isinstance(question, Whether) else None
+    if event is not None:
+        return event.tense != "past"
+    return isinstance(question, Doing) and question.tense != "past"
+
+
+def _is_now(time: Time, scene: Asked) -> bool:
+    return isinstance(time, Now | Next) or (
+        isinstance(time, At) and time.at >= scene.now - ROUNDING
+    )

@@ -1,0 +1,193 @@
+"""Roadside: what about the road makes one drive slowly: turns, lines, limits, the trip's end."""
+
+import math
+
+from msgspec.structs import replace
+
+from planner.record.trace import PlanTrace
+from sim.roads.network import angle_between
+from sim.scene import EGO
+from xavi_dialogue.domain.answers import MotionCause
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.explain.causes.vehicles.course import lines
+from xavi_dialogue.explain.history.motion import Motion
+from xavi_dialogue.explain.history.nearing import junctions_ahead, to_destination
+from xavi_dialogue.explain.history.ride import Ride, planned
+
+BRAKING = 1.5  # [m/s2] at which one slows down early and gently
+CLOSE = 5.0  # [m] below which a place is here
+MARGIN = 12.0  # [m] before a place at which one has slowed down for it
+AGAIN = 6.0  # [s] after a standstill in which one is still setting off
+STANDING = 0.3  # [m/s]
+SLACK = 0.5  # [m/s] by which a speed may exceed the limit
+
+PICKED_UP = 2.0  # [m/s] by which one is faster again beyond what one slowed down for
+BENDING = 2.5  # [s] after slowing down in which the bend lies for which it was done
+BEND = math.radians(10.0)  # angle from which the road bends
+
+#: What one comes to a standstill for is never a speed to be driven at.
+HALTS = frozenset(("stop", "stand", "wait", "give-way"))
+PACES = frozenset(("turn", "bend", "roundabout", "limit"))
+TURNS = ("exit-left", "exit-right", "continue-next-exit")
+
+
+def road_causes(ride: Ride, trace: PlanTrace, deed: Episode) -> tuple[MotionCause, ...]:
+    """Tell what of the road explains an episode of braking or standing; "plan" where nothing."""
+    if deed.action == "speed-up":
+        return speeding_up(ride, deed)
+    junction = [_from_here(ride, deed, cause) for cause in _junction(trace, deed)]
+    junction = [] if junction and _beyond_slowest(ride, trace, deed) else junction
+    found = [*_destination(ride, trace, deed), *junction, *_lower_limit(ride, deed)]
+    found = found[:2] or _bend(ride, trace, deed)
+    if deed.action in HALTS:
+        found = [cause for cause in found if cause.kind not in PACES]
+    return tuple(found) or (MotionCause("plan"),)
+
+
+def speeding_up(ride: Ride, deed: Episode) -> tuple[MotionCause, ...]:
+    """Tell why the ego sped up: it had stood or slowed, and the limit lies higher."""
+    found = []
+    motion = ride.motion(EGO)
+    stood = [t for t, v in zip(motion.time, motion.speed, strict=True) if v < STANDING]
+    if any(deed.begin - AGAIN <= t <= deed.begin + AGAIN for t in stood):
+        found.append(MotionCause("starting"))
+    known = [limit_at(ride, t) for t in (deed.begin, ride.now if deed.end is None else deed.end)]
+    limit = max((one for one in known if one is not None), default=None)
+    if limit is not None and deed.speed_from is not None and deed.speed_from < limit:
+        found.append(MotionCause("limit", value=limit))
+    return tuple(found) or (MotionCause("plan"),)
+
+
+def limit_at(ride: Ride, time: float) -> float | None:
+    """Tell the limit [m/s] where the ego was at a time; None where no record has it."""
+    trace = ride.at(time)
+    if trace is None or trace.road is None:
+        return None
+    place = trace.road.places.get(EGO)
+    return None if place is None else place.limit
+
+
+def setting_off(ride: Ride, time: float, vehicle: int = EGO) -> bool:
+    """Tell whether a vehicle had stood shortly before a time [s] and was speeding up at it."""
+    motion = ride.motion(vehicle).until(time)
+    if motion.trend != "speeding-up":
+        return False
+    pairs = zip(motion.time, motion.speed, strict=True)
+    return any(v < STANDING for t, v in pairs if t >= time - AGAIN)
+
+
+def _destination(ride: Ride, trace: PlanTrace, deed: Episode) -> list[MotionCause]:
+    arrived = [e.sim_time for e in ride.events if e.kind == "arrived"]
+    if any(time <= (deed.end or ride.now) + 1.0 for time in arrived):
+        return [MotionCause("destination")]
+    if trace.road is None or trace.road.distance is None:
+        return []
+    if trace.road.distance > _reach(deed):
+        return []
+    time = ride.now if deed.end is None else deed.begin
+    return [MotionCause("destination", value=to_destination(ride, time))]
+
+
+def _drawn(ride: Ride, trace: PlanTrace, deed: Episode) -> tuple[PlanTrace, Motion] | None:
+    """The decision of a deed, or the last one of it before, that has recorded a drive; and that."""
+    known = [t for t in ride.traces if deed.begin - 1.0 <= t.sim_time < trace.sim_time]
+    for decided in (trace, *reversed(known)):
+        motion = next(iter(lines(decided).values()), None)
+        if motion is not None:
+            return decided, motion
+    return None
+
+
+def _beyond_slowest(ride: Ride, trace: PlanTrace, deed: Episode) -> bool:
+    """Whether the drive planned is slowest well before the next junction, then faster again."""
+    found = _drawn(ride, trace, deed)
+    if found is None or found[0].road is None or not found[0].road.route:
+        return False
+    distance = found[0].road.route[0].distance
+    low = _slowest(found[1], distance)
+    return low is not None and low < distance - MARGIN
+
+
+def _slowest(motion: Motion, distance: float) -> float | None:
+    """How far off [m] one is slowest before one is faster again; None: not within a distance."""
+    way, lowest, at = 0.0, math.inf, 0.0
+    for k, speed in enumerate(motion.speed):
+        way += math.dist(motion.position[max(k - 1, 0)], motion.position[k])
+        if way > distance:
+            return None
+        if speed < lowest:
+            lowest, at = speed, way
+        elif speed > lowest + PICKED_UP:
+            return at
+    return None
+
+
+def _bend(ride: Ride, trace: PlanTrace, deed: Episode) -> list[MotionCause]:
+    """A bend of the road that was driven through after slowing down, or is planned to be."""
+    end = ride.now if deed.end is None else deed.end
+    drawn = _drawn(ride, trace, deed)
+    for motion in (ride.motion(EGO), *(() if drawn is None else drawn[1:])):
+        headings = [motion.heading[k] for k in motion.within(deed.begin, end + BENDING)]
+        turned = [angle_between(heading, headings[0]) for heading in headings]
+        if max(map(abs, turned), default=0.0) >= BEND:
+            return [MotionCause("bend")]
+    return []
+
+
+def _lower_limit(ride: Ride, deed: Episode) -> list[MotionCause]:
+    """A limit that came to be lower than the speed that was driven."""
+    end = ride.now if deed.end is None else deed.end
+    before, after = limit_at(ride, deed.begin - 1.0), limit_at(ride, end + 1.0)
+    if before is None or after is None or deed.speed_from is None:
+        return []
+    lower = after < before and deed.speed_from > after + SLACK
+    return [MotionCause("limit", value=after)] if lower else []
+
+
+def _junction(trace: PlanTrace, deed: Episode) -> list[MotionCause]:
+    """The junction that the ego was in or came to, and what it had to do there."""
+    if trace.road is None:
+        return [MotionCause("turn")] if is_turning(trace) else []
+    place = trace.road.places.get(EGO)
+    if place is not None and (place.in_junction or place.roundabout):
+        if place.roundabout:
+            return [MotionCause("roundabout")]
+        return [MotionCause("turn")] if is_turning(trace) else []
+    step = next(iter(trace.road.route), None)
+    if step is None or step.distance > _reach(deed):
+        return []
+    found = []
+    if step.kind == "roundabout":
+        found.append(MotionCause("roundabout", value=step.distance))
+    elif step.turn != "exit-straight":
+        found.append(MotionCause("turn", value=step.distance))
+    if step.rule != "priority":
+        found.append(MotionCause("give-way-line", value=step.distance))
+    if step.rule == "give-way":
+        found.reverse()
+    return found
+
+
+def _from_here(ride: Ride, deed: Episode, cause: MotionCause) -> MotionCause:
+    """A reason that lies at a junction ahead, with how far that is now; without once it is past."""
+    route = junctions_ahead(ride, ride.now)
+    if deed.end is not None or not route or route[0].distance < CLOSE:
+        return replace(cause, value=None)
+    if cause.value is None:
+        return cause
+    passed = route[0].distance > cause.value + CLOSE
+    return replace(cause, value=None if passed else route[0].distance)
+
+
+def is_turning(trace: PlanTrace) -> bool:
+    """Tell whether a turn is under way or comes next."""
+    first = (
+        trace.under_way.action if trace.under_way is not None else next(iter(planned(trace)), "")
+    )
+    return first in TURNS
+
+
+def _reach(deed: Episode) -> float:
+    """How far [m] ahead lies what one slows down for."""
+    speed = deed.speed_from if deed.speed_from is not None else 10.0
+    return speed * speed / (2.0 * BRAKING) + MARGIN

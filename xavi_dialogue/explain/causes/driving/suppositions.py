@@ -1,0 +1,276 @@
+"""Suppositions: what the ego would do if another vehicle did otherwise, or were not there."""
+
+import dataclasses
+from dataclasses import dataclass
+
+from msgspec.structs import replace
+
+from planner.record.trace import Action as MacroAction
+from planner.record.trace import PlanTrace
+from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
+from xavi_dialogue.domain.answers import Contrast, Evidence, NeedRollout, NotRecorded, TooLittle
+from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.causes.driving.driving import Reasons
+from xavi_dialogue.explain.causes.plans.contrast import evidence, factual, sides
+from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, is_macro, means
+from xavi_dialogue.explain.causes.vehicles.conduct import matching, probability
+from xavi_dialogue.explain.causes.vehicles.course import lines, speed_mark, stands
+from xavi_dialogue.explain.causes.vehicles.hindsight import in_hindsight
+from xavi_dialogue.explain.causes.vehicles.necessity import trial_of
+from xavi_dialogue.explain.history.ride import (
+    ROUNDING,
+    Ride,
+    Unanswered,
+    enough,
+    planned,
+    prediction,
+    thin,
+)
+
+FASTER = 5.0  # [m/s] by which another drives faster where it is supposed to
+#: What is planned again where a way of driving is supposed, and no sample has it.
+STANDS_FOR: dict[ActionName, ActionName] = {
+    "slow-down": "stop",
+    "give-way": "stop",
+    "leave": "exit-right",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Supposed:
+    """What was decided, and what would have been under a supposition."""
+
+    trace: PlanTrace  # the decision
+    again: PlanTrace  # the same, or planned again
+    here: Intervention
+    there: Intervention
+    prior: float | None  # probability of what is supposed, as it was believed
+    contrast: Contrast
+    proxy: MacroAction | None = None  # what was supposed instead, where that could not be
+
+    @property
+    def same(self) -> bool:
+        """Whether the ego would have begun with the same action."""
+        return self.there.plan[:1] == self.here.plan[:1]
+
+
+def known_to(ride: Ride, vehicle: int, moment: float) -> list[PlanTrace]:
+    """List the decisions up to a time [s] that had a choice and reckoned with a vehicle."""
+    return [
+        trace
+        for trace in ride.traces
+        if trace.sim_time <= moment + ROUNDING
+        and trace.under_way is None
+        and prediction(trace, vehicle) is not None
+    ]
+
+
+def decision_for(ride: Ride, vehicle: int, moment: float) -> PlanTrace:
+    """Find the last decision up to a time [s] that reckons with a vehicle, else the first after.
+
+    Raises:
+        Unanswered: there is none.
+    """
+    known = known_to(ride, vehicle, moment)
+    later = [t for t in known_to(ride, vehicle, ride.now) if t.sim_time > moment]
+    found = known[-1:] or later[:1]
+    if not found:
+        raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=moment))
+    return found[0]
+
+
+def without(ride: Ride, vehicles: tuple[int, ...], moment: float) -> Supposed:
+    """Compare a decision with the same made again without some vehicles.
+
+    The decision is the one for the first of them that a decision up to a time [s] reckons with.
+
+    Raises:
+        Unanswered: no decision reckons with them; or it must be planned again first.
+    """
+    known = [vehicle for vehicle in vehicles if known_to(ride, vehicle, moment)]
+    return planned_without(ride, decision_for(ride, (known or [*vehicles])[0], moment), vehicles)
+
+
+def planned_without(ride: Ride, trace: PlanTrace, vehicles: tuple[int, ...]) -> Supposed:
+    """Compare a decision with the same made again without some vehicles.
+
+    Raises:
+        Unanswered: it must be planned again first.
+    """
+    gone = tuple(vehicle for vehicle in vehicles if vehicle in trace.scene)
+    again = ride.without(trace, *gone)
+    if again is None:  # the planner could not make it: whoever asked it knows why
+        removed = gone[0] if len(gone) == 1 else tuple(sorted(gone))
+        raise Unanswered(NeedRollout(trace_id=trace.trace_id, removed=removed))
+    return compared(ride, trace, again, None)
+
+
+def happens_without(ride: Ride, reasons: Reasons, vehicles: tuple[int, ...]) -> bool | None:
+    """Tell whether the ego drives so without vehicles, by the trial by which they are causes.
+
+    Args:
+        ride: the record.
+        reasons: why it does.
+        vehicles: those of the decision that are not there.
+
+    Returns:
+        Whether it does; None where that cannot be planned.
+
+    Raises:
+        Unanswered: it does, but one of them is told as a reason that could not be tried; or the
+            record lacks what was decided; or rollouts are needed.
+    """
+    model = ride.model(reasons.trace)
+    plan = in_hindsight(ride, model, factual(model, reasons.trace))
+    gone = trial_of(ride, model, plan, vehicles).gone
+    open_ = {cause.vehicle for cause in reasons.causes if cause.necessary is None}
+    if gone is False and open_ & set(vehicles):
+        raise Unanswered(TooLittle("too-little-evidence"))
+    return None if gone is None else not gone
+
+
+def together(
+    ride: Ride,
+    vehicles: tuple[int, ...],
+    names: tuple[ActionName, ...],
+    moment: float,
+    *,
+    negated: bool,
+) -> Supposed | None:
+    """Compare a decision with what it would be if several vehicles did, or did not do, something.
+
+    That is told from the samples of the decision in which all of them do; None where there are
+    too few, since it can be planned again with the conduct of one vehicle alone.
+    """
+    trace = decision_for(ride, vehicles[0], moment)
+    model = ride.model(trace)
+    if not set(vehicles) <= set(model.vehicles):
+        return None
+    given: dict[int, frozenset[Choice]] = {}
+    for vehicle in vehicles:
+        every, matched = frozenset(model.choices(vehicle)), matching(model, vehicle, names)
+        given[vehicle] = every - matched if negated else matched
+    if not all(given.values()):
+        return None
+    try:
+        return _given(ride, model, given)
+    except Unanswered:
+        return None
+
+
+def otherwise(
+    ride: Ride, vehicle: int, names: tuple[ActionName, ...], moment: float, *, negated: bool
+) -> Supposed:
+    """Compare a decision with what it would be if a vehicle did, or did not do, something.
+
+    That is told from the samples of the decision itself; where they are too few, it is planned
+    again with the vehicle acting so.
+
+    Raises:
+        Unanswered: it must be planned again first; or there is too little evidence.
+    """
+    trace = decision_for(ride, vehicle, moment)
+    model = ride.model(trace)
+    every, matched = frozenset(model.choices(vehicle)), matching(model, vehicle, names)
+    supposed = every - matched if negated else matched
+    refused: Unanswered = thin(tuple(n for n in names if is_macro(n)), None)
+    if supposed and matched:
+        try:
+            return _given(ride, model, {vehicle: supposed})
+        except Unanswered as unanswered:
+            refused = unanswered
+    believed = probability(ride, trace, vehicle, names)
+    if negated and set(names) == {"leave"}:
+        found = _acting(ride, trace, vehicle, ("continue-next-exit",), refused)
+        return dataclasses.replace(found, prior=1.0 - believed)
+    if negated and not matched:  # nobody thought that it would: things are as they are
+        return _given(ride, model, {vehicle: every})
+    if names[:1] == ("speed-up",) and not negated:
+        need = NeedRollout(trace_id=trace.trace_id, vehicle=vehicle, faster=FASTER)
+        again = ride.supposed(trace, need)
+        if again is None and not ride.cannot_have(need):
+            raise Unanswered(need)
+        if again is not None:
+            return compared(ride, trace, again, believed)
+    meant = [STANDS_FOR.get(name, name) for name in names]
+    steps = tuple(name for name in meant if is_macro(name))
+    if negated or not steps:
+        raise refused
+    found = _acting(ride, trace, vehicle, steps[:1], refused)
+    proxy = None if names[0] == steps[0] else steps[0]
+    return dataclasses.replace(found, prior=believed, proxy=proxy)
+
+
+def _acting(
+    ride: Ride, trace: PlanTrace, vehicle: int, steps: Actions, refused: Unanswered
+) -> Supposed:
+    """The plan made again with a vehicle that does what nothing in the record provides for."""
+    need = NeedRollout(trace_id=trace.trace_id, vehicle=vehicle, vehicle_actions=steps)
+    if len(steps) == 1 and steps[0] not in (
+        *CHANGES,
+        "continue-next-exit",
+    ):  # where it goes, however it gets there
+        need = NeedRollout(trace_id=trace.trace_id, vehicle=vehicle, goal=steps[0])
+    again = ride.supposed(trace, need)
+    if again is not None:
+        return compared(ride, trace, again, 0.0)
+    raise refused if ride.cannot_have(need) else Unanswered(need)
+
+
+def _given(ride: Ride, model: CausalModel, supposed: dict[int, frozenset[Choice]]) -> Supposed:
+    """The ego's best plan given what is supposed of others, against what was decided."""
+    trace, chance = model.trace, 1.0
+    for vehicle, choices in supposed.items():  # each chooses by itself
+        chances = model.choices(vehicle)
+        chance *= min(sum(chances[choice] for choice in choices), 1.0)
+    given = CausalModel(trace, supposed)
+    there, here = _best(given, planned(trace)), factual(model, trace)
+    contrast = replace(sides(ride, model, here, there, there.plan), likely=None)
+    return Supposed(trace, trace, here, there, chance, contrast)
+
+
+def _best(given: CausalModel, plan: Actions) -> Intervention:
+    """The best of the plans that there is evidence for; of equals, what is planned anyway.
+
+    Raises:
+        Unanswered: there is too little evidence, if only of what is planned.
+    """
+    found = [i for a in given.options() if (i := given.intervene((a,))) is not None]
+    options = [intervention for intervention in found if enough(intervention)]
+    if not any(intervention.plan[:1] == plan[:1] for intervention in options):
+        raise thin(plan[:1], given.intervene(plan[:1]))
+    return max(options, key=lambda i: (i.value, i.plan[:1] == plan[:1]))
+
+
+def compared(ride: Ride, trace: PlanTrace, again: PlanTrace, prior: float | None) -> Supposed:
+    """Compare a decision with the same made again under a supposition."""
+    model, other = ride.model(trace), ride.model(again)
+    here, there = factual(model, trace), factual(other, again)
+    one, two = evidence(ride, model, here), evidence(ride, other, there)
+    both = Evidence(
+        "rollouts",
+        one.rollouts + two.rollouts,
+        one.distinct_samples + two.distinct_samples,
+        (*one.traces, *two.traces),
+    )
+    contrast = sides(ride, model, here, there, there.plan)
+    contrast = replace(contrast, evidence=both, likely=None)
+    return Supposed(trace, again, here, there, prior, contrast)
+
+
+def share_of(trace: PlanTrace, plan: Intervention, name: ActionName) -> float | None:
+    """Tell how probable it is under a plan that the ego drives as described; None: not recorded."""
+    if name not in ("slow-down", "speed-up", "stop", "give-way"):
+        wanted = means(name)
+        pairs = zip(plan.results, plan.weights, strict=True)
+        return sum(w for r, w in pairs if any(a.action in wanted for a in r.rollout.actions))
+    known = lines(trace)
+    there = total = 0.0
+    for result, weight in zip(plan.results, plan.weights, strict=True):
+        line = known.get(result.rollout.index)
+        if line is not None:
+            total += weight
+            does = stands(line) if name == "stop" else speed_mark(line, name) is not None
+            there += weight * does
+    return there / total if total > 0.0 else None

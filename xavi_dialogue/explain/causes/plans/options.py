@@ -1,0 +1,141 @@
+"""Options: what a decision weighed, and how each came out."""
+
+from planner.record.trace import Action, PlanTrace
+from xavi_dialogue.causal.effects import effects
+from xavi_dialogue.causal.model import CausalModel, Intervention, plan_of
+from xavi_dialogue.domain.answers import Evidence
+from xavi_dialogue.domain.facts import OptionValue
+from xavi_dialogue.explain.causes.plans.chances import chances
+from xavi_dialogue.explain.causes.plans.contrast import alternatives, factual
+from xavi_dialogue.explain.causes.plans.premise import Premise
+from xavi_dialogue.explain.causes.plans.terms import differences
+from xavi_dialogue.explain.facts.plans import last_choice
+from xavi_dialogue.explain.history.deeds import Deed
+from xavi_dialogue.explain.history.ride import Ride, Unanswered, enough, planned
+
+
+def free(ride: Ride, found: Premise) -> Premise:
+    """Find the decision asked about, or the last before it that had a choice."""
+    if found.trace.under_way is None:
+        return found
+    before = [t for t in ride.traces if t.under_way is None and t.sim_time <= found.trace.sim_time]
+    deed: Deed | None = found.deed
+    return Premise(before[-1], deed) if before else found
+
+
+def with_choice(ride: Ride, found: Premise) -> Premise:
+    """Find the decision that chose what is under way, with more than one thing to choose from.
+
+    That is the one asked about, or the last before it that chose the same; where all that did had
+    no choice, the one asked about.
+    """
+    found = free(ride, found)
+    if found.node or not planned(found.trace):
+        return found
+    first = planned(found.trace)[0]
+    for trace in reversed(ride.traces):
+        if trace.sim_time > found.trace.sim_time or trace.under_way is not None:
+            continue
+        if planned(trace)[:1] != (first,):
+            break
+        if alternatives(ride.model(trace), first):
+            return Premise(trace, found.deed)
+    return found
+
+
+def options_at(ride: Ride, at: float) -> tuple[OptionValue, ...]:
+    """List what the last decision up to a time [s] could choose from; the chosen one first.
+
+    Where another manoeuvre was under way, that of the last decision with a choice.
+    """
+    trace = last_choice(ride, at)
+    return () if trace is None else of_trace(ride, trace)
+
+
+def of_trace(ride: Ride, trace: PlanTrace) -> tuple[OptionValue, ...]:
+    """List what a decision could choose from, the chosen one first, then best first."""
+    model, plan = ride.model(trace), planned(trace)
+    tried = ((action, model.intervene((action,))) for action in model.options())
+    others = [(a, i) for a, i in tried if i is not None and enough(i) and (a,) != plan[:1]]
+    try:
+        here = factual(model, trace) if plan else None
+    except Unanswered:
+        here = None
+    base = 0.0 if here is None else here.value
+    rows = [] if here is None else [_chosen(plan[0], here, base)]
+    rows += [_option(model, action, there, here, base) for action, there in others]
+    return tuple(sorted(rows, key=lambda row: (not row.chosen, -(row.value or 0.0))))
+
+
+def weighed(ride: Ride, found: Premise) -> tuple[OptionValue, ...]:
+    """List the options of a decision, best first, the chosen one marked.
+
+    Raises:
+        Unanswered: there is too little evidence of what was chosen.
+    """
+    trace, node = found.trace, found.node
+    model, plan = ride.model(trace), planned(trace)
+    if len(plan) <= len(node):
+        return ()
+    here = factual(model, trace)
+    chosen = plan[len(node)]
+    base = trace.plan[0].value if not node else here.value
+    rows = [_chosen(chosen, here, base)]
+    for foil, there in alternatives(model, chosen, node):
+        rows.append(_option(model, foil[len(node)], there, here, base))
+    return tuple(sorted(rows, key=lambda row: (-(row.value or 0.0), not row.chosen)))
+
+
+def _chosen(action: Action, plan: Intervention, value: float) -> OptionValue:
+    arrives = plan.likeliest == "done"
+    time = plan.expectation("time") if arrives else None
+    return _valued(action, plan, value, time=time, delta=None, chosen=True)
+
+
+def _option(
+    model: CausalModel,
+    action: Action,
+    plan: Intervention,
+    here: Intervention | None,
+    base: float,
+) -> OptionValue:
+    """Value what was not chosen, beside what was, where that is known, with its value [s]."""
+    value = plan.value if here is None else base - differences(model, plan, here).value
+    time = delta = None
+    if plan.likeliest == "done":
+        time = plan.expectation("time")
+        found = () if here is None else effects(plan, here)
+        delta = next((e.delta for e in found if e.component == "time"), None)
+    return _valued(action, plan, value, time=time, delta=delta, chosen=False)
+
+
+def _valued(
+    action: Action,
+    plan: Intervention,
+    value: float,
+    *,
+    time: float | None,
+    delta: float | None,
+    chosen: bool,
+) -> OptionValue:
+    told = chances(plan)
+    ends = told.likeliest
+    return OptionValue(
+        action=action,
+        chosen=chosen,
+        outcome=ends.name,
+        probability=ends.probability,
+        time=time,
+        delta=delta,
+        value=value,
+        collision=told.collision,
+        collided_with=told.struck,
+    )
+
+
+def situations(found: Premise) -> Evidence:
+    """Tell how many distinct simulations and situations a decision rests on."""
+    trace = found.trace
+    distinct = len({rollout.samples for rollout in trace.rollouts})
+    simulations = len({(rollout.samples, plan_of(rollout)) for rollout in trace.rollouts})
+    return Evidence("tree", simulations, distinct, (trace.trace_id,))

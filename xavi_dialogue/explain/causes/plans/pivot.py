@@ -1,0 +1,113 @@
+"""Pivot: what a decision hangs on: what would have made another option the best."""
+
+from collections.abc import Mapping
+
+from planner.record.trace import Action
+from xavi_dialogue.causal.model import Actions, CausalModel, Choice
+from xavi_dialogue.domain.answers import Cause, Contrast, NeedRollout, Pivot
+from xavi_dialogue.explain.causes.plans.contrast import (
+    alternatives,
+    check_applicable,
+    compare,
+    factual,
+    sides,
+)
+from xavi_dialogue.explain.causes.plans.premise import Premise
+from xavi_dialogue.explain.causes.vehicles.actions import same
+from xavi_dialogue.explain.causes.vehicles.involved import contrastive_causes
+from xavi_dialogue.explain.history.ride import Ride, Unanswered, enough, planned, prediction
+
+TRIED = 2  # vehicles that are taken away one by one
+WORTH = 0.02  # probability from which a vehicle's conduct is worth speaking of
+
+
+def towards(ride: Ride, found: Premise, foil: Actions) -> Pivot:
+    """Find what would have made the foil the best option: a vehicle's conduct, or its absence.
+
+    Raises:
+        Unanswered: the foil does not apply or lacks evidence; or rollouts are needed.
+    """
+    trace, node = found.trace, found.node
+    model = ride.model(trace)
+    check_applicable(model, foil, node)
+    seen, there = ride.evidence(trace, (*node, *foil))
+    here = factual(seen, trace)
+    try:
+        explained = compare(ride, seen, here, there, (*node, *foil))
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        explained = sides(ride, seen, here, there, (*node, *foil))
+    if there.likeliest == "dead":
+        return Pivot("none", explained)
+    pivot = _conduct(model, (*node, *foil), node, explained)
+    if pivot is not None:
+        return pivot
+    causes = explained.causes or contrastive_causes(seen, there, here, ())
+    return _removal(ride, found, (*node, *foil), causes, explained)
+
+
+def _conduct(model: CausalModel, foil: Actions, node: Actions, contrast: Contrast) -> Pivot | None:
+    """The likeliest conduct of one vehicle under which the foil is the best option."""
+    blamed = {cause.vehicle for cause in contrast.causes}
+    pivots = [
+        Pivot("conduct", contrast, vehicle, actions, chance)
+        for vehicle in model.vehicles
+        if not blamed or vehicle in blamed  # of no other is it known that it matters
+        for actions, (choices, chance) in _conducts(model, vehicle).items()
+        if chance >= WORTH and _wins(model, vehicle, choices, foil, node)
+    ]
+    return max(pivots, key=lambda p: p.probability or 0.0, default=None)
+
+
+def _conducts(
+    model: CausalModel, vehicle: int
+) -> Mapping[Actions, tuple[frozenset[Choice], float]]:
+    """What a vehicle may do: the choices with the same actions, and their probability."""
+    known = prediction(model.trace, vehicle)
+    found: dict[Actions, tuple[frozenset[Choice], float]] = {}
+    if known is None:
+        return found
+    for (g, t), chance in model.choices(vehicle).items():
+        actions = known.goals[g].trajectories[t].actions
+        choices, sum_before = found.get(actions, (frozenset(), 0.0))
+        found[actions] = (choices | {(g, t)}, min(sum_before + chance, 1.0))
+    return found
+
+
+def _wins(
+    model: CausalModel, vehicle: int, choices: frozenset[Choice], foil: Actions, node: Actions
+) -> bool:
+    """Whether the foil is the best option given what a vehicle does, with evidence for all."""
+    given = CausalModel(model.trace, {vehicle: choices})
+    mine = given.intervene(foil)
+    if mine is None or not enough(mine):
+        return False
+    step = foil[len(node)]
+    rivals = alternatives(given, step, node)
+    tried = {actions[len(node)] for actions, _ in rivals}
+    plan = planned(model.trace)
+    chosen: Action | None = plan[len(node)] if len(plan) > len(node) else None
+    compared = chosen is not None and (chosen in tried or same(chosen, step))
+    return compared and all(mine.value > rival.value for _, rival in rivals)
+
+
+def _removal(
+    ride: Ride, found: Premise, foil: Actions, causes: tuple[Cause, ...], contrast: Contrast
+) -> Pivot:
+    """The first of the causes without which the plan begins with the foil."""
+    for cause in causes[:TRIED]:
+        again = ride.without(found.trace, cause.vehicle)
+        if again is not None and planned(again)[: len(foil)] == foil:
+            return Pivot("removal", contrast, cause.vehicle)
+    return Pivot("none", contrast)
+
+
+def weight(cause: Cause) -> tuple[int, float]:
+    """Order causes: collisions first, then hold-ups by the delay expected, then influence."""
+    mechanism = cause.mechanism
+    if mechanism is None:
+        return 2, -(cause.influence or 0.0)
+    if mechanism.how == "collision":
+        return 0, -mechanism.share
+    return 1, -(mechanism.delay or 0.0) * mechanism.share

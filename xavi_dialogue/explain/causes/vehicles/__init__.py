@@ -1,0 +1,1 @@
+"""Other vehicles as causes: who matters, by planning again without them."""

@@ -1,0 +1,1 @@
+"""Episodes: what happened, from when to when."""

@@ -1,0 +1,197 @@
+"""What happened: the episodes of all kinds, and those that are an event asked about."""
+
+from collections.abc import Callable, Sequence
+from typing import TypeAlias, TypeGuard
+
+from sim.scene import EGO
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Exit,
+    Feature,
+    Junction,
+    Lane,
+    Road,
+    Thing,
+    Wanted,
+)
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.facts.actions import SIDES, somebody
+from xavi_dialogue.explain.facts.episodes.meetings import (
+    crossings,
+    followings,
+    movings_in,
+    passings,
+)
+from xavi_dialogue.explain.facts.episodes.misses import misses
+from xavi_dialogue.explain.facts.episodes.own import own
+from xavi_dialogue.explain.facts.episodes.seeing import sights, signals
+from xavi_dialogue.explain.facts.episodes.speeds import moves, speeds
+from xavi_dialogue.explain.facts.episodes.waiting import waits
+from xavi_dialogue.explain.facts.episodes.ways import ways
+from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.history.thresholds import HARD
+
+Names: TypeAlias = frozenset[ActionName]
+Reader: TypeAlias = Callable[[States, int], list[Episode]]
+
+#: Which reader finds which actions; those of the ego alone and those of pairs stand beside.
+READERS: dict[str, tuple[Reader, Names]] = {
+    "speeds": (speeds, frozenset(("slow-down", "brake", "speed-up", "stop", "stand", "go"))),
+    "ways": (
+        ways,
+        frozenset(
+            (
+                *("change-left", "change-right", "exit-left", "exit-right", "exit-straight"),
+                *("continue-next-exit", "enter", "leave"),
+            )
+        ),
+    ),
+    "waits": (waits, frozenset(("wait", "give-way"))),
+    "sights": (sights, frozenset(("appear", "disappear"))),
+    "signals": (signals, frozenset(("signal",))),
+    "moves": (moves, frozenset(("move",))),
+}
+#: The same for the meetings of another vehicle and the ego, of which either may be the actor.
+MEETINGS: dict[str, tuple[Reader, Names]] = {
+    "passings": (passings, frozenset(("overtake", "pass"))),
+    "crossings": (crossings, frozenset(("cross",))),
+    "followings": (followings, frozenset(("follow",))),
+    "movings-in": (movings_in, frozenset(("cut-in", "pull-out"))),
+    "misses": (misses, frozenset(("nearly-collide",))),
+}
+OWN: Names = frozenset(("arrive", "collide", "change-plan", "continue", "swerve"))
+ON_REQUEST: Names = frozenset(("move", "nearly-collide", "continue", "swerve"))  # not of everything
+#: What is worth telling of a ride: of the ego, and of what others did to it.
+OF_OURS: Names = frozenset(
+    (
+        *("stop", "stand", "wait", "give-way", "change-left", "change-right", "exit-left"),
+        *("exit-right", "exit-straight", "enter", "leave", "overtake", "pull-out"),
+        *("collide", "nearly-collide", "arrive"),
+    )
+)
+OF_OTHERS: Names = frozenset(("overtake", "cut-in", "pull-out", "give-way", "cross"))
+FIRM = 1.5  # [m/s2] from which braking is worth telling
+#: What tells another episode of the same actor at the same time already: the finer by the coarser.
+TOLD_BY: dict[ActionName, Names] = {
+    "go": frozenset(("give-way", "wait", "stop", "stand")),
+    "stop": frozenset(("give-way", "wait")),
+    "stand": frozenset(("give-way", "wait")),
+    "slow-down": frozenset(("give-way", "exit-left", "exit-right", "enter")),
+    "signal": frozenset(("change-left", "change-right", "exit-left", "exit-right", "leave")),
+    "exit-left": frozenset(("leave",)),
+    "exit-right": frozenset(("leave",)),
+    "exit-straight": frozenset(("leave",)),
+    "continue-next-exit": frozenset(("leave", "enter")),
+    "change-left": frozenset(("cut-in",)),
+    "change-right": frozenset(("cut-in",)),
+}
+
+
+def happening(
+    states: States, actors: frozenset[int] | None, wanted: Names | None
+) -> tuple[Episode, ...]:
+    """The episodes of some actors and actions, in order of their beginnings."""
+    everybody = (EGO, *states.ride.vehicles)
+    found: list[Episode] = []
+    for vehicle in everybody:
+        if actors is None or vehicle in actors:
+            for name, (reader, actions) in READERS.items():
+                if _asked(actions, wanted):
+                    found += _kept(states, name, reader, vehicle)
+        if vehicle != EGO and (actors is None or actors & {vehicle, EGO}):
+            for name, (reader, actions) in MEETINGS.items():
+                if _asked(actions, wanted):
+                    found += _kept(states, name, reader, vehicle)
+    if (actors is None or EGO in actors) and _asked(OWN, wanted):
+        found += states.memo(("episodes", "own"), lambda: own(states))
+    fits = [e for e in found if _fits(e, actors, wanted)]
+    return tuple(sorted(fits, key=lambda e: (e.begin, e.action, str(e.actor), str(e.object))))
+
+
+def _asked(actions: Names, wanted: Names | None) -> bool:
+    return not actions <= ON_REQUEST if wanted is None else bool(actions & wanted)
+
+
+def _kept(states: States, name: str, reader: Reader, vehicle: int) -> list[Episode]:
+    return states.memo(("episodes", name, vehicle), lambda: reader(states, vehicle))
+
+
+def _fits(episode: Episode, actors: frozenset[int] | None, wanted: Names | None) -> bool:
+    if wanted is None and episode.action in ON_REQUEST:
+        return False
+    if wanted is not None and episode.action not in wanted:
+        return False
+    who = somebody(episode.actor)
+    return actors is None or (who is not None and bool(who & actors))
+
+
+def actors_of(states: States, event: Event) -> frozenset[int] | None:
+    """Those who may have done an event: who is named, or the others where nobody in particular is.
+
+    None: anybody, the ego among them.
+    """
+    actors = somebody(event.actor)
+    if actors is not None or isinstance(event.actor, Wanted):
+        return actors
+    return frozenset(states.ride.vehicles)
+
+
+def such(found: Sequence[Episode], event: Event, begin: float) -> tuple[Episode, ...]:
+    """Those of some episodes, in an interval from `begin` on, that are such an event."""
+    return tuple(episode for episode in found if _is(episode, event, begin))
+
+
+def _is(episode: Episode, event: Event, begin: float) -> bool:
+    """Whether an episode of the right actor and action is the event, in what else it says."""
+    if event.side is not None and (episode.side or SIDES.get(episode.action)) != event.side:
+        return False
+    if "hard" in event.manner and (episode.peak or 0.0) < HARD:
+        return False
+    if not _concerns(episode, event.object):
+        return False
+    momentary = event.action in ("go", "appear", "disappear", "arrive", "collide", "enter", "leave")
+    return not momentary or episode.begin >= begin - 1.0
+
+
+def _concerns(episode: Episode, thing: Thing | None) -> bool:
+    """Whether an episode concerns what an event says it does."""
+    if thing is None or isinstance(thing, Wanted):
+        return True
+    wanted = somebody(thing)
+    if wanted is not None:
+        have = somebody(episode.object)
+        return have is not None and bool(have & wanted)
+    if isinstance(thing, Feature) and thing.kind == "light":
+        return isinstance(episode.object, Feature) and episode.object.kind == "light"
+    if isinstance(thing, Junction):
+        return episode.place is None or episode.place.form == thing.form
+    if isinstance(thing, Exit):
+        return thing.rank is None or episode.exit == thing.rank
+    return _is_place(thing) or episode.object == thing or episode.object is None
+
+
+def _is_place(thing: Thing) -> TypeGuard[Lane | Road]:
+    return isinstance(thing, (Lane, Road))
+
+
+def account(episodes: Sequence[Episode]) -> tuple[Episode, ...]:
+    """Those of some episodes that are worth telling of a ride, and that no other one tells."""
+    worth = [e for e in episodes if _worth(e)]
+    return tuple(e for e in worth if not any(_tells(other, e) for other in worth))
+
+
+def _worth(episode: Episode) -> bool:
+    if episode.actor == Ego():
+        firm = (episode.peak or 0.0) >= FIRM
+        return episode.action in OF_OURS or (episode.action == "brake" and firm)
+    return episode.object == Ego() and episode.action in OF_OTHERS
+
+
+def _tells(other: Episode, episode: Episode) -> bool:
+    names = TOLD_BY.get(episode.action, frozenset())
+    if other is episode or other.actor != episode.actor or other.action not in names:
+        return False
+    first, last = sorted((other, episode), key=lambda e: e.begin)
+    return first.end is None or last.begin <= first.end + 1.0

@@ -1,0 +1,188 @@
+"""Episodes of speed: slowing down, braking, speeding up, stopping, standing, setting off."""
+
+from collections.abc import Iterator
+
+from planner.record.trace import SAMPLE_PERIOD, Action, Rollout
+from sim.scene import EGO
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.facts.actions import named
+from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.history.motion import EPSILON, Motion, Sighting
+from xavi_dialogue.explain.history.thresholds import BEGINNING, BRAKING, MOVING, STANDING
+
+FRESH = 1.5  # [s] how old a decision may be whose plan tells what is going on now
+SOON = 0.5  # [s] after now in which what begins counts as begun
+RATE = 0.2  # [m/s2] from which a speed changes
+GROWS = 0.2  # [m/s] in a second from which a speed grows
+
+
+def speeds(states: States, vehicle: int) -> list[Episode]:
+    """What a vehicle did with its speed."""
+    return states.memo(("speeds", vehicle), lambda: _speeds(states, vehicle))
+
+
+def _speeds(states: States, vehicle: int) -> list[Episode]:
+    found: list[Episode] = []
+    motion = states.motion(vehicle)
+    for sighting in motion.sightings():
+        if sighting.action in ("slow-down", "speed-up"):
+            found.append(_changed(states, vehicle, motion, sighting))
+    found += _standstills(states, vehicle, motion)
+    if vehicle == EGO and not any(e.end is None and e.action != "speed-up" for e in found):
+        found += list(underway(states)) or _lit(states)
+    return found
+
+
+def _lit(states: States) -> Iterator[Episode]:
+    """The braking of the ego that the brake light shows and the speed hardly shows yet."""
+    scene = states.ride.scene
+    if scene is None or states.ride.ended or "brake" not in scene.ego.signals:
+        return
+    if scene.ego.speed > MOVING:
+        speed = scene.ego.speed
+        yield Episode(named(EGO), "brake", scene.time, speed_from=speed, speed_to=speed)
+
+
+def underway(states: States) -> Iterator[Episode]:
+    """Slowing down of the ego that began after the record's last sample, as its plan has it."""
+    ride = states.ride
+    trace = ride.traces[-1] if ride.traces else None
+    if trace is None or ride.ended or ride.now - trace.sim_time > FRESH:
+        return
+    if _rate_now(states, EGO) > RATE:
+        return
+    plan = tuple(step.action for step in trace.plan)
+    driven = (r for r in trace.rollouts if r.speed and _drives(r, plan[:1]))
+    speed = next((r.speed for r in driven if r.speed), ())
+    ahead = speed[: round((ride.now + SOON - trace.sim_time) / SAMPLE_PERIOD) + 1]
+    if len(ahead) < 2 or ahead[0] - ahead[-1] < BEGINNING:
+        return
+    first = next(k for k in range(len(ahead) - 1) if ahead[k + 1] < ahead[k])
+    begin = trace.sim_time + first * SAMPLE_PERIOD
+    peak = (ahead[first] - ahead[-1]) / max(ride.now + SOON - begin, SOON)
+    action: ActionName = "brake" if peak >= BRAKING else "slow-down"
+    yield Episode(
+        named(EGO),
+        action,
+        begin,
+        speed_from=ahead[first],
+        speed_to=ahead[-1],
+        peak=round(peak, 2),
+    )
+
+
+def _drives(rollout: Rollout, plan: tuple[Action, ...]) -> bool:
+    return tuple(timed.action for timed in rollout.actions)[: len(plan)] == plan
+
+
+def _changed(states: States, vehicle: int, motion: Motion, sighting: Sighting) -> Episode:
+    inside = motion.within(sighting.start, sighting.end)
+    first, last = inside[0], inside[-1]
+    peak = max(-motion.rate[k] for k in inside)
+    slower = sighting.action == "slow-down"
+    going_on = _open(states, vehicle, sighting.end) and _continues(
+        states, vehicle, motion, slower=slower
+    )
+    stands = slower and motion.speed[last] < STANDING
+    halt = next(k for k in inside if motion.speed[k] < STANDING) if stands else last
+    return Episode(
+        named(vehicle),
+        "brake" if slower and peak >= BRAKING else sighting.action,
+        sighting.start,
+        None if going_on else motion.time[halt],
+        speed_from=motion.speed[first],
+        speed_to=motion.speed[last],
+        peak=round(peak, 2) if slower else None,
+        standing=stands,
+    )
+
+
+def _continues(states: States, vehicle: int, motion: Motion, *, slower: bool) -> bool:
+    """Whether the speed still changes at the end of the record, as far as it is seen now."""
+    if motion.speed[-1] < STANDING:
+        return False
+    rate, now = motion.rate[-1], _rate_now(states, vehicle)
+    return max(rate, now) <= -RATE if slower else min(rate, now) >= RATE
+
+
+def _rate_now(states: States, vehicle: int) -> float:
+    """Tell how a speed changes [m/s2]: as the newest scene shows it, else between two samples."""
+    scene, motion = states.ride.scene, states.motion(vehicle)
+    seen = None if scene is None else scene.vehicles.get(vehicle)
+    if seen is not None:
+        return seen.acceleration
+    apart = motion.time[-1] - motion.time[-2] if len(motion.time) > 1 else 0.0
+    return (motion.speed[-1] - motion.speed[-2]) / apart if apart > EPSILON else 0.0
+
+
+def _open(states: States, vehicle: int, end: float) -> bool:
+    """Whether what was seen up to a time [s] may go on: it is the end of the record."""
+    motion = states.motion(vehicle)
+    over = states.ride.ended or not motion.time or end < motion.time[-1] - EPSILON
+    return not over and states.known(vehicle, states.ride.now)
+
+
+def _standstills(states: States, vehicle: int, motion: Motion) -> Iterator[Episode]:
+    """Standstills, and how they ended; short rolls within one are part of it."""
+    for begin, end, from_first in _still(motion):
+        first = motion.index(begin)
+        assert first is not None
+        yield Episode(
+            named(vehicle),
+            "stand" if from_first else "stop",
+            begin,
+            None
+            if end is None and _open(states, vehicle, motion.time[-1])
+            else end or motion.time[-1],
+            speed_to=0.0,
+            standing=True,
+        )
+        if end is not None:
+            yield _setting_off(states, vehicle, motion, end)
+
+
+def _setting_off(states: States, vehicle: int, motion: Motion, start: float) -> Episode:
+    """The setting off that ends a standstill, up to where the speed grows no more."""
+    k, last = motion.index(start), len(motion.speed) - 1
+    assert k is not None
+    while k + 1 < len(motion.speed) and motion.speed[min(k + 5, last)] > motion.speed[k] + GROWS:
+        k += 1
+    going_on = k + 1 == len(motion.speed) and _open(states, vehicle, motion.time[k])
+    end = None if going_on else motion.time[k]
+    return Episode(named(vehicle), "go", start, end, speed_from=0.0, speed_to=motion.speed[k])
+
+
+def _still(motion: Motion) -> Iterator[tuple[float, float | None, bool]]:
+    """The standstills: from when to when [s], and whether it stood when it was seen first."""
+    begin: float | None = None
+    last = 0
+    for k, speed in enumerate(motion.speed):
+        broken = k > 0 and motion.time[k] - motion.time[k - 1] > 2.0
+        if begin is not None and (speed >= MOVING or broken):
+            yield (
+                begin,
+                motion.time[last + 1] if not broken else motion.time[last],
+                begin <= (motion.time[0] + EPSILON),
+            )
+            begin = None
+        if speed < STANDING:
+            last = k
+            if begin is None:
+                begin = motion.time[k]
+    if begin is not None:
+        yield begin, None, begin <= motion.time[0] + EPSILON
+
+
+def moves(states: States, vehicle: int) -> list[Episode]:
+    """The stretches in which a vehicle was in motion."""
+    motion = states.motion(vehicle)
+    found, start = [], motion.time[0] if motion.time else None
+    for begin, end, _ in _still(motion):
+        if start is not None and begin > start + EPSILON:
+            found.append(Episode(named(vehicle), "move", start, begin))
+        start = end
+    if start is not None:
+        last = None if _open(states, vehicle, motion.time[-1]) else motion.time[-1]
+        found.append(Episode(named(vehicle), "move", start, last))
+    return found

@@ -1,0 +1,264 @@
+"""Episodes of waiting: for whom somebody stands, and to whom the ego gave way.
+
+Whom the ego waits for stands in its imagined drives: who holds it up from the moment of a decision
+on. Whom another one waits for is told by what was predicted of it, and is never sure.
+"""
+
+from collections.abc import Iterator
+
+from msgspec.structs import replace
+
+from planner.record.trace import HoldUp, PlanTrace
+from sim.scene import EGO
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Ego
+from xavi_dialogue.explain.facts.actions import named
+from xavi_dialogue.explain.facts.episodes.light_waits import held_then, waits_at_lights
+from xavi_dialogue.explain.facts.episodes.speeds import speeds
+from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.history.ride import prediction
+from xavi_dialogue.explain.history.thresholds import AT_ONCE, FOLLOWING_GAP, HELD_UP, YIELDING
+
+Holder = tuple[int, HoldUp]
+STARTING = 4.0  # [s] after which who waited for somebody has moved off once that one is past
+AWAY = 6.0  # [m] behind somebody from which one is past
+
+
+def waits(states: States, vehicle: int) -> list[Episode]:
+    """For whom a vehicle stood or gave way."""
+    return states.memo(("waits", vehicle), lambda: _waits(states, vehicle))
+
+
+def _waits(states: States, vehicle: int) -> list[Episode]:
+    stood = [e for e in speeds(states, vehicle) if e.action in ("stop", "stand")]
+    if vehicle != EGO:
+        found = [wait for still in stood for wait in _stood_for(states, vehicle, still)] + [
+            wait for still in stood for wait in _let_us_go(states, vehicle, still)
+        ]
+        ended = (_until_past(states, vehicle, wait) for wait in found)
+        lit = list(waits_at_lights(states.ride, vehicle, stood))
+        others = [wait for wait in ended if wait is not None]
+        others = [w for w in others if w.object != Ego() or not any(_meet(w, x) for x in lit)]
+        return [*others, *lit]
+    given = _merged(_gave_way(states, stood))
+    lit = list(waits_at_lights(states.ride, EGO, stood))
+    given += lit
+    apart = [rest for still in stood for rest in _after_lights(states, still, lit)]
+    waited = [wait for still in apart for wait in _stood_for(states, EGO, still)]
+    told = [
+        wait
+        for wait in waited
+        if not any(g.object == wait.object and _meet(g, wait) for g in given)
+    ]
+    return given + told
+
+
+def _until_past(states: States, vehicle: int, wait: Episode) -> Episode | None:
+    """End a wait that goes on where the one waited for is past and behind.
+
+    None where that one was past before, or it stands on long after: it stood for something else.
+    """
+    other = EGO if isinstance(wait.object, Ego) else getattr(wait.object, "number", None)
+    end = _end(states, wait)
+    if other is None or not _past(states, vehicle, other, end):
+        return wait
+    times = (t.sim_time for t in reversed(states.ride.traces) if wait.begin < t.sim_time <= end)
+    before = (time for time in times if not _past(states, vehicle, other, time))
+    until = next(before, wait.begin)
+    if until <= wait.begin or end - until > STARTING:
+        return None
+    return wait if wait.end is not None else replace(wait, end=until)
+
+
+def _past(states: States, vehicle: int, other: int, time: float) -> bool:
+    """Whether another one is behind a vehicle, or drives away from it with its back to it."""
+    ours, theirs = states.offset(vehicle, other, time), states.offset(other, vehicle, time)
+    if ours is None or theirs is None:
+        return False
+    return ours.ahead < 0.0 or theirs.ahead < -ours.clear - AWAY
+
+
+def _merged(given: Iterator[Episode]) -> list[Episode]:
+    """The same, with what was told twice of one vehicle told once."""
+    found: list[Episode] = []
+    for one in given:
+        if not any(one.object == other.object and _meet(one, other) for other in found):
+            found.append(one)
+    return found
+
+
+def _meet(one: Episode, other: Episode) -> bool:
+    first, last = sorted((one, other), key=lambda e: e.begin)
+    return first.end is None or last.begin <= first.end
+
+
+def _gave_way(states: States, stood: list[Episode]) -> Iterator[Episode]:
+    """To whom the ego gave way, as it told; from where it slowed down to where it drove on."""
+    slowed = [e for e in speeds(states, EGO) if e.action in ("slow-down", "brake")]
+    lit = list(waits_at_lights(states.ride, EGO, stood))
+    for event in states.ride.events:
+        if event.kind != "gave-way" or event.vehicle is None:
+            continue
+        time = event.sim_time
+        if held_then(states.ride, time):
+            continue  # the light holds us, though others go
+        slowing = [e for e in slowed if e.begin <= time and _end(states, e) >= time - 1.0]
+        still = [e for e in stood if e.begin <= time + YIELDING and _end(states, e) >= time]
+        still = [e for e in still if not any(time < s.begin < e.begin for s in slowed)]
+        still = [e for s in still for e in _not_for_a_light(states, s, lit, time)]
+        parts = [*slowing[-1:], *still[:1]]
+        ends = [part.end for part in parts]
+        first = slowing[-1] if slowing else None
+        yield Episode(
+            named(EGO),
+            "give-way",
+            min((part.begin for part in parts), default=time),
+            None if None in ends else max((e for e in ends if e is not None), default=time),
+            named(event.vehicle),
+            speed_from=None if first is None else first.speed_from,
+            speed_to=0.0 if still else None if first is None else first.speed_to,
+            peak=None if first is None else first.peak,
+            how="right-of-way",
+            standing=bool(still) or (first is not None and first.standing),
+        )
+
+
+def _not_for_a_light(
+    states: States, still: Episode, lit: list[Episode], time: float
+) -> Iterator[Episode]:
+    """Leave out of a standstill what a light held us for; nothing is left where it did later on.
+
+    Args:
+        states: of the ride.
+        still: the standstill.
+        lit: our waits at lights.
+        time: [s] when way was given.
+    """
+    held = [_end(states, wait) for wait in lit if _meet(wait, still)]
+    if not any(end > time for end in held):
+        yield replace(still, begin=max([still.begin, *held]))
+
+
+def _after_lights(states: States, still: Episode, lit: list[Episode]) -> Iterator[Episode]:
+    """Leave of a standstill what comes after the lights that held us in it."""
+    met = [wait for wait in lit if _meet(wait, still)]
+    if not met:
+        yield still
+        return
+    begin = max(_end(states, wait) for wait in met)
+    if _end(states, still) - begin > STARTING:
+        yield replace(still, begin=begin)
+
+
+def _end(states: States, episode: Episode) -> float:
+    return states.ride.now if episode.end is None else episode.end
+
+
+def _stood_for(states: States, vehicle: int, still: Episode) -> Iterator[Episode]:
+    """The parts of a standstill, each with whom it was for."""
+    end = _end(states, still)
+    runs: list[tuple[Holder, float]] = []
+    for trace in states.ride.traces:
+        if still.begin - 1.0 <= trace.sim_time <= end:
+            for holder in top_holders(states, trace, vehicle)[:1]:
+                if not runs or runs[-1][0][0] != holder[0]:
+                    runs.append((holder, max(trace.sim_time, still.begin)))
+    if not runs and (ahead := _leader(states, vehicle, still.begin)) is not None:
+        runs = [((ahead, "leader"), still.begin)]
+    for k, ((who, how), since) in enumerate(runs):
+        begin = still.begin if k == 0 else since
+        until = runs[k + 1][1] if k + 1 < len(runs) else still.end
+        yields = how == "right-of-way" and vehicle != EGO
+        yield Episode(
+            named(vehicle),
+            "give-way" if yields else "wait",
+            begin,
+            until,
+            named(who),
+            speed_to=0.0,
+            how=how,
+            standing=True,
+            sure=vehicle == EGO,
+        )
+
+
+def _let_us_go(states: States, vehicle: int, still: Episode) -> Iterator[Episode]:
+    """The part of a standstill in which the ego went first by the rules, where it is its end.
+
+    Where it was predicted that it waits for us, that tells it already.
+    """
+    end = _end(states, still)
+    traces = [t for t in states.ride.traces if still.begin <= t.sim_time <= end]
+    if any(who == EGO for t in traces for who, _ in top_holders(states, t, vehicle)[:1]):
+        return
+    first = None
+    for trace in reversed(traces):
+        facts = () if trace.road is None else trace.road.priority
+        if not any(fact.vehicle == vehicle and fact.who == "ego" for fact in facts):
+            break
+        first = trace.sim_time
+    if first is not None:
+        yield Episode(
+            named(vehicle),
+            "give-way",
+            max(first, still.begin),
+            still.end,
+            named(EGO),
+            speed_to=0.0,
+            how="right-of-way",
+            standing=True,
+            sure=False,
+        )
+
+
+def top_holders(states: States, trace: PlanTrace, vehicle: int) -> tuple[Holder, ...]:
+    """Who holds a vehicle up at a decision, in most of its drives imagined; most often first."""
+    shares = states.memo(("holders", id(trace), vehicle), lambda: _holders(trace, vehicle))
+    found = sorted(shares.items(), key=lambda item: (-item[1], item[0]))
+    return tuple(holder for holder, share in found if share >= HELD_UP)
+
+
+def _holders(trace: PlanTrace, vehicle: int) -> dict[Holder, float]:
+    return _of_ego(trace) if vehicle == EGO else _of_other(trace, vehicle)
+
+
+def _of_ego(trace: PlanTrace) -> dict[Holder, float]:
+    chosen = trace.plan[0].action if trace.plan else None
+    drives = [r for r in trace.rollouts if r.actions and r.actions[0].action == chosen]
+    weighed = any(drive.weight is not None for drive in drives)
+    total = sum(drive.weight or 0.0 for drive in drives) if weighed else float(len(drives))
+    found: dict[Holder, float] = {}
+    for drive in drives:
+        weight = (drive.weight or 0.0) if weighed else 1.0
+        now = {(s.vehicle, s.how) for s in drive.held_up if s.since <= trace.sim_time + AT_ONCE}
+        for holder in now:
+            found[holder] = found.get(holder, 0.0) + weight / total
+    return found
+
+
+def _of_other(trace: PlanTrace, vehicle: int) -> dict[Holder, float]:
+    known = prediction(trace, vehicle)
+    found: dict[Holder, float] = {}
+    for goal in () if known is None else known.goals:
+        for way in goal.trajectories:
+            chance = goal.probability * way.probability
+            for holder in {
+                (s.vehicle, s.how) for s in way.held_up if s.since <= trace.sim_time + AT_ONCE
+            }:
+                found[holder] = found.get(holder, 0.0) + chance
+    return found
+
+
+def _leader(states: States, vehicle: int, time: float) -> int | None:
+    """Who stands right ahead of a vehicle at a time [s]."""
+    found: list[tuple[float, int]] = []
+    for other in (EGO, *states.ride.vehicles):
+        if other == vehicle:
+            continue
+        seen = states.offset(vehicle, other, time)
+        if seen is None or not seen.same_way or abs(seen.left) > 1.5 or seen.ahead <= 0.0:
+            continue
+        gap = seen.ahead - seen.clear
+        if gap <= FOLLOWING_GAP:
+            found.append((gap, other))
+    return min(found)[1] if found else None

@@ -1,0 +1,1 @@
+"""Clauses: facts, propositions, measures and manoeuvres in words."""

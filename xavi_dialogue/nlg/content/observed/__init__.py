@@ -1,0 +1,1 @@
+"""What was, is and is expected, in words."""

@@ -1,0 +1,77 @@
+"""Courses: our way ahead in words: which way, how many turns are left, whether we stay."""
+
+from xavi_dialogue.domain.answers import Course
+from xavi_dialogue.domain.journeys import WayStep
+from xavi_dialogue.nlg.content.clauses.plan import Plan
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.ordinals import ordinal
+from xavi_dialogue.nlg.surface.values import Number, Quantity
+
+AT_HAND = 4.0  # [m] below which a place is just ahead
+COUNTED = {"turns": "turn", "junctions": "junction", "roundabouts": "roundabout"}
+SHOWN = 4  # turns that are listed
+SIDES = {"exit-left": "left", "exit-right": "right", "exit-straight": "straight"}
+
+
+def plan_course(answer: Course, context: SpeechContext) -> Plan:
+    """Plan our way ahead."""
+    del context
+    if answer.form in COUNTED:
+        return Plan((_turns(answer),))
+    if answer.form == "nearly":
+        soon, left = answer.soon or 0.0, answer.left or 0.0
+        return Plan((message("NEARLY", left=Quantity(left, "m"), soon=Quantity(soon, "s")),))
+    slots: dict[str, object] = {
+        "yes": answer.holds is True,
+        "no": answer.holds is False,
+        "left": None if answer.left is None else Quantity(answer.left, "m"),
+        "road": answer.form == "road",
+        "then": answer.then,
+    }
+    if not answer.steps:
+        return Plan((message("COURSE_STRAIGHT", **slots),))
+    first, *others = answer.steps
+    told = message("COURSE", it=_step(first), **slots)
+    return Plan((told, *(message("COURSE", it=_step(step), then=False) for step in others)))
+
+
+def _step(step: WayStep) -> Message:
+    """Return what we do at a junction, and how far it is."""
+    return message(
+        "COURSE_STEP",
+        ring=step.kind == "roundabout" and step.exit is not None,
+        inside=step.inside,
+        exit=ordinal(step.exit) if step.exit is not None else None,
+        first=step.exit == 1,
+        side=SIDES[step.turn],
+        straight=step.turn == "exit-straight",
+        rank=None if step.rank == 1 else ordinal(step.rank),
+        far=Quantity(step.distance, "m") if step.distance >= AT_HAND else None,
+    )
+
+
+def _turns(answer: Course) -> Message:
+    """Return how many turns are left, and which."""
+    items = tuple(
+        message(
+            "COURSE_TURN",
+            ring=step.kind == "roundabout" and step.exit is not None,
+            inside=step.inside,
+            exit=ordinal(step.exit) if step.exit is not None else None,
+            side="straight on" if step.turn == "exit-straight" else SIDES[step.turn],
+            far=Quantity(step.distance, "m") if rank == 0 and step.distance >= AT_HAND else None,
+        )
+        for rank, step in enumerate(answer.steps[:SHOWN])
+    )
+    return message(
+        "COURSE_TURNS",
+        none=not items,
+        yes=answer.holds is True,
+        no=answer.holds is False,
+        one=len(answer.steps) == 1,
+        number=Number(len(answer.steps), f"more {COUNTED[answer.form]}"),
+        kind=COUNTED[answer.form],
+        items=items,
+        left=None if answer.left is None else Quantity(answer.left, "m"),
+    )

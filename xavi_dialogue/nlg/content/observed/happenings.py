@@ -1,0 +1,248 @@
+"""Happenings: what happened, as a list, a summary, or a time."""
+
+from dataclasses import replace
+from itertools import groupby
+
+import msgspec
+
+from xavi_dialogue.domain.answers import Happenings
+from xavi_dialogue.domain.facts import Episode, Measure
+from xavi_dialogue.domain.terms import Ego, Thing
+from xavi_dialogue.nlg.content.clauses.clauses import episode_clause, event_clause
+from xavi_dialogue.nlg.content.clauses.facts import episode_message
+from xavi_dialogue.nlg.content.clauses.measures import measure_message
+from xavi_dialogue.nlg.content.clauses.plan import Plan
+from xavi_dialogue.nlg.content.clauses.tenses import PRESENT
+from xavi_dialogue.nlg.content.observed.people import clocks, span_slots, times
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Tense, Who
+
+LISTED = 12  # episodes that a list holds
+TOLD = 7  # episodes that a summary tells
+TOLD_MORE = 14
+SOON = 1.0  # [s] what begins so soon after something is told to be "then"
+IN_SENTENCE = 3  # episodes in one sentence
+#: What matters most in a summary; what stands nowhere weighs nothing.
+WEIGHTS = {
+    "collide": 9.0, "nearly-collide": 8.0, "overtake": 6.0, "exit-left": 6.0, "exit-right": 6.0,
+    "turn": 6.0, "enter": 3.0, "leave": 5.0, "change-left": 5.0, "change-right": 5.0,
+    "change-lane": 5.0, "give-way": 5.0, "wait": 5.0, "stop": 4.5, "arrive": 6.0, "cut-in": 6.0,
+    "pull-out": 5.0, "brake": 4.0, "slow-down": 2.0, "stand": 3.5, "exit-straight": 3.0,
+    "swerve": 6.0, "let-go": 4.0, "block": 4.0, "u-turn": 6.0, "merge": 5.0,
+    "continue-next-exit": 1.5, "pass": 2.0, "change-plan": 1.0, "go": 1.0,
+}  # fmt: skip
+
+
+def plan_happenings(answer: Happenings, context: SpeechContext) -> Plan:
+    """Plan an account of episodes."""
+    if not answer.episodes:
+        return _nothing(answer, context)
+    match answer.form:
+        case "list":
+            return _list(answer, context)
+        case "summary" | "doing":
+            return _summary(answer, context)
+        case "when":
+            return _when(answer, context)
+        case "how-long":
+            return _how_long(answer, context)
+        case "first" | "last":
+            one = answer.episodes[0 if answer.form == "first" else -1]
+            it = episode_message(one, context, when=False)
+            return Plan((message("FIRST", order=answer.form, when=Moment(one.begin), it=it),))
+
+
+def _nothing(answer: Happenings, context: SpeechContext) -> Plan:
+    """Plan that there was nothing of the sort."""
+    span = span_slots(answer.since, answer.until, context)
+    clause: Clause | None = None
+    if answer.asked is not None:
+        tense: Tense = "perfect" if span.get("whole") else "past"
+        clause = event_clause(answer.asked, context.now, tense=tense, negated=True)
+    measures = tuple(measure_message(m, context) for m in answer.measures)
+    return Plan((message("NOTHING", clause=clause, **span),), measures)
+
+
+def _list(answer: Happenings, context: SpeechContext) -> Plan:
+    shown = answer.episodes[:LISTED]
+    items = [_item(e, context, ends=answer.asked is not None) for e in shown]
+    left = len(answer.episodes) - len(shown)
+    if left:
+        items.append(message("AND_MORE", number=str(left)))
+    ride = _ride(answer.measures)
+    return Plan((*ride, message("LIST", items=tuple(items))))
+
+
+def _item(episode: Episode, context: SpeechContext, *, ends: bool = False) -> Message:
+    told = episode_message(episode, context, when=False, tense=_tense(episode, context))
+    until = episode.end if ends and episode.end is not None else None
+    end = None if until is None or until - episode.begin < SOON else Moment(until)
+    return Message("EPISODE_ITEM", {**told.slots, "begin": Moment(episode.begin), "end": end})
+
+
+def _summary(answer: Happenings, context: SpeechContext) -> Plan:
+    """Plan a summary of two to five sentences, the weightiest episodes in order of time."""
+    most = TOLD_MORE if context.detail == "more" else TOLD
+    if context.detail == "less":
+        most = IN_SENTENCE
+    told = _weightiest(answer.episodes, most)
+    first = _ride(answer.measures)
+    rows = _rows(sorted(told, key=lambda e: _tense(e, context) == "present"), context)
+    before = [None, *(row[-1] for row in rows)]
+    sentences = [_row(row, last, context) for row, last in zip(rows, before, strict=False)]
+    others = tuple(
+        measure_message(m, context)
+        for m in answer.measures
+        if m.attribute not in ("time", "duration", "distance-driven")
+    )
+    return Plan((*first, *sentences), others[:1], others[1:])
+
+
+def _weightiest(episodes: tuple[Episode, ...], most: int) -> list[Episode]:
+    order = {id(e): k for k, e in enumerate(episodes)}
+    ranked = sorted(episodes, key=lambda e: (-weight(e), order[id(e)]))
+    kept = [e for e in ranked if weight(e) > 0.0][:most] or ranked[:most]
+    return sorted(kept, key=lambda e: (e.begin, order[id(e)]))
+
+
+def weight(episode: Episode) -> float:
+    """How much an episode matters to a passenger."""
+    own = 0.5 if isinstance(episode.actor, Ego) else 0.0
+    return WEIGHTS.get(episode.action, 0.0) + (own if episode.action in WEIGHTS else 0.0)
+
+
+def _rows(episodes: list[Episode], context: SpeechContext) -> list[list[Episode]]:
+    """The episodes by sentence: those of one actor in a row, a few at a time."""
+    rows: list[list[Episode]] = []
+
+    def subject(episode: Episode) -> tuple[object, ...]:
+        ride, tense = _rides(episode, context), _tense(episode, context)
+        return (type(episode.actor).__name__, _number(episode.actor), ride, tense)
+
+    for _, group in groupby(episodes, key=subject):
+        run = list(group)
+        rows += [run[k : k + IN_SENTENCE] for k in range(0, len(run), IN_SENTENCE)]
+    return rows
+
+
+def _number(thing: Thing) -> int:
+    return getattr(thing, "number", 0)
+
+
+def _row(row: list[Episode], last: Episode | None, context: SpeechContext) -> Message:
+    groups = [list(group) for _, group in groupby(row, key=_alike)]
+    first, *others = (_together(group) for group in groups)
+    often = [times(len(group)) if len(group) > 1 else None for group in groups]
+    lead = episode_message(first, context, lead=True, tense=_tense(first, context))
+    soon = last is not None and first.begin - last.begin < SOON
+    parts = [Message("EPISODE_LEAD", {**lead.slots, "soon": soon, "often": often[0]})]
+    for episode, count in zip(others, often[1:], strict=True):
+        told = episode_message(episode, context, when=False, tense=_tense(episode, context))
+        told = Message(told.rule, {**told.slots, "often": count})
+        rule = "EPISODE_WHILE" if _tense(first, context) == "present" else "EPISODE_NEXT"
+        parts.append(Message(rule, told.slots))
+    now = _tense(first, context) == "present"
+    return message("ROW_NOW" if now else "ROW", parts=tuple(parts))
+
+
+def _alike(episode: Episode) -> tuple[object, ...]:
+    return (episode.action, episode.object, episode.side)
+
+
+def _together(episodes: list[Episode]) -> Episode:
+    """One episode for several that are alike, which tells no more than they share."""
+    first = episodes[0]
+    if len(episodes) == 1:
+        return first
+    return msgspec.structs.replace(first, speed_from=None, speed_to=None, end=first.begin)
+
+
+def _rides(episode: Episode, context: SpeechContext) -> bool:
+    subject = episode_clause(episode, context.now).subject
+    return isinstance(subject, Who) and subject.ride
+
+
+def _tense(episode: Episode, context: SpeechContext) -> Tense:
+    """Tell what is over as past, however lately it ended."""
+    return "past" if episode.end is not None else episode_clause(episode, context.now).tense
+
+
+def _ride(measures: tuple[Measure, ...]) -> tuple[Message, ...]:
+    """How long and how far the ride has gone."""
+    known = {m.attribute: m for m in measures if m.value is not None}
+    time = known.get("time") or known.get("duration")
+    distance = known.get("distance-driven")
+    if time is None and distance is None:
+        return ()
+    slots = {
+        "time": Quantity(time.value, "s") if time and time.value is not None else None,
+        "distance": Quantity(distance.value, "m") if distance and distance.value else None,
+    }
+    return (message("RIDE", **slots),) if any(slots.values()) else ()
+
+
+def _when(answer: Happenings, context: SpeechContext) -> Plan:
+    first, *others = answer.episodes
+    measures = tuple(measure_message(m, context) for m in answer.measures)
+    if others:
+        clause = episode_clause(first, context.now, tense="past")
+        if len({e.action for e in answer.episodes}) > 1:
+            return Plan((_items(answer.episodes, context),), measures)
+        moments = [e.begin for e in answer.episodes[:LISTED]]
+        often = times(len(answer.episodes))
+        told = message("WHEN_MANY", clause=clause, times=often, whens=clocks(moments))
+        return Plan((told,), measures)
+    if first.begin > context.now:
+        told = message("WHEN_FUTURE", clause=episode_clause(first, context.now, tense="future"),
+                       when=Moment(first.begin))  # fmt: skip
+        return Plan((told,), measures)
+    ago = context.now - first.begin
+    told = message(
+        "WHEN_ONE",
+        clause=episode_clause(first, context.now, tense="past"),
+        when=Moment(first.begin),
+        ago=Quantity(ago, "s") if ago >= PRESENT else None,
+    )
+    return Plan((told,), measures)
+
+
+def _how_long(answer: Happenings, context: SpeechContext) -> Plan:
+    lengths = [(e.end if e.end is not None else context.now) - e.begin for e in answer.episodes]
+    first = answer.episodes[0]
+    if len(answer.episodes) > 1:
+        if len({e.action for e in answer.episodes}) > 1:
+            return Plan((_items(answer.episodes, context),))
+        clause = episode_clause(first, context.now, tense="past")
+        told = message("LASTED_MANY", clause=clause, times=times(len(lengths)),
+                       length=Quantity(sum(lengths), "s"))  # fmt: skip
+        return Plan((told,), (_items(answer.episodes, context),))
+    going_on = first.end is None or first.end >= context.now
+    if going_on and first.action == "stop":
+        first = msgspec.structs.replace(first, action="stand")
+    clause = episode_clause(first, context.now, tense="perfect" if going_on else "past")
+    if going_on:
+        clause = _progressive(clause)
+    told = message(
+        "LASTED_ONE",
+        clause=clause,
+        going_on=going_on,
+        length=Quantity(lengths[0], "s"),
+        begin=Moment(first.begin),
+        end=Moment(first.end if first.end is not None else context.now),
+    )
+    others = (m for m in answer.measures if m.attribute != "duration" and not _so_far(m, context))
+    return Plan((told,), tuple(measure_message(m, context) for m in others))
+
+
+def _so_far(one: Measure, context: SpeechContext) -> bool:
+    """Whether it is how long somebody has waited, and not how long it still takes."""
+    return one.attribute == "waiting-time" and (one.until is None or one.until <= context.now)
+
+
+def _items(episodes: tuple[Episode, ...], context: SpeechContext) -> Message:
+    return message("LIST_OF", items=tuple(_item(e, context) for e in episodes[:LISTED]))
+
+
+def _progressive(clause: Clause) -> Clause:
+    return replace(clause, progressive=True)

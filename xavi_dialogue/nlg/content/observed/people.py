@@ -1,0 +1,330 @@
+"""People: who it is, how many there are, and where they are."""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+
+import msgspec
+
+from xavi_dialogue.domain.answers import Counted, Identified
+from xavi_dialogue.domain.facts import Belief, Episode, Fact, Look, Measure
+from xavi_dialogue.domain.rewriting import with_wanted
+from xavi_dialogue.domain.terms import (
+    Described,
+    Event,
+    Everyone,
+    Exit,
+    Happens,
+    Has,
+    Is,
+    Nobody,
+    Proposition,
+    Thing,
+    Vehicle,
+    Vehicles,
+    Wanted,
+)
+from xavi_dialogue.nlg.content.clauses.clauses import (
+    denied,
+    episode_clause,
+    event_clause,
+    relative_clause,
+)
+from xavi_dialogue.nlg.content.clauses.facts import fact_message
+from xavi_dialogue.nlg.content.clauses.measures import STANDING
+from xavi_dialogue.nlg.content.clauses.plan import Plan
+from xavi_dialogue.nlg.content.clauses.propositions import clause_of, eventful
+from xavi_dialogue.nlg.content.clauses.routes import exits_passed
+from xavi_dialogue.nlg.content.clauses.tenses import PRESENT, since
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.quantities import clock, number
+from xavi_dialogue.nlg.surface.referring import listed
+from xavi_dialogue.nlg.surface.tables import word
+from xavi_dialogue.nlg.surface.values import Clause, Moment, Number, Quantity, Tense, Who
+
+PLAIN = frozenset(("continue", "move", "keep-lane", "go"))
+CHANGING = frozenset(("slow-down", "speed-up", "brake", "stop"))
+TOWARDS = {"give-way": "to", "wait": "for", "let-go": "for"}  # before whom it concerned
+FEW = 3  # vehicles that are told beside their number
+MANY = 5  # vehicles that are described one by one
+
+
+def plan_identified(answer: Identified, context: SpeechContext) -> Plan:
+    """Plan who or what it is; or that there is nobody of whom it holds."""
+    answer = msgspec.structs.replace(answer, facts=_telling(answer.facts))
+    facts = tuple(fact_message(f, context) for f in answer.facts)
+    if not answer.none and not answer.looks and facts:
+        return Plan(facts[:1], facts[1:])  # it is of us alone that it holds
+    if answer.none or not answer.looks:
+        did = _nobody(answer.such, context.now) if answer.such else None
+        return Plan((message("NOBODY", did=did),), facts)
+    if answer.such is not None and len(answer.looks) > 1:
+        them = Vehicles(tuple(look.vehicle for look in answer.looks))
+        clause = clause_of(with_wanted(answer.such, them), context.now)
+        told = () if all(isinstance(f, Measure | Episode) for f in answer.facts) else facts
+        return Plan((message("PLAIN", it=clause),), told)
+    if len(answer.looks) == 1:
+        return _one(answer, answer.looks[0], facts, context)
+    past = any(not look.in_view for look in answer.looks)
+    if past or len(answer.looks) > MANY or not any(map(_telling_one, answer.looks)):
+        return _by_kind(answer.looks, context)
+    whos = tuple(_who(look, context) for look in answer.looks)
+    amount = Number(len(answer.looks), "vehicle")
+    can = "could" if _past(answer.looks[0], context) else "can"
+    return Plan((message("IDENTIFIED_MANY", can=can, number=amount, looks=whos),), facts)
+
+
+def _by_kind(looks: tuple[Look, ...], context: SpeechContext) -> Plan:
+    """Tell of many by colour and kind, with how many there are of each."""
+    heads = Counter(
+        " ".join(part for part in (look.colour, word("vehicles", "kind", look.kind)) if part)
+        if _telling_one(look) else word("vehicles", "kind", look.kind)
+        for look in looks
+    )  # fmt: skip
+    rows = [number(Number(count, head)) for head, count in heads.items()]
+    past = _past(looks[0], context) or any(not look.in_view for look in looks)
+    many = number(Number(len(looks), "other")) if len(rows) > 1 else None
+    return Plan((message("IDENTIFIED_KINDS", past=past, many=many, rows=listed(rows)),))
+
+
+def _telling(facts: tuple[Fact, ...]) -> tuple[Fact, ...]:
+    """The facts without what says again that a vehicle stands."""
+    stands = any(
+        isinstance(f, Measure) and f.attribute == "speed" and (f.value or 0.0) < STANDING
+        for f in facts
+    )
+    quiet = ("stop", "stand", "brake", "slow-down")
+    return tuple(f for f in facts if not (stands and isinstance(f, Episode) and f.action in quiet))
+
+
+def _one(
+    answer: Identified, look: Look, facts: tuple[Message, ...], context: SpeechContext
+) -> Plan:
+    who = _who(look, context)
+    past = _past(look, context)
+    did = _did(answer.such, look, context)
+    if did is not None:
+        event = eventful(answer.such) if answer.such is not None else None
+        for fact, deed in zip(answer.facts, facts, strict=True):
+            if event is not None and isinstance(fact, Episode) and fact.action == event.action:
+                return Plan((deed,), _besides(fact.object, answer.facts, facts))
+        conduct = {} if event is not None else conduct_slots(answer.facts, look, context)
+        if conduct:
+            return Plan((message("DID_CONDUCT", it=did, **conduct),))
+        told = () if isinstance(answer.such, Has) else facts
+        if event is not None and event.action in TOWARDS:  # it is told for whom it waits
+            told = _besides(Vehicle(look.vehicle), answer.facts, facts)
+        return Plan((message("PLAIN", it=did),), told)
+    lost = Moment(look.seen) if not look.in_view and look.seen is not None else None
+    conduct = {} if lost is not None else conduct_slots(answer.facts, look, context)
+    first = message("IDENTIFIED", who=who, past=past, seen_last=lost, **conduct)
+    if conduct:
+        return Plan((first,))
+    if facts:
+        return Plan((first,), facts)
+    verb = "was" if past else "is"
+    details = message(
+        "IDENTIFIED_FAR",
+        **{"is": verb},
+        far=Quantity(look.distance, "m"),
+        speed=Quantity(look.speed, "m/s") if look.speed >= STANDING else None,
+        standing=look.speed < STANDING,
+    )
+    return Plan((first,), () if lost else (details,))
+
+
+def _besides(
+    told: Thing | None, facts: tuple[Fact, ...], said: tuple[Message, ...]
+) -> tuple[Message, ...]:
+    """Tell of the other facts those that concern somebody else."""
+    whom = {told}
+    kept: list[Message] = []
+    for fact, one in zip(facts, said, strict=True):
+        target = fact.object if isinstance(fact, Episode) else None
+        if isinstance(fact, Episode) and target in whom:
+            continue
+        whom.add(target)
+        kept.append(one)
+    return tuple(kept)
+
+
+def conduct_slots(facts: tuple[Fact, ...], look: Look, context: SpeechContext) -> dict[str, object]:
+    """The slots of what a vehicle is doing, in few words: its speed, and what is under way."""
+    mine = [f for f in facts if not isinstance(f, Belief) and _of(f, look.vehicle)]
+    speed = next((f for f in mine if isinstance(f, Measure) and f.attribute == "speed"), None)
+    deed = next((f for f in mine if isinstance(f, Episode)), None)
+    if (speed is None or speed.value is None) and deed is None:
+        return {}
+    value = None if speed is None else speed.value
+    slots: dict[str, object] = {"standing": value is not None and value < STANDING}
+    slots["speed"] = None if value is None else Quantity(value, "m/s")
+    if deed is not None and deed.action not in PLAIN:
+        slots["doing"] = episode_clause(deed, context.now, tense="present")
+        slots["now_at"] = value is not None and deed.action in CHANGING
+    return slots
+
+
+def _of(fact: Fact, vehicle: int) -> bool:
+    thing = fact.actor if isinstance(fact, Episode) else getattr(fact, "thing", None)
+    return thing == Vehicle(vehicle)
+
+
+def _who(look: Look, context: SpeechContext) -> Who:
+    return Who(Vehicle(look.vehicle), look.time if _past(look, context) else None)
+
+
+def _past(look: Look, context: SpeechContext) -> bool:
+    return context.now - look.time > since(context)
+
+
+def _did(such: Proposition | None, look: Look, context: SpeechContext) -> Clause | None:
+    """The condition that was asked for, with the vehicle in the place of "who"."""
+    if such is None:
+        return None
+    return clause_of(with_wanted(such, Vehicle(look.vehicle)), context.now)
+
+
+def _nobody(such: Proposition, now: float) -> Clause:
+    """A clause that the condition holds of nobody: "I did not wait for anybody"."""
+    clause = clause_of(with_wanted(such, Nobody()), now)
+    if isinstance(clause.subject, Who) and isinstance(clause.subject.thing, Nobody):
+        return clause
+    return replace(clause, rest=tuple(map(denied, clause.rest)), negated=not clause.negated)
+
+
+def clocks(moments: Sequence[float]) -> str:
+    """Several times of the ride in a row: "at 0:02, 0:09 and 0:14"."""
+    return "at " + listed([clock(moment) for moment in moments])
+
+
+_TIMES = {1: "once", 2: "twice"}
+
+
+def times(count: int) -> str:
+    """How often: "once", "twice", "three times"."""
+    return _TIMES.get(count) or number(Number(count, "time"))
+
+
+def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
+    """Plan how many there are, or how often it happened; whether it is as many as was said."""
+    if answer.said is not None:
+        plan = plan_counted(msgspec.structs.replace(answer, said=None), context)
+        rule = "YES" if answer.said else "NO"
+        return replace(plan, core=(message(rule, it=plan.core[0]), *plan.core[1:]))
+    if isinstance(answer.of, Event) and isinstance(answer.of.object, Exit):
+        return Plan((exits_passed(answer),))
+    apart = (f for f in answer.facts if not isinstance(f, Look) or _telling_one(f))
+    facts = tuple(fact_message(f, context) for f in apart)
+    span = _span(answer, context)
+    if isinstance(answer.of, Event):
+        never = answer.count == 0
+        tense: Tense = "perfect" if span.get("whole") else "past"
+        tense = "future" if answer.of.tense == "future" else tense
+        told = event_clause(answer.of, context.now, tense=tense, negated=never)
+        whens = _occasions(answer)
+        first = message("COUNTED_EVENTS", clause=told, never=never, times=times(answer.count),
+                        at_least=answer.at_least, whens=whens, one=answer.count == 1,
+                        **span)  # fmt: skip
+        return Plan((first,), () if whens else _listed(facts))
+    such = answer.such if isinstance(answer.such, Described) else None
+    amount = Number(answer.count, _noun(such or answer.of))
+    if such is not None and such.doing is not None and such.doing.tense in ("past", "perfect"):
+        seen = [f.vehicle for f in answer.facts[:MANY] if isinstance(f, Look) and _telling_one(f)]
+        rows = tuple(Who(Vehicle(v), placed=len(seen) < FEW) for v in seen)
+        did = relative_clause(msgspec.structs.replace(such.doing, tense="past"), context.now)
+        doers = message("COUNTED_DOERS", none=answer.count == 0, one=answer.count == 1,
+                        unnamed=not rows, number=amount, did=did, rows=rows)  # fmt: skip
+        return Plan((doers,))
+    past = answer.until is not None and context.now - answer.until > PRESENT
+    if such is not None and such.doing is not None and answer.count == 0:
+        none = _nobody(Happens(such.doing), context.now)
+        return Plan((message("COUNTED_EVENTS", clause=none, never=True),))
+    if such is not None and such.doing is not None and isinstance(such.doing.actor, Wanted):
+        did = event_clause(such.doing, context.now)
+        return Plan((message("COUNTED_NOW", number=amount, one=answer.count == 1, did=did),))
+    if such is not None and such.such is not None and not _only_there(such.such):
+        rows = tuple(Who(Vehicle(f.vehicle)) for f in answer.facts if isinstance(f, Look))
+        those = message("COUNTED_SUCH", none=answer.count == 0, number=amount, past=past,
+                        rows=rows if len(rows) <= FEW else ())  # fmt: skip
+        return Plan((those,))
+    first = message("COUNTED_THINGS", past=past, number=amount, **_which(answer.of, context),
+                    at_least=answer.at_least, **(span if past else {}))  # fmt: skip
+    if len(facts) > FEW:
+        return Plan((first,), (), _listed(facts))
+    return Plan((first,), _listed(facts))
+
+
+def _telling_one(look: Look) -> bool:
+    """Tell whether it can be told from others by its look: people on foot are not."""
+    return look.kind != "pedestrian"
+
+
+def _only_there(that: Proposition) -> bool:
+    """Tell whether nothing but that they are there was said of what is counted."""
+    return isinstance(that, Is) and that.state == "present"
+
+
+def _occasions(answer: Counted) -> tuple[Message, ...] | None:
+    """When it happened, each time once, with whom it concerned where that was left open."""
+    assert isinstance(answer.of, Event)
+    rows: list[tuple[float, list[Thing]]] = []
+    for fact in answer.facts:
+        if not isinstance(fact, Episode):
+            continue
+        if not rows or (answer.count > len(rows) and fact.begin > rows[-1][0]):
+            rows.append((fact.begin, []))
+        whom = fact.object
+        if isinstance(whom, Vehicle) and whom != answer.of.object and whom not in rows[-1][1]:
+            rows[-1][1].append(whom)
+    if not 0 < len(rows) <= MANY or len(rows) != answer.count:
+        return None
+    to = TOWARDS.get(answer.of.action)
+    return tuple(
+        message(
+            "OCCASION", when=Moment(begin), to=to, whom=tuple(Who(v, begin) for v in who[:MANY])
+        )
+        if to is not None and who
+        else message("OCCASION", when=Moment(begin))
+        for begin, who in rows
+    )
+
+
+def _listed(facts: tuple[Message, ...]) -> tuple[Message, ...]:
+    return (message("ITEMS", items=facts),) if facts else ()
+
+
+def _which(of: Thing, context: SpeechContext) -> dict[str, object]:
+    """Where the things that were counted are, and what they do."""
+    if not isinstance(of, Described):
+        return {}
+    place = word("vehicles", "place", of.bearing) if of.bearing is not None else None
+    did = relative_clause(of.doing, context.now) if of.doing is not None else None
+    return {"place": place, "did": did}
+
+
+def _noun(of: Thing) -> str:
+    if isinstance(of, Described):
+        kind = word("vehicles", "kind", of.kind)
+        return f"{of.colour} {kind}" if of.colour else kind
+    if isinstance(of, Everyone | Wanted):
+        return "other vehicle" if of.kind == "vehicle" else word("vehicles", "kind", of.kind)
+    return "vehicle"
+
+
+def _span(answer: Counted, context: SpeechContext) -> dict[str, object]:
+    if answer.since is None and answer.until is None:
+        return {}
+    begin = answer.since or 0.0
+    end = answer.until if answer.until is not None else context.now
+    return span_slots(begin, end, context)
+
+
+def span_slots(begin: float | None, end: float | None, context: SpeechContext) -> dict[str, object]:
+    """The slots of an interval: all of the ride so far, or between two times."""
+    if begin is None and end is None:
+        return {}
+    first, last = begin or 0.0, context.now if end is None else end
+    whole = first <= PRESENT and context.now - last <= PRESENT
+    return {"span": True, "whole": whole, "short": last - first < 1.0, "begin": Moment(first),
+            "end": Moment(last)}  # fmt: skip

@@ -1,0 +1,265 @@
+"""Verdicts: whether something holds, and claims checked against the record."""
+
+import dataclasses
+from itertools import groupby
+from typing import cast
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain import terms
+from xavi_dialogue.domain.answers import Verdict
+from xavi_dialogue.domain.facts import Belief, Episode, Fact, Look, Measure, Relating
+from xavi_dialogue.domain.terms import (
+    Believed,
+    Compares,
+    Ego,
+    Everyone,
+    Exists,
+    Is,
+    Nobody,
+    Not,
+    Proposition,
+    Related,
+    Vehicle,
+)
+from xavi_dialogue.nlg.content.clauses.clauses import episode_clause, event_clause
+from xavi_dialogue.nlg.content.clauses.facts import (
+    besides_of,
+    episode_message,
+    fact_message,
+    look_message,
+    verbs_of,
+)
+from xavi_dialogue.nlg.content.clauses.joint_measures import measure_messages
+from xavi_dialogue.nlg.content.clauses.measures import UNITS, measure_message
+from xavi_dialogue.nlg.content.clauses.plan import Plan
+from xavi_dialogue.nlg.content.clauses.propositions import PLACES, clause_of, eventful, two_times
+from xavi_dialogue.nlg.content.clauses.tenses import PRESENT
+from xavi_dialogue.nlg.content.observed.borne_out import bare, telling, tells_it, within_limit
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.quantities import number
+from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Quantity, Tense, Who
+
+ON = frozenset(("signal", "wait", "stand", "follow", "give-way", "let-go", "block"))
+LASTS = ON | {"move"}
+CERTAIN = 0.95  # probability from which what we plan is told as such
+LIKELY = 0.5  # probability from which it is told when something comes
+AT_ONCE = 1.0  # [s] within which it comes at once
+IN_ONE = 2  # facts that go into the sentence of the verdict
+
+
+def plan_verdict(answer: Verdict, context: SpeechContext) -> Plan:
+    """Plan whether something holds, with what bears it out or what was so instead."""
+    if answer.mistaken:
+        return _mistaken(answer, context)
+    if answer.probability is not None and not _settled(answer):
+        return _likelihood(answer, context)
+    if answer.holds is None:
+        return _unknown(answer, context)
+    if isinstance(bare(answer.that), Believed) and answer.believed:
+        answer = replace(answer, facts=(*answer.believed[:1], *answer.facts), believed=())
+    answer = replace(answer, facts=telling(answer))
+    facts = [m for f in together(answer.facts) for m in _facts(f, answer, context)]
+    beliefs = tuple(fact_message(b, context) for b in answer.believed[:1])
+    challenge = answer.challenge and answer.claim
+    slots: dict[str, object] = {"claim": answer.claim, "challenge": challenge}
+    slots["either"] = answer.either
+    said = clause_of(answer.that, context.now, negated=not answer.holds)
+    inside, outside = tuple(facts[:IN_ONE]), tuple(facts[IN_ONE:])
+    if two_times(bare(answer.that)) and (then := _now_and_then(answer)) is not None:
+        it = message("NOW_AND_THEN", it=said, **then)
+        return Plan((message("YES" if answer.holds else "NO", it=it, **slots),))
+    limited = within_limit(answer)
+    if limited is not None:
+        it = Message("MEASURE_SPEED", {**measure_message(limited, context).slots, "told": True})
+        slowing = [_coming(f, context) for f in answer.facts if isinstance(f, Episode)]
+        core = (message("YES" if answer.holds else "NO", it=it, **slots), *slowing[:1])
+        return Plan(core, beliefs)
+    seen = [f for f in answer.facts if isinstance(f, Look) and f.in_view]
+    if seen and isinstance(bare(answer.that), Exists):
+        return _there(answer, seen, said, slots)
+    if tells_it(answer, context):
+        # The fact says all that the clause would: "Yes, I stopped at 0:21."
+        first = message("YES" if answer.holds else "NO", it=facts[0], **slots)
+        return Plan((first,), (*facts[1:], *beliefs))
+    rule = "YES" if answer.holds else "NO"
+    why = all(isinstance(f, Measure | Relating) for f in answer.facts[:IN_ONE])
+    first = message(rule, it=said, facts=inside, why=why, **slots)
+    return Plan((first,), (*outside, *beliefs))
+
+
+def _now_and_then(answer: Verdict) -> dict[str, object] | None:
+    """The value now and at the other time that it is compared with."""
+    values = [f for f in answer.facts if isinstance(f, Measure) and f.value is not None]
+    if len(values) < 2:
+        return None
+    now, then = values[0], values[1]
+    unit = UNITS.get(now.attribute, "count")
+    return {"first": Quantity(now.value or 0.0, unit), "second": Quantity(then.value or 0.0, unit),
+            "when": Moment(then.time)}  # fmt: skip
+
+
+def _settled(answer: Verdict) -> bool:
+    """Whether it is a matter of fact by now, not of expectation."""
+    return answer.holds is not None and any(isinstance(f, Episode) for f in answer.facts)
+
+
+def _facts(facts: tuple[Fact, ...], answer: Verdict, context: SpeechContext) -> tuple[Message, ...]:
+    """The messages of facts that are told together."""
+    measures = tuple(f for f in facts if isinstance(f, Measure))
+    if measures:
+        if _by_number(answer.that):  # the reference is the number that was asked about
+            measures = tuple(replace(m, reference=None) for m in measures)
+        return tuple(measure_messages(measures, context))
+    return tuple(_told(f, answer, context) for f in facts)
+
+
+def _by_number(that: Proposition) -> bool:
+    inner = bare(that)
+    return isinstance(inner, Compares) and isinstance(inner.right, terms.Quantity)
+
+
+def together(facts: tuple[Fact, ...]) -> list[tuple[Fact, ...]]:
+    """The facts in rows: measures in a row are told together."""
+    return [tuple(row) for _, row in groupby(facts, key=lambda f: isinstance(f, Measure))]
+
+
+def _told(fact: Fact, answer: Verdict, context: SpeechContext) -> Message:
+    if isinstance(fact, Look) and isinstance(answer.that, Exists) and fact.in_view:
+        who = Who(Vehicle(fact.vehicle), fact.time, placed=answer.that.thing == Everyone())
+        return message("WHO_FAR", who=who, far=Quantity(fact.distance, "m"))
+    if isinstance(fact, Look) and fact.in_view:
+        placed = isinstance(answer.that, Related) and answer.that.relation in PLACES
+        return look_message(fact, context, told=not placed)
+    if isinstance(fact, Episode) and fact.end is None and context.then and fact.action in LASTS:
+        told = fact_message(fact, context)  # it was so at the time that was named
+        clause = dataclasses.replace(cast(Clause, told.slots["clause"]), tense="past")
+        return Message(told.rule, {**told.slots, "clause": clause})
+    if isinstance(fact, Episode) and _since(fact, answer, context):
+        told = fact_message(fact, context)
+        clause = dataclasses.replace(cast(Clause, told.slots["clause"]), tense="perfect")
+        return message("EPISODE_SINCE", clause=clause, since=Moment(fact.begin))
+    return fact_message(fact, context)
+
+
+def _since(fact: Episode, answer: Verdict, context: SpeechContext) -> bool:
+    """Whether something that was asked of the past has been going on since."""
+    event = eventful(answer.that)
+    past = event is not None and event.tense in ("past", "perfect")
+    return past and fact.end is None and fact.action in ON and context.now - fact.begin > PRESENT
+
+
+def _coming(one: Episode, context: SpeechContext) -> Message:
+    """What is done now, or will be done in a moment."""
+    if one.begin <= context.now:
+        return episode_message(one, context, when=False)
+    clause = episode_clause(one, context.now, tense="future")
+    return message("WHEN_FUTURE", clause=clause, when=Moment(one.begin))
+
+
+def _there(answer: Verdict, seen: list[Look], said: Clause, slots: dict[str, object]) -> Plan:
+    """Plan who is there, the nearest first; or that nobody is, and who is nearest."""
+    near = sorted(seen, key=lambda look: look.distance)
+    shown = near[:IN_ONE]
+    rows = tuple(
+        message("WHO_FAR", who=Who(Vehicle(x.vehicle), x.time), far=Quantity(x.distance, "m"))
+        for x in shown
+    )
+    there = answer.holds != isinstance(answer.that, Not)
+    left = number(Number(len(near) - len(shown), "other"))
+    more = left if len(near) > len(shown) else None
+    told = message("EXISTING", rows=rows, more=more, there=there, it=said)
+    return Plan((message("YES" if answer.holds else "NO", it=told, **slots),))
+
+
+def _unknown(answer: Verdict, context: SpeechContext) -> Plan:
+    clause = clause_of(bare(answer.that), context.now)
+    facts = tuple(_told(f, answer, context) for f in answer.facts[:1])
+    if answer.gap is None:
+        return Plan((message("UNKNOWN_BARE", it=clause),), facts)
+    past = clause.tense != "present"
+    mind = answer.that if isinstance(answer.that, Is) and answer.that.state == "upset" else None
+    if mind is not None:
+        who = Who(mind.thing) if isinstance(mind.thing, Vehicle) else None
+        return Plan((message("UNKNOWN_MIND", who=who, past=past),), facts)
+    event = eventful(answer.that)
+    if event is not None and event.action == "gesture":
+        return Plan((message("UNKNOWN_SIGN", it=clause),), facts)
+    return Plan((message("UNKNOWN", it=clause, gap=answer.gap, past=past),), facts)
+
+
+def _likelihood(answer: Verdict, context: SpeechContext) -> Plan:
+    """Plan what is still to come: a word of chance, the percentage, and what is likelier."""
+    if isinstance(answer.that, Not) and eventful(answer.that) is not None:
+        sought = 1.0 - (answer.probability or 0.0)
+        answer = replace(answer, that=bare(answer.that), probability=sought)
+    assert answer.probability is not None
+    event = eventful(answer.that)
+    tense: Tense = "present"
+    if event is not None and not isinstance(answer.that, Not):
+        clause = event_clause(event, context.now, tense=tense)
+        subject = "anybody" if isinstance(event.actor, Everyone | Nobody) else clause.subject
+        clause = Clause(subject, clause.verb, clause.rest, "future", plural=clause.plural)
+    else:
+        clause = clause_of(answer.that, context.now, tense="future")
+    when = next((f for f in answer.facts if isinstance(f, Measure) and f.attribute == "time"), None)
+    facts = tuple(_told(f, answer, context) for f in answer.facts if f is not when)
+    if when is not None and when.value is not None and answer.probability >= LIKELY:
+        soon = Quantity(max(when.value - context.now, 0.0), "s")
+        at_once = soon.value < AT_ONCE
+        if answer.either and event is not None and isinstance(event.actor, Ego):
+            word = Chance(answer.probability) if answer.probability < CERTAIN else None
+            timed = dataclasses.replace(clause, adverb=word or "")
+            return Plan((message("TIMED", it=timed, soon=soon, at_once=at_once),), facts)
+        facts = (message("LIKELY_WHEN", soon=soon, at_once=at_once), *facts)
+    chance = Chance(answer.probability)
+    slots = {"it": clause, "chance": chance, "either": answer.either, "claim": answer.claim,
+             **_likelier(answer)}  # fmt: skip
+    chanced = event is not None and event.action in ("collide", "nearly-collide")
+    ours = event is not None and isinstance(event.actor, Ego) and not chanced
+    if ours and clause.tense == "future":
+        if answer.probability >= CERTAIN:
+            return Plan((message("YES", **slots),), facts)
+        if answer.probability <= 1.0 - CERTAIN:
+            return Plan((message("NO", **{**slots, "it": denied(clause)}),), facts)
+    return Plan((message("LIKELIHOOD", **slots),), facts)
+
+
+def _likelier(answer: Verdict) -> dict[str, object]:
+    """What is expected of a vehicle of which something unlikely was asked."""
+    belief = next((b for b in answer.believed if b.expectations), None)
+    if belief is None or answer.probability is None:
+        return {}
+    first = belief.expectations[0]
+    if first.probability < LIKELY:
+        return besides_of(belief.expectations, past=False)
+    return {"instead": verbs_of(first.actions), "instead_chance": Chance(first.probability)}
+
+
+def denied(clause: Clause) -> Clause:
+    """Return the clause with its contrary said."""
+    return dataclasses.replace(clause, negated=not clause.negated)
+
+
+def _mistaken(answer: Verdict, context: SpeechContext) -> Plan:
+    """Plan how the car owns up: what it expected, and what came."""
+    went = next((f for f in answer.facts if isinstance(f, Episode)), None)
+    belief = answer.believed[0] if answer.believed else None
+    slots: dict[str, object] = {"claim": answer.claim or answer.challenge, "yes": answer.holds}
+    if belief is not None and belief.expectations:
+        slots |= _expected(belief, answer.that)
+    if went is not None:
+        slots["went"] = episode_message(went, context, tense="past")
+    others = tuple(fact_message(f, context) for f in answer.facts if f is not went)
+    return Plan((message("MISTAKEN", **slots),), others)
+
+
+def _expected(belief: Belief, that: Proposition) -> dict[str, object]:
+    first = belief.expectations[0]
+    return {
+        "who": Who(Vehicle(belief.vehicle), belief.time),
+        "expected": verbs_of(first.actions),
+        "chance": Chance(first.probability),
+        "when": Moment(belief.time),
+    }

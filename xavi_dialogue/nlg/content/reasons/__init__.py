@@ -1,0 +1,1 @@
+"""Reasons, causes and suppositions in words."""

@@ -1,0 +1,255 @@
+"""Contrasts: how the foil would have turned out, what of that is the reason, and who causes it.
+
+What is told are the terms that decided in the planner's own reckoning, and what speaks against
+them; see `terms`. Where the record tells no difference, it was close.
+"""
+
+from typing import Any, Literal, TypeAlias
+
+from xavi_dialogue.domain.answers import Cause, Contrast, Effect
+from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlg.content.clauses.manoeuvres import CHANGES, other_verbs, plain
+from xavi_dialogue.nlg.content.reasons import terms
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.tables import table
+from xavi_dialogue.nlg.surface.values import Chance, Clause, Quantity, Range, Who
+
+RISK = 0.01  # probability of a collision from which it is told
+SURE = 0.995  # probability from which none is told
+EVEN, LIKELY = 0.45, 0.55  # bounds of what may or may not be
+STANDING = 0.5  # [m/s]
+SLOWING = 0.6  # [m/s] a loss of speed worth calling so
+ASIDE = 2.0  # [m] sideways from which somebody is in another lane
+LANES = (("change-left",), ("change-right",))
+OTHERWISE = 2.0  # [m/s] by which a speed foreseen for later differs from the one that is seen
+
+#: How the foil turns out: its likeliest outcome; else what of it is told first, or that the record
+#: tells no difference (close), or speaks for it (worse).
+Kind: TypeAlias = Literal[
+    "collision", "dead", "late", "unsure", "risk", "time", "ride", "effort", "close", "worse",
+    "alone",
+]  # fmt: skip
+_BY_OUTCOME: dict[str, Kind] = {"collision": "collision", "dead": "dead", "termination": "late"}
+_BY_TERM: dict[str, Kind] = {
+    "collision": "risk", "dead": "unsure", "late": "unsure", "effort": "effort", "time": "time",
+}  # fmt: skip
+
+
+def kind_of(contrast: Contrast) -> Kind:
+    """Tell how the foil turns out, and what of that is the reason for the fact."""
+    if not contrast.foil or contrast.outcome is None or contrast.verdict == "alone":
+        return "alone"
+    if contrast.outcome.name in _BY_OUTCOME:
+        return _BY_OUTCOME[contrast.outcome.name]
+    if contrast.verdict != "better":
+        return contrast.verdict
+    return _BY_TERM.get(contrast.told[0].term, "ride")
+
+
+def main_effect(contrast: Contrast) -> Effect | None:
+    """Find the effect that decided, where one did."""
+    return next((e for e in contrast.effects if e.component == contrast.decisive), None)
+
+
+def worth_telling(contrast: Contrast) -> list[Effect]:
+    """List the effects that are not negligible, largest first."""
+    least = table("causes")["negligible"]
+    return [e for e in contrast.effects if abs(e.delta) > least[e.component]]
+
+
+def time_effect(contrast: Contrast) -> Effect | None:
+    """Find the difference in time, where it is worth telling."""
+    return next((e for e in worth_telling(contrast) if e.component == "time"), None)
+
+
+def _astray(contrast: Contrast) -> Chance | None:
+    """How probable it is that the foil leads off the way, where that weighs against it."""
+    found = (s for s in contrast.told if s.term == "dead" and s.cost > 0.0)
+    share = next(found, None)
+    return None if share is None or not share.chance else Chance(share.chance)
+
+
+def consequence_slots(
+    contrast: Contrast, context: SpeechContext, *, past: bool, that: bool = False
+) -> dict[str, Any]:
+    """Make the slots that tell how the foil would have turned out.
+
+    Args:
+        contrast: fact and foil.
+        context: the situation.
+        past: the decision is past.
+        that: the foil was named, and is "that".
+    """
+    outcome = contrast.outcome
+    chance = 1.0 if outcome is None else outcome.probability
+    struck = outcome.collided_with if outcome is not None else None
+    struck = struck if struck is not None else contrast.collided_with
+    time, main = time_effect(contrast), main_effect(contrast)
+    later = time is not None and time.delta > 0.0
+    parts, though = terms.sides(contrast, context, past=past)
+    risk = terms.chance_of(contrast)
+    counts = any(s.term == "collision" and s.cost > 0.0 for s in contrast.told)
+    kind = kind_of(contrast)
+    return {
+        "kind": kind,
+        "verdict": contrast.verdict,
+        "past": past,
+        "that": that and not contrast.further and contrast.verdict == "better",
+        "simple": context.detail == "simpler",
+        "foil": terms.foil_verbs(contrast),
+        "parts": parts,
+        "though": though,
+        "chance": Chance(chance),
+        "sure": chance >= SURE,
+        "struck": None if struck is None else Who(Vehicle(struck), contrast.decided),
+        "waypoint": contrast.waypoint,
+        "way": contrast.way,
+        "ride": main.component if main is not None and kind == "ride" else None,
+        "risk_too": (counts or _adds_risk(contrast)) and kind not in ("risk", "collision", "alone"),
+        "risk": Chance(risk) if counts or risk >= RISK else None,
+        "tiny": risk < terms.TINY,
+        "later": later,
+        "unlike": contrast.spares_delay,
+        "astray": _astray(contrast) if kind == "late" else None,
+        **terms.timed(contrast, context, more=later),
+        **terms.looked_ahead(contrast),
+        **terms.not_worth_it(contrast),
+        **terms.effort(contrast),
+    }
+
+
+def _adds_risk(contrast: Contrast) -> bool:
+    """Whether the foil carries a risk of a collision, and more than the fact."""
+    return contrast.collision >= RISK and contrast.collision > contrast.fact_collision
+
+
+def risks(
+    contrast: Contrast, context: SpeechContext, *, past: bool, unsaid: bool = False
+) -> Message | None:
+    """Make a sentence of the risks, where they are not part of that of the reason.
+
+    Args:
+        contrast: fact and foil.
+        context: the situation.
+        past: the decision is past.
+        unsaid: the sentence of the reason tells nothing of what the foil would come to.
+    """
+    if max(contrast.collision, contrast.fact_collision) < RISK:
+        return None
+    slots = consequence_slots(contrast, context, past=past)
+    if slots["kind"] == "alone":
+        return message("RISK_ALONE", past=past, risk=Chance(contrast.fact_collision))
+    if tells_risk(contrast) and not unsaid:
+        return None
+    more = contrast.collision > contrast.fact_collision
+    return message(
+        "BOTH_RISKS",
+        past=past,
+        foil=slots["foil"],
+        risk=Chance(contrast.collision if contrast.collision >= RISK else 0.0),
+        fact_risk=Chance(contrast.fact_collision if contrast.fact_collision >= RISK else 0.0),
+        struck=slots["struck"] if more else None,
+        simple=slots["simple"],
+        more=more,
+    )
+
+
+def tells_risk(contrast: Contrast) -> bool:
+    """Tell whether the sentence of the reason tells the risk of a collision."""
+    if kind_of(contrast) == "alone":
+        return False
+    return any(s.term == "collision" and s.cost > 0.0 for s in contrast.told)
+
+
+def told_cause(contrast: Contrast) -> Cause | None:
+    """The cause that goes with the reason: who makes the foil worse, or has us drive so."""
+    kind = kind_of(contrast)
+    told = {s.term for s in contrast.told if s.cost > 0.0}
+    decides = contrast.verdict == "close" and any(c.decision_changes for c in contrast.causes)
+    due = (contrast.verdict == "better" or decides) and bool(told & {"collision", "late", "time"})
+    if kind != "alone" and not due:
+        return None
+    if kind in ("collision", "risk"):
+        struck = contrast.collided_with
+        if contrast.outcome is not None and contrast.outcome.collided_with is not None:
+            struck = contrast.outcome.collided_with
+        named = [c for c in contrast.causes if c.vehicle == struck or struck is None]
+        sure = [c for c in named if c.probability >= EVEN and telling(c.actions)]
+        return sure[0] if sure else None
+    slower = [c for c in contrast.causes if c.mechanism is None or c.mechanism.how != "collision"]
+    return slower[0] if slower else None
+
+
+def cause_message(
+    cause: Cause, contrast: Contrast, context: SpeechContext, *, past: bool
+) -> Message:
+    """Make a clause of a vehicle and how it made things turn out so."""
+    mechanism = cause.mechanism
+    how = mechanism.how if mechanism is not None else None
+    present = mechanism is not None and mechanism.present
+    lowest = mechanism.speed_to if mechanism is not None else None
+    start = mechanism.speed_from if mechanism is not None else None
+    slows = start is not None and lowest is not None and start - lowest >= SLOWING
+    look = context.look(cause.vehicle, contrast.decided)
+    simple = context.detail == "simpler"
+    ahead = present and how in ("leader", "blocked", "cut-in")
+    return message(
+        "CAUSE",
+        who=Who(Vehicle(cause.vehicle), contrast.decided, placed=not ahead),
+        how=how,
+        present=present,
+        past=past,
+        alone=not contrast.foil,
+        there=contrast.foil[:1] in LANES and look is not None and abs(look.left) > ASIDE,
+        stands=lowest is not None and lowest < STANDING and not slows,
+        halts=lowest is not None and lowest < STANDING,
+        slows=slows,
+        speed=None if lowest is None or simple else Quantity(lowest, "m/s"),
+        verbs=_expected(cause, None if look is None else look.speed, slows=slows, simple=simple),
+        acts=other_verbs(cause.actions) if telling(cause.actions) else None,
+        **chances(cause.probability, context),
+    )
+
+
+def telling(actions: tuple[str, ...]) -> bool:
+    """Whether actions say more than going on."""
+    return bool(actions) and set(actions) - {"continue"} != set()
+
+
+def chances(probability: float, context: SpeechContext) -> dict[str, object]:
+    """How surely something was expected, in words and in percent where that is wanted."""
+    simple = context.detail == "simpler"
+    return {
+        "some": probability < EVEN,
+        "maybe": EVEN <= probability < LIKELY,
+        "share": Chance(probability),
+        "shown": None if simple or probability >= SURE else Chance(probability),
+    }
+
+
+def _expected(cause: Cause, seen: float | None, *, slows: bool, simple: bool) -> tuple[Clause, ...]:
+    """What the vehicle was expected to do: how it gets in the way, and where it goes."""
+    mechanism = cause.mechanism
+    actions = other_verbs(cause.actions) if cause.actions else ()
+    if mechanism is None or mechanism.how in ("right-of-way", "collision"):
+        return actions or (Clause("it", "get in our way"),)
+    after = actions[-1:] if telling(cause.actions) else ()
+    if mechanism.how == "cut-in":
+        moved = [a for a in plain(cause.actions) if a not in CHANGES and a != "continue"]
+        return (Clause("it", "move in ahead of us"), *other_verbs(moved[-1:]))
+    if mechanism.how == "blocked":
+        return (Clause("it", "block our way"), *(a for a in after if a.verb != "stop"))
+    lowest = mechanism.speed_to
+    if lowest is not None and lowest < STANDING:
+        return (Clause("it", "stop ahead of us"), *(a for a in after if a.verb != "stop"))
+    start = mechanism.speed_from
+    if slows and lowest is not None and start is not None and not simple:
+        if seen is not None and abs(seen - start) > OTHERWISE:
+            return (Clause("it", "slow down to about", (Quantity(lowest, "m/s"),)), *after)
+        speeds = Range(Quantity(start, "m/s"), Quantity(lowest, "m/s"))
+        return (Clause("it", "slow from", (speeds,)), *after)
+    if slows:
+        return (Clause("it", "slow down"), *after)
+    at = ("at about", Quantity(lowest, "m/s")) if lowest is not None and not simple else ()
+    return (Clause("it", "hold us up", at), *after)

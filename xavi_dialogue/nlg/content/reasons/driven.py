@@ -1,0 +1,88 @@
+"""Driven: the clause of one reason for how we drove."""
+
+from xavi_dialogue.domain.answers import MotionCause
+from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlg.content.clauses.manoeuvres import own_verbs
+from xavi_dialogue.nlg.content.clauses.traffic_lights import COLOURS
+from xavi_dialogue.nlg.content.reasons.contrasts import SURE, chances
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.values import Quantity, Who
+
+STANDING = 0.5  # [m/s]
+TURNED = ("given-up", "next-move")
+GONE = ("ahead", "left", "right", "behind", "behind-left", "behind-right")
+ASIDE = ("ahead-left", "ahead-right")  # where one sets the pace for a lane that we are to take
+
+
+def speed_told(value: float | None, context: SpeechContext) -> Quantity | None:
+    """The speed to be told; None where no numbers are wanted."""
+    if value is None or context.detail == "simpler":
+        return None
+    return Quantity(value, "m/s")
+
+
+def motion_cause(
+    cause: MotionCause, time: float, context: SpeechContext, *, past: bool, deed: str = ""
+) -> Message:
+    """Make the clause of one reason for how we drove.
+
+    Args:
+        cause: the reason.
+        time: [s] at which vehicles are described.
+        context: the situation.
+        past: it is past.
+        deed: what we did for that reason.
+    """
+    ahead = cause.kind in ("leader", "cut-in", "blocked", "lane-beside", "lane-ahead")
+    who, aside = None, False
+    foreseen = cause.kind == "cut-in" and cause.did is None and not _sure(cause)
+    if cause.vehicle is not None:
+        look = context.look(cause.vehicle, time)
+        beside = look is not None and look.bearing in ASIDE
+        aside = cause.kind == "leader" and beside and speed_told(cause.speed, context) is not None
+        who = Who(Vehicle(cause.vehicle), time, placed=aside or foreseen or not ahead)
+    stands = cause.speed is not None and cause.speed < STANDING
+    unit = "m/s" if cause.kind == "limit" else "m"
+    value = None if cause.value is None else Quantity(cause.value, unit)  # type: ignore[arg-type]
+    simple = context.detail == "simpler"
+    return message(
+        "DRIVEN_BY",
+        kind=cause.kind,
+        who=who,
+        between=None if cause.between is None else Who(Vehicle(cause.between), time),
+        past=past or _gone(cause, context),
+        turn=own_verbs(cause.actions) if cause.kind in TURNED and cause.actions else None,
+        stands=stands,
+        aside=aside,
+        speed=speed_told(cause.speed, context),
+        value=value,
+        number=None if simple else value,
+        lower=deed in ("slow-down", "brake"),
+        higher=deed == "speed-up",
+        foreseen=foreseen,
+        side=cause.side,
+        **_shown(cause, past=past),
+        **chances(cause.probability if cause.probability is not None else 1.0, context),
+    )
+
+
+def _shown(cause: MotionCause, *, past: bool) -> dict[str, object]:
+    """The slots of what the traffic light shows that holds us."""
+    shown = cause.shown
+    if shown is None:
+        return {}
+    turned = shown.colour == "amber" and shown.begun
+    return {"colour": COLOURS[shown.colour], "turned": turned and past}
+
+
+def _gone(cause: MotionCause, context: SpeechContext) -> bool:
+    """Whether who had to be let go first has gone: out of view, behind, or past our way."""
+    if cause.kind != "right-of-way" or cause.vehicle is None:
+        return False
+    look = context.look(cause.vehicle)
+    return look is None or not look.in_view or look.bearing in GONE
+
+
+def _sure(cause: MotionCause) -> bool:
+    return cause.probability is None or cause.probability >= SURE

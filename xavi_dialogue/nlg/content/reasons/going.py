@@ -1,0 +1,107 @@
+"""Going: why we went when we did, and what can be said of not having slowed down."""
+
+from xavi_dialogue.domain.answers import Bystander, GoReason, MotionCause, Unslowed
+from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlg.content.clauses.clauses import doing
+from xavi_dialogue.nlg.content.clauses.manoeuvres import deed_clause
+from xavi_dialogue.nlg.content.clauses.plan import Plan
+from xavi_dialogue.nlg.content.clauses.proposals import about_vehicle
+from xavi_dialogue.nlg.content.reasons.contrasts import consequence_slots, kind_of, risks
+from xavi_dialogue.nlg.content.reasons.driven import motion_cause
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
+
+TOGETHER = 1.2  # [s] within which two are at a place at the same time
+TIGHT = 3.0  # [s] within which one of two would have to brake for the other
+LEAST = 0.5  # [s] that is worth naming
+FAR = 60.0  # [m] from which somebody is far away
+#: Who is told of first: whom we let go, then who had right of way, then who had not.
+_ORDER = {"vehicle": 1, "depends": 2, "ego": 3, "ahead": 4, "none": 5}
+
+
+def plan_going(answer: GoReason, context: SpeechContext) -> Plan:
+    """Plan why we went when we did."""
+    past = answer.past
+    deed = Clause(Who(), "go", (), "past" if past else "present", progressive=not past)
+    if answer.refrained is not None:
+        verb = doing(answer.refrained, ego=True)
+        deed = Clause(Who(), verb, (), "past" if past else "present", negated=True)
+    elif answer.deed is not None and answer.deed.action not in ("continue", "continue-next-exit"):
+        deed = deed_clause(answer.deed, context.now, past=past)
+    time = None if answer.deed is None else answer.deed.begin
+    ranked = sorted(answer.others, key=lambda one: (not one.gone, _ORDER[one.first]))
+    gone = [one for one in ranked if one.gone][:2]
+    let_go = tuple(Who(Vehicle(one.vehicle), time) for one in gone)
+    told = [one for one in ranked if not one.gone][: 2 - len(gone[:1])]
+    first = (message("LET_GO", whos=let_go, past=past),) if gone else ()
+    free = (*first, *(_free(one, time, past=past) for one in told))
+    then = answer.refrained is None and past
+    core = message("WENT", deed=deed, free=free, past=past, then=then)
+    proposed = about_vehicle(ranked[0].vehicle) if ranked else ()
+    waiting = _waiting(answer, context)
+    against = answer.contrast
+    risk = None if against is None else risks(against, context, past=past, unsaid=True)
+    whole = (core,) if risk is None else (risk, core)  # a risk is told, and first
+    return Plan(whole, (), () if waiting is None else (waiting,), (), proposed)
+
+
+def _free(one: Bystander, time: float | None, *, past: bool) -> Message:
+    near = one.distance is not None and one.distance < FAR
+    return message(
+        "WAY_FREE",
+        who=Who(Vehicle(one.vehicle), time),
+        first=one.first,
+        trend=one.trend,
+        far=None if one.distance is None else Quantity(one.distance, "m"),
+        near=near,
+        past=past,
+    )
+
+
+def _waiting(answer: GoReason, context: SpeechContext) -> Message | None:
+    """What waiting would have cost."""
+    if answer.contrast is None or answer.contrast.verdict != "better":
+        return None
+    if kind_of(answer.contrast) not in ("time", "late", "collision"):
+        return None
+    slots = consequence_slots(answer.contrast, context, past=answer.past)
+    return Message("WAITING_COST", slots)
+
+
+def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
+    """Plan what can be said of not having slowed down, or of going now."""
+    cause = answer.cause
+    vehicle = answer.vehicle or (None if cause is None else cause.vehicle)
+    begin = answer.deed.begin
+    seen = vehicle is not None and context.look(vehicle, begin) is not None
+    time = begin if answer.past and seen else None
+    ahead = None
+    if answer.ours is not None and answer.theirs is not None:
+        ahead = answer.theirs - answer.ours
+    slots: dict[str, object] = {
+        "who": None if not vehicle else Who(Vehicle(vehicle), time),
+        "kind": None if cause is None else cause.kind,
+        "cause": None if cause is None else _cause_of(answer, cause, context),
+        "met": ahead is not None,
+        "together": ahead is not None and abs(ahead) <= TOGETHER,
+        "tight": ahead is not None and abs(ahead) <= TIGHT,
+        "before": ahead is not None and ahead > 0.0,
+        "gap": None if ahead is None else Quantity(abs(ahead), "s"),
+        "simple": context.detail == "simpler",
+        "past": answer.past,
+        "right": answer.right,
+        "form": answer.form,
+    }
+    timed = answer.form in ("arrival", "quicker")
+    if timed and answer.saved is not None and answer.arrival is not None:
+        coming = answer.arrival > context.now + LEAST
+        slots |= {"saved": Quantity(answer.saved, "s"), "none": answer.saved < LEAST,
+                  "arrival": Moment(answer.arrival) if coming else None}  # fmt: skip
+    core = Message("UNSLOWED", slots)
+    proposed = about_vehicle(vehicle) if vehicle else ()
+    return Plan((core,), (), (), (), proposed)
+
+
+def _cause_of(answer: Unslowed, cause: MotionCause, context: SpeechContext) -> Message:
+    return motion_cause(cause, answer.deed.begin, context, past=True, deed=answer.deed.action)

@@ -1,0 +1,250 @@
+"""Motives: why we slowed, stood, waited or drove so."""
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import MotionCause, MotionReason
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlg.content.clauses.clauses import episode_clause
+from xavi_dialogue.nlg.content.clauses.manoeuvres import denial, other_verbs
+from xavi_dialogue.nlg.content.clauses.plan import Plan
+from xavi_dialogue.nlg.content.clauses.proposals import about_cause
+from xavi_dialogue.nlg.content.clauses.tenses import began, dated, goes_on
+from xavi_dialogue.nlg.content.reasons.contrasts import chances, telling
+from xavi_dialogue.nlg.content.reasons.driven import STANDING, motion_cause, speed_told
+from xavi_dialogue.nlg.content.reasons.evidence import cleared, hangs_on, is_needed, rests_on
+from xavi_dialogue.nlg.content.reasons.suspects import suspected
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
+
+AT_LIMIT = 0.07  # of the limit, within which one drives at it
+COMING = {"crossing-right": "right", "crossing-left": "left"}
+YIELDS = frozenset(("give-way", "wait", "let-go"))
+CREEPING = 2.6  # [m/s] up to which one may speak of stopping
+STOPS = frozenset(("stop", "stand"))
+NEAR = 15.0  # [m] to a traffic light at which we are
+MARGIN = 0.5  # [m/s] over the limit that is no more than rounding
+#: Actions that exclude one another.
+WAYS = frozenset(("exit-left", "exit-right", "exit-straight", "change-left", "change-right"))
+HALTS = frozenset(("stop", "stand", "wait", "give-way", "brake"))
+#: What is less than coming to a standstill.
+LESS = frozenset(("slow-down", "brake", "move", "follow", "go"))
+
+
+def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
+    """Plan why we drove as we did."""
+    past = answer.past or is_past(answer.deed, context)
+    first = _driving(answer, context, past)
+    told = bool(answer.causes) and answer.causes[0].vehicle == answer.suspect
+    core = suspected(
+        first,
+        answer.suspect,
+        answer.suspected,
+        answer.deed.begin,
+        answer.cleared,
+        answer.besides,
+        past=past,
+        told=told,
+    )
+    first_of = answer.causes[0].vehicle if answer.causes else None
+    others = [c for c in answer.causes[1:] if c.vehicle is not None and c.vehicle != first_of]
+    alone = not answer.causes and _nobody(answer)  # which the reason itself tells then
+    hangs = None if alone else hangs_on(answer.causation, answer.deed.begin, past=past)
+    if hangs is not None and answer.causation is not None and answer.causation.is_joint:
+        core, hangs = (*core, hangs), None  # one of them alone is no reason
+    others = list(answer.causes[1:]) if answer.suspected == "beside" else others
+    asked = hangs if answer.of_causes else None
+    details = [*(_also(c, answer, context, past) for c in others[:1]), asked]
+    more = [
+        None if answer.of_causes else hangs,
+        *(_expectation(c, answer, context, past=past) for c in answer.causes[:1]),
+        *(_also(c, answer, context, past) for c in answer.causes[1:] if c not in others[:1]),
+        *(_needed(c, answer, past=past) for c in answer.causes[:1] if is_needed(answer.causation)),
+        cleared(answer.cleared, answer.deed.begin, past=past),
+        rests_on(answer.evidence, None),
+    ]
+    return Plan(
+        core,
+        tuple(one for one in details if one is not None),
+        tuple(one for one in more if one is not None),
+        (),
+        about_cause(answer),
+    )
+
+
+def is_past(deed: Episode, context: SpeechContext) -> bool:
+    """Tell whether something is over."""
+    return not goes_on(deed, context.now)
+
+
+def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Message:
+    """Make the sentence that says why, by what was asked: a deed, its need, or a way of driving."""
+    causes = answer.causes or (MotionCause("plan"),)
+    slots = {
+        "past": past,
+        "yields": answer.deed.action in YIELDS and causes[0].kind == "right-of-way",
+        "cause": motion_cause(
+            _placed(causes[0], past=past),
+            _seen_at(causes[0], answer, context, past=past),
+            context,
+            past=past,
+            deed=answer.deed.action,
+        ),
+        "when": began(answer.deed, context) if past else None,
+        "known": bool(answer.causes),
+        "nobody": not answer.causes and _nobody(answer),
+        "speed": speed_told(answer.deed.speed_to, context),
+        "limit": None if answer.limit is None else Quantity(answer.limit, "m/s"),
+        "at_limit": _at_limit(answer),
+        "led": causes[0].kind == "leader" and causes[0].vehicle is not None,
+        "halted": None if answer.halted is None else Moment(answer.halted),
+    }
+    if answer.form == "why" and slots["yields"] and answer.asked in ("let-go", "give-way"):
+        number = causes[0].vehicle
+        time = _seen_at(causes[0], answer, context, past=past)
+        who = None if number is None else Who(Vehicle(number), time)
+        look = None if number is None else context.look(number, time)
+        side = None if look is None else COMING.get(look.bearing)
+        when = began(answer.deed, context) if past else None
+        return message("HAD_PRIORITY", who=who, past=past, side=side, when=when)
+    pace = answer.deed.action in ("move", "follow", "go", "continue")
+    if answer.form == "necessary":
+        need = "own" if causes[0].kind in ("plan", "starting") else "yes"
+        return message("DRIVING_NEED", need=need, deed=_deed(answer, context, past), **slots)
+    if pace and answer.manner == "fast":
+        over = _over(answer)
+        return message("PACE_FAST", over=over, **slots)
+    if pace and answer.manner in ("close", "far", "slowly") and answer.asked == "move":
+        slots |= {"slow": answer.premise, "only": answer.manner == "slowly", **_followed(answer)}
+        return message("PACE_CLOSE" if answer.manner != "slowly" else "PACE_SLOW", **slots)
+    deed = _deed(answer, context, past)
+    denied = None
+    if _misnamed(answer):
+        assert answer.asked is not None
+        denied = denial(answer.asked, past=past)
+        deed = _only(deed, answer)
+    return message("DRIVING", deed=deed, denied=denied, did=answer.form == "did", **slots)
+
+
+def _placed(cause: MotionCause, *, past: bool) -> MotionCause:
+    """The reason with how far it is, where that is worth telling: not of what is past or here."""
+    near = cause.kind == "light" and (cause.value or 0.0) < NEAR
+    gone = near or (past and cause.kind != "limit")
+    return replace(cause, value=None) if gone else cause
+
+
+def _nobody(answer: MotionReason) -> bool:
+    """Whether it is asked who makes the difference, and it was found that nobody does."""
+    found = answer.causation is not None and answer.causation.kind == "none"
+    return found and answer.of_causes
+
+
+def _misnamed(answer: MotionReason) -> bool:
+    """Whether what we did is far from what the question called it: nowhere near a standstill."""
+    halts = STOPS | YIELDS
+    if answer.premise or answer.asked not in halts or answer.deed.action in halts:
+        return False
+    if any(cause.vehicle is not None for cause in answer.causes[:1]):
+        return False
+    return answer.deed.speed_to is None or answer.deed.speed_to > CREEPING
+
+
+def _at_limit(answer: MotionReason) -> bool:
+    """Whether we drove at the limit, but for rounding."""
+    speed, limit = answer.deed.speed_to, answer.limit
+    return speed is not None and limit is not None and abs(speed - limit) <= AT_LIMIT * limit
+
+
+def _over(answer: MotionReason) -> bool:
+    speed = answer.deed.speed_to
+    return speed is not None and answer.limit is not None and speed > answer.limit + MARGIN
+
+
+def _followed(answer: MotionReason) -> dict[str, object]:
+    leader = next((c for c in answer.causes if c.vehicle), None)
+    other = answer.deed.object
+    if isinstance(other, Vehicle):
+        return {"other": Who(other, answer.deed.begin, placed=False)}
+    if leader is None or leader.vehicle is None:
+        return {"other": None}
+    return {"other": Who(Vehicle(leader.vehicle), answer.deed.begin, placed=False)}
+
+
+def _deed(answer: MotionReason, context: SpeechContext, past: bool) -> Clause:
+    """What we did; whom it was for is told by the reason."""
+    deed = answer.deed
+    if isinstance(deed.object, Vehicle) and any(cause.vehicle for cause in answer.causes[:1]):
+        deed = replace(deed, object=None)
+    if any(cause.kind == "light" for cause in answer.causes[:1]):
+        deed = replace(deed, object=None)
+    if deed.action == "stop" and deed.end is None and not past:
+        deed = replace(deed, action="stand")
+    if deed.action in ("move", "go", "continue") and deed.speed_to is not None:
+        verb = "drive slowly" if context.detail == "simpler" else "drive at"
+        rest = () if context.detail == "simpler" else (Quantity(deed.speed_to, "m/s"),)
+        tense = "past" if past else "present"
+        return Clause(Who(ride=True), verb, rest, tense, progressive=True)  # type: ignore[arg-type]
+    clause = episode_clause(deed, context.now, tense="past" if past else "present")
+    return dated(clause, deed, context)
+
+
+def _only(deed: Clause, answer: MotionReason) -> Clause:
+    """The clause with "only", where what was done is less than what the question called it."""
+    less = answer.asked in HALTS and answer.deed.action in LESS
+    if not less:
+        return deed
+    subject, verb, rest = deed.subject, deed.verb, deed.rest
+    return Clause(subject, verb, rest, deed.tense, deed.progressive, adverb="only")
+
+
+def _expectation(
+    cause: MotionCause, answer: MotionReason, context: SpeechContext, *, past: bool
+) -> Message | None:
+    """What we expected of the vehicle, and whether it did so."""
+    if cause.vehicle is None or cause.probability is None or not telling(cause.actions):
+        return None
+    if cause.kind == "leader" and set(cause.actions) <= {"continue", "exit-straight"}:
+        return None
+    if cause.speed is not None and cause.speed < STANDING and cause.actions[-1] == "stop":
+        return None
+    did = cause.did
+    so = did is not None and did.action in cause.actions
+    other_way = did is not None and did.action in WAYS and WAYS & set(cause.actions)
+    shown = did if other_way and not so else None
+    return message(
+        "EXPECTATION",
+        who=Who(Vehicle(cause.vehicle), answer.deed.begin),
+        past=past or so or shown is not None,
+        acts=other_verbs(cause.actions),
+        so=so,
+        did=episode_clause(shown, context.now, tense="past") if shown is not None else None,
+        **chances(cause.probability, context),
+    )
+
+
+def _also(
+    cause: MotionCause, answer: MotionReason, context: SpeechContext, past: bool
+) -> Message | None:
+    if cause.kind == "plan":
+        return None
+    time = _seen_at(cause, answer, context, past=past)
+    return message("ALSO_CAUSE", cause=motion_cause(cause, time, context, past=past))
+
+
+def _seen_at(
+    cause: MotionCause, answer: MotionReason, context: SpeechContext, *, past: bool
+) -> float:
+    """When [s] the vehicle of a reason is described: now where it goes on, if it is in view."""
+    times = (answer.deed.begin, context.now) if past else (context.now, answer.deed.begin)
+    if cause.vehicle is None:
+        return times[0]
+    looks = ((time, context.look(cause.vehicle, time)) for time in times)
+    return next((time for time, look in looks if look is not None and look.in_view), times[0])
+
+
+def _needed(cause: MotionCause, answer: MotionReason, *, past: bool) -> Message | None:
+    if cause.vehicle is None or not cause.necessary:
+        return None
+    who = Who(Vehicle(cause.vehicle), answer.deed.begin)
+    return message("WITHOUT_IT", who=who, past=past)

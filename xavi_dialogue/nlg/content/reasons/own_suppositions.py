@@ -1,0 +1,136 @@
+"""Own suppositions: what would have come of it, had we done otherwise."""
+
+from typing import Any
+
+from xavi_dialogue.domain.answers import Contrast, SupposedOfUs
+from xavi_dialogue.domain.reasons import Asking
+from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.nlg.content.clauses.manoeuvres import (
+    CHANGES,
+    last_open,
+    own_verbs,
+    performed,
+    performed_later,
+)
+from xavi_dialogue.nlg.content.clauses.plan import Plan
+from xavi_dialogue.nlg.content.clauses.proposals import about_cause
+from xavi_dialogue.nlg.content.reasons.contrasts import (
+    LIKELY,
+    RISK,
+    consequence_slots,
+    kind_of,
+    risks,
+    time_effect,
+    told_cause,
+)
+from xavi_dialogue.nlg.content.reasons.evidence import further
+from xavi_dialogue.nlg.content.reasons.reasons import cause_of
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.values import Chance, Moment, Who
+
+OF_RISKS = frozenset[Asking](("crash", "safe", "safer"))  # questions that are of risks themselves
+TIMED = frozenset[Asking](("arrival", "could", "quicker"))  # those that are of times
+SAFER = 0.01  # probability of a collision by which something is safer
+ALIKE = 0.1  # difference of probabilities up to which two outcomes are told as one
+ABOUT = 1.5  # factor up to which a time is about as long as it is said to be
+
+
+def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
+    """Plan what would have come of another action of ours."""
+    contrast, past = answer.contrast, answer.past
+    cause = cause_of(contrast, context, past=past)
+    slots = {
+        **consequence_slots(contrast, context, past=past),
+        "way": contrast.way or contrast.route is not None,
+        "fact": own_verbs(contrast.fact, contrast.foil),
+        "cause": None if context.detail == "less" else cause,
+        "trouble": _troubles(contrast),
+    }
+    both = _both_late(contrast) if slots["kind"] == "late" and not slots["way"] else None
+    slots |= {"late_too": both is not None, "chance": slots["chance"] if both is None else both}
+    slots["gains"] = slots["delta"] is not None and not slots["later"]
+    told_risk = slots["risk_too"] or slots["kind"] in ("risk", "collision")
+    done = answer.done is not None
+    risk = None if told_risk and not done else risks(contrast, context, past=past)
+    more = further(contrast, context, past=past)
+    if answer.ahead is not None and answer.ahead.vehicle is not None and not done:
+        who = Who(Vehicle(answer.ahead.vehicle), contrast.decided)
+        blocked = message("IF_BLOCKED", who=who, past=past, form=answer.form, **_verbs(contrast))
+        return Plan((blocked,), (), more, (), about_cause(answer))
+    if answer.done is not None:
+        just = performed("JUST_THAT", answer.done)
+        rest = (Message("INSTEAD_OF_IT", slots),) if kind_of(contrast) != "alone" else ()
+        core = (just, *(m for m in (risk,) if m is not None), *rest)
+        return Plan(core, (), more, (), about_cause(answer))
+    if answer.form != "what-if" and kind_of(contrast) != "alone":
+        asked = _asked(answer, slots)
+        told = Message("IF_ASKED", {**slots, **asked})
+        named = slots["kind"] == "collision" or (answer.form == "could" and asked["riskier"])
+        untold = answer.form in TIMED and not named  # times alone are told
+        if told_risk and (untold or (named and contrast.fact_collision >= RISK)):
+            risk = risks(contrast, context, past=past, unsaid=True)
+        beside = () if risk is None or answer.form in OF_RISKS else (risk,)
+        core = (told, *beside, *last_open(answer.open_at), *performed_later(answer.later))
+        return Plan(core, (), more, (), about_cause(answer))
+    told = Message("IF_WE", slots)
+    first = contrast.collision > contrast.fact_collision  # where what was done is riskier: second
+    core = tuple(m for m in ((risk, told) if first else (told, risk)) if m is not None)
+    core = (*core, *last_open(answer.open_at), *performed_later(answer.later))
+    return Plan(core, (), more, (), about_cause(answer))
+
+
+def _both_late(contrast: Contrast) -> Chance | None:
+    """How sure it is that neither plan gets there in time, where that is likely of both."""
+    foil, fact = contrast.outcome, contrast.fact_outcome
+    if foil is None or fact is None or not foil.name == fact.name == "termination":
+        return None
+    least, most = sorted((foil.probability, fact.probability))
+    return Chance(least) if most - least <= ALIKE else None
+
+
+def _troubles(contrast: Contrast) -> bool:
+    """Whether the lane changes that a foil takes more decided against it."""
+    changes = any(action in CHANGES for action in (*contrast.foil, *contrast.continued))
+    return changes and any(s.term == "effort" and s.cost > 0.0 for s in contrast.told)
+
+
+def _verbs(contrast: Contrast) -> dict[str, object]:
+    return {"foil": own_verbs(contrast.foil, contrast.fact)}
+
+
+def _held_against(claimed: float | None, size: float) -> str | None:
+    """How a time [s] compares with what it is said to be; None where nothing is said of it."""
+    if claimed is None:
+        return None
+    return "less" if claimed > ABOUT * size else "more" if size > ABOUT * claimed else "same"
+
+
+def _asked(answer: SupposedOfUs, slots: dict[str, Any]) -> dict[str, Any]:
+    """The slots for whether we could, would have collided, or when we would be there."""
+    contrast = answer.contrast
+    worse = contrast.value is None or contrast.value > 0.0
+    risk = contrast.collision
+    cause = told_cause(contrast)
+    how = None if cause is None or cause.mechanism is None else cause.mechanism.how
+    behind = cause is not None and how in ("leader", "blocked", "cut-in")
+    effect = time_effect(contrast)
+    safer = contrast.fact_collision - risk
+    later = tuple(a for a in contrast.continued if a in CHANGES)[:1]
+    return {
+        "form": answer.form,
+        "judged": contrast.verdict,
+        "verdict": "yes" if risk >= LIKELY else "maybe" if risk >= RISK else "no",
+        "good": not worse and slots["kind"] not in ("collision", "dead", "late"),
+        "behind": Who(Vehicle(cause.vehicle), contrast.decided) if behind and cause else None,
+        "arrival": None if answer.arrival is None else Moment(answer.arrival),
+        "sooner": effect is not None and effect.delta < 0.0,
+        "claimed": None if effect is None else _held_against(answer.claimed, abs(effect.delta)),
+        "safer": safer >= SAFER,
+        "riskier": safer <= -SAFER,
+        "risk": Chance(risk),
+        "fact_risk": Chance(contrast.fact_collision),
+        "risky": max(risk, contrast.fact_collision) >= RISK,
+        "afterwards": own_verbs(later, contrast.fact) if later else None,
+        "cause": None,
+    }

@@ -1,0 +1,1 @@
+"""Refusals, requests, clarifications and small talk in words."""

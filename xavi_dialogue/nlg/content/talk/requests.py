@@ -1,0 +1,77 @@
+"""Requests: how the car declines to drive as it is told, and what it is about to do anyway."""
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Declined
+from xavi_dialogue.domain.vocabulary import BEYOND
+from xavi_dialogue.nlg.content.clauses.clauses import event_clause
+from xavi_dialogue.nlg.content.clauses.joint_measures import measure_messages
+from xavi_dialogue.nlg.content.clauses.measures import SOON
+from xavi_dialogue.nlg.content.clauses.plan import Plan
+from xavi_dialogue.nlg.content.observed.conduct import plan_ahead
+from xavi_dialogue.nlg.content.reasons.driven import motion_cause
+from xavi_dialogue.nlg.content.talk.refusals import reason_in_words
+from xavi_dialogue.nlg.context import SpeechContext
+from xavi_dialogue.nlg.surface.message import Message, message
+from xavi_dialogue.nlg.surface.values import Clause, Quantity, Who
+
+STAYING = frozenset(("follow", "continue", "keep-lane", "move"))
+HOW = frozenset(("hard", "suddenly", "close", "fast", "slowly", "late", "early"))
+GOING = frozenset(("go", "move", "continue"))
+#: What is said without whom it concerns: "go before the bus" is going.
+BARE = frozenset(("go", "move", "speed-up"))
+
+
+def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
+    """Plan how a request is declined, and what the car is about to do anyway."""
+    event, negated = answer.request.event, answer.request.negated
+    kept = event.object if event.action not in BARE else None
+    where = None if event.where is None or event.where.relation == "same-as" else event.where
+    told = replace(event, manner=(), object=kept, then=None, where=where)
+    clause = event_clause(told, context.now, tense="present")
+    if event.action == "keep-distance":
+        whom = () if event.object is None else ("from", Who(event.object))
+        clause = Clause(clause.subject, "keep", ("more distance", *whom))
+    slots: dict[str, object] = {
+        "verb": Clause(clause.subject, clause.verb, clause.rest),
+        "braking": event.action in ("brake", "slow-down"),
+        "negated": negated,
+        "open": event.action in ("do", "happen"),
+        "unable": not answer.able or event.action in BEYOND,
+        "cause": None,
+    }
+    if answer.cause is not None:
+        slots["cause"] = motion_cause(answer.cause, context.now, context, past=False)
+    if negated:
+        how = event.where is not None or not HOW.isdisjoint(event.manner)
+        slots["open"] = bool(slots["open"]) or how
+        slots["meant"] = not answer.already
+        return Plan((Message("DECLINED_NOT", slots),))
+    fact = next(iter(measure_messages(answer.facts, context)), None)
+    if answer.already and event.action == "keep-distance" and fact is not None:
+        return Plan((Message("KEEPING", {"fact": fact}),))
+    if answer.already:
+        rule = "ALREADY_MEANT" if event.action in STAYING else "ALREADY"
+        doing = answer.doing
+        return Plan((message(rule), *(() if doing is None else (doing,))))
+    if answer.soon is not None:
+        left = Quantity(max(answer.soon - context.now, 0.0), "s")
+        slots |= {"left": left, "at_once": left.value < SOON}
+        return Plan((Message("ABOUT_TO", slots),))
+    slowing = answer.doing is not None and answer.doing.trend == "slowing"
+    if event.action in GOING and slowing and answer.cause is not None:
+        return Plan((Message("KEEP_GOING", slots),))
+    why = answer.cannot
+    slots["reason"] = None if why is None else reason_in_words(why, past=False)
+    slots["fact"] = fact
+    slots["anyway"] = _anyway(answer, context)
+    return Plan((Message("DECLINED_VERB", slots),))
+
+
+def _anyway(answer: Declined, context: SpeechContext) -> Message | None:
+    """What the car is going to do."""
+    unable = not answer.able or answer.request.event.action in BEYOND
+    if answer.ahead is None or unable:
+        return None
+    first = plan_ahead(answer.ahead, context).core[0]
+    return first if isinstance(first, Message) else None

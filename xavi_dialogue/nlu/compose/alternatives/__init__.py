@@ -1,0 +1,1 @@
+"""Yes or no questions, and questions that offer a choice."""

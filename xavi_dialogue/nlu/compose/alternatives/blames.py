@@ -1,0 +1,128 @@
+"""Blames: "was it for the bus", "was that braking because of him or of the lorry"."""
+
+import re
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.meaning import Act, Ask, Whether, Why
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Feature,
+    Happens,
+    Junction,
+    Nobody,
+    Pronoun,
+    Proposition,
+    Thing,
+    Vehicle,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.clauses.clause import Clause, wanted_pronoun
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Sem, Specified, as_thing
+
+_TURNS = frozenset({"turn", "exit-left", "exit-right", "take-turn"})
+_HINDERING = frozenset({"bend", "light", "crossing", "queue", "obstacle"})
+_HELD = frozenset({"brake", "slow-down", "stop", "wait", "give-way", "let-go"})
+#: That nobody else is meant; "just" and "only just" may be of the time, and "not only" denies it.
+_ALONE = re.compile(
+    r"(?<!not )\bonly\b(?! just)|\balone\b|\b(?:solely|purely|merely|exclusively)\b"
+    r"|\bjust (?:because|due|for|down to|thanks to|the|that|this|vehicle|him|her|them)\b"
+    r"|\b(?:nobody|no one|noone|nothing) else\b|\bby (?:itself|himself|herself)\b"
+)
+
+
+def blamed(clause: Clause) -> Thing | None:
+    """Read "was it for the bus", "was that braking because of him": whom it was for."""
+    plain = clause.verb is None and not (clause.complements or clause.objects)
+    if isinstance(clause.subject, Event) and plain and not isinstance(clause.because, Clause):
+        return as_thing(clause.because)
+    it = isinstance(clause.subject, Pronoun) and clause.subject.form in ("it", "that", "this")
+    if not it or clause.verb is not None or len(clause.complements) != 1 or clause.objects:
+        return None
+    if clause.adjectives or clause.manner or clause.comparisons:
+        return None  # "was it too fast for this bend?"
+    graded = clause.adjectives or clause.manner or clause.comparisons  # "too fast for this bend"
+    phrase = clause.complements[0]
+    return _cause(phrase.sem) if phrase.key == "for" and not graded else None
+
+
+def _cause(sem: Sem | None) -> Thing | None:
+    """Give what may hinder us: somebody, a junction or bend, or the turn that we take there."""
+    if isinstance(sem, Event):
+        return Junction() if sem.action in _TURNS else None
+    thing = as_thing(sem)
+    match thing:
+        case Described() | Vehicle() | Junction() | Ego():
+            return thing
+        case Feature(kind=kind) if kind in _HINDERING:
+            return thing
+        case Pronoun(form="he" | "she" | "they" | "them-all"):
+            return thing
+    return None
+
+
+def cleft_cause(clause: Clause) -> tuple[Thing, Proposition | Clause] | None:
+    """Read "was it because of the bus that you braked": the cause, and what it is of."""
+    if clause.verb is not None or not wanted_pronoun(clause.subject):
+        return None
+    named = [c.sem for c in clause.complements if c.key == "for"]
+    sem = named[0] if named else clause.because
+    if isinstance(sem, Clause) or clause.adjectives:
+        return None
+    thing = as_thing(sem)
+    if thing is not None and clause.that is not None:
+        return thing, clause.that
+    match sem:
+        case Specified(thing=thing, clause=Happens(event=Event(object=Wanted()) as event)):
+            return thing, _whole(event)
+        case Described(doing=Event(object=Wanted() | None, actor=actor) as event) if (
+            actor != Wanted()
+        ):
+            return replace(sem, doing=None), _whole(event)
+    return None
+
+
+def blamed_for(clause: Clause) -> Why | None:
+    """Read "is the bus why you braked"."""
+    if clause.question is None or clause.verb is not None or not clause.has("be"):
+        return None
+    wh, questions = clause.question
+    thing = as_thing(clause.subject)
+    if wh is None or wh.kind != "why" or thing is None or not questions:
+        return None
+    asked = questions[0]
+    return replace(asked, suspect=thing) if isinstance(asked, Why) else None
+
+
+def _whole(event: Event) -> Proposition:
+    """Take a deed for one that was for the sake of nobody in particular."""
+    action = "stop" if event.action == "block" else event.action  # "that you stopped"
+    return Happens(replace(event, action=action, object=None))
+
+
+def of_one_alone(act: Act, words: str) -> Act:
+    """Mark "only because of him", "was it him alone?": whether nobody else is why is asked.
+
+    "Did you stop only for the bus?" asks the same.
+    """
+    if not isinstance(act, Ask) or not _ALONE.search(words):
+        return act
+    match act.question:
+        case Why(suspect=Nobody(described=Described(other=True) as thing)) as why:
+            return Ask(replace(why, suspect=thing))
+        case Why(suspect=thing, rival=None) as why if thing is not None:
+            return Ask(replace(why, alone=True))
+        case Whether(
+            that=Happens(event=Event(actor=Ego(), object=Vehicle() | Described() as whom) as event)
+        ) if event.action in _HELD and event.modal is None:
+            return Ask(Why(Happens(replace(event, object=None)), suspect=whom, alone=True))
+    return act
+
+
+def rival(clause: Clause) -> Thing | None:
+    """Give the other of two who are named: "was it for the bus or for the lorry?"."""
+    sem = clause.complements[0].sem if clause.complements else clause.because
+    members = sem.members[1:] if isinstance(sem, Group) and sem.join == "or" else ()
+    return next((one for one in map(_cause, members) if one is not None), None)

@@ -1,0 +1,229 @@
+"""Choosing: "is the red or the blue one faster": yes or no questions about one of several.
+
+"Or" between things that are pointed at asks which of them it is; between things of a sort ("a man
+or a lady") it asks whether there is any.
+"""
+
+import dataclasses
+from collections.abc import Iterator
+from typing import Any, TypeVar, cast
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.meaning import Compare, Question, Whether, Which
+from xavi_dialogue.domain.rewriting import substitute
+from xavi_dialogue.domain.terms import (
+    Both,
+    Compares,
+    Described,
+    Ego,
+    Happens,
+    Measured,
+    Pronoun,
+    Proposition,
+    Quantity,
+    Related,
+    Thing,
+    Vehicle,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.alternatives.comparing import BY
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Sem, as_thing
+from xavi_dialogue.nlu.compose.wh_questions.wh import fact
+
+T = TypeVar("T")
+_REVERSED = frozenset({"slow", "small", "far", "late"})
+_EXTREMES = {"fastest": ("speed", False), "quickest": ("speed", False), "slowest": ("speed", True),
+             "biggest": ("size", False), "largest": ("size", False), "smallest": ("size", True),
+             "nearest": ("distance", False), "closest": ("distance", False),
+             "farthest": ("distance", True), "furthest": ("distance", True)}  # fmt: skip
+_IN_LINE = {"ahead": False, "behind": True}
+#: What of a word for a comparison is held against each other of road users.
+_OF_THINGS = {"fast": "speed", "slow": "speed", "high": "speed", "low": "speed", "long": "size"}
+
+
+def least_of(clause: Clause) -> bool:
+    """Say whether it is asked who is slower, smaller or farther, not faster, bigger or nearer."""
+    return bool(clause.comparisons) and clause.comparisons[0][0] in _REVERSED
+
+
+def by_of(clause: Clause) -> str:
+    """Tell by what things are compared."""
+    key = clause.comparisons[0][0]
+    return _OF_THINGS.get(key) or BY.get(key, "best")
+
+
+def in_line(clause: Clause) -> bool | None:
+    """Say whether it is asked who is ahead (False) or behind (True) of the other; None: neither."""
+    bare = clause.verb is None and not (clause.comparisons or clause.adjectives)
+    if not bare or len(clause.bearings) != 1 or clause.complements:
+        return None
+    return _IN_LINE.get(clause.bearings[0][0])
+
+
+def options_of(sem: Sem | None) -> tuple[Thing, ...] | None:
+    """Give the things of which one is meant; None where none is pointed at."""
+    if not isinstance(sem, Group) or sem.join != "or":
+        return None
+    numbered = any(isinstance(member, Vehicle) for member in sem.members)
+    things = [as_thing(m) for m in sem.members if numbered or not isinstance(m, Quantity)]
+    named = [thing for thing in things if is_pointed_at(thing)]
+    return tuple(cast(Any, named)) if len(named) == len(sem.members) else None
+
+
+def is_pointed_at(thing: object) -> bool:
+    """Say whether a certain road user is meant: "the bus", "vehicle 7", "we"."""
+    return isinstance(thing, Ego | Vehicle) or (isinstance(thing, Described) and thing.definite)
+
+
+def superlative_of(clause: Clause) -> tuple[str, bool] | None:
+    """Tell by what one is picked out, and whether it is the least: "the slowest"."""
+    named = [*(getattr(sem, "extreme", None) for sem, _ in clause.objects), *sorted(clause.focus)]
+    return next((_EXTREMES[one] for one in named if one in _EXTREMES), None)
+
+
+def chosen(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
+    """Ask which of the things that are joined by "or" it is; empty where none are."""
+    if clause.negated or clause.because is not None or clause.contrast is not None:
+        return []
+    if (cleft := _cleft(clause)) is not None:
+        return [(cleft, 0.0)]
+    options = options_of(clause.subject)
+    if options is None:
+        return _any_of(clause, propositions) or _done_to(clause, propositions)
+    if clause.comparisons and clause.comparisons[0][1] != "as" and clause.than is None:
+        return [(Compare(options, cast(Any, by_of(clause)), least_of(clause)), 0.0)]
+    if (most := superlative_of(clause)) is not None:
+        return [(Compare(options, cast(Any, most[0]), most[1]), 0.0)]
+    if (behind := in_line(clause)) is not None:
+        return [(Compare(options, "place", behind), 0.0)]
+    open_ = dataclasses.replace(clause, subject=Wanted())
+    found = [(fact(c.value), c.cost) for c in propositions.readings(open_)]
+    return [(Which(Wanted(), of, options), cost) for of, cost in found if _is_open(of)]
+
+
+def _any_of(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
+    """Ask "is a bus or a lorry coming": whether it is so of any of them."""
+    sem = clause.subject
+    if not isinstance(sem, Group) or sem.join != "or":
+        return []
+    each = [propositions.readings(_copy(clause, subject=one))[:1] for one in sem.members]
+    said = [(fact(one.value), one.cost) for found in each for one in found]
+    if len(said) < len(sem.members):
+        return []
+    return [(Whether(Both(tuple(of for of, _ in said), "or")), said[0][1])]
+
+
+def _cleft(clause: Clause) -> Question | None:
+    """Read "is it the bus or the van that we are waiting for"."""
+    pronoun = isinstance(clause.subject, Pronoun) and clause.subject.form in ("it", "that")
+    options = options_of(clause.objects[0][0]) if pronoun and clause.objects else None
+    last = options[-1] if options else None
+    if clause.verb is not None or not isinstance(last, Described) or options is None:
+        return None
+    such = last.such if last.doing is None else Happens(last.doing)
+    plain = replace(last, doing=None, such=None)
+    return None if such is None else Which(Wanted(), such, (*options[:-1], plain))
+
+
+def _done_to(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
+    """Ask "did you wait for the bus or the van": to whom of them it was done."""
+    for options, members in _objects(clause):
+        readings = [propositions.readings(member)[:1] for member in members]
+        said = [(fact(one.value), one.cost) for found in readings for one in found]
+        which = differing(Both(tuple(of for of, _ in said), "or")) if len(said) > 1 else None
+        if which is not None and len(said) == len(options):
+            return [(replace(which, among=options), said[0][1])]
+    return []
+
+
+def _objects(clause: Clause) -> Iterator[tuple[tuple[Thing, ...], list[Clause]]]:
+    """Find things joined by "or" behind the verb, with the clause for each of them."""
+    for index, (sem, part) in enumerate(clause.objects):
+        if (options := options_of(sem)) is not None:
+            yield options, [_copy(clause, objects=_put(clause.objects, index, (one, part)))
+                            for one in options]  # fmt: skip
+    for index, phrase in enumerate(clause.complements):
+        if (options := options_of(phrase.sem)) is not None:
+            phrases = [dataclasses.replace(phrase, sem=one) for one in options]
+            yield options, [_copy(clause, complements=_put(clause.complements, index, one))
+                            for one in phrases]  # fmt: skip
+
+
+def _put(row: list[T], index: int, one: T) -> list[T]:
+    return [*row[:index], one, *row[index + 1 :]]
+
+
+def _copy(clause: Clause, **fields: Any) -> Clause:
+    """Copy a clause, so that reading it does not change the other one."""
+    lists = {
+        name: list(value)
+        for name in ("objects", "complements", "bearings", "particles", "chained")
+        if (value := getattr(clause, name))
+    }
+    return dataclasses.replace(clause, **{**lists, **fields})
+
+
+def _is_open(of: Proposition) -> bool:
+    return substitute(of, Wanted(), Ego()) != of
+
+
+def compared_by(such: Proposition | None, options: tuple[Thing, ...]) -> Compare | None:
+    """Compare things by what one of them is said to be more of: "which is faster"."""
+    match such:
+        case Compares(left=Measured(attribute=attribute), comparator=comparator, right=None) if (
+            attribute in _MOST
+        ):
+            least = comparator != _MOST[attribute]
+            return Compare(options, cast(Any, attribute), least)
+        case Related(relation="ahead-of" | "behind" as relation, thing=Wanted(), to=Ego()):
+            return Compare(options, "place", relation == "behind")
+    return None
+
+
+_MOST = {"speed": "more", "size": "more", "distance": "less"}
+
+
+def differing(of: Proposition) -> Which | None:
+    """Read "did you wait for the bus or wait for the van" as which of them it was."""
+    if not isinstance(of, Both) or of.join != "or":
+        return None
+    one, other = of.contents[0], of.contents[-1]
+    for thing, rival in zip(_things(one), _things(other), strict=False):
+        if thing == rival or not (is_pointed_at(thing) and is_pointed_at(rival)):
+            continue
+        such = substitute(one, thing, Wanted())
+        if such == substitute(other, rival, Wanted()):
+            return Which(Wanted(), such, (thing, rival))
+    return None
+
+
+def _things(of: object) -> list[Any]:
+    """List the road users in a proposition, in the order of its fields."""
+    if isinstance(of, Ego | Vehicle | Described):
+        return [of]
+    fields = getattr(of, "__struct_fields__", ())
+    return [thing for name in fields for thing in _things(getattr(of, name))]
+
+
+def asks_which(question: Question) -> Question:
+    """Ask for the one of two where it is asked whether either is so."""
+    if not isinstance(question, Whether):
+        return question
+    return _before_or_behind(question.that) or differing(question.that) or question
+
+
+def _before_or_behind(of: Proposition) -> Compare | None:
+    """Read "is it ahead of the van or behind it" as who of the two is ahead."""
+    match of:
+        case Both(
+            contents=(
+                Related("ahead-of" | "behind" as one, thing, to),
+                Related("ahead-of" | "behind" as other, again, then),
+            ),
+            join="or",
+        ) if one != other and thing == again:
+            named = next((t for t in (to, then) if isinstance(t, Vehicle | Described)), None)
+            return None if named is None else Compare((thing, named), "place")
+    return None

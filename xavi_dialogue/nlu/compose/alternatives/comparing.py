@@ -1,0 +1,126 @@
+"""Comparing: whether one deed is or would have been better than another."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.meaning import Compare, Question
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Lane, Pronoun, That
+from xavi_dialogue.nlu.compose.clauses.adoption import as_of, with_fields
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import Sem, as_thing
+from xavi_dialogue.nlu.compose.wh_questions.frames import Frames
+
+BY = {
+    "fast": "time",
+    "soon": "time",
+    "safe": "safety",
+    "dangerous": "safety",
+    "comfortable": "comfort",
+    "better": "best",
+    "close": "distance",
+    "far": "distance",
+    "big": "size",
+    "small": "size",
+    "likely": "probability",
+    "slow": "time",
+    "long": "time",
+    "efficient": "best",
+    "late": "time",
+    "hard": "comfort",
+    "high": "best",
+    "low": "best",
+    "important": "best",
+    "first": "time",
+}
+
+#: Words of what is said to do worse.
+_WORSE = frozenset({"worse", "slower", "riskier", "longer", "later", "less safe", "costlier"})
+
+
+class Comparing(Frames):
+    """Builds questions that compare deeds."""
+
+    def comparison(self, clause: Clause) -> Question | None:
+        """Ask "would turning right have been quicker": deeds compared."""
+        if _sooner(clause):
+            whose = clause.subject
+            of = Happens(whose) if isinstance(whose, Event) else That()
+            return Compare((_at(of, clause.tense),), "time")
+        if not clause.comparisons or clause.comparisons[0][1] == "as":
+            return None
+        by = cast(Any, BY.get(clause.comparisons[0][0], "best"))
+        deed: Any = clause.subject if isinstance(clause.subject, Event) else None
+        governed = clause.infinitive or clause.gerund
+        if deed is None and governed is not None and isinstance(clause.subject, Pronoun):
+            governed.subject = Ego()
+            deed = self.propositions.as_event(governed)
+        if deed is None and clause.modal in ("would", "could"):
+            deed = _lane_taken(clause)
+        spoken = isinstance(clause.subject, Pronoun) and clause.subject.form in (
+            "that",
+            "it",
+            "this",
+        )
+        unreal = clause.modal in ("would", "could", "might")
+        key = clause.comparisons[0][0]
+        if deed is None and governed is not None and key == "better" and unreal:
+            governed.subject = as_thing(clause.subject) or Ego()
+            deed = self.propositions.as_event(governed)
+        ours = isinstance(clause.subject, Ego) and clause.verb is None and not clause.than
+        if deed is None and key in ("better", "safe", "fast") and ours and unreal:
+            return Compare((That(), *self._other(clause)), by)
+        if not isinstance(deed, Event):
+            judged = key in ("safe", "better", "comfortable", "dangerous")
+            hypothetical = unreal or judged or isinstance(clause.than, Event | Clause)
+            if not (spoken and hypothetical) or clause.verb is not None:
+                return None
+            return Compare((That(), *self._other(clause)), by)
+        if unreal:
+            deed = with_fields(deed, modal=clause.modal)
+        options = (Happens(deed), *self._other(clause))
+        return Compare(tuple(_at(option, clause.tense) for option in options), by)
+
+    def weighed_deed(self, clause: Clause) -> Happens | None:
+        """Read the deed of "stopping would have been worse"; what was worse was not done."""
+        compare = self.comparison(clause)
+        if not isinstance(compare, Compare) or not isinstance(compare.options[0], Happens):
+            return None
+        deed = compare.options[0]
+        worse = any(word in _WORSE for _, word in clause.comparisons)
+        return Happens(with_fields(deed.event, modal="would")) if worse else deed
+
+    def _other(self, clause: Clause) -> tuple[Any, ...]:
+        clauses = [c for c in (clause, clause.infinitive, clause.gerund) if c is not None]
+        spoken = [o for c in clauses for o in (c.than, c.contrast) if o is not None]
+        than = spoken[0] if spoken else None
+        if isinstance(than, Clause):
+            if than.subject is None or isinstance(than.subject, Event):
+                than.subject = Ego()
+            found = self.propositions.plain(than)
+            return (found,) if found is not None else ()
+        if isinstance(than, Event):
+            return (Happens(than),)
+        thing = as_thing(cast("Sem | None", than)) if not isinstance(than, str) else None
+        return (thing,) if thing is not None else ()
+
+
+def _at(option: Any, tense: str) -> Any:
+    return as_of(option, tense) if isinstance(option, Happens) else option
+
+
+def _lane_taken(clause: Clause) -> Event | None:
+    """Read "would the other lane have been faster", "... quicker in the left lane"."""
+    places = [as_thing(phrase.sem) for phrase in clause.complements if phrase.key in ("in", "on")]
+    lane = next((t for t in (as_thing(clause.subject), *places) if isinstance(t, Lane)), None)
+    if lane is None or lane.of is not None or clause.verb is not None:
+        return None
+    side = {"left": "left", "right": "right", "leftmost": "left", "rightmost": "right"}
+    action: Any = f"change-{side.get(lane.which, 'lane')}"
+    return Event(action, tense=cast(Any, clause.tense))
+
+
+def _sooner(clause: Clause) -> bool:
+    """Say whether it is asked if we would have got there sooner."""
+    key = clause.verb.key if clause.verb is not None else ""
+    unreal = clause.modal in ("would", "could", "might") or clause.has("have-past")
+    sooner = ("soon", "sooner") in clause.comparisons or "early" in clause.manner
+    return key in ("get", "arrive", "be") and unreal and sooner

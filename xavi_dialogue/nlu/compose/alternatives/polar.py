@@ -1,0 +1,305 @@
+"""Polar questions: whether something is so, and which of two deeds is better."""
+
+from dataclasses import replace
+from typing import Any, cast
+
+from msgspec import structs
+
+from xavi_dialogue.domain.meaning import (
+    Doing,
+    Fault,
+    HowAvoid,
+    HowKnow,
+    HowMany,
+    HowSure,
+    Listing,
+    Question,
+    WhatIf,
+    WhatWouldChange,
+    Whether,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    Both,
+    Caused,
+    Described,
+    Ego,
+    Event,
+    Exists,
+    Exit,
+    Feature,
+    Happens,
+    Is,
+    Nobody,
+    Not,
+    Pronoun,
+    Proposition,
+    That,
+    Thing,
+    Unsaid,
+    Vehicle,
+    Vehicles,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.alternatives.blames import blamed, cleft_cause, rival
+from xavi_dialogue.nlu.compose.alternatives.choosing import asks_which, chosen
+from xavi_dialogue.nlu.compose.alternatives.comparing import Comparing
+from xavi_dialogue.nlu.compose.alternatives.recast import about_whom, caused_by, judged_so
+from xavi_dialogue.nlu.compose.clauses.adoption import as_of
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.nominal import asked_of, event_in
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.clauses.tree import words_of
+from xavi_dialogue.nlu.compose.propositions.tally import counts, exits_passed, tallied
+from xavi_dialogue.nlu.compose.states.pacing import not_rather, permitted
+from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
+from xavi_dialogue.nlu.compose.verbs.sheltering import concealed
+from xavi_dialogue.nlu.compose.wh_questions.wh import fact, prevented
+from xavi_dialogue.nlu.compose.wh_questions.which import way_at
+
+_WAYS = frozenset(
+    {"exit-left", "exit-right", "exit-straight", "turn", "continue", "continue-next-exit",
+     "leave", "enter", "u-turn", "head", "go", "pass"}
+)  # fmt: skip
+
+
+_OTHERS = (Described, Pronoun, Vehicle)
+
+
+def way_asked(of: Proposition) -> Question | None:
+    """Take "do we turn left or go straight on" for the question which way we go."""
+    if not isinstance(of, Both) or of.join != "or":
+        return None
+    found = [one.event for one in of.contents if isinstance(one, Happens)]
+    if len(found) < len(of.contents) or not all(
+        event.action in _WAYS
+        and isinstance(event.actor, Ego)
+        and event.modal is None
+        and event.where is None
+        and not isinstance(event.object, _OTHERS)
+        for event in found
+    ):
+        return None
+    exits = any(isinstance(event.object, Exit) for event in found)
+    time = next((e.time for e in found if not isinstance(e.time, Unsaid)), Unsaid())
+    return way_at(Ego(), time, found[0].tense, "exit-number" if exits else "turn")
+
+
+def judged(clause: Clause) -> Thing | None:
+    """Tell who is said to be rude or unfair; nobody where it is what happened."""
+    thing = as_thing(clause.subject)
+    return None if isinstance(thing, Pronoun) and thing.form in ("that", "this", "it") else thing
+
+
+def _foreseen(clause: Clause) -> Proposition | None:
+    """Read "was your prediction right": whether we were right about whom is spoken of."""
+    sem = clause.subject
+    state = next((key for key, _ in clause.adjectives if key in ("right", "wrong")), clause.side)
+    if clause.verb is not None or state not in ("right", "wrong"):
+        return None
+    who = about_whom(clause)
+    if isinstance(sem, Noun) and sem.key == "prediction":
+        who = who or as_thing(sem.about) or as_thing(sem.of) or Pronoun("he")
+    elif not isinstance(sem, Ego):
+        return None
+    if who is None:
+        return None
+    return Is(cast(Any, state), who, time=clause.time, tense="past")
+
+
+def _is_all(clause: Clause) -> bool:
+    """Say whether it is asked whether "that is it": whether anything is still to come."""
+    it = [sem for sem, _ in clause.objects] == [Pronoun("it")]
+    plain = clause.verb is None and not clause.complements and not clause.adjectives
+    return clause.subject == Pronoun("that") and it and plain
+
+
+def _is_option(clause: Clause) -> bool:
+    """Say whether options are spoken of, or anything else."""
+    named = [clause.subject] if clause.passive else [sem for sem, _ in clause.objects]
+    options = any(isinstance(sem, Noun) and sem.key == "option" for sem in named)
+    return options or any(isinstance(sem, Described) and sem.other for sem in named)
+
+
+def _our_sureness(thing: Thing | None) -> bool:
+    """Say whether it is we who are said to be sure, or "it" that is said to be."""
+    return isinstance(thing, Ego) or (isinstance(thing, Pronoun) and thing.form in ("it", "that"))
+
+
+class Polar(Comparing):
+    """Builds yes or no questions."""
+
+    def whether(self, clause: Clause, *, tag: bool = False) -> list[tuple[Question, float]]:
+        """Build the yes or no questions of a clause."""
+        inner = clause.that if clause.that is not None and not clause.adjectives else clause
+        if any(key in ("opinion", "kind") for key, _ in inner.adjectives):
+            deems = clause.verb is not None and clause.verb.key in ("consider", "call", "find")
+            return [(Fault(That(), None if deems else judged(inner)), 0.0)]
+        if _is_all(clause):
+            return [(Doing(tense="future"), 0.0)]
+        if (amiss := hindsight(clause)) is not None:
+            return [(amiss, 0.0)]
+        if (limited := permitted(clause)) is not None:
+            return [(Whether(limited, tag), 0.0)]
+        if found := chosen(clause, self.propositions):
+            return [(self.framed(question, clause, None), cost) for question, cost in found]
+        if (there := concealed(clause)) is not None:
+            return [(Whether(there, tag), 0.0)]
+        foreseen = _foreseen(clause)
+        if foreseen is not None:
+            return [(Whether(foreseen, tag), 0.0)]
+        cleft = cleft_cause(clause)
+        if cleft is not None:
+            cause, told = cleft
+            caused = self.propositions.plain(told) if isinstance(told, Clause) else told
+            return [(Why(caused or That(), suspect=cause), 0.0)]
+        suspect = blamed(clause)
+        if suspect is not None:
+            deed = clause.subject
+            of = Happens(deed) if isinstance(deed, Event) else That()
+            return [(Why(of, suspect=suspect, rival=rival(clause)), 0.0)]
+        compare = self.comparison(clause) or self._existing(clause)
+        if compare is not None:
+            return [(self.framed(compare, clause, None), 0.0)]
+        found = []
+        for candidate in self.propositions.readings(clause):
+            question = asks_which(self.polar(clause, candidate.value, tag=tag))
+            found.append((self.framed(question, clause, candidate.value), candidate.cost))
+        return found
+
+    def _existing(self, clause: Clause) -> Question | None:
+        """Ask "is there a reason you are waiting", "do we have another option"."""
+        if not clause.there or not clause.objects:
+            return None
+        way = self._way_round(clause)
+        if way is not None or clause.negated:
+            return way
+        sem = clause.objects[0][0]
+        if isinstance(sem, Measure) and sem.of.attribute == "probability":
+            return self._chance(clause, sem)
+        if not isinstance(sem, Noun) or sem.key in ("problem", "sight", "side", "truth"):
+            return None
+        governed = clause.that or clause.infinitive
+        if governed is not None and sem.clause is None:
+            governed.subject = governed.subject or Ego()
+            sem = replace(sem, clause=self.propositions.plain(governed))
+        return asked_of(sem, clause.time, clause.tense)
+
+    def _chance(self, clause: Clause, sem: Measure) -> Question | None:
+        """Ask "is there a risk that he hits us", "is there any risk with the lorry"."""
+        if clause.that is not None:
+            return HowSure(self.propositions.plain(clause.that), clause.time)
+        event = sem.of.event
+        whom = next((t for p in clause.complements if (t := as_thing(p.sem)) is not None), None)
+        if event is not None and event.action == "collide" and event.object is None:
+            event = structs.replace(event, object=whom)
+        return None if event is None else HowSure(Happens(event), clause.time)
+
+    def _special(self, clause: Clause, value: Special) -> Question | None:
+        found = self._whether_special(clause, value)
+        if isinstance(found, Whether):  # "did you exceed the limit or brake hard?"
+            return structs.replace(found, that=self.propositions.joined(clause, found.that))
+        return found
+
+    def polar(self, clause: Clause, value: Any, *, tag: bool) -> Question:
+        if isinstance(value, Special) and (asked := self._special(clause, value)) is not None:
+            return asked
+        of = counts(clause) or tallied(clause, self.propositions.joined(clause, fact(value)))
+        of = not_rather(clause, of, self.propositions)
+        if (avoidable := self._avoidable(clause, of)) is not None:
+            return avoidable
+        way = way_asked(of) or self._either_way(clause, of)
+        if way is not None:
+            return way
+        if (passed := exits_passed(clause, of)) is not None:
+            return HowMany(passed)  # "did we go past any exits?"
+        if isinstance(of, Is) and of.state == "sure" and _our_sureness(of.thing):
+            return HowSure(self._sure_of(clause), clause.time)
+        if (meant := judged_so(clause, of, tag=tag) or caused_by(clause, of, tag=tag)) is not None:
+            return meant
+        if clause.because is not None:
+            if isinstance(clause.because, Clause):
+                cause_fact = self.propositions.plain(clause.because)
+                return Whether(Caused(cause_fact, of), tag) if cause_fact else Whether(of, tag)
+            return Why(of, suspect=as_thing(clause.because))
+        return Whether(of, tag)
+
+    def _either_way(self, clause: Clause, of: Proposition) -> Question | None:
+        """Ask "do we come off at this one or the next": which way we go."""
+        sems = [phrase.sem for phrase in clause.complements]
+        other = any(isinstance(sem, Group) and sem.join == "or" for sem in sems)
+        if not other or not isinstance(of, Happens) or of.event.action != "leave":
+            return None
+        return way_asked(Both((of, of), "or"))
+
+    def _avoidable(self, clause: Clause, of: Proposition) -> Question | None:
+        """Ask "could the crash have been avoided", "was there anything you could have done"."""
+        inner = of.content if isinstance(of, Not) else of
+        match inner:
+            case Happens(event=Event(action="avoid", modal="could" | "would" | "should")):
+                if isinstance(clause.subject, Event) and not clause.passive:
+                    return WhatIf(as_of(Happens(clause.subject), "past"), Whether(of))
+                sems = [clause.subject] if clause.passive else [sem for sem, _ in clause.objects]
+                deed = next((sem for sem in sems if isinstance(sem, Event)), None)
+                governed = None if clause.gerund is None else self.propositions.plain(clause.gerund)
+                return HowAvoid(governed if deed is None else Happens(deed))
+            case Exists(
+                thing=Described(doing=Event(action="do", modal="could" | "should", actor=actor))
+            ) if not isinstance(actor, Wanted):
+                return HowAvoid()
+        return None
+
+    def _way_round(self, clause: Clause) -> Question | None:
+        """Ask "was there any way to avoid the crash", "is there no way round it"."""
+        thing = as_thing(clause.objects[0][0])
+        if not isinstance(thing, Feature) or thing.kind != "way":
+            return None
+        if clause.infinitive is None:
+            words = words_of(clause.objects[0][1]).split()
+            around = any(phrase.key == "bearing-around" for phrase in clause.complements)
+            around = around or not {"round", "around", "not", "avoiding"}.isdisjoint(words)
+            return HowAvoid() if around else None
+        governed = clause.infinitive
+        governed.subject = Ego()
+        found = self.propositions.plain(governed)
+        if found is not None and (isinstance(found, Not) or clause.negated):
+            of = found.content if isinstance(found, Not) else found
+            return HowAvoid(as_of(of, clause.tense))
+        if isinstance(found, Happens) and found.event.action == "avoid":
+            deed = next((sem for sem, _ in governed.objects if isinstance(sem, Event)), None)
+            return HowAvoid(Happens(deed) if deed is not None else None)
+        return None
+
+    def _sure_of(self, clause: Clause) -> Proposition | None:
+        governed = clause.that or clause.infinitive
+        if governed is None:
+            deeds = (event_in(p.sem) for p in clause.complements if p.key in ("about", "of"))
+            deed = next((one for one in deeds if one is not None), None)
+            return None if deed is None else as_of(Happens(deed), clause.tense)
+        return self.weighed_deed(governed) or self.propositions.plain(governed)
+
+    def _whether_special(self, clause: Clause, value: Special) -> Question | None:
+        if value.name == "obey":
+            return Fault(None, value.subject, legal=True)
+        if value.name == "violate":
+            return Fault(None, value.subject, legal=True)
+        if value.name == "blame":
+            return Fault(None, as_thing(value.object))
+        if value.name == "prevent" and (denied := prevented(value)) is not None:
+            return Why(Not(denied))
+        if clause.verb is not None and clause.verb.key == "guess" and value.name == "believe":
+            return HowKnow(value.content)  # "did you just guess?"
+        if value.name == "startle" and isinstance(as_thing(value.object), Ego):
+            return Why(That(), suspect=value.subject)  # "did he scare you?"
+        if value.name == "matter":
+            whom = as_thing(value.subject)
+            users = isinstance(whom, Vehicle | Vehicles | Described | Nobody)
+            return Why(That(), suspect=whom) if users else WhatWouldChange(None)
+        staked = clause.verb is not None and clause.verb.key == "bet"
+        if staked and clause.modal == "would" and isinstance(as_thing(value.subject), Ego):
+            return HowSure(value.content)  # "would you bet on it?"
+        ours = isinstance(value.content, Happens) and isinstance(value.content.event.actor, Ego)
+        if value.name == "consider" and (ours or (value.content is None and _is_option(clause))):
+            return Listing("options", time=clause.time)  # "did you consider alternatives?"
+        return None

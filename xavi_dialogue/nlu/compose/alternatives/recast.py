@@ -1,0 +1,91 @@
+"""Polar questions that ask something else: who is at fault, what a cause did, how safe it was."""
+
+from typing import cast
+
+from msgspec import structs
+
+from xavi_dialogue.domain.meaning import Compare, Fault, Question, Whether, Why
+from xavi_dialogue.domain.terms import (
+    Caused,
+    Described,
+    Ego,
+    Event,
+    Exit,
+    Happens,
+    Is,
+    Pronoun,
+    Proposition,
+    That,
+    Thing,
+    Vehicle,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.clauses.clause import Clause, wanted_pronoun
+from xavi_dialogue.nlu.compose.clauses.sem import as_thing, is_thing
+
+
+def about_whom(clause: Clause) -> Thing | None:
+    """Find of whom a judgement is: "were you wrong about the blue one"."""
+    found = (as_thing(p.sem) for p in clause.complements if p.key in ("about", "with", "on"))
+    vehicles = (Described, Vehicle, Pronoun)
+    return next((thing for thing in found if isinstance(thing, vehicles)), None)
+
+
+def judged_so(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
+    """Read a judgement of a deed, or of whoever did it; None for anything else."""
+    about = about_whom(clause)
+    match of:
+        case Is(state="dangerous" | "safe", thing=Pronoun("that" | "it"), event=None) if (
+            clause.modal == "would"
+        ):
+            return Compare((That(),), "safety")  # "would that have been risky?"
+        case Is(state="wrong" | "right", thing=Ego()) if about is not None:
+            return Whether(structs.replace(of, thing=about), tag)
+        case Happens(
+            event=Event(
+                action="do", actor=actor, object=Described(such=Is(state="wrong"), doing=None)
+            )
+        ):  # "did we do something wrong?"
+            return Fault(That(), actor)
+        case Happens(event=Event(action="go", actor=Ego(), object=Pronoun()) as of_us) if (
+            of_us.side is not None
+        ):  # "so for this we go to the left?"
+            return Why(Happens(structs.replace(of_us, object=None)), suspect=Pronoun("that"))
+        case Is(state="at-fault", thing=thing, event=event):
+            return Fault(Happens(event) if event is not None else None, thing)
+        case Happens(event=Event(action="do", object=Pronoun(form="this" | "that")) as done) if (
+            _permits(clause, done)
+        ):
+            return Fault(That(), done.actor, legal=True)
+    return None
+
+
+def caused_by(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
+    """Read who or what is said to be the one: "was it the bus that braked"; None for the rest."""
+    match of:
+        case Caused(
+            cause=Described(doing=Event(action="leave", actor=Ego()) as event, rank=rank)
+        ):  # "is it the next one that we get off at?"
+            deed = structs.replace(event, object=Exit(rank), tense="present")
+            return Whether(Happens(deed), tag)
+        case Caused(cause=Described(doing=Event(action="do", object=Wanted(), actor=doer))):
+            return Why(That(), suspect=doer)  # "was that something we did?"
+        case Caused(cause=Described(doing=Event(actor=Wanted()) as event) as who, effect=None) if (
+            wanted_pronoun(clause.subject)
+        ):  # "was it the bus that braked?"
+            whole = structs.replace(who, doing=None)
+            return Whether(Happens(structs.replace(event, actor=whole)), tag)
+        case Caused(cause=Described(doing=Event(object=Wanted()) as event) as who, effect=None) if (
+            wanted_pronoun(clause.subject) and event.action != "do"
+        ):  # "... you braked for?"
+            whole = structs.replace(who, doing=None)
+            return Whether(Happens(structs.replace(event, object=whole)), tag)
+        case Caused(cause=cause, effect=effect) if is_thing(cause):
+            return Why(effect or That(), suspect=cast(Thing, cause))
+    return None
+
+
+def _permits(clause: Clause, event: Event) -> bool:
+    """Say whether it is asked if somebody is allowed to do what he does: "may he do that?"."""
+    allowed = "semi-allowed" in clause.aux or event.modal in ("might", "can")
+    return allowed and not isinstance(event.actor, Ego)

@@ -1,0 +1,1 @@
+"""Clauses and nouns: the parts that propositions are made of."""

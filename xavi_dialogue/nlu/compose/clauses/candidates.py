@@ -1,0 +1,38 @@
+"""Candidates: what a clause may say, before it is part of a question or claim."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from xavi_dialogue.domain.terms import Ego, Proposition, Thing
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import Sem, as_thing
+from xavi_dialogue.nlu.compose.clauses.senses import Match
+
+
+@dataclass(frozen=True, slots=True)
+class Special:
+    """A predicate that has a rule of its own: "know", "cost", "make do"."""
+
+    name: str
+    clause: Clause
+    match: Match
+    content: Proposition | None = None  # of the clause that it governs
+
+    @property
+    def subject(self) -> Thing:
+        """Give who or what it is said of."""
+        return as_thing(self.clause.subject) or Ego()
+
+    @property
+    def object(self) -> Sem | None:
+        """Give what stands as its object."""
+        return self.match.object
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """One reading of a clause."""
+
+    value: Proposition | Special
+    cost: float
+    left: tuple[Any, ...] = field(default=())

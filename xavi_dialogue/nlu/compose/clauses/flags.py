@@ -1,0 +1,39 @@
+"""Flags: what a sense of a verb asks of a clause beside objects and phrases."""
+
+from xavi_dialogue.domain.terms import WholeRide
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+
+
+def flag(kind: str, wanted: str, clause: Clause) -> bool:
+    """Say whether a clause has what a sense asks for beside objects and phrases."""
+    match kind:
+        case "inf":
+            return clause.infinitive is not None
+        case "ger":
+            return clause.gerund is not None
+        case "bare":
+            return clause.bare is not None
+        case "that":
+            return clause.that is not None
+        case "wh":
+            return clause.question is not None
+        case "adj":
+            listed = bool(clause.adjectives or clause.feelings or clause.comparisons)
+            return listed and (wanted == "*" or any(k == wanted for k, _ in clause.adjectives)
+                               or any(k == wanted for k, _ in clause.comparisons)
+                               or wanted in clause.manner)  # fmt: skip
+        case "bearing":
+            return bool(clause.bearings)
+        case "origin":
+            return clause.origin is not None
+        case "because":
+            return clause.because is not None
+        case "go":
+            inner = clause.bare.verb if clause.bare is not None else None
+            return inner is not None and inner.key == "go"
+        case "close" | "long" | "again":
+            return kind in clause.manner
+        case "whole":
+            return isinstance(clause.time, WholeRide)
+        case _:
+            return False

@@ -1,0 +1,112 @@
+"""Followers: what stands behind the head of a noun phrase, such as clauses, places and owners."""
+
+from typing import Any, cast
+
+from msgspec import structs
+
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Not, Passenger, Related, Thing, Wanted
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Sem, as_thing
+from xavi_dialogue.nlu.compose.clauses.traits import Traits
+from xavi_dialogue.nlu.compose.clauses.tree import is_negated
+from xavi_dialogue.nlu.grammar.chart import Node, Part
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
+
+_RELATIONS = {
+    "ahead": "ahead-of",
+    "behind": "behind",
+    "left": "left-of",
+    "right": "right-of",
+    "beside": "beside",
+    "oncoming": "oncoming-to",
+    "around": "near",
+    "in-way": "in-the-way-of",
+    "here": "near",
+    "there": "near",
+    "far": "near",
+}
+
+
+class Followers:
+    """Notes what stands behind a head; clauses are read by `clauses`."""
+
+    def __init__(self, clauses: Any) -> None:
+        self.clauses = clauses
+
+    def read(self, node: Node) -> Sem:
+        """Read a noun phrase."""
+        raise NotImplementedError
+
+    def modify(self, part: Part, traits: Traits) -> None:
+        """Note what can also stand before the head."""
+        raise NotImplementedError
+
+    def follow(self, part: Part, traits: Traits) -> None:
+        """Note what stands behind the head."""
+        if isinstance(part, Leaf):
+            self.modify(part, traits)
+            return
+        match part.name:
+            case "of":
+                traits.of = self.clauses.inner(part.parts[1])
+            case "at_bearing":
+                leaf = cast(Leaf, part.parts[0])
+                seen = self.read(cast(Node, part.parts[1]))
+                if isinstance(seen, Group) and isinstance(seen.members[-1], Measure):
+                    traits.beside = seen.members[1:]  # "the bus behind us and the speed"
+                of = as_thing(seen)
+                traits.fields["bearing"] = "ahead" if leaf.key == "in-way" else leaf.key
+                traits.fields["of"] = None if isinstance(of, (Ego, Passenger)) else of
+            case "relative" | "contact" | "participle" | "extent":
+                self._clause_behind(part, traits)
+            case "attached":
+                key = cast(Leaf, part.parts[0]).key
+                sem = self.clauses.inner(part.parts[1])
+                traits.about.append((key, sem))
+                gerund = part.parts[1]
+                if isinstance(sem, Event) and isinstance(gerund, Node) and is_negated(gerund):
+                    traits.clause = Not(Happens(sem))  # "the reason for not stopping"
+
+    def _clause_behind(self, part: Node, traits: Traits) -> None:
+        traits.gerund = part
+        if traits.reason and part.name in ("contact", "relative"):
+            found = self.clauses.noun_clause(part)  # "the reason you stopped"
+        else:
+            found = self.clauses.relative_proposition(part)
+        traits.clause = found
+        match found:
+            case Happens(event=event):
+                event = self._placed(event, traits)
+                traits.fields["doing"] = event
+                traits.event = event
+            case Related(relation=relation, thing=Wanted(), to=to):
+                bearing = next((b for b, r in _RELATIONS.items() if r == relation), None)
+                if bearing is not None:
+                    traits.fields["bearing"] = bearing
+                    traits.fields["of"] = None if isinstance(to, Ego) else to
+            case None:
+                pass
+            case _:
+                traits.fields["such"] = found
+
+    def _placed(self, event: Event, traits: Traits) -> Event:
+        """Take the place of "standing on the right" for the place of who stands there."""
+        where = event.where
+        if where is None or where.thing != Wanted() or not isinstance(where.to, Ego):
+            return event
+        bearing = next((b for b, r in _RELATIONS.items() if r == where.relation), None)
+        if bearing is None or "bearing" in traits.fields:
+            return event
+        traits.fields["bearing"] = bearing
+        return structs.replace(event, where=None)
+
+
+def doing(thing: Thing, event: Event | None) -> Sem:
+    """Read "vehicle 1 entering our lane" as the event."""
+    if event is None:
+        return thing
+    return structs.replace(event, actor=thing) if isinstance(event.actor, Wanted) else event
+
+
+def relation_of(bearing: str) -> str:
+    """Name the relation that a bearing is one side of."""
+    return _RELATIONS.get(bearing.split("-")[0], "near")

@@ -1,0 +1,250 @@
+"""Nominal questions: what a noun phrase asks for behind "what is", "list" or "tell me"."""
+
+from typing import Any, cast
+
+from msgspec import structs
+
+from xavi_dialogue.domain.meaning import (
+    Doing,
+    Fault,
+    HowDecide,
+    HowKnow,
+    HowMany,
+    HowMuch,
+    HowSure,
+    Identify,
+    Listing,
+    Peak,
+    Question,
+    Summarise,
+    WhatIf,
+    WhatWouldChange,
+    When,
+    Where,
+    Which,
+    Whither,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    Caused,
+    Described,
+    Destination,
+    Ego,
+    Event,
+    Everyone,
+    Exit,
+    Happens,
+    Lane,
+    Measured,
+    Not,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Quantity,
+    Rank,
+    Record,
+    Relative,
+    Road,
+    That,
+    Thing,
+    Time,
+    Together,
+    Unknown,
+    Unsaid,
+    Vehicle,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.clauses.adoption import as_of, of_numbers
+from xavi_dialogue.nlu.compose.clauses.sem import (
+    Group,
+    Measure,
+    Moment,
+    Noun,
+    Sem,
+    SideOf,
+    as_thing,
+)
+
+_LISTED = {"option": "options", "event": "events", "prediction": "beliefs",
+           "wrong-prediction": "wrong-predictions", "factor": "causes", "stop": "stops",
+           "decision": "decisions", "capability": "capabilities"}  # fmt: skip
+
+
+def event_in(sem: Sem | None) -> Event | None:
+    """Find the event in "the lorry turning right"."""
+    if isinstance(sem, Event):
+        return sem
+    if not isinstance(sem, Described) or sem.doing is None:
+        return None
+    inner = sem.doing
+    if not isinstance(inner.actor, Wanted):
+        return None
+    return structs.replace(inner, actor=structs.replace(sem, doing=None))
+
+
+def deed_of(sem: Sem | None) -> Event | None:
+    """Give the deed that is named, by nobody in particular: "the stop", "all that braking"."""
+    event = event_in(sem)
+    alone = event is not None and event.actor in (Described(), Described(plural=True))
+    return structs.replace(event, actor=Ego()) if alone and event is not None else event
+
+
+def done_by(event: Event, *named: Sem | None) -> Event:
+    """Give a deed to the vehicle that it is said of: "vehicle 1 at 90 percent for turning"."""
+    things = (as_thing(sem) for sem in named)
+    whom = next((t for t in things if isinstance(t, Vehicle | Described | Pronoun)), None)
+    if whom is None or not isinstance(event.actor, Ego):
+        return event
+    return structs.replace(event, actor=whom)
+
+
+#: What it is of which a measure is spoken: "the deceleration" is a slowing down.
+_CHANGES: dict[str, Any] = {"deceleration": "slow-down", "acceleration": "speed-up"}
+
+
+def propose(sem: Sem | None) -> Proposition | None:
+    """Take a noun phrase for a fact: a deed happened, "that" was spoken of."""
+    if isinstance(sem, Event):
+        return Happens(sem)
+    if isinstance(sem, Pronoun):
+        return That()
+    if isinstance(sem, Measure) and sem.of.attribute in _CHANGES:
+        whose = sem.of.thing
+        actor = Ego() if isinstance(whose, Unknown) else whose
+        return Happens(Event(_CHANGES[sem.of.attribute], actor, time=sem.of.time))
+    return None
+
+
+def asked_of(sem: Sem, time: Time, tense: str = "present") -> Question | None:
+    """Ask for what a noun phrase names; None for what names nothing to ask for."""
+    match sem:
+        case Measure():
+            return _measure(sem, time, tense)
+        case Noun():
+            return _noun(sem, time, tense)
+        case Event():
+            return Summarise(sem, time)
+        case Quantity() | Moment() | SideOf():
+            return None
+        case Group(members=members) if not isinstance(as_thing(sem), Together):
+            return asked_of(members[0], time, tense)
+        case Everyone():
+            return Listing("vehicles", time=time)
+        case Destination():
+            return Where(sem, time)
+        case Record():
+            return Summarise(None, time)
+        case Ego() | Passenger():
+            return Summarise(Ego(), time)
+        case Exit():
+            return HowMuch(Measured("exit-number", time=time))
+        case Lane() | Road():
+            return Where(sem, time)
+        case _:
+            thing = as_thing(sem)
+            if isinstance(thing, Described) and isinstance(thing.such, Caused):
+                return WhatWouldChange(thing.such.effect, most=True)
+            if getattr(thing, "plural", False) and not getattr(thing, "number", None):
+                return Listing("vehicles", thing, time)
+            return Identify(thing) if thing is not None else None
+
+
+def _measure(sem: Measure, time: Time, tense: str) -> Question:
+    measured = sem.of
+    if not isinstance(time, Unsaid) or tense != "present":
+        measured = structs.replace(measured, time=time, tense=tense)
+    if measured.attribute == "heading":
+        return Whither(measured.thing, time)
+    held = measured.about or measured.event
+    open_ = isinstance(measured.thing, Pronoun) and measured.thing.form in ("it", "that", "this")
+    of_other = not held and not open_ and not isinstance(measured.thing, Ego)
+    if measured.attribute == "probability" and of_other:
+        return Listing("beliefs", measured.thing, time)
+    if measured.attribute == "probability":
+        return HowSure(
+            measured.about or (Happens(measured.event) if measured.event else None), time
+        )
+    return HowMuch(of_numbers(measured), sem.extreme)
+
+
+def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
+    about = propose(sem.about) or propose(sem.of) or sem.clause
+    about = sem.clause if isinstance(sem.clause, Not) else about
+    about = about if about is None else as_of(about, tense)
+    thing = as_thing(sem.about) or as_thing(sem.of) or as_thing(sem.owner)
+    if about is None and sem.key in ("reason", "factor") and isinstance(time, Relative):
+        about = Happens(time.anchor) if isinstance(time.anchor, Event) else None
+    if sem.key in ("reason", "factor") and not sem.plural:
+        if sem.extreme or sem.key == "factor":
+            return WhatWouldChange(about, most=True)
+        return Why(about or That())
+    if sem.key == "reason":
+        return Listing("reasons", thing, time)
+    if sem.key in _LISTED:
+        if sem.key == "decision" and not (sem.plural or sem.word.endswith("s")):
+            return HowDecide(about)
+        return Listing(cast(Any, _LISTED[sem.key]), _other_than_ego(thing), time)
+    match sem.key:
+        case "deed":
+            return Doing(Ego(), Rank(-1 if sem.quality == "last" else 1), "past")
+        case "peak":
+            return Peak(cast(Any, sem.quality), time, sem.number)
+        case "plan":
+            actor = as_thing(sem.owner) or as_thing(sem.of) or Ego()
+            return Doing(actor, time, "future")
+        case "fault":
+            return Fault(about, _other_than_ego(thing))
+        case "order" if isinstance(sem.of, Noun) and sem.of.key in _LISTED:
+            return _noun(sem.of, time, tense)  # "the sequence of your decisions"
+        case "order":
+            whose = None if isinstance(sem.of, Event | Noun) else _other_than_ego(thing)
+            return Listing("events", whose, time)
+        case "evidence":
+            return HowKnow(about)
+        case "ride" if isinstance(sem.clause, Happens) and isinstance(time, Unsaid):
+            return Summarise(None, sem.clause.event.time)  # "everything that happened since"
+        case "summary" | "ride":
+            of = None if isinstance(thing, Unknown) else _other_than_ego(thing)
+            return Summarise(of, time)
+        case "hold-up":
+            held = Event("block", Wanted(), Ego(), time=time, tense=cast(Any, tense))
+            return Which(Wanted(), Happens(held))
+        case "problem":
+            return Why(That())
+        case "difference" if isinstance(about, Happens):
+            return WhatIf(about)
+        case "difference":
+            return Summarise(None, time)
+        case "time" if isinstance(sem.of, Measure) and sem.of.extreme is not None:
+            return HowMuch(sem.of.of, sem.of.extreme)  # "the time of the closest approach"
+        case "time":
+            return _clock(about, time)
+        case "moment":
+            return When(about or That())
+        case "way":
+            return HowMuch(Measured("route", time=time))
+    return None
+
+
+def _clock(about: Proposition | None, time: Time) -> Question:
+    return When(about) if about is not None else HowMuch(Measured("time", time=time))
+
+
+def _other_than_ego(thing: Thing | None) -> Thing | None:
+    return None if isinstance(thing, (Ego, Passenger)) else thing
+
+
+def counted(sem: Sem) -> Question | None:
+    """Ask how many there are of what a noun phrase names."""
+    match sem:
+        case Event():
+            return HowMany(sem)
+        case Lane():
+            return HowMuch(Measured("lane-count"))
+        case Noun() | Measure() | Moment() | Quantity() | SideOf():
+            return None
+        case Group(members=members):
+            return counted(members[0])
+        case _:
+            thing = as_thing(sem)
+            return HowMany(thing) if thing is not None else None

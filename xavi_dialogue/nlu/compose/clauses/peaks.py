@@ -1,0 +1,128 @@
+"""Peaks: "the hardest moment", "when were we slowest": what was at its most, and when."""
+
+from typing import Any, cast
+
+from msgspec import structs
+
+from xavi_dialogue.domain.meaning import HowMuch, Peak
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Measured,
+    Pronoun,
+    Quantity,
+    Unknown,
+    Vehicle,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
+from xavi_dialogue.nlu.grammar.chart import Node
+
+#: What is at its most at a moment, by superlatives and adjectives.
+_QUALITIES = {
+    "nearest": "closeness", "slowest": "slowness", "fastest": "speed", "difficult": "difficulty",
+    "dangerous": "danger", "highest": "difficulty", "lowest": "closeness", "important": "danger",
+    "hard": "difficulty", "uncomfortable": "difficulty",
+}  # fmt: skip
+
+
+def quality_of(extreme: str | None, adjectives: list[str]) -> str:
+    """Name what is at its most at a moment; "" for nothing."""
+    named = [name for name in (extreme, *adjectives) if name in _QUALITIES]
+    return _QUALITIES[named[0] or ""] if named else ""
+
+
+def _most(sem: Sem) -> bool:
+    """Say whether a noun phrase is "the most time"."""
+    return getattr(sem, "extreme", None) == "highest" or getattr(sem, "unit", "") in ("s", "time")
+
+
+_EXTREMES = {"slowest": "slowness", "fastest": "speed", "nearest": "closeness",
+             "closest": "closeness", "longest": "waiting"}  # fmt: skip
+
+
+#: What we do or meet with the most, by the verb.
+_DONE = {"brake": "slowing", "slow down": "slowing", "slow": "slowing", "wait": "waiting",
+         "spend": "waiting", "lose": "delay", "waste": "delay", "cost": "delay"}  # fmt: skip
+_HOLDING = frozenset({"hold", "hold up", "delay", "slow", "slow down", "keep"})
+
+
+def _done_most(verb: str, clause: Clause) -> str:
+    """Name what is done the most: "lost the most time", "braked the most"; "" for nothing."""
+    sems = [sem for sem, _ in clause.objects]
+    time = any(isinstance(s, (Noun, Measure, Moment)) and _most(s) for s in sems)
+    if time:
+        return _DONE.get(verb, "") if _DONE.get(verb) != "slowing" else ""
+    if Unknown("highest") not in [*sems, *(c.sem for c in clause.complements)]:
+        return ""
+    if verb in _HOLDING and Ego() in sems:
+        return "delay"  # "what held us up the most"
+    return _DONE.get(verb, "") if isinstance(clause.subject, Ego) else ""
+
+
+def done_most(event: Event, relative: Node | None) -> str:
+    """Name what the deed of a relative clause makes a peak of: "we had to brake the most"."""
+    most = relative is not None and any(leaf.category == "SUPER" for leaf in leaves_of(relative))
+    return _DEEDS.get(event.action, "") if most and isinstance(event.actor, Ego) else ""
+
+
+#: What a deed of ours is the most of: "the hardest braking", "the longest stop".
+_DEEDS = {"brake": "slowing", "slow-down": "slowing", "stop": "waiting", "wait": "waiting",
+          "stand": "waiting", "give-way": "waiting"}  # fmt: skip
+_HARD = frozenset({"highest", "difficult", "biggest"})
+
+
+def deed_peak(action: str, extreme: str | None) -> str:
+    """Name what "the hardest braking", "the longest stop" are the peak of; "" for nothing."""
+    if extreme not in _HARD:
+        return ""
+    return "braking" if action in ("brake", "slow-down") else _DEEDS.get(action, "")
+
+
+def extreme_told(clause: Clause) -> HowMuch | None:
+    """Read "the peak deceleration was about five" as asking for the peak, whatever it was."""
+    subject = clause.subject
+    if not isinstance(subject, Measure) or subject.extreme is None or clause.verb is not None:
+        return None
+    if not any(isinstance(sem, Quantity) for sem, _ in clause.objects):
+        return None
+    of = structs.replace(subject.of, time=clause.time, tense=cast(Any, clause.tense))
+    return HowMuch(of, subject.extreme)
+
+
+def nearest_of(clause: Clause) -> HowMuch | None:
+    """Read "when was it closest?" of another vehicle; the answer tells when."""
+    thing = as_thing(clause.subject)
+    still = clause.verb is None or clause.verb.key in ("come", "get")
+    if not still or not isinstance(thing, Pronoun | Described | Vehicle):
+        return None
+    if isinstance(thing, Described) and not thing.definite:
+        return None  # "when did anyone come closest?"
+    if not clause.focus & {"closest", "nearest"}:
+        return None
+    of = Measured("distance", thing, Ego(), time=clause.time, tense=cast(Any, clause.tense))
+    return HowMuch(of, "lowest")
+
+
+def peak_of(clause: Clause) -> Peak | None:
+    """Read "when were we slowest", "who came closest to us", "where did you brake hardest"."""
+    verb = None if clause.verb is None else clause.verb.key
+    subject = clause.subject
+    if verb is None and isinstance(subject, Noun) and subject.key == "peak" and subject.quality:
+        return Peak(cast(Any, subject.quality), clause.time, subject.number)
+    if verb is not None and (most := _done_most(verb, clause)):
+        return Peak(cast(Any, most), clause.time)
+    words = clause.focus & {*_EXTREMES, "hardest"}
+    if words and (verb is not None or isinstance(clause.subject, (Ego, Wanted))):
+        of = "braking" if "hardest" in words else _EXTREMES[min(words)]
+        return Peak(cast(Any, of), clause.time)
+    objects = [as_thing(sem) for sem, _ in clause.objects]
+    thing = objects[0] if verb is None and objects else None
+    if not isinstance(thing, Described) or thing.extreme not in _EXTREMES:
+        return None
+    bare = thing == Described(extreme=thing.extreme, definite=thing.definite)
+    ours = isinstance(clause.subject, Ego) and clause.tense != "present"
+    return Peak(cast(Any, _EXTREMES[thing.extreme]), clause.time) if bare and ours else None

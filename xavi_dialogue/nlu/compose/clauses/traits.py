@@ -1,0 +1,76 @@
+"""Traits: what stands before and behind the head of a noun phrase, and whom it describes."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import Described, Event, Proposition, Thing, Wanted
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem
+from xavi_dialogue.nlu.grammar.chart import Node
+
+#: What a vehicle does whose lights are on.
+LIGHTS: dict[str, ActionName] = {"indicator": "signal", "brake-lights": "brake"}
+
+
+class Traits:
+    """What stands before and behind the head of a noun phrase."""
+
+    def __init__(self) -> None:
+        self.fields: dict[str, Any] = {}
+        self.determiner = ""
+        self.owner: Sem | None = None
+        self.side: str | None = None
+        self.ordinal: int | None = None
+        self.one_of = False  # "the first of" those named behind it
+        self.following = False  # "next"
+        self.extreme: str | None = None
+        self.adjectives: list[str] = []
+        self.unknown: list[str] = []
+        self.kind: str | None = None
+        self.of: Sem | None = None
+        self.about: list[tuple[str, Sem]] = []
+        self.beside: tuple[Sem, ...] = ()  # joined by "and" to the whole of it
+        self.event: Event | None = None
+        self.place: Thing | None = None  # "the roundabout business"
+        self.deed: str | None = None  # "standstill duration"
+        self.other = False
+        self.gerund: Node | None = None
+        self.clause: Proposition | None = None
+        self.reason = False  # the head is a word for a reason
+
+
+def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
+    """Describe a road user by what is said of it."""
+    fields = {k: v for k, v in traits.fields.items() if k in Described.__struct_fields__}
+    if traits.side and "bearing" not in fields:
+        fields["bearing"] = traits.side
+    if traits.ordinal is not None:
+        fields["rank"] = traits.ordinal
+    if traits.extreme in ("nearest", "farthest", "fastest", "slowest", "biggest"):
+        fields["extreme"] = traits.extreme
+    elif traits.extreme == "smallest":
+        fields["size"] = "small"
+    for key, value in (("far", ("bearing", "far")), ("big", ("size", "big"))):
+        if key in traits.adjectives:
+            fields.setdefault(*value)
+    for key, sem in traits.about:
+        if key in ("in", "on") and isinstance(sem, Described) and kind == "vehicle":
+            kind = sem.kind  # "the one on the motorbike", "somebody in a blue car"
+            for name in ("colour", "size"):
+                if getattr(sem, name) is not None:
+                    fields.setdefault(name, getattr(sem, name))
+        elif key == "with" and isinstance(sem, Measure) and sem.of.attribute in LIGHTS:
+            lit = LIGHTS[sem.of.attribute]  # "the one with the blinker on"
+            fields.setdefault("doing", Event(lit, Wanted(), tense="present"))
+    standing = {"stationary": "stand", "moving": "move", "stuck": "stand"}
+    for adjective in traits.adjectives:
+        if adjective in standing:
+            fields.setdefault("doing", Event(cast(Any, standing[adjective]), Wanted()))
+    indefinite = traits.determiner in ("indef", "many", "no", "") and not fields.get("rank")
+    fields["definite"] = not indefinite or (traits.determiner == "" and not plural)
+    if traits.determiner == "indef" and traits.other:
+        fields["definite"] = False
+    many = traits.fields.get("number", 1) > 1
+    return Described(
+        kind=cast(Any, kind), plural=not traits.one_of and (plural or many),
+        other=traits.other, **fields,
+    )  # fmt: skip

@@ -1,0 +1,1 @@
+"""Whole propositions with their phrases."""

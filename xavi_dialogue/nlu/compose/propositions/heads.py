@@ -1,0 +1,341 @@
+"""Heads: the head of a noun phrase with its traits becomes a vehicle, place, measure or deed."""
+
+from typing import Any, cast
+
+from msgspec import structs
+
+from xavi_dialogue.domain.terms import (
+    Believed,
+    Described,
+    Destination,
+    Ego,
+    Event,
+    Everyone,
+    Exit,
+    Feature,
+    Happens,
+    Is,
+    Junction,
+    Lane,
+    Measured,
+    Nobody,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Rank,
+    Record,
+    Road,
+    Thing,
+    Unknown,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.nlu.compose.clauses.extents import SLOWING, extent_of
+from xavi_dialogue.nlu.compose.clauses.peaks import deed_peak, done_most, quality_of
+from xavi_dialogue.nlu.compose.clauses.sem import (
+    Group,
+    Measure,
+    Moment,
+    Noun,
+    Sem,
+    SideOf,
+    as_thing,
+    is_thing,
+)
+from xavi_dialogue.nlu.compose.clauses.traits import Traits, described
+from xavi_dialogue.nlu.compose.clauses.tree import words_of
+from xavi_dialogue.nlu.compose.verbs.lights import light_of
+from xavi_dialogue.nlu.grammar.chart import Node
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
+
+PEAKS = 3  # of "the hardest brakings" that are told
+_PLACES: dict[str, Thing] = {
+    "destination": Destination(),
+    "own-lane": Lane("own"),
+    "other-lane": Lane("other"),
+    "left-lane": Lane("leftmost"),
+    "right-lane": Lane("rightmost"),
+    "left-lane-typed": Lane("left"),
+    "right-lane-typed": Lane("right"),
+    "left-exit": Exit(side="left"),
+    "right-exit": Exit(side="right"),
+    "side-road": Road("side"),
+    "main-road": Road("main"),
+    "here": Unknown("here"),
+    "there": Unknown("there"),
+}
+
+
+def noun(head: Leaf | Node | None, traits: Traits) -> Sem:
+    """Read a noun phrase by its head."""
+    if head is None:
+        return _without_head(traits)
+    if isinstance(head, Node):
+        return Unknown(words_of(head))
+    plural = head.form == "plural"
+    match head.category:
+        case "TUNIT" if head.words == ("second",) and _is_rank(traits):
+            traits.ordinal = 2
+            return described("vehicle", traits)
+        case "KIND":
+            return _vehicle(head, traits, plural)
+        case "PLACEN":
+            return _place(head, traits)
+        case "MEAS":
+            return _measure(head, traits, plural)
+        case "EVN":
+            return _deed(head, traits)
+        case "RIDE":
+            return Record() if head.key == "record" else Noun("ride", word=head.words[-1])
+        case "UNIT" | "TUNIT" | "TIMES":
+            return Moment(head.key, traits.ordinal)
+        case "SIDE":
+            return SideOf(head.key)
+        case "ABS":
+            return _abstract(head, traits, plural)
+    return Unknown(" ".join([*traits.unknown, *head.words]))
+
+
+_MET = (Vehicle, Described, Pronoun)
+
+
+def _is_rank(traits: Traits) -> bool:
+    """Say whether "the second" is no time: nothing else is said of it."""
+    return traits.determiner == "def" and traits.ordinal is None and not traits.fields
+
+
+def _without_head(traits: Traits) -> Sem:
+    extent = extent_of(traits)
+    if extent is not None:
+        return extent
+    if traits.extreme in ("highest", "lowest", "mean", "total", "best") and not traits.fields:
+        return Unknown(traits.extreme)
+    if traits.unknown:
+        return Unknown(" ".join(traits.unknown))
+    if traits.side and not traits.fields:
+        return SideOf(traits.side)
+    if traits.adjectives == ["new"] and not traits.fields:
+        return Pronoun("that")  # "the same"
+    if traits.determiner in ("this", "that") and traits.fields == {"number": 2}:
+        return Pronoun("them-all")  # "those two"
+    return described(traits.kind or "vehicle", traits)
+
+
+def _vehicle(head: Leaf, traits: Traits, plural: bool) -> Sem:
+    own = traits.determiner in ("our", "your") or isinstance(traits.owner, Ego)
+    if own and head.key in ("car", "vehicle", "taxi") and not traits.fields:
+        return Ego()
+    special = [k for k in traits.fields if k not in ("number",)]
+    if (traits.determiner == "every" or (traits.determiner == "def" and "all" in head.words)) and (
+        not special
+    ):
+        return Everyone(cast(Any, head.key))
+    kind = traits.kind if head.key in ("car", "vehicle") and traits.kind else head.key
+    if head.words == ("people",):
+        plural = True
+    found = described(kind, traits, plural=plural or traits.determiner == "every")
+    if traits.determiner == "no":
+        return Nobody(found)
+    if head.words == ("one",) and traits.determiner in ("that", "this") and not special:
+        return Pronoun(cast(Any, traits.determiner))
+    quality = quality_of(traits.extreme, [])
+    happened = traits.event is None or traits.event.action == "happen"
+    if head.words == ("thing",) and quality in ("danger", "difficulty") and happened:
+        return Noun("peak", word="thing", quality=quality)  # "the scariest thing that happened"
+    if head.words == ("thing",) and traits.determiner in ("that", "this") and not special:
+        return Pronoun(cast(Any, traits.determiner))
+    return found
+
+
+def _place(head: Leaf, traits: Traits) -> Sem:
+    owner = as_thing(traits.owner or traits.of)
+    if head.key == "destination" and owner is not None and not isinstance(owner, Ego):
+        return Measure(Measured("heading", owner))
+    if head.key == "light":
+        return light_of(head, traits, owner)
+    if head.key == "headlight" and owner is not None:
+        return Measure(Measured("indicator", owner))
+    if head.key in _PLACES and not (head.key.endswith("lane") and traits.owner):
+        return _PLACES[head.key]
+    rank = 1 if traits.following else traits.ordinal
+    if rank is None and traits.determiner == "this":
+        rank = 1
+    side = traits.side if traits.side != "straight" else None
+    match head.key:
+        case "junction" | "roundabout":
+            return Junction(cast(Any, head.key), rank)
+        case "exit":
+            return Exit(rank, cast(Any, side))
+        case "road":
+            return Road(cast(Any, side or "own"))
+        case "lane" | "own-lane" | "left-lane-typed" | "right-lane-typed" | "other-lane":
+            return _lane(head, traits, side, rank)
+    beside = traits.fields.get("bearing") or traits.side
+    if head.key == "space" and beside in ("left", "right"):
+        return Measure(Measured("gap", to=Lane(cast(Any, beside))))  # "room on the left"
+    if head.key == "space" and beside in ("ahead", "behind") and "gap" in head.words:
+        back = Described(bearing="behind", extreme="nearest") if beside == "behind" else None
+        return Measure(Measured("gap", to=back))
+    if head.key == "queue" and isinstance(traits.of, Described) and traits.of.plural:
+        said = {k: v for k, v in traits.fields.items() if k in ("bearing", "of", "doing", "such")}
+        return structs.replace(traits.of, **said)
+    apart = next((as_thing(s) for k, s in traits.about if k in ("into", "with", "from")), None)
+    if head.key == "space" and isinstance(apart, Described | Vehicle | Pronoun):
+        return Measure(Measured("distance", to=apart))  # "the space to the lorry"
+    if head.key == "circle-shape":
+        return Junction("roundabout")
+    return Feature(cast(Any, head.key))
+
+
+def _lane(head: Leaf, traits: Traits, side: str | None, rank: int | None) -> Lane:
+    owner = as_thing(traits.owner or traits.of)
+    of = None if isinstance(owner, (Ego, Passenger)) else owner
+    listed = head.key.split("-")[0]
+    behind = traits.fields.get("bearing")  # "change lanes to the right"
+    side = side or (behind if behind in ("left", "right") else None)
+    which = listed if listed in ("left", "right", "other") else side
+    if which is None and (traits.other or traits.following):
+        which = "other"
+    if which is None:
+        indefinite = head.form == "plural" or traits.determiner in (
+            "indef",
+            "that",
+            "every",
+            "many",
+        )
+        which = "any" if indefinite and not traits.owner else "own"
+    return Lane(cast(Any, which), of)
+
+
+def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
+    of = traits.of or traits.owner
+    if head.key == "limit" and "number" in traits.fields:
+        return described("vehicle", traits)  # "a fifty zone"
+    things = [as_thing(s) for k, s in traits.about if k in ("into", "from", "over", "with")]
+    to = next((t for t in things if t is not None), None)
+    if head.key == "probability" and isinstance(traits.clause, Believed):
+        return Measure(Measured("probability", about=traits.clause.content))  # "you gave it"
+    if head.key == "probability" and isinstance(traits.clause, Happens):
+        return Unknown(head.words[-1])  # nobody does anything to a chance
+    if head.key == "probability" and of is None:
+        of = next((s for k, s in traits.about if k in ("for", "about", "in")), None)
+    beside = traits.fields.get("bearing") or traits.side
+    if to is None and head.key in ("gap", "distance") and beside in ("left", "right"):
+        to = Lane(cast(Any, beside))  # "a gap on the left"
+    elif to is None and head.key in ("gap", "distance", "headway") and beside == "behind":
+        to = Described(bearing="behind", extreme="nearest")  # "the gap behind"
+    members = of.members if isinstance(of, Group) else ()
+    if len(members) == 2:
+        of, to = members[0], as_thing(members[1])
+    event = of if isinstance(of, Event) else traits.event
+    thing = of if is_thing(of) and not isinstance(of, Pronoun) else as_thing(of)
+    if head.key == "colour" and "colour" in traits.fields and of is None:
+        return described("vehicle", traits)  # "the one in green colour"
+    if head.key == "distance" and isinstance(to, Destination):
+        return Measure(
+            Measured("distance-to-go", cast(Thing, thing) if thing is not None else Ego())
+        )
+    key = head.key
+    if key == "speed" and isinstance(traits.clause, Is) and traits.clause.state == "allowed":
+        key = "limit"  # "the speed that is permitted"
+    if traits.deed is not None and key in ("duration", "delay") and event is None:
+        event = of = Event(cast(Any, traits.deed), tense="past")
+    if key == "risk":  # of a collision, where nothing else is said
+        named = (to, None if isinstance(of, Event) else as_thing(thing))
+        whom = next((t for t in named if isinstance(t, _MET)), None)
+        event = event or Event("collide")
+        if event.action == "collide" and event.object is None:
+            event = Event("collide", object=whom)
+        return Measure(Measured("probability", event=event))
+    if key == "speed-difference":
+        other = thing is not None and not isinstance(thing, Ego)
+        key, to = "speed", to or (Ego() if other else Pronoun("it"))
+    measured = Measured(
+        cast(Any, key), cast(Thing, thing) if thing is not None else Ego(), to,
+        event if isinstance(of, Event) else None,
+    )  # fmt: skip
+    highest = {"nearest": "lowest", "fastest": "highest", "slowest": "lowest",
+               "farthest": "highest", "biggest": "highest", "smallest": "lowest",
+               "difficult": "highest"}  # fmt: skip
+    extreme = highest.get(traits.extreme or "", traits.extreme)
+    closest = "lowest" if {"closest", "nearest", "close", "minimum"} & set(head.words) else None
+    extreme = extreme if extreme in ("highest", "lowest", "mean", "total") else closest
+    if "peak" in head.words:
+        extreme = "highest"
+    return Measure(measured, cast(Any, extreme), plural, isinstance(traits.owner, Ego))
+
+
+def _deed(head: Leaf, traits: Traits) -> Sem:
+    if head.key == "do" and traits.ordinal in (-1, 1) and traits.determiner == "def":
+        return Noun("deed", word=head.words[-1], quality="last" if traits.ordinal < 0 else "first")
+    if most := deed_peak(head.key, traits.extreme):
+        return _peaks(head, traits, most)
+    if head.key == "do" and traits.extreme and quality_of(traits.extreme, traits.adjectives):
+        quality = quality_of(traits.extreme, traits.adjectives)
+        return Noun("peak", word=head.words[-1], quality=quality)
+    actor = as_thing(traits.owner) or as_thing(traits.of) or Ego()
+    side = cast(Any, traits.side)
+    action = head.key
+    if traits.kind and action in SLOWING | {"wait", "stand"}:
+        actor = described(traits.kind, traits)  # "made the bus wait"
+    if action == "brake" and traits.extreme == "lowest":
+        return Measure(Measured("deceleration", actor), cast(Any, traits.extreme))
+    if action in ("change-lane", "turn") and side in ("left", "right"):
+        action = ("change-" if action == "change-lane" else "exit-") + side
+        side = None
+    known = traits.determiner in ("that", "this") and action == "do"
+    manner = tuple(a for a in ("hard", "sudden", "late", "early") if a in traits.adjectives)
+    manners = tuple("suddenly" if a == "sudden" else a for a in manner)
+    obj = next((as_thing(s) for k, s in traits.about if k in ("for", "into", "with")), None)
+    due = traits.following or _still_due(traits.clause)
+    if due and action in ("turn", "exit-left", "exit-right", "change-lane", "stop"):
+        return Event(cast(Any, action), actor, obj, side, tense="future")
+    if known or (action == "do" and traits.determiner == "def"):
+        return Event("do", actor, Pronoun("that"))
+    rank = Unsaid() if traits.ordinal is None else Rank(traits.ordinal)
+    return Event(cast(Any, action), actor, obj, side, cast(Any, manners), rank)
+
+
+def _still_due(clause: Proposition | None) -> bool:
+    """Say whether a relative clause is of what is to come: "the turns we still have to make"."""
+    event = clause.event if isinstance(clause, Happens) else None
+    return event is not None and (event.tense == "future" or event.modal == "must")
+
+
+def _peaks(head: Leaf, traits: Traits, quality: str) -> Noun:
+    """Name the moments at which something was at its most: "the three hardest brakings"."""
+    number = traits.fields.get("number", PEAKS if head.form == "plural" else 1)
+    return Noun("peak", word=head.words[-1], quality=quality, number=number)
+
+
+def _abstract(head: Leaf, traits: Traits, plural: bool) -> Sem:
+    if head.key == "side" and traits.side:
+        return SideOf(traits.side)
+    if head.key == "option" and traits.deed is not None and not plural:
+        return Event(cast(Any, traits.deed))  # "the stop branch"
+    if head.key == "event" and traits.place is not None:
+        return traits.place  # "the roundabout business"
+    quality = quality_of(traits.extreme, traits.adjectives)
+    if quality and (head.key in ("peak", "event") or "call" in head.words):
+        return Noun("peak", word=" ".join(head.words), quality=quality)
+    deed = traits.clause.event if isinstance(traits.clause, Happens) else None
+    if head.key in ("time", "moment") and deed and (most := done_most(deed, traits.gerund)):
+        return _peaks(head, traits, most)
+    about = next((s for k, s in traits.about), None)
+    extreme = traits.extreme if traits.extreme in ("highest", "lowest", "best") else None
+    owner = traits.owner
+    if owner is None and head.key == "fault" and traits.kind is not None:
+        owner = structs.replace(described(traits.kind, traits), doing=None, such=None)
+    rank = (traits.ordinal or 1) if head.key == "time" else 1
+    return Noun(
+        "event" if head.key == "peak" else head.key, traits.of, owner, about, plural, traits.other,
+        traits.determiner == "no", "highest" if extreme else None, " ".join(head.words),
+        traits.clause, number=rank,
+    )  # fmt: skip
+
+
+def rank_of(leaf: Leaf | None) -> int:
+    """Read an ordinal."""
+    if leaf is None:
+        return 1
+    return 1 if leaf.key == "next" else int(leaf.key)

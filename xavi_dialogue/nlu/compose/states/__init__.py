@@ -1,0 +1,1 @@
+"""What clauses with "be", and others of states and places, say."""

@@ -1,0 +1,45 @@
+"""Rooms: "is there enough room to get past him", "had we space between us and the bus"."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Is,
+    Lane,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Relative,
+    Thing,
+    Time,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Sem, as_thing
+
+_OTHERS = (Vehicle, Described, Pronoun, Lane)
+
+
+def roomy(clause: Clause, time: Time) -> Proposition:
+    """Read of which vehicle or lane it is said that there is room."""
+    named = [as_thing(sem) for phrase in clause.complements for sem in _members(phrase.sem)]
+    named += [sem.of.to for sem, _ in clause.objects if isinstance(sem, Measure)]
+    inner = clause.inner
+    if inner is not None:
+        named += [inner.object, inner.actor]
+    if isinstance(clause.time, Relative):  # "before the red car gets here"
+        anchor = clause.time.anchor
+        named.append(anchor.actor if isinstance(anchor, Event) else anchor)
+        time = Unsaid()
+    sides = [b for b, _ in clause.bearings if b in ("left", "right")]
+    named += [Lane(cast(Any, side)) for side in sides]
+    others = (t for t in named if isinstance(t, _OTHERS) and not isinstance(t, (Ego, Passenger)))
+    thing: Thing | None = next(others, None)
+    return Is("roomy", thing, time=time, tense=cast(Any, clause.tense))
+
+
+def _members(sem: Sem | None) -> tuple[Sem | None, ...]:
+    return sem.members if isinstance(sem, Group) else (sem,)

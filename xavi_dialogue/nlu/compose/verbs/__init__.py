@@ -1,0 +1,1 @@
+"""What verbs of motion, change and light say."""

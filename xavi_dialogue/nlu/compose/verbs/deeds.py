@@ -1,0 +1,134 @@
+"""Deeds: "do", "happen", "change", "begin" and "get wrong" as propositions."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import (
+    Caused,
+    Compares,
+    Described,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Measured,
+    Pronoun,
+    Proposition,
+    Quantity,
+    Thing,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.clauses.adoption import exceeding, with_fields
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.sem import as_speed, as_thing
+from xavi_dialogue.nlu.compose.verbs.events import when
+from xavi_dialogue.nlu.compose.verbs.trends import trend
+
+
+def time_of(special: Special) -> Any:
+    """Find the time that is spoken of."""
+    return when(special.clause, special.match)
+
+
+def tense_of(special: Special) -> Any:
+    """Find the tense of the clause."""
+    return special.clause.tense
+
+
+def event_of(special: Special, action: str, thing: Thing | None, **more: Any) -> Event:
+    """Build the event that an action and its object make of the clause."""
+    return Event(
+        cast(Any, action), special.subject, thing, cast(Any, special.clause.side),
+        tuple(special.clause.manner), time_of(special), tense_of(special),
+        cast(Any, special.clause.modal), **more,
+    )  # fmt: skip
+
+
+def deed_named(special: Special) -> Proposition:
+    """Read "do a turn", "make a stop": the deed that is named."""
+    sem = special.object
+    if isinstance(sem, Event) and not isinstance(sem.actor, Ego):
+        return made(special, Happens(sem))
+    if isinstance(sem, Event):
+        return Happens(event_of(special, sem.action, sem.object))
+    if sem is None and special.content is not None:
+        return special.content  # "why do you make brake"
+    return Happens(event_of(special, "do", as_thing(sem)))
+
+
+_HALTS = frozenset({"wait", "stop", "stand", "give-way"})
+
+
+def made(special: Special, effect: Proposition) -> Proposition:
+    """Read "we made the bus wait": the bus waits for us; else that we are why it does so."""
+    agent = next((p.sem for p in special.clause.complements if p.key == "by"), None)
+    named = as_thing(agent) if special.clause.passive and agent is not None else None
+    match effect:
+        case Happens(event=event) if named is not None:
+            return Caused(named, Happens(with_fields(event, tense=tense_of(special))))
+        case Happens(event=event) if not isinstance(event.actor, Ego):
+            other = cast(Event, with_fields(event, tense=tense_of(special)))
+            if isinstance(special.subject, Ego) and event.action in ("wait", "stand"):
+                for_us = {"action": "wait", "object": special.subject, "time": time_of(special)}
+                return Happens(cast(Event, with_fields(other, **for_us)))
+            return Caused(special.subject, Happens(other))
+        case Happens(event=event) if event.action in _HALTS and tense_of(special) == "future":
+            return Happens(Event("give-way", Ego(), special.subject, tense="future"))
+    return Caused(named or special.subject, effect)
+
+
+def happen(special: Special) -> Proposition:
+    """Read "what happened to the bus", "how come we stopped"."""
+    about = next((as_thing(s) for s in special.match.phrases.values()), None)
+    if special.content is not None:
+        return special.content
+    match special.subject:
+        case Described(such=Is(state=state, thing=Wanted())):  # "did anything dangerous happen"
+            return Is(state, Described(definite=False), time=time_of(special),
+                      tense=tense_of(special))  # fmt: skip
+    return Happens(Event("happen", about or special.subject, time=time_of(special),
+                         tense=tense_of(special)))  # fmt: skip
+
+
+def do(special: Special) -> Proposition:
+    """Read "what did he do", "are we doing fifty"."""
+    sem = special.object
+    above = exceeding(special.clause, event_of(special, "do", None))
+    if above is not None:
+        return above
+    if isinstance(sem, Event):
+        return Happens(sem)
+    thing = as_thing(sem)
+    if isinstance(sem, Quantity):
+        sem = as_speed(sem)
+        able = special.clause.modal in ("can", "could", "might", "should")
+        if (able and tense_of(special) == "present") or "semi-allowed" in special.clause.aux:
+            return Compares(Measured("limit"), "at-least", sem)  # "may we do 70?"
+        return Compares(Measured("speed", special.subject, tense=tense_of(special)), "same", sem)
+    return Happens(event_of(special, "do", thing))
+
+
+def changed(special: Special) -> Proposition:
+    """Read "the gap is shrinking"; what changes otherwise is the plan."""
+    found = trend(special.clause)
+    return found or Happens(event_of(special, "change-plan", None))
+
+
+def begun(special: Special) -> Proposition:
+    """Read "you started braking", "you began the lane change": the deed itself."""
+    if special.content is not None:
+        return special.content
+    sem = special.object
+    if isinstance(sem, Event):
+        event = event_of(special, sem.action, sem.object)
+        return Happens(cast(Event, with_fields(event, side=sem.side)))
+    thing = as_thing(sem)
+    if isinstance(thing, Pronoun):  # "when you started it"
+        return Happens(event_of(special, "do", thing))
+    return Happens(event_of(special, "go", None))
+
+
+def had_wrong(special: Special) -> Proposition:
+    """Read "you had that wrong", "did you get him wrong": of whom was spoken."""
+    who = as_thing(special.object)
+    whom = Pronoun("he") if who is None or isinstance(who, Pronoun) else who
+    return Is("wrong", whom, time=time_of(special), tense="past")

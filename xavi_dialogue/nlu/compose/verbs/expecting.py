@@ -1,0 +1,62 @@
+"""Expecting: "did he do what you expected?", "did it go the way you predicted?"."""
+
+from typing import Final
+
+from xavi_dialogue.domain.meaning import Question, Whether
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Not,
+    Proposition,
+    WholeRide,
+)
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import as_thing
+from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
+from xavi_dialogue.nlu.grammar.chart import Node
+
+_ACTING: Final = frozenset({"do", "go", "act", "behave", "move", "turn", "end"})
+_BELIEVING: Final = frozenset(
+    {"expect", "predict", "think", "forecast", "anticipate", "foresee", "believe", "reckon",
+     "assume", "guess", "suppose", "figure"}
+)  # fmt: skip
+
+
+def feared(of: Proposition) -> Proposition:
+    """Take that somebody may not stop in time for a collision."""
+    event = of.content.event if isinstance(of, Not) and isinstance(of.content, Happens) else None
+    if event is None or event.action not in ("stop", "brake") or "early" not in event.manner:
+        return of
+    ours = isinstance(event.actor, Ego)
+    whom = event.object if ours else Ego()
+    return Happens(Event("collide", event.actor, whom, time=event.time, tense="future"))
+
+
+def hindsight(clause: Clause) -> Question | None:
+    """Read "what would you do differently": whether anything was amiss on the ride."""
+    ours = isinstance(clause.subject, Ego) and clause.modal in ("would", "could", "should")
+    if not ours or clause.infinitive is not None or "differently" not in clause.focus:
+        return None
+    return Whether(Is("wrong", Described(definite=False), time=WholeRide(), tense="past"))
+
+
+def as_expected(unit: Node, clause: Clause) -> Question | None:
+    """Ask whether we were right about somebody; None where nothing else is said of a belief."""
+    who = as_thing(clause.subject)
+    verb = clause.verb
+    if verb is None or verb.key not in _ACTING or who is None or isinstance(who, Ego):
+        return None
+    if (
+        clause.tense not in ("past", "perfect")
+        or clause.side is not None
+        or clause.that is not None
+    ):
+        return None
+    ours = any(
+        leaf.category in ("V", "VPAST", "VED") and leaf.key in _BELIEVING and leaf is not verb
+        for leaf in leaves_of(unit)
+    )
+    return Whether(Is("right", who, tense="past")) if ours else None

@@ -1,0 +1,116 @@
+"""Traffic lights: "the red light", "it turned green", "on red", "run the light", "have green"."""
+
+from collections.abc import Iterable
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Feature,
+    Happens,
+    Has,
+    Measured,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Thing,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, Specified, as_thing
+from xavi_dialogue.nlu.compose.clauses.traits import Traits
+from xavi_dialogue.nlu.compose.verbs.deeds import event_of, tense_of, time_of
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
+
+#: What a traffic light may show, as it is said.
+LIT: Final = frozenset({"red", "green", "amber", "yellow", "orange"})
+#: By what a light is passed or waited at: "through red", "at red", "on amber".
+BY: Final = frozenset({"on", "at", "over", "for", "in", "during", "past"})
+_OURS: Final = (Ego, Passenger, Wanted)
+
+
+def colour_of(sem: object) -> str | None:
+    """Tell the colour of a noun phrase that is a colour of lights and nothing else."""
+    if not isinstance(sem, Described) or sem.colour not in LIT:
+        return None
+    return sem.colour if sem == Described(colour=sem.colour, definite=sem.definite) else None
+
+
+def on_light(key: str, sem: Sem | None, leaves: Iterable[Leaf]) -> Sem | None:
+    """Take "red" in "on red" or "at a red" for a light that shows it, but not "the red one"."""
+    noun = any(leaf.category == "KIND" for leaf in leaves)
+    colour = colour_of(sem) if key in BY and not noun else None
+    return sem if colour is None else Feature("light", colour=colour)
+
+
+def light_of(head: Leaf, traits: Traits, owner: Thing | None) -> Sem:
+    """Read a noun phrase with a traffic light as its head."""
+    several = head.form == "plural"
+    if owner is not None and not isinstance(owner, Ego) and several:
+        return Measure(Measured("indicator", owner))
+    colour = traits.fields.get("colour")
+    rank = 1 if traits.following else traits.ordinal
+    of = None if isinstance(owner, Ego) else owner
+    light = Feature("light", colour=colour if colour in LIT else None, rank=rank, of=of)
+    return light if traits.clause is None else Specified(light, traits.clause)
+
+
+def coloured(special: Special) -> Proposition:
+    """Read "it turned green", "the light changed to red", "when do we get green"."""
+    return Happens(_shows(special, "turn-colour"))
+
+
+def stays(special: Special) -> Proposition:
+    """Read "the light stayed red"."""
+    return Happens(_shows(special, "show"))
+
+
+def _shows(special: Special, action: str) -> Event:
+    colour = colour_of(special.object) or getattr(special.object, "colour", None)
+    event = event_of(special, action, Feature("light", colour=colour))
+    return _of_light(event)
+
+
+def _of_light(event: Event) -> Event:
+    """Give what is said of who faces a light to the light: "we got green"."""
+    who = event.actor
+    if isinstance(who, Feature | Pronoun):
+        return event
+    of = None if isinstance(who, _OURS) else who
+    return replace(event, actor=Feature("light", of=of))
+
+
+def ran(special: Special) -> Proposition:
+    """Read "you ran the light", "jumped a red": it was red, where nothing else is said."""
+    sem = on_light("on", special.object, ())
+    light = as_thing(sem)
+    if not isinstance(light, Feature) or light.kind != "light":
+        return Happens(event_of(special, "cross", as_thing(special.object)))
+    red = Feature("light", colour=light.colour or "red", rank=light.rank, of=light.of)
+    return Happens(event_of(special, "pass", red))
+
+
+def had_light(special: Special) -> Proposition | None:
+    """Read "we had green", "he has a red light"; None where nothing of the kind is said."""
+    sem = special.object
+    colour = colour_of(sem)
+    if colour is None and isinstance(sem, Feature) and sem.kind == "light":
+        colour = sem.colour
+    if colour is None:
+        return None
+    who = special.subject
+    light = Feature("light", of=None if isinstance(who, Ego | Passenger) else who)
+    return Has("colour", colour, light, time_of(special), tense_of(special))
+
+
+def shining(of: Proposition | None) -> Event | None:
+    """Take "when it was red" for the time over which the light showed that."""
+    if not isinstance(of, Has) or of.attribute != "colour" or of.value not in LIT:
+        return None
+    if not isinstance(of.thing, Feature | Pronoun):
+        return None
+    what = Feature("light", colour=of.value)
+    return Event("show", of.thing, what, time=of.time, tense=of.tense)

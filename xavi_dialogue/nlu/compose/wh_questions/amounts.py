@@ -1,0 +1,161 @@
+"""Amounts: "how many cars", "how much time": what is counted or measured of a clause."""
+
+from typing import Any, cast
+
+from msgspec import structs
+
+from xavi_dialogue.domain.meaning import HowLong, HowMany, HowMuch, Question, When
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Exit,
+    Happens,
+    Is,
+    Junction,
+    Measured,
+    Pronoun,
+    Related,
+    Relative,
+    That,
+    Thing,
+    Unknown,
+    Vehicle,
+)
+from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.nominal import counted
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
+from xavi_dialogue.nlu.compose.wh_questions.grades import (
+    CHANGING,
+    WAYS,
+    far_to,
+    reference,
+    remaining,
+    sure_of,
+)
+from xavi_dialogue.nlu.compose.wh_questions.lasting import long_lasting, measured, until
+
+
+def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -> Question:
+    """Ask "how many cars", "how much time" of a clause; "how many more turns" are to come."""
+    if isinstance(sem, Event) and _to_come(clause, value, words, sem):
+        return HowMany(cast(Event, with_fields(sem, tense="future")))
+    actor = as_thing(clause.subject)
+    event = value.event if isinstance(value, Happens) else None
+    lost = isinstance(value, Special) and value.name in ("cost", "delay", "save")
+    counting = isinstance(sem, Noun) and sem.key == "time" and sem.plural and not lost
+    if (isinstance(sem, Moment) and sem.unit == "times" and not lost) or counting:
+        if event is not None and isinstance(event.actor, Unknown):
+            event = with_fields(event, actor=Ego())  # it is the word "times"
+        return HowMany(event or Event("do", time=clause.time))
+    if (isinstance(sem, Moment) and (lost or sem.unit in ("s", "min", "h"))) or (
+        isinstance(sem, Noun) and sem.key == "time"
+    ):
+        return _stretch(clause, value, actor, event)
+    if isinstance(sem, Moment) and isinstance(value, Is) and value.state == "lost":
+        return measured("delay", clause, actor)  # "how many seconds have we lost?"
+    if isinstance(sem, Moment):
+        return _lengths(sem, clause, value, actor, event)
+    if isinstance(sem, Measure) and sem.of.attribute == "speed" and _changes(clause, event):
+        return measured("speed-change", clause, actor, event=event)
+    if isinstance(sem, Measure):
+        to = reference(clause)
+        if sem.of.attribute == "distance" and to is None and remaining(clause, actor):
+            return measured("distance-to-go", clause, Ego())
+        whose = Ego() if isinstance(clause.subject, Measure) else actor
+        return measured(sem.of.attribute, clause, sem.of.to or whose, to=to)
+    if isinstance(sem, Noun) and sem.key in ("side",):
+        return measured("distance", clause, actor)
+    aboard = value.to if isinstance(value, Related) and value.relation in ("near", "on") else None
+    people = isinstance(sem, Described) and sem.kind == "pedestrian"
+    if people and isinstance(aboard, Described | Vehicle | Pronoun):
+        return measured("occupant", clause, aboard)  # "how many people are on the bus?"
+    question = counted(sem)
+    driven = clause.tense in ("past", "perfect") and not _to_come(clause, value, ())
+    if isinstance(question, HowMany) and isinstance(question.of, Junction) and driven:
+        ring = question.of.form == "roundabout"  # "how many roundabouts was that?"
+        return HowMany(Event("enter" if ring else "cross", object=question.of))
+    if isinstance(question, HowMany) and isinstance(question.of, Exit) and driven:
+        return HowMany(Event("pass", object=Exit(), tense=cast(Any, clause.tense)))
+    if isinstance(question, HowMany):
+        return HowMany(_restricted(question.of, value))
+    return question or measured("count", clause, actor)
+
+
+#: What of ours is counted ahead where the present is spoken of: "how many turns are there".
+_AHEAD = WAYS | {"change-left", "change-right", "change-lane"}
+
+
+def _to_come(clause: Clause, value: Any, words: tuple[str, ...], sem: Sem | None = None) -> bool:
+    """Say whether it is asked how many are left, or still to come."""
+    ours = isinstance(clause.subject, Ego | None) and clause.tense == "present"
+    if ours and isinstance(sem, Event) and sem.action in _AHEAD and isinstance(sem.actor, Ego):
+        return True  # "how many turns do we still have"
+    coming = isinstance(value, Happens) and value.event.action in ("come", "go", "leave", "move")
+    left = clause.side == "left" and clause.verb is None
+    ahead = any(key == "ahead" for key, _ in clause.bearings) or clause.tense == "future"
+    return "more" in words or left or ahead or (coming and clause.tense != "past")
+
+
+_GAINING = frozenset({"lose", "gain", "drop", "shed", "put", "add"})
+
+
+def _changes(clause: Clause, event: Event | None) -> bool:
+    """Say whether a clause is of a change of speed: "how much speed did we lose"."""
+    if event is not None and event.action in CHANGING:
+        return True
+    return clause.verb is not None and clause.verb.key in _GAINING
+
+
+def _left_over(event: Event | None) -> bool:
+    """Say whether it is "left" that stands as a verb: "how much time have we left"."""
+    return event is not None and event.action == "leave" and event.object is None
+
+
+def _stretch(clause: Clause, value: Any, actor: Thing | None, event: Event | None) -> Question:
+    if isinstance(clause.time, Relative) and clause.time.relation == "until":
+        return until(clause.time.anchor)
+    if isinstance(value, Special) and value.name in ("cost", "delay", "save"):
+        by = value.match.phrases.get("by")
+        deed = with_fields(by, tense=clause.tense) if isinstance(by, Event) else None
+        return measured("delay", clause, actor, event=deed)
+    if _left_over(event):
+        return HowMuch(Measured("time-to-go"))  # "how much time have we left"
+    if event is not None and event.action in WAYS and event.tense in ("present", "future"):
+        return When(Happens(with_fields(event, tense="future")))  # "in how many seconds"
+    if event is not None:
+        return HowLong(event) if event.action != "arrive" else HowMuch(Measured("time-to-go"))
+    whom = reference(clause)
+    if clause.verb is None and isinstance(whom, Described | Vehicle | Pronoun):
+        return measured("headway", clause, actor, to=whom)  # "how many seconds behind it are we"
+    return long_lasting(clause, event, value, actor)
+
+
+def _lengths(
+    sem: Moment, clause: Clause, value: Any, actor: Thing | None, event: Event | None
+) -> Question:
+    if sem.unit in ("kmh", "mph", "ms"):
+        return measured("speed", clause, actor)
+    if sem.unit == "percent":
+        return sure_of(clause, value)
+    if sem.unit in ("km", "mile") and reference(clause) is None and event is None:
+        return measured("distance-to-go", clause, Ego())
+    if event is not None and event.action in WAYS and event.tense in ("present", "future"):
+        return HowMuch(Measured("turn", event=event))  # "after how many metres do we turn"
+    return far_to(clause, event, value, actor)
+
+
+def _restricted(of: Thing | Event, value: Any) -> Thing | Event:
+    """Say of what is counted what it does: "how many cars can you see"."""
+    if not isinstance(of, Described):
+        return of
+    if isinstance(value, Special):
+        value = proposition_of(value)
+    if isinstance(value, Happens):
+        of = structs.replace(of, doing=value.event)
+    elif value is not None and not isinstance(value, That):
+        of = structs.replace(of, such=value)
+    return structs.replace(of, plural=True, definite=False)

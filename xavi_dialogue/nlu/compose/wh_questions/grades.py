@@ -1,0 +1,345 @@
+"""Grades: "how fast", "how long", "how many": measures asked of a clause."""
+
+from typing import Any, cast
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.meaning import (
+    Compare,
+    HowLong,
+    HowMany,
+    HowMuch,
+    HowSure,
+    Listing,
+    Question,
+    When,
+    Whether,
+)
+from xavi_dialogue.domain.terms import (
+    Described,
+    Destination,
+    Ego,
+    Event,
+    Exit,
+    Feature,
+    Happens,
+    Is,
+    Junction,
+    Measured,
+    Next,
+    Not,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Related,
+    Relative,
+    Road,
+    That,
+    Thing,
+    Unsaid,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import (
+    Group,
+    Measure,
+    Sem,
+    as_thing,
+    between,
+    each_other,
+    is_thing,
+)
+from xavi_dialogue.nlu.compose.clauses.times import is_moment
+from xavi_dialogue.nlu.compose.states.predicates import tense_of
+from xavi_dialogue.nlu.compose.wh_questions.lasting import long_lasting, meanwhile, measured
+
+_PACES = frozenset({"faster", "slower", "quicker"})
+_PASSING = frozenset({"avoid", "nearly-collide", "pass", "overtake"})
+CHANGING = frozenset({"slow-down", "speed-up"})
+WAYS = frozenset({"turn", "exit-left", "exit-right", "exit-straight"})
+
+
+def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Question:
+    """Ask for the measure that "how" and an adjective name of a clause."""
+    event = value.event if isinstance(value, Happens) else None
+    if isinstance(value, Not) and isinstance(value.content, Happens):
+        event = value.content.event
+    actor = event.actor if event is not None else as_thing(clause.subject)
+    if grade in _LENGTHS and (pair := apart(clause, actor, words)) is not None:
+        return measured("distance", clause, pair[0], to=pair[1])
+    match grade:
+        case "fast" if _permitted(clause):
+            return measured("limit", clause, actor if isinstance(actor, Described) else Ego())
+        case "fast":
+            return measured("speed", clause, actor, time=meanwhile(clause, event))
+        case "hard" if isinstance(clause.subject, Event):
+            deed = clause.subject
+            return measured("deceleration", clause, deed.actor, event=deed)
+        case "hard":
+            return measured("deceleration", clause, actor, event=event)
+        case "far":
+            on = {"further", "farther"} & set(words) and not isinstance(actor, Described)
+            if on and reference(clause) is None and not isinstance(actor, (Exit, Junction)):
+                return measured("distance-to-go", clause, Ego())
+            return far_to(clause, event, value, actor, words)
+        case "close":
+            return _close(clause, event, value, actor)
+        case "long":
+            asked = long_lasting(clause, event, value, actor)
+            return _from_now(asked) if {"longer", "more"} & {*words} else asked
+        case "big" if isinstance(actor, Feature) and (to := reference(clause)) is not None:
+            return measured("distance", clause, Ego(), to=to)  # "the space to the lorry"
+        case "big" if isinstance(clause.subject, Measure):
+            return measured("distance", clause, actor, to=clause.subject.of.to)
+        case "big":
+            return measured("size", clause, actor)
+        case "likely":
+            return sure_of(clause, value)
+        case "often":
+            return HowMany(event) if event is not None else HowMany(Event("do"))
+        case "late":
+            if event is not None:
+                return When(Happens(event))
+            return measured("delay", clause, actor)
+        case "faster":
+            return _faster(clause, event, actor, bool(_PACES & set(words)))
+        case "many" if event is not None and event.action in _DONE_TO and event.object is None:
+            done = with_fields(event, object=Wanted())
+            return HowMany(Described(doing=cast(Event, done), plural=True, definite=False))
+        case "many":
+            return HowMany(actor or Described(plural=True, definite=False))
+        case "much":
+            return _much(clause, value, actor)
+        case _:
+            return _quality(clause, words, value, actor)
+
+
+def _faster(clause: Clause, event: Event | None, actor: Thing | None, pace: bool) -> Question:
+    """Ask how much faster: of speeds where a pace is named, else of times."""
+    verb = clause.verb
+    if pace and event is None and verb is None:
+        than = None if isinstance(clause.than, Clause) else as_thing(clause.than)
+        return measured("speed", clause, actor, to=than or Pronoun("it"))
+    if pace and verb is not None and verb.key in ("get", "become", "grow"):
+        return measured("speed-change", clause, actor)
+    arrives = event is not None and event.action == "arrive"
+    return measured("delay", clause, actor, event=None if arrives else event)
+
+
+_LENGTHS = frozenset({"far", "big", "close", "much", "long"})
+
+
+def apart(
+    clause: Clause, actor: Thing | None, words: tuple[str, ...]
+) -> tuple[Thing, Thing] | None:
+    """Find the two others between whom it is measured: "how far apart are they"; None: else.
+
+    Several that are one thing stand on both sides.
+    """
+    found = (between(phrase.sem) for phrase in clause.complements if phrase.key == "between")
+    pair = next((one for one in found if one is not None), None)
+    if pair is not None or "apart" not in words:
+        return pair
+    return each_other(actor)
+
+
+def _from_now(asked: Question) -> Question:
+    """Ask how long something goes on: "how much longer do we sit here"."""
+    if not isinstance(asked, HowLong) or getattr(asked.of, "tense", "") != "present":
+        return asked
+    return HowLong(with_fields(asked.of, tense="future"))
+
+
+def _permitted(clause: Clause) -> bool:
+    """Say whether it is asked how fast one may go: "how fast can we go here?"."""
+    able = clause.modal in ("can", "might", "should") and clause.tense == "present"
+    allowed = any(key == "allowed" for key, _ in clause.adjectives)
+    named = (clause.subject, *(sem for sem, _ in clause.objects))
+    allowed |= any(isinstance(s, Measure) and s.of.attribute == "limit" for s in named)
+    allowed |= clause.verb is not None and clause.verb.key in ("allow", "permit")
+    return allowed or "semi-allowed" in clause.aux or (able and clause.verb is not None)
+
+
+def _quality(clause: Clause, words: tuple[str, ...], value: Any, actor: Thing | None) -> Question:
+    state = {"safe": "safe", "dangerous": "dangerous", "risky": "dangerous", "bad": "dangerous",
+             "important": "necessary", "necessary": "necessary", "well": "visible",
+             "free": "free", "busy": "busy", "old": "right", "crowded": "busy"}  # fmt: skip
+    if isinstance(value, Related) and value.relation == "can-see":
+        return HowMuch(Measured("visibility", value.to, time=clause.time))
+    event = value.event if isinstance(value, Happens) else None
+    name: Any = state.get(words[-1], "safe")
+    deed = actor in (Pronoun("that"), Pronoun("it"))
+    if clause.modal == "would" and name in ("safe", "dangerous") and deed:
+        return Compare((That(),), "safety")  # "how risky would that have been?"
+    return Whether(Is(name, None if event else actor, event, time=clause.time,
+                      tense=cast(Any, clause.tense)))  # fmt: skip
+
+
+def sure_of(clause: Clause, value: Any) -> Question:
+    """Ask how sure we are of what a clause says."""
+    content: Proposition | None = None
+    if isinstance(value, Special):
+        content = value.content
+    elif isinstance(value, Happens) and not isinstance(value.event.object, Wanted):
+        content = value
+    elif isinstance(clause.subject, Event):
+        content = Happens(_met(clause, clause.subject))
+    return HowSure(content, clause.time)
+
+
+def _met(clause: Clause, deed: Event) -> Event:
+    """Add to a deed with whom it is: "a collision with the bus"."""
+    found = (as_thing(part.sem) for part in clause.complements if part.key == "with")
+    whom = next((thing for thing in found if thing is not None), deed.object)
+    return replace(deed, object=whom, tense=tense_of(clause))
+
+
+def far_to(
+    clause: Clause, event: Event | None, value: Any, actor: Thing | None,
+    words: tuple[str, ...] = (),
+) -> Question:  # fmt: skip
+    """Ask how far it is to something; what is left is to the destination."""
+    if clause.side == "left" and not clause.objects:
+        return HowMuch(Measured("distance-to-go"))
+    if clause.verb is not None and clause.verb.key == "see" and not clause.objects:
+        return Listing("hidden", time=clause.time)  # "how far can you see": what ends our sight
+    if any(
+        isinstance(p.sem, Measure) and p.sem.of.attribute == "limit" for p in clause.complements
+    ):
+        return measured("excess", clause, actor)  # "how far over the limit are we"
+    turn = _next_turn(clause)
+    if turn is not None and not remaining(clause, actor):
+        return HowMuch(Measured("turn", event=turn))
+    to = reference(clause)
+    if to is None and remaining(clause, actor):
+        return measured("distance-to-go", clause, Ego())
+    goal = clause.time.anchor if isinstance(clause.time, Relative) else None
+    arriving = any(isinstance(e, Event) and e.action == "arrive" for e in (event, goal))
+    if arriving or isinstance(to, Destination) or isinstance(goal, Destination):
+        return measured("distance-to-go", clause, Ego())
+    if event is not None and isinstance(actor, Ego) and to is None and event.tense != "present":
+        return measured("distance-driven", clause, Ego())
+    if isinstance(actor, Pronoun | None) and to is None and _onward(clause, words):
+        off = {"off", "away"} & {*words} and isinstance(actor, Pronoun)  # of it, if it is known
+        whose = actor if off and actor is not None else Ego()
+        return measured("distance-to-go", clause, whose, time=Unsaid())
+    if isinstance(actor, Pronoun) and actor.form == "it" and event is None:
+        return measured("distance", clause, actor if to is None else Ego(), to=to)
+    if isinstance(actor, Destination):
+        return measured("distance-to-go", clause, Ego())
+    return measured("distance", clause, actor, to=to)
+
+
+def _onward(clause: Clause, words: tuple[str, ...]) -> bool:
+    """Say whether it is asked how far it is still: "how far is it still", "how far to go"."""
+    if {"ahead", "behind", "back", "front"} & {*words}:
+        return False
+    still = clause.still or bool(clause.focus & {"yet", "still"}) or isinstance(clause.time, Next)
+    inner = clause.infinitive
+    going = inner is not None and inner.verb is not None and inner.verb.key in ("go", "drive")
+    return (still or going) and not clause.bearings
+
+
+def _next_turn(clause: Clause) -> Event | None:
+    """Find the turn of ours to which it is asked how far it is."""
+    named = [clause.subject, *(p.sem for p in clause.complements), *(s for s, _ in clause.objects)]
+    if isinstance(clause.time, Relative) and clause.time.relation in ("until", "before"):
+        named.append(clause.time.anchor)  # "how far is it till the turn"
+    turns = (sem for sem in named if isinstance(sem, Event) and sem.action in WAYS)
+    found = next(turns, None)
+    if found is None or clause.tense not in ("present", "future"):
+        return None
+    return cast(Event, with_fields(found, tense="future"))
+
+
+def remaining(clause: Clause, actor: Thing | None) -> bool:
+    """Say whether "left" asks for what remains: "how far is left", "how much distance is left"."""
+    subject = clause.subject
+    if isinstance(subject, Event) and subject.action == "exit-left":
+        return True
+    if not isinstance(actor, (Pronoun, type(None))):
+        return False
+    leaving = clause.verb is not None and clause.verb.key == "leave"
+    bare = clause.verb is None and isinstance(subject, (Measure, type(None)))
+    leaving |= bare and clause.side == "left"
+    named = [getattr(node, "words", ()) for bearing, node in clause.bearings if bearing == "left"]
+    return leaving or ("left",) in named
+
+
+def reference(clause: Clause) -> Thing | None:
+    """Find the thing up to which it is measured."""
+    for phrase in clause.complements:
+        thing = _reached(phrase.sem)
+        inside = phrase.key in ("in", "on") and isinstance(thing, Feature | Junction | Road)
+        if thing is not None and phrase.key not in ("at", "by") and not inside:
+            return thing
+    for sem, _ in clause.objects:
+        thing = _reached(sem)
+        if thing is not None:
+            return thing
+    if isinstance(clause.than, Clause) or clause.than is None:
+        return None
+    return as_thing(clause.than)
+
+
+def _reached(sem: Sem | None) -> Thing | None:
+    """Take "the next turn" for the place where it is."""
+    if isinstance(sem, Event) and sem.action in ("turn", "exit-left", "exit-right"):
+        return Junction("junction", 1)
+    if isinstance(sem, Group):  # "between you and the bus"
+        things = [as_thing(member) for member in sem.members]
+        return next((t for t in things if t not in (None, Ego(), Passenger())), None)
+    return as_thing(sem)
+
+
+def _close(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
+    to = reference(clause) or (event.object if event is not None else None)
+    if to is None and remaining(clause, actor):
+        return measured("distance-to-go", clause, Ego())
+    before = isinstance(clause.time, Relative) and clause.time.relation == "before"
+    if isinstance(clause.time, Relative) and before and to in (None, Ego()):
+        anchor = clause.time.anchor  # "how much room before he reaches us"
+        if isinstance(anchor, Event) and anchor.tense == "present":
+            return HowMuch(Measured("distance", to=anchor.actor))
+    owned = clause.verb is not None and clause.verb.words == ("got",)  # "have we got"
+    past = clause.tense in ("past", "perfect") and not owned
+    at_once = clause.verb is None and is_moment(clause.time)  # "how close was it when we set off"
+    extreme = "lowest" if (past and not at_once) or event is not None else None
+    return measured("distance", clause, actor, to=to, extreme=extreme)
+
+
+#: What is done to other road users: "how many have we overtaken?".
+_DONE_TO = frozenset({"overtake", "pass", "let-go", "give-way", "wait", "follow"})
+_DIFFERENCES = {"fast": "speed", "slow": "speed", "close": "distance", "far": "distance"}
+
+
+def _much(clause: Clause, value: Any, actor: Thing | None) -> Question:
+    subject = clause.subject
+    if subject is None and remaining(clause, actor):
+        return measured("distance-to-go", clause, Ego())
+    if isinstance(subject, Measure) and subject.of.attribute == "speed" and clause.verb is not None:
+        return measured("speed-change", clause, subject.of.thing)
+    if isinstance(subject, Measure):
+        return HowMuch(subject.of, subject.extreme)
+    if isinstance(value, Happens) and value.event.action in CHANGING:
+        return measured("speed-change", clause, actor, event=value.event)
+    if clause.comparisons and clause.comparisons[0][0] in _DIFFERENCES:
+        than = None if isinstance(clause.than, Clause) else as_thing(clause.than)
+        attribute = _DIFFERENCES[clause.comparisons[0][0]]
+        if attribute == "distance" and is_thing(actor) and than is not None:
+            far = clause.comparisons[0][0] == "far"
+            return Compare((cast(Thing, actor), than), "distance", far)
+        return measured(attribute, clause, actor, to=than)
+    if isinstance(value, Special) and value.name in ("cost", "delay", "save", "take-time"):
+        return measured("delay", clause, actor)
+    if any(key == "allowed" for key, _ in clause.adjectives):
+        return measured("limit", clause, Ego())
+    if isinstance(value, Happens) and value.event.action in _PASSING:
+        to = actor if isinstance(value.event.object, Ego) else value.event.object
+        return measured("distance", clause, Ego(), to=to, extreme="lowest")
+    if isinstance(value, Happens):
+        return measured("deceleration" if value.event.action in ("brake", "slow-down") else "speed",
+                        clause, actor, event=value.event)  # fmt: skip
+    return measured("count", clause, actor)

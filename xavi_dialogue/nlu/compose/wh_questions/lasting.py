@@ -1,0 +1,222 @@
+"""Lasting: how long something lasts or has lasted, and how long it is until something happens."""
+
+from typing import Any, cast
+
+from xavi_dialogue.domain.meaning import HowLong, HowMuch, Peak, Question, When
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Described,
+    Destination,
+    Ego,
+    Event,
+    Exists,
+    Feature,
+    Happens,
+    Has,
+    Is,
+    Junction,
+    Measured,
+    Not,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Related,
+    Relative,
+    Thing,
+    Unknown,
+    Unsaid,
+    Vehicle,
+)
+from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.clause import Clause, timed_by
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.clauses.tree import words_of
+from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
+
+#: What is driving as such, and no moment of the ride.
+DRIVING = frozenset({"move", "go", "do", "continue", "happen", "speed-up", "slow-down"})
+#: What lasts beside events.
+_STATES = (Related, Is, Has, Exists, Compares, Not)
+_TURNS = frozenset({"turn", "exit-left", "exit-right", "exit-straight"})
+_SEEING = frozenset({"see", "look", "watch", "know", "track", "notice"})
+
+
+def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -> HowMuch:
+    """Ask for an attribute of a thing at the time of the clause."""
+    extreme = more.pop("extreme", None)
+    timed_by(clause)
+    time = more.pop("time", clause.time)
+    time = clause.time if isinstance(time, Unsaid) else time
+    if thing is None and attribute == "speed" and as_thing(clause.subject) is None:
+        thing = _postponed(clause)
+    actor: Thing = Ego() if thing is None or isinstance(thing, Passenger) else thing
+    if attribute == "delay" and isinstance(actor, Unknown):
+        actor = Ego()  # "all that stopping"
+    if attribute == "delay" and isinstance(clause.subject, Event) and more.get("event") is None:
+        more["event"], actor = with_fields(clause.subject, tense=clause.tense), Ego()
+    if actor == more.get("to") == Ego():  # "how much room was there between us"
+        actor = _postponed(clause) or Pronoun("it")
+    return HowMuch(
+        Measured(cast(Any, attribute), actor, time=time, tense=cast(Any, clause.tense),
+                 **more), extreme,
+    )  # fmt: skip
+
+
+def _postponed(clause: Clause) -> Thing | None:
+    """Find the subject behind the verb: "how many metres is from us the yellow one"."""
+    things = (as_thing(sem) for sem, _ in clause.objects)
+    return next((t for t in things if isinstance(t, Described | Vehicle | Pronoun)), None)
+
+
+def meanwhile(clause: Clause, event: Event | None) -> Any:
+    """Tell the time of "how fast did you take the bend": that of the deed."""
+    if event is None or clause.tense not in ("past", "perfect"):
+        return clause.time
+    if event.action in DRIVING and _round(clause) and isinstance(clause.time, Unsaid):
+        return Relative("during", Event("turn", event.actor, tense=event.tense))
+    if event.action in DRIVING:
+        return clause.time
+    if event.action == "head" and isinstance(event.object, Feature):
+        event = Event("turn", event.actor, tense=event.tense)  # "take the bend"
+    if event.action == "head":
+        return clause.time
+    return clause.time if not isinstance(clause.time, Unsaid) else Relative("during", event)
+
+
+def _round(clause: Clause) -> bool:
+    """Say whether it is told of a bend: "how fast did we go round there?"."""
+    places = [c for c in clause.complements if c.key == "bearing-around"]
+    bends = all(c.sem is None or isinstance(as_thing(c.sem), Feature | Unknown) for c in places)
+    around = any(leaf.key == "around" for leaf in clause.particles)
+    around = around or any(words_of(part).startswith("round") for _, part in clause.bearings)
+    return bends and (bool(places) or around)
+
+
+def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
+    """Ask how long something lasts, or how long it is until it happens."""
+    place = _passed_through(clause, event or _deed_in(value), actor)
+    if place is not None:
+        return HowLong(Related("on", Ego(), place, tense=cast(Any, clause.tense)))
+    if isinstance(clause.time, Relative) and _is_awaited(clause.time):
+        return until(clause.time.anchor)
+    if isinstance(clause.time, Relative) and clause.time.relation == "since":
+        past = clause.time.anchor
+        if event is None and clause.verb is None and isinstance(past, Event):
+            return When(Happens(past))  # "how long since we stopped"
+    behind = [c.sem for c in clause.complements if c.key == "bearing-behind"]
+    if clause.verb is None and actor is None and behind and as_thing(behind[0]) is not None:
+        return HowLong(Event("follow", Ego(), as_thing(behind[0]), tense="future"))
+    for phrase in clause.complements:
+        if phrase.key == "until" and phrase.sem is not None:
+            return until(as_thing(phrase.sem))
+    if isinstance(value, Special) and value.name in ("cost", "delay", "save", "gain"):
+        return measured("delay", clause, actor)
+    if isinstance(value, Special) and value.name in ("take-time", "last", "take-care"):
+        return _taking(clause, value, actor)
+    if isinstance(value, Special) and value.name in _SEEING:
+        return HowLong(_seen(value))
+    if event is not None:
+        remaining = clause.verb is not None and clause.verb.key in ("get", "have")
+        ahead = event.tense == "present" and isinstance(event.actor, Ego)
+        if ahead and event.action in _TURNS:
+            return When(Happens(with_fields(event, tense="future")))  # "in how many seconds"
+        if event.action == "arrive" or (remaining and event.action in ("change-left", "go")):
+            return HowMuch(Measured("time-to-go"))  # "how long have we got left"
+        return HowLong(event)
+    subject = clause.subject
+    if isinstance(subject, Event) and subject.action == "exit-left" and clause.verb is None:
+        return HowMuch(Measured("time-to-go"))  # "how long is left"
+    if isinstance(subject, Event):
+        return HowLong(subject)
+    if isinstance(value, _STATES) and (isinstance(actor, Ego) or clause.tense != "present"):
+        return HowLong(value)
+    if isinstance(subject, Noun) and subject.quality == "waiting":
+        return Peak("waiting", clause.time)  # "how long was the longest stop?"
+    if isinstance(subject, Noun) and subject.key == "ride":
+        return HowMuch(Measured("time" if clause.tense == "past" else "time-to-go"))
+    if isinstance(actor, Pronoun) or (isinstance(actor, Ego) and clause.bearings):
+        return measured("duration", clause, actor)
+    return measured("size", clause, actor) if actor is not None else HowMuch(Measured("time-to-go"))
+
+
+_THROUGH = DRIVING | {"cross", "pass", "circle"}
+_SPENDING = frozenset({"take", "spend", "need", "last", "get"})
+
+
+def _passed_through(clause: Clause, event: Event | None, actor: Thing | None) -> Junction | None:
+    """Find the junction of "how long did that roundabout take us", "... to get round it"."""
+    if clause.tense not in ("past", "perfect") or clause.verb is None:
+        return None
+    if isinstance(actor, Junction):
+        return actor if clause.verb.key in _SPENDING else None
+    if clause.verb.key not in _SPENDING or (event is not None and event.action not in _THROUGH):
+        return None
+    time = clause.time if event is None else event.time
+    named = (time.anchor if isinstance(time, Relative) else None, getattr(event, "object", None))
+    return next((place for place in named if isinstance(place, Junction)), None)
+
+
+def _deed_in(value: Any) -> Event | None:
+    """Find the deed of "it took us ... to get through the roundabout"."""
+    content = value.content if isinstance(value, Special) else None
+    return content.event if isinstance(content, Happens) else None
+
+
+def _is_awaited(time: Relative) -> bool:
+    """Say whether it is asked how long it is until something: "how long before we move"."""
+    coming = getattr(time.anchor, "tense", "present") in ("present", "future")
+    return time.relation == "until" or (time.relation == "before" and coming)
+
+
+def _taking(clause: Clause, value: Special, actor: Thing | None) -> Question:
+    """Ask how long something takes."""
+    content = value.content
+    if any(isinstance(sem, Destination) for sem in value.match.phrases.values()):
+        return HowMuch(Measured("time-to-go"))
+    if isinstance(content, Happens):
+        if content.event.action == "arrive":
+            return HowMuch(Measured("time-to-go"))
+        return HowLong(content.event)
+    if isinstance(clause.subject, Event):
+        return HowLong(clause.subject)
+    return measured("duration", clause, actor)
+
+
+def _seen(value: Special) -> Proposition:
+    """Take knowing of a vehicle for seeing it."""
+    sems = (value.object, *value.match.phrases.values())
+    thing = next((t for t in map(as_thing, sems) if t is not None), None)
+    if thing is None:
+        return proposition_of(value)
+    return Related("can-see", value.subject, thing, tense=cast(Any, value.clause.tense))
+
+
+def since(clause: Clause, value: Any) -> Question | None:
+    """Ask since when something is so; None where nothing is that could last."""
+    if isinstance(value, Happens):
+        return HowLong(value.event)
+    if isinstance(value, Special):
+        value = proposition_of(value)
+    return HowLong(value) if value is not None and not isinstance(clause.subject, Measure) else None
+
+
+def until(anchor: Any) -> Question:
+    """Ask how long it is until something happens."""
+    coming = isinstance(anchor, Event) and isinstance(anchor.actor, Described | Vehicle)
+    if isinstance(anchor, Event) and coming and anchor.action in ("arrive", "come", "enter"):
+        return When(Happens(Event("pass", Ego(), anchor.actor, tense="future")))
+    if isinstance(anchor, Event) and anchor.action == "arrive":
+        if anchor.object is None or isinstance(anchor.object, Destination):
+            return HowMuch(Measured("time-to-go"))
+        return When(Happens(anchor))
+    if isinstance(anchor, Destination):
+        return HowMuch(Measured("time-to-go"))
+    if isinstance(anchor, Event):
+        ahead = anchor.tense in ("present", "perfect")
+        return When(Happens(with_fields(anchor, tense="future") if ahead else anchor))
+    if isinstance(anchor, Vehicle | Described):  # until we meet
+        return When(Happens(Event("pass", Ego(), anchor, tense="future")))
+    if anchor is not None and not isinstance(anchor, Ego | Pronoun):
+        return When(Happens(Event("arrive", Ego(), anchor, tense="future")))
+    return HowMuch(Measured("time-to-go"))

@@ -1,0 +1,64 @@
+"""Reasoning: questions for what was considered, believed, decisive, preventive or worth it."""
+
+from xavi_dialogue.domain.meaning import (
+    Changed,
+    HowAvoid,
+    HowKnow,
+    Listing,
+    Question,
+    WhatWouldChange,
+    Why,
+)
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Happens, Not, Pronoun, That, Unsaid
+from xavi_dialogue.nlu.compose.clauses.adoption import as_of
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.nominal import propose
+from xavi_dialogue.nlu.compose.clauses.sem import as_thing
+from xavi_dialogue.nlu.compose.verbs.others import expected_of
+from xavi_dialogue.nlu.compose.wh_questions.lasting import measured
+from xavi_dialogue.nlu.compose.wh_questions.wh import prevented
+
+
+def reasoned(clause: Clause, value: Special) -> Question | None:
+    """Ask what was considered, believed, decisive, preventive."""
+    name, subject, time = value.name, value.subject, clause.time
+    match name:
+        case "consider" | "score":
+            return Listing("options", time=time)
+        case "know" | "believe" | "conclude":
+            about = getattr(value.content, "event", None)
+            thing = about.actor if about is not None else expected_of(value)
+            if about is not None and isinstance(time, Unsaid):
+                time = about.time  # "what did you expect it to do then"
+            return Listing("beliefs", None if isinstance(thing, Ego) else thing, time)
+        case "matter" | "influence" | "depend":
+            return WhatWouldChange(None, most=True)
+        case "decide" | "choose":
+            return Listing("decisions", time=time)
+        case "save" | "cost" if isinstance(by := value.match.phrases.get("by"), Event):
+            return Why(as_of(Happens(by), value.clause.tense))
+        case "achieve":
+            by = value.match.phrases.get("by")
+            return Why(as_of(Happens(by), clause.tense) if isinstance(by, Event) else That())
+        case "change" if value.content is None and clause.modal is None:
+            return Changed(time)
+        case "require" | "change" | "need":
+            return WhatWouldChange(value.content)
+        case "prevent" if (denied := prevented(value)) is not None:
+            if clause.modal in ("would", "could"):
+                return HowAvoid(denied)
+            return Why(Not(denied))
+        case "take-time" if clause.infinitive is not None and clause.modal == "would":
+            return WhatWouldChange(value.content)
+        case "make-know":
+            return HowKnow(value.content)
+        case "prevent" | "help" | "improve":
+            return HowAvoid(value.content or propose(value.object))
+        case "tell" | "say" | "report":
+            if value.content is None and isinstance(clause.subject, Feature):
+                return None  # "what is that light showing?"
+            return HowKnow(value.content)
+        case "cost" | "take-time" if isinstance(subject, (Pronoun, Event)):
+            return measured("delay", clause, as_thing(subject))
+    return None

@@ -1,0 +1,109 @@
+"""Question words, and what questions of all kinds look at."""
+
+from dataclasses import dataclass
+from typing import Any, cast
+
+from xavi_dialogue.domain.terms import (
+    Believed,
+    Described,
+    Ego,
+    Event,
+    Exists,
+    Happens,
+    Is,
+    Not,
+    Pronoun,
+    Proposition,
+    Related,
+    Thing,
+    Unknown,
+    Vehicle,
+)
+from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.nominal import done_by, event_in
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, as_thing
+from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
+
+NEXT = Described(rank=1)  # "next" by itself
+
+
+@dataclass(frozen=True, slots=True)
+class Wh:
+    """A question word: its kind, and what stands with it."""
+
+    kind: str  # why, what, who, where, when, how, evidence, grade, count, which, whose
+    key: str = ""  # of the adjective after "how"; "whence", "whither"
+    words: tuple[str, ...] = ()
+    sem: Sem | None = None
+    preposition: str = ""
+    besides: bool = False
+    of: Sem | None = None  # those of whom one is asked for: "which of them"
+
+
+def fact(value: Proposition | Special) -> Proposition:
+    """Take a reading of a clause for a proposition."""
+    return proposition_of(value) if isinstance(value, Special) else value
+
+
+def prevented(value: Special) -> Proposition | None:
+    """Find what somebody is kept from: "what stopped you from turning"."""
+    event = value.match.phrases.get("from")
+    if value.content is not None and event is None:
+        return value.content
+    if not isinstance(event, Event):
+        return None
+    actor = as_thing(value.object) or Ego()
+    return Happens(cast(Event, with_fields(event, actor=actor, tense=value.clause.tense)))
+
+
+def content_of(clause: Clause, value: Any) -> Proposition | None:
+    """Find what a belief is of: "that he would turn", "to vehicle 1 entering our lane"."""
+    if isinstance(value, Special):
+        if value.content is not None:
+            return _of_whom(value.content, value)
+        for sem in (*value.match.phrases.values(), value.object):
+            about = sem.of.to if isinstance(sem, Measure) else sem
+            event = sem.of.event if isinstance(sem, Measure) else event_in(about)
+            if event is not None:
+                return Happens(done_by(event, value.match.second, value.object))
+        found = proposition_of(value)
+        return found if isinstance(found, Related) else None
+    if isinstance(value, Believed):
+        return value.content
+    return value if isinstance(value, (Happens, Not, Related, Is, Exists)) else None
+
+
+def _of_whom(content: Proposition, value: Special) -> Proposition:
+    """Put in whom a belief is of: "what did you assign to it going straight on?"."""
+    if not isinstance(content, Happens) or content.event.actor != Pronoun("that"):
+        return content
+    things = (as_thing(sem) for sem in value.match.phrases.values())
+    whom = next((t for t in things if isinstance(t, Vehicle | Described | Pronoun)), None)
+    return content if whom is None else Happens(with_fields(content.event, actor=whom))
+
+
+def is_that(sem: object) -> bool:
+    """Say whether a meaning is "that", "it" or "this"."""
+    return isinstance(sem, Pronoun) and sem.form in ("that", "it", "this")
+
+
+def actor_of(value: Any, actor: Thing | None) -> Thing:
+    """Tell who acts in a reading of a clause."""
+    if isinstance(value, Happens):
+        return value.event.actor
+    return actor or Ego()
+
+
+def time_of(clause: Clause, value: Any) -> Any:
+    """Tell the time of a reading of a clause."""
+    if isinstance(value, Happens):
+        return value.event.time
+    return clause.time
+
+
+def deed_of(event: Event) -> Sem | None:
+    """Give what is avoided."""
+    thing = event.object
+    return None if isinstance(thing, (Pronoun, Unknown)) else cast("Sem | None", thing)

@@ -1,0 +1,201 @@
+"""Which: questions for one of a sort: "which exit", "what colour", "which car is the fastest"."""
+
+from typing import Any, cast
+
+from msgspec import structs
+
+from xavi_dialogue.domain.meaning import (
+    HowMuch,
+    HowSure,
+    Identify,
+    Listing,
+    Question,
+    WhatWouldChange,
+    When,
+    Which,
+    Why,
+)
+from xavi_dialogue.domain.terms import (
+    Back,
+    Caused,
+    Described,
+    Ego,
+    Exit,
+    Feature,
+    Happens,
+    Junction,
+    Lane,
+    Measured,
+    Passenger,
+    Pronoun,
+    Rank,
+    Related,
+    Relative,
+    That,
+    Thing,
+    Unsaid,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.nominal import asked_of
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, SideOf, as_thing
+from xavi_dialogue.nlu.compose.verbs.others import nearest, placed
+from xavi_dialogue.nlu.compose.wh_questions.lasting import meanwhile, measured
+from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, actor_of, content_of, fact, time_of
+
+
+def _moment(clause: Clause, value: Any) -> Any:
+    """Tell the time of a value: that of the deed in "what speed did you take the bend at"."""
+    if isinstance(value, Happens) and isinstance(value.event.time, Unsaid):
+        return meanwhile(clause, value.event)
+    return time_of(clause, value)
+
+
+class WhichOne:
+    """Builds questions that "which" asks."""
+
+    def which(self, wh: Wh, clause: Clause, value: Any) -> Question:
+        """Ask which of a sort: "which exit", "what colour", "which car is the fastest"."""
+        sem = wh.sem
+        actor = as_thing(clause.subject)
+        if isinstance(actor, (Wanted, Passenger)):
+            actor = None
+        ours = actor is None or isinstance(actor_of(value, actor), Ego)
+        match sem:
+            case Measure(of=Measured(attribute="heading")) if ours:
+                return self._way(clause, value, actor)
+            case Measure() if wh.preposition == "at" and value is None:
+                of = sem.of  # "and at what speed?": of what was just spoken of
+                return HowMuch(with_fields(of, time=Back("during"), tense="past"), sem.extreme)
+            case Measure():
+                return self._attribute(sem, clause, value, actor)
+            case Noun(key="prediction") if any(key == "wrong" for key, _ in clause.adjectives):
+                return Listing("wrong-predictions", time=clause.time)
+            case Noun():
+                return self._abstract(sem, clause, value)
+            case Exit():
+                whose = actor_of(value, actor)
+                return HowMuch(
+                    Measured(
+                        "exit-number",
+                        Ego() if isinstance(whose, Pronoun) else whose,
+                        time=time_of(clause, value),
+                        tense=cast(Any, clause.tense),
+                    )
+                )
+            case Lane():
+                if (actor is None or isinstance(actor, Lane)) and clause.objects:
+                    actor = as_thing(clause.objects[0][0])
+                return measured("lane", clause, actor_of(value, actor))
+            case SideOf() | None if wh.words and wh.words[-1] in ("way", "direction", "side"):
+                return self._way(clause, value, actor)
+            case Moment():
+                return When(fact(value)) if value is not None else When(That())
+        if getattr(sem, "kind", None) == "way" or wh.words[-1:] in (("way",), ("direction",)):
+            return self._way(clause, value, actor)
+        return self._which_one(wh, clause, value)
+
+    def _which_one(self, wh: Wh, clause: Clause, value: Any) -> Question:
+        thing = as_thing(wh.sem) or Wanted()
+        if thing == Feature("line") and not isinstance(clause.subject, Ego | Lane):
+            named = [as_thing(sem) for sem, _ in clause.objects]
+            whose = named[0] if named and actor_is_open(clause) else as_thing(clause.subject)
+            return measured("writing", clause, whose)  # "which line is it?"
+        taken = clause.verb is not None and clause.verb.key == "take"
+        if taken and isinstance(clause.subject, Ego) and thing in _BARE:
+            return way_at(Ego(), time_of(clause, value), clause.tense)
+        extreme = _superlative(clause)
+        if isinstance(thing, Described | Wanted):
+            thing = thing if isinstance(thing, Described) or extreme is None else Described()
+        if isinstance(thing, Described):
+            if extreme is not None:
+                return Identify(with_fields(thing, extreme=extreme, definite=True))
+            thing = structs.replace(thing, definite=True)
+        if value is None:
+            return Which(thing)
+        of = fact(value)
+        near = clause.focus & {"closest", "nearest"} and isinstance(of, Related) and of.to == Ego()
+        if near and isinstance(thing, Described) and isinstance(of, Related):
+            return Identify(nearest(of, thing))
+        if isinstance(of, Caused) and isinstance(of.cause, Wanted):
+            return WhatWouldChange(of.effect, most=True)
+        if isinstance(of, Related) and of.relation == "same-as":
+            other = of.to if isinstance(of.thing, Wanted) else of.thing
+            return Identify(other)
+        return Which(thing, of)
+
+    def _way(self, clause: Clause, value: Any, actor: Thing | None) -> Question:
+        shown = fact(value) if value is not None else None
+        if isinstance(shown, Happens) and shown.event.action == "signal":
+            return way_at(actor_of(value, actor), time_of(clause, value), clause.tense, "indicator")
+        return way_at(actor_of(value, actor), time_of(clause, value), clause.tense)
+
+    def _attribute(self, sem: Measure, clause: Clause, value: Any, actor: Thing | None) -> Question:
+        measure = sem.of
+        if measure.attribute == "speed" and "semi-allowed" in clause.aux:
+            return measured("limit", clause, actor)
+        if measure.attribute == "probability":
+            return HowSure(content_of(clause, value), clause.time)
+        thing = None if isinstance(clause.subject, Measure) else actor
+        if clause.objects and thing is None:
+            thing = as_thing(clause.objects[0][0])
+        if isinstance(value, Related) and thing is not None and value.thing == thing:
+            thing = placed(value.relation, thing, value.to)  # "the car behind us"
+        return HowMuch(
+            Measured(measure.attribute, thing or measure.thing, measure.to, measure.event, None,
+                     _moment(clause, value), cast(Any, clause.tense)), sem.extreme,
+        )  # fmt: skip
+
+    def _abstract(self, sem: Noun, clause: Clause, value: Any) -> Question:
+        if sem.key in ("reason", "factor"):
+            return Why(fact(value)) if value is not None else Why(That())
+        if sem.key == "order":
+            thing = as_thing(clause.subject)
+            done = value.event if isinstance(value, Happens) else None
+            if (
+                done is not None
+                and done.action not in ("do", "happen", "go")
+                and done.actor != Ego()
+            ):
+                return Listing("events", time=clause.time, event=done)
+            return Listing(
+                "events", None if isinstance(thing, (Ego, Wanted)) else thing, clause.time
+            )
+        if sem.key == "time":
+            return When(fact(value)) if value is not None else HowMuch(Measured("time"))
+        if sem.key in ("way", "side"):
+            return self._way(clause, value, as_thing(clause.subject))
+        found = asked_of(sem, clause.time, clause.tense)
+        return found or Which(Wanted(), fact(value) if value is not None else None)
+
+
+def actor_is_open(clause: Clause) -> bool:
+    """Say whether the subject is what is asked for."""
+    return clause.subject is None or isinstance(clause.subject, Wanted)
+
+
+_BARE = (Wanted(), Described(), Described(definite=False))
+
+
+def way_at(actor: Thing, time: Any, tense: str, attribute: str = "turn") -> Question:
+    """Ask which way somebody goes; what is said of the junction is kept where it is to come."""
+    place = getattr(time, "anchor", None) if isinstance(time, Relative) else None
+    if tense in ("past", "perfect") or not isinstance(place, Junction):
+        place = None
+    when = Unsaid() if place is not None or time == Rank(-1) else time
+    return HowMuch(Measured(cast(Any, attribute), actor, place, time=when, tense=cast(Any, tense)))
+
+
+def _superlative(clause: Clause) -> str | None:
+    for sem, _ in clause.objects:
+        extreme = getattr(sem, "extreme", None)
+        if extreme in ("nearest", "farthest", "fastest", "slowest", "biggest"):
+            return cast(str, extreme)
+    told = (_OUTSTANDING.get(word) for word in sorted(clause.focus))
+    return next((extreme for extreme in told if extreme), None)
+
+
+_OUTSTANDING = {"fastest": "fastest", "quickest": "fastest", "slowest": "slowest",
+                "nearest": "nearest", "closest": "nearest", "furthest": "farthest",
+                "farthest": "farthest", "biggest": "biggest", "largest": "biggest"}  # fmt: skip

@@ -1,0 +1,1 @@
+"""What units of an utterance that stand beside each other say together."""
