@@ -1,8 +1,7 @@
 """Whether somebody comes out of what is hidden is a part of the sample, with its chance."""
 
-from msgspec.structs import replace
-
 import pytest
+from msgspec.structs import replace
 
 from planner.record.hidden_record import Phantom, PhantomSample
 from tests.traces import End, World, recorded
