@@ -86,16 +86,14 @@ def test_several_that_no_one_of_them_accounts_for_are_told_together(
     assert "only several together: without all 5 of them, I would" in crowd
 
 
-def test_where_causes_are_not_asked_about_only_more_detail_tells_what_would_take_their_place() -> (
-    None
-):
+@pytest.mark.parametrize("asked", [True, False])
+def test_who_would_have_taken_the_place_of_the_cause_is_told_with_it(asked: bool) -> None:
+    """Else it would seem that without the one named it would not have come about."""
     found = Causation("pre-empted", (2, 3))
-    first = told(LEADER, causation=found, of_causes=False)
-    more = told(LEADER, causation=found, detail="more", of_causes=False)
-    asked = told(LEADER, causation=found)
-    assert "just as well" not in first
-    assert "just as well" in more
-    assert "just as well" in asked
+    for detail in ("usual", "more"):
+        text = told(LEADER, causation=found, detail=detail, of_causes=asked)
+        assert text.count("just as well") == 1
+    assert "just as well" not in told(LEADER, causation=found, detail="less", of_causes=asked)
 
 
 def only(*causes: MotionCause, causation: Causation, part: str, besides: tuple[int, ...]) -> str:

@@ -164,6 +164,15 @@ def test_before_that_is_before_what_was_spoken_of() -> None:
     assert found.time == Between(6.0, 13.8)
 
 
+def test_a_bare_why_of_nothing_is_of_what_we_are_doing() -> None:
+    plain = Why(Happens(Event("do", time=Now(), tense="present")))
+    nothing = FakeWorld({}, ())
+    assert question_of(act(Elliptic(form="why"), nothing, Discourse())) == plain
+    for other in (Elliptic(form="why-not"), Elliptic(form="why", negated=True)):
+        found = act(other, nothing, Discourse())
+        assert not any(isinstance(one.act, Ask) for one in found.acts)
+
+
 def test_a_bare_why_goes_to_what_was_said_last() -> None:
     assert completed(Elliptic(form="why"), after(Why(SLOWED), MOVED)) == Why(MOVED)
 

@@ -106,6 +106,11 @@ def hangs_on(causation: Causation | None, time: float, *, past: bool) -> Message
     )
 
 
+def is_next(causation: Causation | None) -> bool:
+    """Tell whether another would have been the cause: who names the first one says so, too."""
+    return causation is not None and causation.kind == "pre-empted"
+
+
 def is_needed(causation: Causation | None) -> bool:
     """Tell whether it is worth saying that it would not be so without the first cause."""
     return causation is None or causation.kind in ("one", "open")

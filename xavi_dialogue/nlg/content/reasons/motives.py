@@ -12,7 +12,13 @@ from xavi_dialogue.nlg.content.clauses.proposals import about_cause
 from xavi_dialogue.nlg.content.clauses.tenses import began, dated, goes_on
 from xavi_dialogue.nlg.content.reasons.contrasts import chances, telling
 from xavi_dialogue.nlg.content.reasons.driven import STANDING, motion_cause, speed_told
-from xavi_dialogue.nlg.content.reasons.evidence import cleared, hangs_on, is_needed, rests_on
+from xavi_dialogue.nlg.content.reasons.evidence import (
+    cleared,
+    hangs_on,
+    is_needed,
+    is_next,
+    rests_on,
+)
 from xavi_dialogue.nlg.content.reasons.suspects import suspected
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
@@ -54,10 +60,11 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
     if hangs is not None and answer.causation is not None and answer.causation.is_joint:
         core, hangs = (*core, hangs), None  # one of them alone is no reason
     others = list(answer.causes[1:]) if answer.suspected == "beside" else others
-    asked = hangs if answer.of_causes else None
+    named = answer.of_causes or is_next(answer.causation)
+    asked = hangs if named else None
     details = [*(_also(c, answer, context, past) for c in others[:1]), asked]
     more = [
-        None if answer.of_causes else hangs,
+        None if named else hangs,
         *(_expectation(c, answer, context, past=past) for c in answer.causes[:1]),
         *(_also(c, answer, context, past) for c in answer.causes[1:] if c not in others[:1]),
         *(_needed(c, answer, past=past) for c in answer.causes[:1] if is_needed(answer.causation)),

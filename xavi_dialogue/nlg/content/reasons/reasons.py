@@ -24,7 +24,7 @@ from xavi_dialogue.nlg.content.reasons.contrasts import (
     told_cause,
 )
 from xavi_dialogue.nlg.content.reasons.driven import STANDING, motion_cause
-from xavi_dialogue.nlg.content.reasons.evidence import further, hangs_on
+from xavi_dialogue.nlg.content.reasons.evidence import further, hangs_on, is_next
 from xavi_dialogue.nlg.content.reasons.suspects import suspected
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message
@@ -79,7 +79,7 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
     hangs = hangs_on(contrast.causation, contrast.decided, past=past)
     if hangs is not None and _jointly(answer):
         core, hangs = (*core, hangs), None  # one of them alone is no reason
-    asked = answer.of_causes and _of_vehicles(contrast)
+    asked = (answer.of_causes or is_next(contrast.causation)) and _of_vehicles(contrast)
     details = () if hangs is None or not asked else (hangs,)
     more = more if hangs is None or details else (hangs, *more)
     return Plan(core, details, more, (), about_cause(answer))
