@@ -132,14 +132,15 @@ def plan_certainty(answer: Certainty, context: SpeechContext) -> Plan:
         told = consequence_slots(contrast, context, past=past)
         slots = told | slots | {"foil": own_verbs(foil, fact), "verdict": contrast.verdict}
     held: tuple[Message, ...] = (Message("CERTAIN_OF", slots),)
-    details = held if share is None else ()  # a figure is trusted as far as asked
+    counted = share is None or slots["verdict"] == "close"  # where no figure is told
+    details = held if counted else ()
     if slots["verdict"] == "better" and slots["fair"]:
         details = (*_because(contrast, context, past=past), *details)
     risk = None if contrast is None else risks(contrast, context, past=past, unsaid=True)
     more = () if contrast is None else further(contrast, context, past=past)
     shown = () if context.detail == "simpler" else details
     core = (*(() if risk is None else (risk,)), Message("CERTAINTY", slots))
-    return Plan(core, shown, (*(() if share is None else held), *more[:2]))
+    return Plan(core, shown, (*(() if counted else held), *more[:2]))
 
 
 def _weight(answer: Certainty) -> str | None:
