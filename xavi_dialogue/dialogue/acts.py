@@ -7,8 +7,8 @@ from msgspec.structs import replace as changed
 
 from xavi_dialogue.dialogue.chain import BOTTOM
 from xavi_dialogue.dialogue.claims import NOTED, is_ground, kept, told
-from xavi_dialogue.dialogue.mind import Said, Situation, speak
 from xavi_dialogue.dialogue.objections import foreseen_then
+from xavi_dialogue.dialogue.pipeline import Said, Situation, speak
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.severally import severally
 from xavi_dialogue.dialogue.soundness import says_something
@@ -107,7 +107,7 @@ def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRol
         case Social(kind=kind, about=None):
             return (Sociable(kind),)
         case Social():
-            found = now.mind.explain(act, now.record)
+            found = now.pipeline.explain(act, now.record)
             return found if isinstance(found, NeedRollout) else (found,)
         case AskHelp():
             return (Helpful(),)
@@ -123,7 +123,7 @@ def _explained(now: Situation, act: GroundedAct) -> Results | NeedRollout:
     """Answer an act, of each of several vehicles that it is asked of."""
     found: list[Answer | Refusal] = []
     for one in severally(act):
-        result = now.mind.explain(one, now.record)
+        result = now.pipeline.explain(one, now.record)
         if isinstance(result, NeedRollout):
             return result
         found.append(result)
@@ -155,7 +155,7 @@ def _comfort(now: Situation, act: GroundedAct, feel: Feel, beside: bool) -> Resu
     """Reply to a feeling; beside another act, the reply to that one is the fact."""
     if beside:
         return (Comforting(feel),)
-    found = now.mind.explain(act, now.record)
+    found = now.pipeline.explain(act, now.record)
     if isinstance(found, NeedRollout):
         return found
     return (found if isinstance(found, Comforting) else Comforting(feel),)
