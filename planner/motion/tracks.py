@@ -105,10 +105,17 @@ def berth_of(roads: Roads, observed: Observed) -> float:
     return SIDE_MARGIN if own else PASSING
 
 
-def queued(tracks: Sequence[Observed], held: Collection[int] = ()) -> list[Observed]:
-    """Those who stand, or are held, first, in a queue from its head on; then the others."""
+def queued(
+    tracks: Sequence[Observed], held: Collection[int] = (), early: int | None = None
+) -> list[Observed]:
+    """Those who stand, or are held, first, in a queue from its head on; then the others.
+
+    Where one of them is to come early, it comes first, but for those before it in its queue.
+    """
     waiting = [track for track in tracks if track.standing or track.vehicle in held]
     queue = sorted(waiting, key=lambda track: sum(leads(track, other) for other in waiting))
+    for one in [track for track in waiting if track.vehicle == early]:
+        queue.sort(key=lambda track: track is not one and not leads(one, track))
     return queue + [track for track in tracks if track not in waiting]
 
 
