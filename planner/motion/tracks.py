@@ -110,13 +110,14 @@ def queued(
 ) -> list[Observed]:
     """Those who stand, or are held, first, in a queue from its head on; then the others.
 
-    Where one of them is to come early, it comes first, but for those before it in its queue.
+    One that is to come early comes first, but for those before it.
     """
     waiting = [track for track in tracks if track.standing or track.vehicle in held]
     queue = sorted(waiting, key=lambda track: sum(leads(track, other) for other in waiting))
-    for one in [track for track in waiting if track.vehicle == early]:
+    queue += [track for track in tracks if track not in waiting]
+    for one in [track for track in tracks if track.vehicle == early]:
         queue.sort(key=lambda track: track is not one and not leads(one, track))
-    return queue + [track for track in tracks if track not in waiting]
+    return queue
 
 
 def leads(track: Observed, other: Observed) -> bool:

@@ -79,7 +79,8 @@ def recognise(
 
     Others are reckoned with as they coast. Who stands would stand forever; it is reckoned with as
     it will most likely move off, so that a queue dissolves from its head on; and so is who will
-    be held at a light. Those who have to give way to the ego reckon so with the ego.
+    be held at a light. Those who have to give way to the ego reckon with it as it would drive to
+    where it is bound for.
 
     Args:
         roads: the road network.
@@ -89,7 +90,7 @@ def recognise(
         ego: name of the ego.
         outlook: the lights.
         apart: vehicles that are not planned for: they are in the way of others at most.
-        bound: for where the ego is; None if that is not known, and it stays where it stands.
+        bound: for where the ego is; None if that is not known, and it coasts.
     """
     steps = round(settings.horizon / DT)
     scenery = Scenery(roads, outlook, steps)
@@ -112,15 +113,16 @@ def recognise(
         now = likeliest(found[walker.vehicle])
         coasting[walker.vehicle] = _Coasting(walker.elapsed, now, past_of(walker, now.usual))
     held = {one for one, mine in coasting.items() if outlook.known and mine.now.usual.rests}
-    us: _Coasting | None = None  # the ego as it will move off
+    us, links = None, frozenset[tuple[str, int]]()  # the ego as it will most likely drive
     for observed in queued(vehicles, held, None if bound is None else ego):
         one, own = observed.vehicle, scenery.on(observed.kind)
         waits = observed.standing or one in held
-        if one == ego and waits and bound is not None:
-            us = _moving_off(own, observed, coasting, settings, time, bound)
+        if one == ego and bound is not None:
+            us = _bound_for(own, observed, coasting, settings, time, bound)
+            links = coasting[ego].now.usual.links | (us or coasting[ego]).now.usual.links
         elif one != ego and one not in apart:
             known = coasting
-            if us is not None and gives_way(own.roads, observed, us.now.usual.links):
+            if us is not None and gives_way(own.roads, observed, links, settings.view_radius):
                 known = {**coasting, ego: us}
             found[one] = _beliefs(own, observed, known, settings, time)
             if waits:
@@ -135,7 +137,7 @@ def _frame(scenery: Scenery, observed: Observed, settings: Settings, time: float
     return Task(scenery.roads, nowhere, size, time, steps, view, yielding=True, pace=pace)
 
 
-def _moving_off(
+def _bound_for(
     scenery: Scenery,
     observed: Observed,
     coasting: Mapping[int, _Coasting],
@@ -143,7 +145,7 @@ def _moving_off(
     time: float,
     bound: EgoGoal,
 ) -> _Coasting | None:
-    """A vehicle that stands, as it will most likely move off to where it is bound for."""
+    """A vehicle as it will most likely drive to where it is bound for."""
     others = [other.now for vehicle, other in coasting.items() if vehicle != observed.vehicle]
     starts = observed.situation(scenery.roads, -1, time)
     goal, frame = Goal("continue", "", bound, 1.0), _frame(scenery, observed, settings, time)

@@ -140,20 +140,23 @@ def _beside(network: Network, lanes: Iterable[str]) -> list[str]:
     return [lane.id for edge in edges for lane in network.edge_lanes(edge)]
 
 
-def gives_way(roads: Roads, observed: Observed, links: Collection[tuple[str, int]]) -> bool:
+def gives_way(
+    roads: Roads, observed: Observed, links: Collection[tuple[str, int]], view: float
+) -> bool:
     """Whether a vehicle may have to give way, at the junction that it comes to or is in.
 
     Args:
         roads: to drive on.
         observed: its track.
         links: (junction, link index) that somebody else drives along.
+        view: [m] ahead.
     """
     network = roads.network
     ahead: list[Link] = []
     for here in observed.situation(roads, -1, 0.0):
         inside = network.link_via(here.location.lane)
         ahead += () if inside is None else (inside,)
-        for lane in _beside(network, (here.location.lane,)):
+        for lane in _beside(network, approach(roads, here.location, view).lanes):
             ahead += network.links_from(lane)
     return any((way.junction, first) in links for way in ahead for first in way.yields_to)
 

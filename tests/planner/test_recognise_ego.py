@@ -27,7 +27,7 @@ def standing(arm: str, turn: Direction, away: float, vehicle: int) -> Observed:
         np.tile(place, (20, 1)),
         np.full(20, heading),
         np.zeros(20),
-        shown,  # type: ignore[arg-type]
+        shown,
     )
 
 
