@@ -129,7 +129,7 @@ def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRol
 def _explained(now: Situation, act: GroundedAct) -> Results | NeedRollout:
     """Answer an act, of each of several vehicles that it is asked of."""
     found: list[Answer | Refusal] = []
-    for one in (each for one in severally(act) for each in _occasions(now, one)):
+    for one in (each for single in severally(act) for each in _occasions(now, single)):
         result = now.pipeline.explain(one, now.record)
         if isinstance(result, NeedRollout):
             return result
@@ -142,7 +142,7 @@ def _occasions(now: Situation, act: GroundedAct) -> tuple[GroundedAct, ...]:
     match act.act:
         case Ask(question=Listing(of="reasons", event=Event()) as asked):
             events = Ask(changed(asked, of="events"))
-            told = now.mind.explain(changed(act, act=events), now.record)
+            told = now.pipeline.explain(changed(act, act=events), now.record)
             deeds = told.episodes[-MOST:] if isinstance(told, Happenings) else ()
             whys = tuple(_why(act, deed, now.record.now) for deed in deeds)
             return whys or (changed(act, act=events),)
