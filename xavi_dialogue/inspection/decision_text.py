@@ -1,6 +1,6 @@
-"""A decision as text for people: what was expected, what was tried, what was chosen.
+"""A decision as text: predictions, the search, and the choice.
 
-Everything that comes from the trace is cleaned of what could steer a terminal.
+Text from the trace is cleaned, so that it cannot control a terminal.
 """
 
 from collections.abc import Iterator, Sequence
@@ -15,8 +15,8 @@ from xavi_dialogue.inspection.search_tree import Branch, Hindrance, grow
 
 KMH = 3.6
 PLAIN = 1e6  # numbers from here on are written with an exponent
-FOREMOST = 3  # of those who held the ego up that are shown
-LIKELY = 0.005  # probability below which a goal shows only where all is wanted
+FOREMOST = 3  # number of road users shown as hold-ups
+LIKELY = 0.005  # probability below which a goal is shown only on request
 
 Row: TypeAlias = tuple[str, ...]
 
@@ -38,7 +38,7 @@ held up  vehicle, how, share of the rollouts, mean seconds of those
 class Extent:
     """How much of the tree is shown."""
 
-    depth: int = 2  # macro actions in a row, beside the chosen plan
+    depth: int = 2  # macro actions in a row, besides the chosen plan
     all: bool = False  # every branch, every goal, every refusal
 
 
@@ -147,7 +147,7 @@ def _search(root: Branch, extent: Extent) -> Iterator[str]:
 
 
 def _below(branch: Branch, indent: str, extent: Extent) -> Iterator[Row]:
-    """The rows beneath a branch: what was tried from there, and what could not be done."""
+    """Format the rows below a branch: options that were tried, and inapplicable ones."""
     children = branch.children if _opens(branch, extent) else ()
     children = tuple(c for c in children if _shown(c, extent))
     barred = branch.refused if _explains(branch, extent) else ()
@@ -171,7 +171,7 @@ def _shown(branch: Branch, extent: Extent) -> bool:
 
 
 def _explains(branch: Branch, extent: Extent) -> bool:
-    """Why the rest could not be done: at the root, and where everything is wanted."""
+    """Format why other options were inapplicable: at the root, or everywhere on request."""
     return extent.all or not branch.actions
 
 
@@ -245,7 +245,7 @@ def _speed(state: VehicleState) -> str:
 
 
 def _number(value: float | None, digits: int = 1) -> str:
-    """A number, short even where it is absurd; nothing where there is none."""
+    """Format a number, short even if it is extreme; empty for None."""
     if value is None:
         return ""
     return f"{value:.{digits}f}" if abs(value) < PLAIN else f"{value:.1e}"
