@@ -265,6 +265,7 @@ class Slowing(Value, frozen=True):
     slows: bool = False  # it is asked whether we slow down, not whether we stop
     slow: float | None = None  # [m/s] down to which we slow; None: we do not
     time: float | None = None  # [s] when we stand
+    share: float | None = None  # of the drives foreseen in which we come to a standstill
     order: Literal["we", "they", "nobody"] | None = None  # who comes first where our ways meet
 
 

@@ -282,8 +282,8 @@ def sole(*priors: float) -> Any:
     """A decision that reckons with vehicle 1 going straight on only; priors of its roads."""
     trace = decision(10.0, aims={1: tuple(aim("continue", 1.0 / len(priors)) for _ in priors)})
     known = trace.predictions[0]
-    goals = zip(known.goals, priors, strict=True)
-    goals = tuple(replace(goal, prior=prior, edge="on") for goal, prior in goals)
+    pairs = zip(known.goals, priors, strict=True)
+    goals = tuple(replace(goal, prior=prior, edge="on") for goal, prior in pairs)
     return replace(trace, predictions=(replace(known, goals=goals),))
 
 

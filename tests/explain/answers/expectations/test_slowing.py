@@ -34,6 +34,7 @@ def told(monkeypatch: pytest.MonkeyPatch) -> Any:
 def test_who_holds_us_up_is_stopped_for(told: Any) -> None:
     found = told("stop", Drive(0.75, STOPS, held_up=HELD), Drive(0.25, STEADY))
     assert (found.others, found.stops, found.held, found.slow) == ((1,), True, 0.75, 0.0)
+    assert found.share == 0.75
     assert found.time == pytest.approx(NOW + 2.6)
 
 

@@ -296,3 +296,13 @@ def test_a_cause_is_asked_of_the_reasons(cause: Any, suspect: Any, parts: Parts)
     assert weigh(Caused(cause)).gap == "not-recorded"
     parts.known = {Why(That(), suspect=suspect): Told("that")}
     assert weigh(Caused(cause)).answer == Told("that")
+
+
+def test_of_stopping_for_us_or_coming_out_the_stop_is_weighed(parts: Parts) -> None:
+    comes = Happens(Event("pull-out", ONE, tense="present"))
+    stops = Happens(Event("stop", ONE, tense="future"))
+    for_us = Happens(Event("stop", ONE, Ego(), tense="future"))
+    parts.known = {for_us: YES, comes: NO}
+    assert weigh(Both((stops, comes), "or")) is YES
+    parts.known = {for_us: NO, stops: YES, comes: YES}
+    assert weigh(Both((stops, comes), "and")).holds is True  # both are said

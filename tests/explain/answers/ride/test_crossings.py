@@ -205,3 +205,10 @@ def test_whom_we_met_is_the_last_of_the_stretch() -> None:
     assert met_about(scene(traces=traces, episodes=waited), Window(10.0, 13.0)) == 2
     other = (did("give-way", 5.0, 6.0, object=Vehicle(7)),)
     assert met_about(scene(traces=traces, episodes=other), Window(10.0, 13.0)) == 2
+
+
+def test_as_long_as_we_are_inside_nobody_has_gone_first() -> None:
+    asked = scene(
+        traces=both((19.0, 20.0), ()), episodes=(they(1, "wait", 15.0),), looks={1: look(1)}
+    )
+    assert went_first(asked, 1, ALL, None) is None

@@ -12,7 +12,7 @@ from planner.record.trace import (
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Bound
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation
-from xavi_dialogue.domain.terms import Event, Road, Vehicle
+from xavi_dialogue.domain.terms import Event, Feature, Road, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.precedence import before_us, first, into_our_road
 from xavi_dialogue.explain.answers.reference.asked import Asked
@@ -61,6 +61,8 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
         return collision_chance(asked, at, vehicle)
     if event.action in ("stop", "slow-down", "brake") and is_us(event.object):
         event = replace(event, action="give-way")  # "will he stop for us?"
+    if event.action in CROSSING and event.object == Feature("way"):
+        event = replace(event, action="cross", object=None)  # "will it cut across our path?"
     event = _alongside(asked, event, vehicle, at)
     trace = asked.ride.at(at, vehicle)
     known = None if trace is None else prediction(trace, vehicle)

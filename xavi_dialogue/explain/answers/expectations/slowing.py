@@ -47,6 +47,7 @@ def slowing(asked: Asked, event: Event) -> Slowing | None:
         slows=event.action not in HALTS,
         slow=slow if slower else None,
         time=stop.moment if stop is not None and stops else None,
+        share=stop.share if stop is not None and stops else None,
         order=None if held or not others else _order(asked, others),
     )  # fmt: skip
 

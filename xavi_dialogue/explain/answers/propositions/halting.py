@@ -5,7 +5,7 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.answers import Verdict
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Why
-from xavi_dialogue.domain.terms import Back, Between, Both, Ego, Event, Happens, Next, Now, Unsaid
+from xavi_dialogue.domain.terms import Between, Both, Ego, Event, Happens, Next, Now, Unsaid
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.plans import MOVES, foreseen, plan_ahead, steps
 from xavi_dialogue.explain.answers.expectations.slowing import slowing
@@ -49,8 +49,9 @@ def stop_or_go(of: Both, asked: Asked) -> Finding | None:
     meant = all(e.action in HALTS | GOES | SLOWS for e in events)
     if len(events) < len(of.contents) or not ahead or not meant:
         return None
-    said = asked.past is not None and asked.past.said
-    if said or not all(isinstance(e.time, Unsaid | Now | Next | Between | Back) for e in events):
+    future = all(e.tense == "future" for e in events)  # "or go before it?" names no past
+    said = asked.past is not None and asked.past.said and not future
+    if said or not all(isinstance(e.time, Unsaid | Now | Next | Between) for e in events):
         return None
     events = [replace(e, time=Unsaid()) for e in events]
     halts = [e for e in events if e.action in HALTS]

@@ -21,7 +21,12 @@ from xavi_dialogue.domain.meaning import HowDecide, HowKnow, HowSure
 from xavi_dialogue.domain.terms import Ego, Event, Happens, Now, Proposition, Related, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.events.beliefs import ruled, since_when
-from xavi_dialogue.explain.answers.expectations.foreseen import besides, chance, collision_chance
+from xavi_dialogue.explain.answers.expectations.foreseen import (
+    besides,
+    chance,
+    collision_chance,
+    unconsidered,
+)
 from xavi_dialogue.explain.answers.measuring.closeness import assured
 from xavi_dialogue.explain.answers.measuring.nearing import BEFORE_US, POSSIBLE, comes_before
 from xavi_dialogue.explain.answers.reasons import choices, others
@@ -115,6 +120,10 @@ def how_sure(question: HowSure, scene: Asked) -> Answer:
         return others.why(Event("stand", Vehicle(vehicle), tense="present"), scene, negated=False)
     if vehicle is not None:
         of_it = event is not None and event.action != "do"
+        asked_of = None if event is None else replace(event, actor=Vehicle(vehicle))
+        left_out = None if asked_of is None else unconsidered(scene, asked_of, scene.moment)
+        if left_out is not None:
+            return left_out
         found = beliefs(scene, vehicle, event if of_it else None)
         off = negated and event is not None and event.action in ("go", "move")
         if off and found.probability is not None:  # "that it would not move off"

@@ -261,5 +261,6 @@ def _unconsidered(
     )
     if signal is None:
         return Plan((first,))
-    shown = episode_message(signal, context, when=False, tense="past" if past else None)
+    over = context.now - at > since(context)
+    shown = episode_message(signal, context, when=False, tense="past" if over else None)
     return Plan((first, shown))

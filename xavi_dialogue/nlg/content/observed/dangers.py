@@ -12,6 +12,7 @@ from xavi_dialogue.nlg.surface.values import Chance, Number, Quantity, Who
 
 LIKELY = 0.5  # probability from which a chance is told beside a rule
 SOME = 0.5  # [m] of braking below which it hardly needs any
+CERTAIN = 0.95  # probability from which what we plan is told as such
 AT_ONCE = 1.0  # [s] within which something comes at once
 
 
@@ -42,6 +43,7 @@ def plan_slowing(answer: Slowing, context: SpeechContext) -> Plan:
     """Plan whether we stop or slow down, for whom, or who is out of the way by then."""
     named = Vehicles(answer.others) if answer.others[1:] else None
     one = Vehicle(answer.others[0]) if answer.others else None
+    share = answer.share
     soon = None if answer.time is None else max(answer.time - context.now, 0.0)
     first = message(
         "SLOWING",
@@ -52,6 +54,7 @@ def plan_slowing(answer: Slowing, context: SpeechContext) -> Plan:
         slows=answer.slows,
         slow=None if answer.slow is None else Quantity(answer.slow, "m/s"),
         soon=None if soon is None or soon < AT_ONCE else Quantity(soon, "s"),
+        chance=None if share is None or share >= CERTAIN else Chance(share),
         order=answer.order,
     )
     return Plan((first,))
