@@ -51,6 +51,7 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
         "ours": {None: None, True: "yes", False: "no"}[answer.ours],
         "parked": cause is not None and cause.kind == "parked",
         "setting_off": cause is not None and cause.kind == "starting",
+        "walks": _walks(answer.vehicle, context),
         **_paced(cause, context),
     }
     if deed is not None and cause is None and goal is not None:
@@ -60,12 +61,19 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
         return Plan((core,), (), (), (), about_cause(answer))
     details = () if goal is None or cause is not None else (goal,)
     if deed is None and cause is None and goal is not None:
-        return Plan((goal,), (message("MINDS_HIDDEN"),), (), (), about_cause(answer))
+        hidden = message("MINDS_HIDDEN", walks=slots["walks"])
+        return Plan((goal,), (hidden,), (), (), about_cause(answer))
     core = Message("OTHER_DID", slots)
     more = [message("ALSO_THEIRS", cause=_their_cause(c, answer, context, past))
             for c in answer.causes[1:2]]  # fmt: skip
     more += [goal] if goal is not None and cause is not None else []
     return Plan((core,), details, tuple(more), (), about_cause(answer))
+
+
+def _walks(vehicle: int, context: SpeechContext) -> bool:
+    """Say whether somebody is on foot, and has no driver."""
+    look = context.look(vehicle)
+    return look is not None and look.kind == "pedestrian"
 
 
 def _paced(cause: MotionCause | None, context: SpeechContext) -> dict[str, object]:
@@ -103,7 +111,8 @@ def plan_place(answer: PlaceReason, context: SpeechContext) -> Plan:
     place = word("doings", "relation", answer.relation).lstrip("+!").partition(" ")[2]
     who = Who(Vehicle(answer.vehicle), context.now, placed=told is None)
     core = message("OTHER_PLACED", who=who, deed=told, place=place)
-    more = () if told is not None else (message("MINDS_HIDDEN"),)
+    hidden = message("MINDS_HIDDEN", walks=_walks(answer.vehicle, context))
+    more = () if told is not None else (hidden,)
     return Plan((core,), more, (), (), about_vehicle(answer.vehicle))
 
 

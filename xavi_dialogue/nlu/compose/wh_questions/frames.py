@@ -223,11 +223,12 @@ def is_short(condition: Clause) -> bool:
 
 def _if_needed(condition: Clause | None) -> bool:
     """Say whether only a need is supposed: "could you stop if you had to?"."""
-    verb = None if condition is None else condition.verb
-    wished = verb is not None and verb.key in ("want", "like") and condition is not None
+    if condition is None or condition.negated:
+        return False
+    wished = condition.verb is not None and condition.verb.key in ("want", "like")
     if wished and not condition.objects and condition.infinitive is None:
         return True  # "could it go faster if it wanted?"
-    if condition is None or condition.negated or not is_short(condition):
+    if not is_short(condition):
         return False
     return condition.modal == "must" or "semi-must" in condition.aux
 
