@@ -7,8 +7,8 @@ from msgspec.structs import replace as changed
 
 from xavi_dialogue.dialogue.chain import BOTTOM
 from xavi_dialogue.dialogue.claims import NOTED, is_ground, kept, told
-from xavi_dialogue.dialogue.mind import Said, Situation, speak
 from xavi_dialogue.dialogue.objections import foreseen_then
+from xavi_dialogue.dialogue.pipeline import Said, Situation, speak
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.severally import listed, severally, whys
 from xavi_dialogue.dialogue.soundness import says_something
@@ -108,7 +108,7 @@ def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRol
         case Social(kind=kind, about=None):
             return (Sociable(kind),)
         case Social():
-            found = now.mind.explain(act, now.record)
+            found = now.pipeline.explain(act, now.record)
             return found if isinstance(found, NeedRollout) else (found,)
         case AskHelp():
             return (Helpful(),)
@@ -124,7 +124,7 @@ def _explained(now: Situation, act: GroundedAct) -> Results | NeedRollout:
     """Answer an act, of each of several vehicles that it is asked of."""
     found: list[Answer | Refusal] = []
     for one in (why for each in severally(act) for why in _occasions(now, each)):
-        result = now.mind.explain(one, now.record)
+        result = now.pipeline.explain(one, now.record)
         if isinstance(result, NeedRollout):
             return result
         found.append(result)
@@ -136,7 +136,7 @@ def _occasions(now: Situation, act: GroundedAct) -> tuple[GroundedAct, ...]:
     events = listed(act)
     if events is None:
         return (act,)
-    told = now.mind.explain(events, now.record)
+    told = now.pipeline.explain(events, now.record)
     deeds = told.episodes if isinstance(told, Happenings) else ()
     return whys(act, deeds, now.record.now) or (events,)
 
@@ -166,7 +166,7 @@ def _comfort(now: Situation, act: GroundedAct, feel: Feel, beside: bool) -> Resu
     """Reply to a feeling; beside another act, the reply to that one is the fact."""
     if beside:
         return (Comforting(feel),)
-    found = now.mind.explain(act, now.record)
+    found = now.pipeline.explain(act, now.record)
     if isinstance(found, NeedRollout):
         return found
     return (found if isinstance(found, Comforting) else Comforting(feel),)

@@ -4,6 +4,7 @@ import dataclasses
 
 from msgspec.structs import replace
 
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import MotionCause, OtherReason, PlaceReason, SignalReason
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Vehicle
@@ -43,6 +44,7 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
     goal = _goal(answer, context)
     slots: dict[str, object] = {
         "who": who,
+        "walks": _walks(answer.vehicle, context),
         "past": past,
         "deed": None if deed is None else _their_deed(deed, answer, context),
         "asked": _not_asked(answer, context),
@@ -51,7 +53,6 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
         "ours": {None: None, True: "yes", False: "no"}[answer.ours],
         "parked": cause is not None and cause.kind == "parked",
         "setting_off": cause is not None and cause.kind == "starting",
-        "walks": _walks(answer.vehicle, context),
         **_paced(cause, context),
     }
     if deed is not None and cause is None and goal is not None:
@@ -61,7 +62,7 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
         return Plan((core,), (), (), (), about_cause(answer))
     details = () if goal is None or cause is not None else (goal,)
     if deed is None and cause is None and goal is not None:
-        hidden = message("MINDS_HIDDEN", walks=slots["walks"])
+        hidden = message("MINDS_HIDDEN", walks=_walks(answer.vehicle, context))
         return Plan((goal,), (hidden,), (), (), about_cause(answer))
     core = Message("OTHER_DID", slots)
     more = [message("ALSO_THEIRS", cause=_their_cause(c, answer, context, past))
@@ -71,9 +72,9 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
 
 
 def _walks(vehicle: int, context: SpeechContext) -> bool:
-    """Say whether somebody is on foot, and has no driver."""
+    """Whether it is somebody on foot, who has no driver."""
     look = context.look(vehicle)
-    return look is not None and look.kind == "pedestrian"
+    return look is not None and look.kind in ON_FOOT
 
 
 def _paced(cause: MotionCause | None, context: SpeechContext) -> dict[str, object]:
@@ -111,8 +112,7 @@ def plan_place(answer: PlaceReason, context: SpeechContext) -> Plan:
     place = word("doings", "relation", answer.relation).lstrip("+!").partition(" ")[2]
     who = Who(Vehicle(answer.vehicle), context.now, placed=told is None)
     core = message("OTHER_PLACED", who=who, deed=told, place=place)
-    hidden = message("MINDS_HIDDEN", walks=_walks(answer.vehicle, context))
-    more = () if told is not None else (hidden,)
+    more = () if told is not None else (message("MINDS_HIDDEN"),)
     return Plan((core,), more, (), (), about_vehicle(answer.vehicle))
 
 
