@@ -4,10 +4,11 @@ from typing import Any
 
 import pytest
 
-from xavi_dialogue.dialogue.severally import severally
-from xavi_dialogue.domain.discourse import GroundedAct
-from xavi_dialogue.domain.meaning import Ask, Doing, Whether, Which, Whither, Why
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Vehicle, Vehicles, Wanted
+from xavi_dialogue.dialogue.severally import listed, severally, whys
+from xavi_dialogue.domain.discourse import GroundedAct, Span
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.meaning import Ask, Doing, Listing, Whether, Which, Whither, Why
+from xavi_dialogue.domain.terms import At, Ego, Event, Happens, Vehicle, Vehicles, Wanted
 
 BOTH = Vehicles((1, 2))
 
@@ -43,3 +44,16 @@ def test_a_question_of_two_is_asked_of_each(make: Any) -> None:
 )
 def test_what_is_told_of_all_at_once_stays_one_question(act: GroundedAct) -> None:
     assert severally(act) == (act,)
+
+
+def test_the_reason_of_each_occasion_is_asked_at_its_time() -> None:
+    asking = GroundedAct(Ask(Listing("reasons", event=Event("brake"))))
+    events = listed(asking)
+    assert events is not None
+    assert events.act == Ask(Listing("events", event=Event("brake")))
+    deeds = (Episode(Ego(), "brake", 3.0, 5.0), Episode(Ego(), "brake", 9.0, None))
+    first, second = whys(asking, deeds, now=11.0)
+    assert first.act == Ask(Why(Happens(Event("brake", time=At(3.0)))))
+    assert (first.span, second.span) == (Span(3.0, 5.0, said=True), Span(9.0, 11.0, said=True))
+    assert whys(asking, (), now=11.0) == ()
+    assert listed(GroundedAct(Ask(Listing("reasons")))) is None

@@ -1,14 +1,18 @@
 """Severally: what is asked of several vehicles named together is asked of each of them."""
 
+from collections.abc import Sequence
 from typing import Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.discourse import GroundedAct
-from xavi_dialogue.domain.meaning import Ask, Doing, HowMuch, Whether, Which, Whither, Why
+from xavi_dialogue.dialogue.state.discourse import event_of
+from xavi_dialogue.domain.discourse import GroundedAct, Span
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.meaning import Ask, Doing, HowMuch, Listing, Whether, Which, Whither, Why
 from xavi_dialogue.domain.terms import Event, Happens, Is, Measured, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import ActionName
 
+EACH: Final = 4  # occasions of which each has its reason told
 MOST: Final = 3  # vehicles of whom each is told by itself
 #: Of what each may have another way, or none.
 OWN: Final = frozenset[ActionName]((
@@ -51,3 +55,19 @@ def severally(act: GroundedAct) -> tuple[GroundedAct, ...]:
 
 def _each(event: Event, many: tuple[int, ...]) -> tuple[Happens, ...]:
     return tuple(Happens(replace(event, actor=Vehicle(n))) for n in many)
+
+
+def listed(act: GroundedAct) -> GroundedAct | None:
+    """Give the act that lists the occasions whose reasons an act asks for; None of all others."""
+    match act.act:
+        case Ask(question=Listing(of="reasons", event=Event()) as asked):
+            return replace(act, act=Ask(replace(asked, of="events")))
+    return None
+
+
+def whys(act: GroundedAct, deeds: Sequence[Episode], now: float) -> tuple[GroundedAct, ...]:
+    """Give the questions why each of the last few deeds was done, at its time."""
+    spans = ((d, Span(d.begin, now if d.end is None else d.end, said=True)) for d in deeds[-EACH:])
+    return tuple(
+        replace(act, act=Ask(Why(Happens(event_of(deed)))), span=span) for deed, span in spans
+    )

@@ -14,9 +14,18 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import NoSuchVehicle, NotUnderstood
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct
-from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Claim, Reading, Request, Social
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Beyond,
+    Claim,
+    Listing,
+    Reading,
+    Request,
+    Social,
+)
 from xavi_dialogue.domain.rewriting import first, substitute
-from xavi_dialogue.domain.terms import Described, Exists, Nobody, Unsaid, Vehicle
+from xavi_dialogue.domain.terms import Described, Everyone, Exists, Nobody, Unsaid, Vehicle
 from xavi_dialogue.nlu.grounding import clarify, doubts, quoting
 from xavi_dialogue.nlu.grounding.acts.acts import act as ground_act
 from xavi_dialogue.nlu.grounding.acts.acts import completed
@@ -114,6 +123,11 @@ def _discussed(discourse: Discourse, done: GroundedAct, context: Context) -> Dis
 
 def _anchored(discourse: Discourse, spoken: Act, context: Context) -> Discourse:
     """Let "it" behind "is there anyone in front of the lorry?" be the lorry."""
+    several = first(spoken, Everyone)
+    if isinstance(spoken, Ask) and isinstance(spoken.question, Listing) and several is not None:
+        g = TermGrounder(context)  # "who are all those people, and where do they go?"
+        those = Described(several.kind, plural=True)
+        return naming(discourse, g.thing(those, g.window(Unsaid(), "present")))
     sought = first(spoken, Exists)
     thing = None if sought is None else sought.thing
     thing = thing.described if isinstance(thing, Nobody) else thing

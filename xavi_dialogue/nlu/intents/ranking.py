@@ -7,7 +7,7 @@ reads them at a high cost, the plain questions of likely intents stand beside it
 from collections.abc import Sequence
 from typing import Final
 
-from xavi_dialogue.domain.meaning import Act, Ask, HowMany, Reading, TokenShare, WhatIf
+from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, HowMany, Reading, TokenShare, WhatIf
 from xavi_dialogue.domain.terms import Both
 from xavi_dialogue.nlu.intents.classifier import Intent, judge
 from xavi_dialogue.nlu.intents.features import asking, features
@@ -36,7 +36,7 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
         if intent.probability >= (LIKELY if incomplete else CERTAIN)
         and _leaves_open(best, intent, incomplete)
         and (question := plain(intent, thing)) is not None
-        and (incomplete or not question.vague)
+        and (incomplete or not (question.vague or _is_half(best.acts, question.acts)))
         and _counts(best.acts) <= _counts(question.acts)
     ]
     found = [_reading(best, [pair]) for pair in offered]
@@ -49,6 +49,11 @@ def _of_several(best: Reading) -> bool:
     """Tell whether something is supposed of several: a plain question is of one of them."""
     asked = (act.question for act in best.acts if isinstance(act, Ask))
     return any(isinstance(one, WhatIf) and isinstance(one.supposed, Both) for one in asked)
+
+
+def _is_half(acts: Sequence[Act], plain: Sequence[Act]) -> bool:
+    """Tell whether more is asked, word for word, than a plain question asks."""
+    return sum(isinstance(act, Ask | Elliptic) for act in acts) > len(plain)
 
 
 def _counts(acts: Sequence[Act]) -> bool:

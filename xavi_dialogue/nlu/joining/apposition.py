@@ -31,9 +31,15 @@ def apposed(act: Act, later: Act) -> Act | None:
     if isinstance(thing, Ego):
         return None
     vague = _vague(act)
-    if vague is None:
+    if vague is None or _elsewhere(vague, thing):
         return None
     return substitute(act, vague, _merged(vague, thing))
+
+
+def _elsewhere(vague: Pronoun | Described, thing: Described | Vehicle) -> bool:
+    """Say whether somebody in another place is named: "the gap ahead? And behind?"."""
+    places = getattr(vague, "bearing", None), getattr(thing, "bearing", None)
+    return None not in places and places[0] != places[1]
 
 
 def _named(act: Claim, thing: Thing) -> Act | None:

@@ -21,6 +21,7 @@ from xavi_dialogue.nlu.compose.clauses.times import left_behind, number_before, 
 from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, words_of
 from xavi_dialogue.nlu.compose.propositions.heads import rank_of
 from xavi_dialogue.nlu.compose.propositions.things import Nouns
+from xavi_dialogue.nlu.compose.states.positions import placeless
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -46,6 +47,22 @@ class Adjuncts:
     def clause(self, node: Node, outer: Clause | None = None) -> Clause:
         """Read a clause inside."""
         raise NotImplementedError
+
+    def _on_or_state(self, node: Node, clause: Clause) -> None:
+        shared = Clause(subject=clause.subject, aux=list(clause.aux), verb=clause.verb)
+        if clause.there:  # "is there anybody ahead, or behind?"
+            shared.there = True
+            shared.objects = [(placeless(sem), node) for sem, node in clause.objects]
+        other = self.slots.fill(node.parts, shared)
+        clause.chained.append(("or", other))
+        self.notes.chained.append(other)
+
+    def _on_or_gapped(self, node: Node, clause: Clause) -> None:
+        """Read "or we for them" as the same deed of another: "did he wait for us or we for him"."""
+        other = Clause(aux=list(clause.aux), verb=clause.verb)
+        other = self.slots.fill(tuple(p for p in node.parts if isinstance(p, Node)), other)
+        clause.chained.append(("or", other))
+        self.notes.chained.append(other)
 
     def _time(self, node: Node, clause: Clause) -> None:
         time = time_of(node)

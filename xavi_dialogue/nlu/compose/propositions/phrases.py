@@ -28,7 +28,7 @@ from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, node_of, 
 from xavi_dialogue.nlu.compose.propositions.adjuncts import CLAUSES, Adjuncts
 from xavi_dialogue.nlu.compose.propositions.tally import frequency
 from xavi_dialogue.nlu.compose.propositions.things import Nouns
-from xavi_dialogue.nlu.compose.states.positions import place_of, placeless
+from xavi_dialogue.nlu.compose.states.positions import place_of
 from xavi_dialogue.nlu.compose.verbs.lights import on_light
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
@@ -335,22 +335,6 @@ class Phrases(Adjuncts):
             chained.aux = [a for a in clause.aux if plain or not a.startswith("semi")]
         clause.chained.append((join, chained))
         self.notes.chained.append(chained)
-
-    def _on_or_state(self, node: Node, clause: Clause) -> None:
-        shared = Clause(subject=clause.subject, aux=list(clause.aux), verb=clause.verb)
-        if clause.there:  # "is there anybody ahead, or behind?"
-            shared.there = True
-            shared.objects = [(placeless(sem), node) for sem, node in clause.objects]
-        other = self.slots.fill(node.parts, shared)
-        clause.chained.append(("or", other))
-        self.notes.chained.append(other)
-
-    def _on_or_gapped(self, node: Node, clause: Clause) -> None:
-        """Read "or we for them" as the same deed of another: "did he wait for us or we for him"."""
-        other = Clause(aux=list(clause.aux), verb=clause.verb)
-        other = self.slots.fill(tuple(p for p in node.parts if isinstance(p, Node)), other)
-        clause.chained.append(("or", other))
-        self.notes.chained.append(other)
 
     def _on_skipped(self, node: Node, clause: Clause) -> None:
         for leaf in leaves_of(node):

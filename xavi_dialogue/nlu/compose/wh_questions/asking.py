@@ -63,6 +63,9 @@ _MOVING = frozenset({"go", "pull-out", "head", "move", "turn", "leave", "take-tu
                      "exit-left", "exit-right", "change-lane"})  # fmt: skip
 
 
+_PASSING = frozenset({"go", "move", "cross", "enter", "pass", "come", "pull-out", "merge"})
+
+
 class Asking(What, WhichOne):
     """Builds questions."""
 
@@ -86,6 +89,11 @@ class Asking(What, WhichOne):
                 return HowKnow(believed(left))
             case Is(state="sure", thing=Ego()) if clause.that is not None:
                 return HowKnow(self.propositions.plain(clause.that))
+            case Is(state="allowed", event=Event(object=None | Ego()) as passing) if (
+                passing.action in _PASSING and not isinstance(passing.actor, Ego)
+            ):  # "why do they get to walk in front of us?"
+                first = with_fields(passing, action="go", manner=("first",), tense=of.tense)
+                return Why(Happens(with_fields(first, where=None)))
         if isinstance(of, Happens) and of.event.action == "do" and is_that(of.event.object):
             of = Happens(of.event)
         if isinstance(of, Happens) and is_that(of.event.actor) and not clause.aux:

@@ -272,8 +272,9 @@ def reference(clause: Clause) -> Thing | None:
     """Find the thing up to which it is measured."""
     for phrase in clause.complements:
         thing = _reached(phrase.sem)
-        if (near := next_to_us(phrase.key, thing)) is not None:
-            return near
+        near = next_to_us(phrase.key, thing)
+        if near is not None and (clause.there or isinstance(clause.subject, Ego | None)):
+            return near  # "what gap do we have behind us", but "how far behind us is it"
         inside = phrase.key in ("in", "on") and isinstance(thing, Feature | Junction | Road)
         if thing is not None and phrase.key not in ("at", "by") and not inside:
             return thing

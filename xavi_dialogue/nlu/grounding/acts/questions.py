@@ -137,7 +137,10 @@ def _which(spoken: Which, g: Grounder) -> Which:
 
 
 def _identify(spoken: Identify, g: Grounder) -> Identify:
-    return replace(spoken, thing=g.thing(spoken.thing, g.window(Unsaid(), "present")))
+    thing = g.thing(spoken.thing, g.window(Unsaid(), "present"))
+    if isinstance(spoken.thing, Described) and spoken.thing.doing is not None:
+        g.notes.unclear.clear()  # "who is that walking there?": whoever is nearest
+    return replace(spoken, thing=thing)
 
 
 def _how_much(spoken: HowMuch, g: Grounder) -> HowMuch:
