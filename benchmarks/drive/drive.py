@@ -10,7 +10,7 @@ from benchmarks.figures import Figure, figure, in_columns, mean, quantile
 
 WORST = 20
 SLOW = 1.05  # times what SUMO's driver takes
-EVERY = 25  # runs after which progress is told
+EVERY = 25  # runs between notes on progress
 ALL = "all"
 
 
@@ -86,7 +86,7 @@ def measure(
         scenarios: at least one.
         runs: how many in all.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
     """
     tasks = spread(scenarios, runs)
     done: list[Run] = []

@@ -55,7 +55,7 @@ class Run(msgspec.Struct, frozen=True):
 
 
 def run(task: tuple[str, int]) -> Run:
-    """Drive a scenario (name or folder) with a seed; what goes wrong is told in the result."""
+    """Drive a scenario (name or folder) with a seed; errors are in the result."""
     name, seed = task
     try:
         warm()

@@ -107,7 +107,7 @@ def measure(folder: Path, note: Callable[[str], None]) -> ExplainReport:
 
     Args:
         folder: where recorded rides lie (*.ride.jsonl.gz).
-        note: is told what is left out.
+        note: takes notes on what is left out.
 
     Raises:
         RideFileError: a file there is no recorded ride.

@@ -77,7 +77,7 @@ class _Pending(msgspec.Struct):
 
 
 def compare(task: Task) -> Compared:
-    """Compare all foils of every so many decisions of one ride; errors are told in the result."""
+    """Compare all foils of every so many decisions of one ride; errors are in the result."""
     try:
         warm()
         with _scenario(task) as scenario, Simulation(scenario, task.seed) as world:

@@ -1,7 +1,7 @@
 """`xavi bench fidelity`: what we say of foils, beside what SUMO makes of them.
 
 At each decision of each ride, for each foil that applies, SUMO is run on from the very same
-state with the ego carrying out the foil and what it is told to be followed by (see `resimulate`),
+state with the ego carrying out the foil and what is said to follow it (see `resimulate`),
 and what an answer would say is compared with what happened: the outcome, and by how much the ego
 arrives later at the destination than it did. Beside it stands what would be said if the others of
 a rollout did not react to the ego, and what the foil's name alone lets one expect.
@@ -116,7 +116,7 @@ def measure(asked: Sequence[Task], jobs: int, note: Callable[[str], None]) -> Fi
     Args:
         asked: the rides, at least one.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
     """
     return report(_driven(asked, jobs, note), table())
 
@@ -128,7 +128,7 @@ def learnt(networks: Sequence[int], every: int, jobs: int, note: Callable[[str],
         networks: their numbers, in a row.
         every: as in `tasks`.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
 
     Raises:
         ValueError: there are too few rides.

@@ -29,7 +29,7 @@ class Foreseen(msgspec.Struct, frozen=True):
     low: float | None = None
     high: float | None = None
     declined: Reason | None = None
-    plan: tuple[Action, ...] = ()  # the foil, and what it is told to be followed by
+    plan: tuple[Action, ...] = ()  # the foil, and what is said to follow it
     extended: float | None = None  # [s] `time` to the destination, by an estimate of the rest
 
     @property

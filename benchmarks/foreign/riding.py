@@ -61,7 +61,7 @@ class Ridden(msgspec.Struct, frozen=True):
 
 
 def rode(task: Task) -> Ridden:
-    """Choose a ride and drive it; what goes wrong is told in the result."""
+    """Choose a ride and drive it; errors are in the result."""
     name, seed = task.site.name, task.seed
     with _folder(task) as folder:
         try:

@@ -112,7 +112,7 @@ def measure(
         runs: how many texts.
         seed: of the texts.
         jobs: how many processes work side by side.
-        note: is told how far it is.
+        note: takes notes on progress.
 
     Raises:
         FaultFound: a text cannot be read or grounded, or takes too long.

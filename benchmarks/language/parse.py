@@ -98,7 +98,7 @@ def measure(
     Args:
         questions: where the folders `learn` and `blind` are; there may be no blind ones.
         ride: a recorded ride in which texts are grounded when they are timed.
-        note: is told how far it is.
+        note: takes notes on progress.
         attacks: families of hostile texts; default: all of them.
 
     Raises:

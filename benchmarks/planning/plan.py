@@ -1,4 +1,4 @@
-"""`xavi bench plan`: how fast decisions are, on this machine.
+"""`xavi bench plan`: how fast decisions are on this machine.
 
 Times depend on the machine. Ratios to the yardstick, a plain loop that is timed in the same
 run, compare machines.

@@ -38,7 +38,7 @@ def start_up() -> list[float]:
 
 
 def memory(hours: float) -> tuple[Memory, ...]:
-    """Drive in a process of its own for so many simulated hours; what it holds after each ride."""
+    """Drive in a separate process for some simulated hours; return its memory after each ride."""
     with get_context("spawn").Pool(1) as pool:
         return pool.apply(rides, (hours, ROADS))
 

@@ -46,7 +46,7 @@ def measure(seeds: int, jobs: int, note: Callable[[str], None]) -> Reproduction:
     Args:
         seeds: of each story, from 0 on.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
     """
     scenarios = dict.fromkeys(foil.scenario for foil in FOILS)
     tasks = [(name, seed) for name in scenarios for seed in range(seeds)]

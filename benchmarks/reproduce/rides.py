@@ -50,7 +50,7 @@ class Told(msgspec.Struct, frozen=True):
 
 
 def tell(task: tuple[str, int]) -> tuple[Told, ...]:
-    """Drive a scenario with a seed, and ask about its foils; errors are told in the result."""
+    """Drive a scenario with a seed, and ask about its foils; errors are in the result."""
     name, seed = task
     foils = tuple(foil for foil in FOILS if foil.scenario == name)
     try:
@@ -60,7 +60,7 @@ def tell(task: tuple[str, int]) -> tuple[Told, ...]:
 
 
 def broken(task: tuple[str, int], error: str) -> tuple[Told, ...]:
-    """What is told of a ride that broke off."""
+    """Describe a ride that failed."""
     name, seed = task
     return tuple(Told(foil, seed, error=error) for foil in FOILS if foil.scenario == name)
 

@@ -137,7 +137,7 @@ def measure(seconds: float, minutes: float, note: Callable[[str], None]) -> Repo
     Args:
         seconds: for each number of vehicles.
         minutes: over which memory is measured.
-        note: is told what goes on.
+        note: takes notes on progress.
 
     Raises:
         NoBrowser: none is installed, or playwright is not.

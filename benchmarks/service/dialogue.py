@@ -94,7 +94,7 @@ def measure(sessions: int, seconds: float, note: Callable[[str], None]) -> Repor
     Args:
         sessions: how many passengers there are.
         seconds: how long they ask at each rate.
-        note: is told what goes on.
+        note: takes notes on progress.
     """
     watch = Watch()
     note("within one process")

@@ -59,7 +59,7 @@ class Read(msgspec.Struct, frozen=True):
 
 
 def read(task: tuple[str, int, int]) -> Read:
-    """Judge the answers of one ride; errors are told in the result."""
+    """Judge the answers of one ride; errors are in the result."""
     scenario, seed, every = task
     try:
         return judged(asked(scenario, seed, every))

@@ -75,7 +75,7 @@ def _nearest_named(said: Said, match: re.Match[str]) -> tuple[int, ...]:
 def _slows(
     said: Said, match: re.Match[str], decision: Decision, named: tuple[int, ...]
 ) -> Iterator[Fault]:
-    """Check that whoever is expected to be slow is so in the drives that it holds up."""
+    """Check that a vehicle that is expected to be slow is so in the drives that it holds up."""
     told = re.search(r"(?:down to|at|to) about (\d+) km/h|from \d+ to (\d+) km/h", match["act"])
     stops = re.search(r"\bstop ahead of us", match["act"])
     joins = re.search(r"\bmove in ahead of us", match["act"])

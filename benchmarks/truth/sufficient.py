@@ -75,7 +75,7 @@ def insufficient(text: str, told: Sequence[Told], decision: Decision) -> Iterato
 def _sign(
     text: str, terms: Sequence[Term | Literal["close", "better"]], foil: Actions, decision: Decision
 ) -> Iterator[Fault]:
-    """Whether what is told for the plan outweighs what is told against it."""
+    """Check that reasons for the plan outweigh those against it."""
     if "close" in terms or "better" in terms:
         return
     known = [sum(gain[t] for t in _meant(terms, gain)) for gain in decision.gains(foil)]

@@ -35,6 +35,7 @@ from xavi_dialogue.bus.sanitize import clean
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Reason, Unavailable
 from xavi_dialogue.nlg.context import SpeechContext, Style
+from xavi_dialogue.process.exit_status import RunFault
 
 DEADLINE = 10.0  # [s] for an answer
 GRACE = 0.5  # [s] transport of a reply
@@ -47,7 +48,7 @@ T = TypeVar("T")
 OnEvent: TypeAlias = Callable[[EventReport], None]
 
 
-class ServiceLost(Exception):
+class ServiceLost(RunFault):
     """The service does not answer."""
 
 

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 
 from planner.record.trace import ACTIONS, OUTCOMES, Action, HoldUp, Outcome, PlanTrace, Rollout
 from planner.search.tree import Node, Tree
+from xavi_dialogue.process.exit_status import UsageFault
 
 DEEPEST = 32  # macro actions in a row; the search takes far fewer
 
 
-class TreeError(ValueError):
+class TreeError(UsageFault):
     """Rollouts that are no search."""
 
 

@@ -15,10 +15,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
+from xavi_dialogue.process.exit_status import UsageFault
+
 Options: TypeAlias = Mapping[str, Mapping[str, str]]  # by command: options and their parameters
 
 
-class SettingsError(ValueError):
+class SettingsError(UsageFault):
     """A file of settings that cannot be used."""
 
 

@@ -15,10 +15,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from xavi_dialogue.process.exit_status import RunFault
+
 SECRET_BYTES = 32
 
 
-class IdentityError(Exception):
+class IdentityError(RunFault):
     """The user's secret cannot be read or created."""
 
 

@@ -20,6 +20,7 @@ from pathlib import Path
 from xavi_dialogue.bus.access_control import ROLES, Json, Member, access_control, member
 from xavi_dialogue.bus.certificates import Authority, Identity
 from xavi_dialogue.bus.zenoh_bus import SAFE
+from xavi_dialogue.process.exit_status import RunFault, UsageFault
 
 HUB = "service"  # the role of the hub's process
 LISTEN = "tls/127.0.0.1:7447"
@@ -31,19 +32,19 @@ AUTHORITY = "ca"
 SECRET, PUBLIC = 0o600, 0o644
 
 
-class KeysError(Exception):
+class KeysError(RunFault):
     """No keys were made."""
 
 
-class KeysExist(KeysError):
+class KeysExist(KeysError, UsageFault):
     """The folder has keys, which are not overwritten."""
 
 
-class NotOnlyKeys(KeysError):
+class NotOnlyKeys(KeysError, UsageFault):
     """The folder has other files, which are not deleted."""
 
 
-class BadEndpoint(KeysError):
+class BadEndpoint(KeysError, UsageFault):
     """Nothing to listen at or to connect to with certificates."""
 
 
@@ -215,7 +216,7 @@ def _check(folder: Path, force: bool) -> None:
     if there and not force:
         raise KeysExist(
             f"there are keys in {folder}; with --force all of them are replaced,"
-            " and whoever has one of the old ones is shut out"
+            " and the old ones are no longer accepted"
         )
 
 

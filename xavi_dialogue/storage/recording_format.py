@@ -32,6 +32,7 @@ from xavi_dialogue.bus.messages import (
 )
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.bus.schema import schema_of
+from xavi_dialogue.process.exit_status import RunFault, UsageFault
 
 PROFILE = "xavi"
 NETWORK_ENDING = ".net.xml.gz"
@@ -51,23 +52,23 @@ RECORDED: Mapping[str, type[Report | TurnReport]] = {
 }
 
 
-class RecordingError(Exception):
+class RecordingError(RunFault):
     """A recording cannot be written, read or played."""
 
 
-class NotARecording(RecordingError):
+class NotARecording(RecordingError, UsageFault):
     """No MCAP file, or not of this program."""
 
 
-class NothingToPlay(RecordingError):
+class NothingToPlay(RecordingError, UsageFault):
     """No ride in it that can be played."""
 
 
-class TooMuch(RecordingError):
+class TooMuch(RecordingError, UsageFault):
     """More than can be held while it is played."""
 
 
-class FileThere(RecordingError):
+class FileThere(RecordingError, UsageFault):
     """The file exists already."""
 
 

@@ -11,9 +11,10 @@ import msgspec
 from planner.record.events import Event
 from planner.record.trace import PlanTrace, WhatIf
 from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.process.exit_status import UsageFault
 
 
-class RideFileError(ValueError):
+class RideFileError(UsageFault):
     """A recorded ride that cannot be read or written."""
 
 

@@ -27,6 +27,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal, TypeAlias, get_args
 
+from xavi_dialogue.process.exit_status import UsageFault
+
 _MOMENT = re.compile(r"@\s*(\d{1,6}(?:\.\d{1,6})?)\s*s?")
 _HEADER = re.compile(r"(\w+):\s*(.*)")
 KEYS = ("scenario", "seed", "style", "trace")
@@ -44,7 +46,7 @@ Befallen: TypeAlias = Literal[
 BEFALLEN: tuple[Befallen, ...] = get_args(Befallen)
 
 
-class TranscriptError(ValueError):
+class TranscriptError(UsageFault):
     """A transcript that cannot be read."""
 
 

@@ -16,7 +16,7 @@ from xavi_dialogue.cli.commands.common import (
     place,
     to_json,
 )
-from xavi_dialogue.process.exit_status import ExitStatus
+from xavi_dialogue.process.exit_status import ExitStatus, UsageFault
 
 
 def add(app: typer.Typer, shell: Streams) -> None:
@@ -55,7 +55,7 @@ def _parse(shell: Streams) -> Callable[..., None]:
                     shell.write(answer)
                 return
             if text is None:
-                raise parsing.ParseUsageError("a question is missing; or read lines with --jsonl")
+                raise UsageFault("a question is missing; or read lines with --jsonl")
             shown, understood = parsing.parse_text(text, names, explain=explain, as_json=as_json)
             shell.write(shown)
         if not understood:

@@ -46,7 +46,7 @@ def _keys(shell: Streams) -> Callable[..., None]:
         ] = None,
         vehicle: Annotated[
             list[str] | None,
-            typer.Option(metavar="NAME", help="Has a certificate of its own; repeatable."),
+            typer.Option(metavar="NAME", help="Gets a separate certificate; repeatable."),
         ] = None,
         days: Annotated[int, typer.Option(min=1, max=3650, help="For so long.")] = 365,
         force: Annotated[
@@ -76,7 +76,7 @@ def _told(order: "KeyOptions", folder: Path, now: "datetime", vehicle: str | Non
         lines.append(f"  {name:{width}}  {name}.json5 (with {name}.pem, {name}.key)")
     lines += [
         "Give each machine ca.pem and the three files of its role, under the same path.",
-        "Keep ca.key to yourself: who has it can be anybody on the bus.",
+        "Keep ca.key secret: with it, any identity on the bus can be made.",
         "Then:",
     ]
     car = "car" if vehicle is None else f"car.{vehicle}"

@@ -123,13 +123,13 @@ class _Typed:
 
 
 def _agreed(question: str) -> bool:
-    """Return the typed text.
+    """Ask the user to confirm.
 
     Raises:
-        SessionUsageError: nothing was typed.
+        UsageFault: there is no terminal to ask at.
     """
-    from xavi_dialogue.cli.session_admin import SessionUsageError
+    from xavi_dialogue.process.exit_status import UsageFault
 
     if not sys.stdin.isatty():
-        raise SessionUsageError("without a terminal, --yes says that nobody is to be asked")
+        raise UsageFault("without a terminal, confirm with --yes")
     return typer.prompt(f"{question} y/n", err=True).strip().lower() in {"y", "yes"}
