@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 Measure: TypeAlias = Callable[
     [Callable[[str], None]], "Report"
-]  # gets the function that takes notes
+]  # gets a function for notes
 Show: TypeAlias = Callable[[Measure, bool], None]  # measures, and prints: as JSON or for people
 
 
