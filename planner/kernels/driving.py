@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from planner.kernels.course import Bools, Course, Floats, Ints, Motion
-from planner.kernels.projection import Stretches
+from planner.kernels.projection import Stretches, stay_behind
 
 STEP = 0.2  # [s] of the common time base
 COMFORT = 2.0  # [m/s2] braking for bends, waiting lines and stops
@@ -326,13 +326,12 @@ def drive(
     hindrance = np.empty((len(motion) - 1, 3), np.int64)
     arc, speed, acceleration = start
     motion[0] = arc, speed, acceleration
-    t = min(first, others.low.shape[1] - 1)
-    ignored = 0.5 * (others.low[:, t] + others.high[:, t]) < arc - 0.5 * length
-    waits = firsts & ~ignored.reshape((1, -1, 1))
-    standing = 0
+    ignored = np.zeros(len(others.low), np.bool_)
+    stay_behind(ignored, others, first, arc - 0.5 * length)
+    waits, standing = firsts & ~ignored.reshape((1, -1, 1)), 0
     for step in range(first, horizon):
-        k = step - first
-        now = (arc, speed, acceleration)
+        k, now = step - first, (arc, speed, acceleration)
+        stay_behind(ignored, others, step, arc - 0.5 * length)
         acceleration, who, how, light = accelerate(
             course, now, step, others, ignored, others, waits, others, length, STEP
         )

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 SIDE_MARGIN = 0.3  # [m] kept free beside the body
 BEFORE, AFTER = 4, 5  # steps by which a gap must precede and outlast a vehicle with priority
@@ -106,6 +107,14 @@ def select(found: Stretches, rows: Ints, states: Floats) -> Stretches:
         some.entered[m] = found.entered[k]
         some.last[m], some.top[m] = found.last[k], found.top[k]
     return some
+
+
+@_jit
+def stay_behind(behind: Bools, found: Stretches, step: int, rear: float) -> None:
+    """Note who is behind a place [m] on the path: it stays there, even if it would drive on."""
+    t = min(step, found.low.shape[1] - 1)
+    for m in range(len(behind)):
+        behind[m] = behind[m] or 0.5 * (found.low[m, t] + found.high[m, t]) < rear
 
 
 @_jit

@@ -105,11 +105,19 @@ def berth_of(roads: Roads, observed: Observed) -> float:
     return SIDE_MARGIN if own else PASSING
 
 
-def queued(tracks: Sequence[Observed], held: Collection[int] = ()) -> list[Observed]:
-    """Those who stand, or are held, first, in a queue from its head on; then the others."""
+def queued(
+    tracks: Sequence[Observed], held: Collection[int] = (), early: int | None = None
+) -> list[Observed]:
+    """Those who stand, or are held, first, in a queue from its head on; then the others.
+
+    One that is to come early comes first, but for those before it.
+    """
     waiting = [track for track in tracks if track.standing or track.vehicle in held]
     queue = sorted(waiting, key=lambda track: sum(leads(track, other) for other in waiting))
-    return queue + [track for track in tracks if track not in waiting]
+    queue += [track for track in tracks if track not in waiting]
+    for one in [track for track in tracks if track.vehicle == early]:
+        queue.sort(key=lambda track: track is not one and not leads(one, track))
+    return queue
 
 
 def leads(track: Observed, other: Observed) -> bool:

@@ -31,6 +31,7 @@ from planner.prediction.goals import PLACES, Goal, goals_in_view
 from planner.prediction.indication import indicated
 from planner.prediction.likelihood import likelihoods
 from planner.prediction.people import past_of, recognise_people
+from planner.prediction.relevance import gives_way
 from planner.record.light_record import HeldByLight
 from planner.record.trace import ON_FOOT, Action, EgoGoal, HeldUp, Settings
 from planner.roads.routes import onward
@@ -72,12 +73,14 @@ def recognise(
     ego: int,
     outlook: Outlook = DARK,
     apart: Collection[int] = (),
+    bound: EgoGoal | None = None,
 ) -> dict[int, tuple[Belief, ...]]:
     """What everybody but the ego may be up to.
 
     Others are reckoned with as they coast. Who stands would stand forever; it is reckoned with as
     it will most likely move off, so that a queue dissolves from its head on; and so is who will
-    be held at a light.
+    be held at a light. Those who have to give way to the ego reckon with it as it would drive to
+    where it is bound for.
 
     Args:
         roads: the road network.
@@ -87,6 +90,7 @@ def recognise(
         ego: name of the ego.
         outlook: the lights.
         apart: vehicles that are not planned for: they are in the way of others at most.
+        bound: for where the ego is; None if that is not known, and it coasts.
     """
     steps = round(settings.horizon / DT)
     scenery = Scenery(roads, outlook, steps)
@@ -109,15 +113,44 @@ def recognise(
         now = likeliest(found[walker.vehicle])
         coasting[walker.vehicle] = _Coasting(walker.elapsed, now, past_of(walker, now.usual))
     held = {one for one, mine in coasting.items() if outlook.known and mine.now.usual.rests}
-    for observed in queued(vehicles, held):
-        if observed.vehicle != ego and observed.vehicle not in apart:
-            own = scenery.on(observed.kind)
-            found[observed.vehicle] = _beliefs(own, observed, coasting, settings, time)
-            if observed.standing or observed.vehicle in held:
-                mine = coasting[observed.vehicle]
-                moving_off = likeliest(found[observed.vehicle])
-                coasting[observed.vehicle] = replace(mine, now=moving_off)
+    us, links = None, frozenset[tuple[str, int]]()  # the ego as it will most likely drive
+    for observed in queued(vehicles, held, None if bound is None else ego):
+        one, own = observed.vehicle, scenery.on(observed.kind)
+        waits = observed.standing or one in held
+        if one == ego and bound is not None:
+            us = _bound_for(own, observed, coasting, settings, time, bound)
+            links = coasting[ego].now.usual.links | (us or coasting[ego]).now.usual.links
+        elif one != ego and one not in apart:
+            known = coasting
+            if us is not None and gives_way(own.roads, observed, links, settings.view_radius):
+                known = {**coasting, ego: us}
+            found[one] = _beliefs(own, observed, known, settings, time)
+            if waits:
+                coasting[one] = replace(coasting[one], now=likeliest(found[one]))
     return {track.vehicle: found[track.vehicle] for track in tracks if track.vehicle in found}
+
+
+def _frame(scenery: Scenery, observed: Observed, settings: Settings, time: float) -> Task:
+    """The planning of a vehicle from now on, without a goal."""
+    size, nowhere = (observed.length, observed.width), EgoGoal("", 0.0, None)
+    steps, view, pace = scenery.steps, settings.view_radius, observed.pace
+    return Task(scenery.roads, nowhere, size, time, steps, view, yielding=True, pace=pace)
+
+
+def _bound_for(
+    scenery: Scenery,
+    observed: Observed,
+    coasting: Mapping[int, _Coasting],
+    settings: Settings,
+    time: float,
+    bound: EgoGoal,
+) -> _Coasting | None:
+    """A vehicle as it will most likely drive to where it is bound for."""
+    others = [other.now for vehicle, other in coasting.items() if vehicle != observed.vehicle]
+    starts = observed.situation(scenery.roads, -1, time)
+    goal, frame = Goal("continue", "", bound, 1.0), _frame(scenery, observed, settings, time)
+    found = _ways_on(frame, starts, goal, observed, Others(scenery, tuple(others)))
+    return replace(coasting[observed.vehicle], now=found[0].motions) if found else None
 
 
 def _beliefs(
@@ -127,16 +160,13 @@ def _beliefs(
     settings: Settings,
     time: float,
 ) -> tuple[Belief, ...]:
-    steps, roads = scenery.steps, scenery.roads
+    roads = scenery.roads
     others = [other for vehicle, other in coasting.items() if vehicle != observed.vehicle]
     starts = observed.situation(roads, -1, time)
     if not starts:
         return _unknown(scenery, observed)
     goals = goals_in_view(roads, starts, settings.view_radius)
-    size = (observed.length, observed.width)
-    nowhere = EgoGoal("", 0.0, None)
-    pace = observed.pace
-    frame = Task(roads, nowhere, size, time, steps, settings.view_radius, yielding=True, pace=pace)
+    frame = _frame(scenery, observed, settings, time)
     now = Others(scenery, tuple(other.now for other in others))
     onwards = _ways_to(frame, starts, goals, observed, now)
     left = [ways[0].cost - ways[0].waiting if ways else None for ways in onwards]

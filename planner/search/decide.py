@@ -126,7 +126,9 @@ def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
         for vehicle in sorted({*nearest[: 1 + CROWD], *planned, *people})
     ]
     apart = frozenset(others).difference(planned)
-    return recognise(frame.roads, tracks, frame.settings, moment.time, EGO, moment.outlook, apart)
+    bound = waypoint(frame.roads, here, frame.goal)
+    time, outlook = moment.time, moment.outlook
+    return recognise(frame.roads, tracks, frame.settings, time, EGO, outlook, apart, bound)
 
 
 def _crossings_ahead(frame: Frame, moment: Moment) -> tuple[Crossing, ...]:

@@ -285,11 +285,15 @@ def drive(
     everybody = tuple(
         occupancy(plan.path, obstacle, size, first, horizon + GAP_HORIZON) for obstacle in obstacles
     )
-    others = tuple(o for o in everybody if not o.follows(start.arc - size[0] / 2.0, first))
+    crossing = tuple(o for o in everybody if not o.follows(start.arc - size[0] / 2.0, first))
+    others = crossing
     motion, motions, hindrances = start, [start], []
     standing, goal_time, finished = 0, None, False
     for step in range(first, horizon):
-        acceleration, hindrance = accelerate(plan, lane, motion, step, others, everybody, size[0])
+        others = tuple(o for o in others if not o.follows(motion.arc - size[0] / 2.0, step))
+        acceleration, hindrance = accelerate(
+            plan, lane, motion, step, others, everybody, size[0], crossing=crossing
+        )
         if hindrance is not None:
             hindrances.append(hindrance)
         before, motion = motion, advance(motion, acceleration, DT)

@@ -1,4 +1,5 @@
 import itertools
+import math
 
 import numpy as np
 import pytest
@@ -18,9 +19,11 @@ from planner.kernels.driving import (
     STANDING_TIME,
     safe_speed,
 )
+from planner.manoeuvres.actions import ActionPlan, expand
 from planner.motion.forward import DT, Drive, Lane, Motion, advance, drive
 from planner.motion.obstacles import HOW, Obstacle, Traffic
 from sim.roads.network import Direction
+from tests.planner.nets import arc, drawn, lane, on_lane
 from tests.planner.worlds import (
     LENGTH,
     SIZE,
@@ -78,6 +81,26 @@ def test_a_free_road_is_driven_at_its_limit() -> None:
     assert np.all(np.diff(speeds(driven)) > -1e-6)
     assert speeds(driven)[-1] == pytest.approx(limit, abs=0.1)
     assert np.max(speeds(driven)) <= limit + 1e-6
+    assert held_up(driven) == []
+
+
+def test_who_comes_from_behind_round_a_bend_stays_behind() -> None:
+    """One that is foreseen to drive on as if we were not there does not stop us ahead."""
+    bend = drawn([lane("bend_0", (*arc(30.0, math.pi / 2.0, 1.0, 60.0), (90.0, 400.0)))])
+    line, away = bend.line(("bend_0",)), 140.0
+    arcs = np.minimum(80.0 + 25.0 * DT * np.arange(HORIZON + 60), away + 35.0)
+    poses = [line.pose(at) for at in arcs.tolist()]
+    places, headings = zip(*poses, strict=True)
+    through = Obstacle(
+        1, *SIZE, np.array(places), np.array(headings), np.gradient(arcs) / DT, frozenset()
+    )
+    plan = expand(bend, on_lane(bend, "bend_0", away, 2.0), "continue", None, 100.0)
+    assert isinstance(plan, ActionPlan)
+    alone, driven = (
+        drive(plan, Motion(0.0, 2.0, 0.0), 0, Traffic.of(others), SIZE, 60)
+        for others in ((), (through,))
+    )
+    assert fronts(driven)[-1] == pytest.approx(fronts(alone)[-1])
     assert held_up(driven) == []
 
 

@@ -10,6 +10,7 @@ from typing import TypeAlias
 from planner.record.trace import PlanTrace, VehiclePrediction
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.bus.sanitize import one_line
+from xavi_dialogue.inspection.comparison import Compared, comparison
 from xavi_dialogue.inspection.search_tree import Branch, Hindrance, grow
 
 KMH = 3.6
@@ -20,6 +21,11 @@ LIKELY = 0.005  # probability below which a goal is shown only on request
 Row: TypeAlias = tuple[str, ...]
 
 HEADINGS: Row = ("", "visits", "forced", "value", "alike", "time", "outcomes", "held up by")
+COMPARED: Row = ("", "reward", "time", "outcomes", "told", "collision")
+OF_COMPARED = """\
+reward   mean, as outcomes and time are, by the weights of the samples: what the decision went by
+told     mean reward by all rollouts of a plan, and collision: its probability, as answers tell it
+"""
 LEGEND = """\
 visits   rollouts of the search; forced: rollouts added for comparison and evidence
 value    of the action in the search; alike: mean reward over samples tried with every first action
@@ -43,8 +49,12 @@ def show(trace: PlanTrace, extent: Extent) -> str:
         TreeError: the rollouts are no search.
     """
     root = grow(trace)
-    parts = (_head(trace), _expectations(trace, extent), _search(root, extent), _plan(trace))
-    return "\n\n".join("\n".join(part) for part in parts) + "\n\n" + LEGEND
+    compared = comparison(trace)
+    parts = [_head(trace), _expectations(trace, extent), _search(root, extent), _plan(trace)]
+    if compared:
+        parts.insert(3, _compared(compared))
+    legend = (OF_COMPARED if compared else "") + LEGEND
+    return "\n\n".join("\n".join(part) for part in parts) + "\n\n" + legend
 
 
 def listing(traces: Sequence[PlanTrace]) -> str:
@@ -184,6 +194,23 @@ def _hindrances(held_up: Sequence[Hindrance]) -> str:
         for one in held_up[:FOREMOST]
     ]
     return " · ".join(told) + (" · …" if len(held_up) > FOREMOST else "")
+
+
+def _compared(rows: Sequence[Compared]) -> Iterator[str]:
+    """The first actions by the weights of the samples that all were tried with."""
+    yield f"What was compared: {rows[0].samples} joint samples by their weights"
+    table = [
+        (
+            f"{one.action}{' ◀' if one.chosen else ''}",
+            _number(one.reward),
+            _number(one.time),
+            ", ".join(f"{outcome} {share:.1%}" for outcome, share in one.outcomes.items()),
+            _number(one.told),
+            "" if one.collision is None else f"{one.collision:.1%}",
+        )
+        for one in rows
+    ]
+    yield from _columns([COMPARED, *table], right=(1, 2, 4, 5))
 
 
 def _plan(trace: PlanTrace) -> Iterator[str]:
