@@ -14,9 +14,7 @@ if TYPE_CHECKING:
     from benchmarks.figures import Report
     from benchmarks.sufficiency.sufficiency import SufficiencyReport
 
-Measure: TypeAlias = Callable[
-    [Callable[[str], None]], "Report"
-]  # gets a function for notes
+Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # gets a function for notes
 Show: TypeAlias = Callable[[Measure, bool], None]  # measures, and prints: as JSON or for people
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]

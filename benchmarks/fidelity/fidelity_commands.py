@@ -11,9 +11,7 @@ from benchmarks.chosen import ours, processes, there
 if TYPE_CHECKING:
     from benchmarks.figures import Report
 
-Measure: TypeAlias = Callable[
-    [Callable[[str], None]], "Report"
-]  # gets a function for notes
+Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # gets a function for notes
 Show: TypeAlias = Callable[[Measure, bool], None]  # measures, and prints: as JSON or for people
 
 
