@@ -12,7 +12,7 @@ from benchmarks.truth.reckoning import Actions
 from planner.record.trace import Action, HeldUp, PlanTrace
 from sim.scene import EGO
 
-STALE = 0.10  # probability by which a belief that is told as held now may have changed
+STALE = 0.10  # probability by which a belief that is stated as held now may have changed
 SLOWS = 0.4  # [m/s] by which who slows down gets slower, at least
 NEAR = 1.5  # [s] about a time told in which something seen then counts
 WINDOW = 12.0  # [s] before a question about the past in which a reason may lie

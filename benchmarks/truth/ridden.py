@@ -17,7 +17,7 @@ from sim.scene import EGO, Point, VehicleState
 from xavi_dialogue.vehicle.episode import Moment, clock
 
 BRAKING = -0.5  # [m/s2]
-BREAK = 1.0  # [s] between two brakings that are told as one
+BREAK = 1.0  # [s] between two brakings that are stated as one
 
 
 @dataclass(frozen=True)
