@@ -40,7 +40,7 @@ Page = Annotated[
 
 
 def commands(show: Show) -> typer.Typer:
-    """The group of commands.
+    """Return the group of commands.
 
     Args:
         show: runs a measurement and prints what it found.

@@ -106,7 +106,7 @@ def examine(task: Task) -> Case:
 
 
 def _examined(world: World, family: Family, scenario: Scenario) -> Case | None:
-    """What is asked and answered in a world; None where it is not of its kind."""
+    """Return what is asked and answered in a world; None where it is not of its kind."""
     network = network_of(scenario)
     whole = ride(scenario, network)
     alone = ride(without(world, scenario, world.others), network)

@@ -156,7 +156,7 @@ def _blind(trace: PlanTrace, network: Network) -> PlanTrace:
 
 
 def _settled(one: _Pending) -> list[Case]:
-    """The cases of a decision, with how much later the foils arrived."""
+    """Return the cases of a decision, with how much later the foils arrived."""
     fact = one.fact.time if one.fact is not None else None
     return [
         msgspec.structs.replace(

@@ -64,7 +64,7 @@ class FidelityReport(msgspec.Struct, frozen=True):
     left_out: tuple[str, ...] = ()  # scenarios that cannot be driven for want of netconvert
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         rows = (*self.scenarios, *self.kinds, self.all)
         parts = [tables(rows, self.outcomes, self.calibration)]
         parts += [coverage_table(self.coverage), extension_table(self.extension)]
@@ -84,7 +84,7 @@ class Learnt(msgspec.Struct, frozen=True):
     failed: tuple[str, ...]
 
     def table(self) -> str:
-        """The table for people."""
+        """Return the table for people."""
         source = self.ranges.source
         lines = [f"{source.cases} foils of {source.rides} rides, {source.missed} never arrived"]
         lines += [
@@ -98,7 +98,7 @@ class Learnt(msgspec.Struct, frozen=True):
 def tasks(
     scenarios: Sequence[str], seeds: Sequence[int], networks: Sequence[int], every: int
 ) -> list[Task]:
-    """The rides whose foils are compared.
+    """Return the rides whose foils are compared.
 
     Args:
         scenarios: names or folders.
@@ -153,7 +153,7 @@ def _died(task: Task) -> Compared:
 
 
 def report(found: Sequence[Compared], ranges: Ranges) -> FidelityReport:
-    """The rides that were compared, in numbers, with ranges that were learnt on others."""
+    """Return the rides that were compared, in numbers, with ranges that were learnt on others."""
     cases = [case for one in found for case in one.cases]
     groups = {
         name: [case for case in cases if case.scenario == name]
@@ -213,7 +213,7 @@ def _command(case: Case) -> str:
 
 
 def _again(scenario: str, seed: int) -> str:
-    """The command that repeats a ride."""
+    """Return the command that repeats a ride."""
     if scenario == RANDOM:
         return f"xavi bench fidelity --seeds 0 --networks 1 --seed {seed}"
     return f"xavi bench fidelity --networks 0 --scenario {scenario} --seed {seed}"

@@ -39,7 +39,7 @@ class Foreseen(msgspec.Struct, frozen=True):
 
 
 def foresee(trace: PlanTrace, roads: Roads) -> dict[Action, Foreseen]:
-    """What would be said of every foil that applies, by foil."""
+    """Return what would be said of every foil that applies, by foil."""
     ride = Ride(Record(trace.sim_time, (trace,)))
     fact = trace.plan[0].action
     return {

@@ -79,7 +79,7 @@ def rode(task: Task) -> Ridden:
 
 @contextmanager
 def _folder(task: Task) -> Iterator[Path]:
-    """Where traffic that is made up goes."""
+    """Yield where traffic that is made up goes."""
     part = Path(task.site.name) / str(task.seed)
     if task.keep is not None:
         yield Path(task.keep) / part

@@ -58,7 +58,7 @@ class UnknownReport(Aimed, frozen=True):
     wrong: tuple[Heard, ...]  # the plain answers
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         rows = [("", "questions"), *((fate, str(n)) for fate, n in self.fates.items())]
         wrong = [f"{one.text}\n    {one.reply}" for one in self.wrong] or ["none"]
         parts = (in_columns(rows), "plain answers:\n" + "\n".join(wrong))

@@ -62,6 +62,6 @@ def rides(hours: float, scenarios: tuple[str, ...]) -> tuple[Memory, ...]:
 
 
 def resident() -> float:
-    """What this process holds in memory now [MB]."""
+    """Return what this process holds in memory now [MB]."""
     pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / MEGABYTE

@@ -89,7 +89,7 @@ class Report(msgspec.Struct, frozen=True):
     dropped: int  # scenes while memory is measured
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         frames: list[tuple[str, ...]] = [
             ("vehicles", "scenes", "painted", "dropped", "frames/s", "ms a frame", "most")
         ]

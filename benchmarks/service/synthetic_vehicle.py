@@ -82,7 +82,7 @@ class Traffic:
         return {name: _state(mover) for name, mover in enumerate(self._movers)}
 
     def _next(self, mover: _Mover) -> Lane:
-        """The lane after a vehicle's; at the end of the map, some other one."""
+        """Return the lane after a vehicle's; at the end of the map, some other one."""
         lanes = self._network.lanes
         if not mover.ahead:
             links = self._network.links_from(mover.lane.id)

@@ -63,7 +63,7 @@ def belief(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 
 def _old(decision: Decision) -> bool:
-    """Whether a decision is more than one older than that in force."""
+    """Check whether a decision is more than one older than that in force."""
     return decision.before is not None and decision.trace.sim_time < decision.before.sim_time
 
 

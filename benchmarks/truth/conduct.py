@@ -28,7 +28,7 @@ def gives_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 
 def _party(said: Said, vehicle: int, other: int, time: float) -> bool:
-    """Whether another is near and still before the way of a vehicle."""
+    """Check whether another is near and still before the way of a vehicle."""
     seen, theirs = said.ride.offset(vehicle, other, time), said.ride.offset(other, vehicle, time)
     if seen is None or theirs is None:
         return False

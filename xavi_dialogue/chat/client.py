@@ -162,7 +162,7 @@ class Client:
             raise _lost(error) from error
 
     def history(self, turns: int = MAX_TURNS) -> tuple[PastTurn, ...]:
-        """The latest turns of the session, oldest first; waits for them.
+        """Return the latest turns of the session, oldest first; waits for them.
 
         Args:
             turns: at most so many, 1 to 100.
@@ -175,7 +175,7 @@ class Client:
         return self._call("@rpc/history", wanted, read).turns
 
     def evidence(self, trace_id: str) -> PlanTrace:
-        """A decision of the present ride, or one planned again, by its id; waits for it.
+        """Return a decision of the present ride, or one planned again, by its id; waits for it.
 
         Raises:
             ServiceLost: there is no reply, or the decision is no longer in the record.
@@ -244,7 +244,7 @@ class Client:
 
 
 def new_request() -> str:
-    """A name for a request."""
+    """Return a name for a request."""
     return secrets.token_hex(8)
 
 

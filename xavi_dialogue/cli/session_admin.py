@@ -73,7 +73,7 @@ def kept(path: Path, name: str | None) -> tuple[Summary, ...]:
 
 
 def export(path: Path, name: str | None) -> Iterator[str]:
-    """One session, or all, as lines of JSON.
+    """Yield one session, or all, as lines of JSON.
 
     Raises:
         StoreError: the file cannot be read.
@@ -88,7 +88,7 @@ def export(path: Path, name: str | None) -> Iterator[str]:
 
 
 def table(sessions: Sequence[Summary], zone: Callable[[float], datetime]) -> str:
-    """The sessions, a line each under a head.
+    """Return the sessions, a line each under a head.
 
     Args:
         sessions: to list.

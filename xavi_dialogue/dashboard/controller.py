@@ -171,7 +171,7 @@ class Controller:
         return self.archive.roads(name)
 
     def past(self) -> bytes:
-        """All moments so far."""
+        """Return all moments so far."""
         return self.record.past()
 
     def decision(self, name: str) -> bytes | None:

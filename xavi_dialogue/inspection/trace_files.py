@@ -30,7 +30,7 @@ class Traces:
 
 
 def content(name: str) -> bytes:
-    """The bytes of a file; `-` is standard input.
+    """Return the bytes of a file; `-` is standard input.
 
     Raises:
         TraceFileError: it cannot be opened, or is too large.

@@ -25,7 +25,7 @@ class SettingsError(UsageFault):
 
 
 def default_path() -> Path:
-    """The file of this user."""
+    """Return the file of this user."""
     # Deferred: few commands need it.
     from platformdirs import user_config_path
 
@@ -33,7 +33,7 @@ def default_path() -> Path:
 
 
 def read(path: Path, options: Options) -> dict[str, dict[str, Any]]:
-    """The options that a file sets, by command and parameter.
+    """Return the options that a file sets, by command and parameter.
 
     Args:
         path: of the file.

@@ -217,7 +217,7 @@ class OptionalChild:
 
 
 def last_words(said: Sequence[str]) -> str:
-    """The last line that is no log and not empty; its log is written later than all else."""
+    """Return the last line that is no log and not empty; its log is written later than all else."""
     return next((line for line in reversed(said) if line.strip() and not is_log(line)), "")
 
 

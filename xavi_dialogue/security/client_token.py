@@ -34,7 +34,7 @@ class Passenger:
 
 
 def default_path() -> Path:
-    """The file of this user's secret."""
+    """Return the file of this user's secret."""
     # Deferred: few commands need it.
     from platformdirs import user_state_path
 

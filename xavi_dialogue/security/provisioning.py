@@ -108,7 +108,7 @@ def _host(endpoint: str) -> str:
 
 
 def material(order: KeyOptions, folder: Path, now: datetime) -> dict[str, bytes]:
-    """The files of a folder of keys, by their names.
+    """Return the files of a folder of keys, by their names.
 
     Args:
         order: the options.
@@ -135,7 +135,7 @@ def _files(name: str, identity: Identity) -> dict[str, bytes]:
 
 
 def configuration(one: Member, order: KeyOptions, folder: Path) -> dict[str, Json]:
-    """The Zenoh configuration of a member: of the hub, or of one of its clients."""
+    """Return the Zenoh configuration of a member: of the hub, or of one of its clients."""
     name, hub = one.common_name, one.role == HUB
     link: dict[str, object] = {
         "root_ca_certificate": str(folder / f"{AUTHORITY}.pem"),

@@ -274,7 +274,7 @@ class Database:
 
 
 def _plain(error: Exception) -> str:
-    """What an error says, without what cannot be printed."""
+    """Return what an error says, without what cannot be printed."""
     return str(error).encode(errors="backslashreplace").decode()
 
 

@@ -106,13 +106,13 @@ Piece: TypeAlias = Entry | AttachedFile | Truncation
 
 
 def kind_of(key: str) -> type[Report | TurnReport] | None:
-    """The message that is recorded under a key; None: nothing is."""
+    """Return the message that is recorded under a key; None: nothing is."""
     tail = key.split("/", 3)[-1]
     return next((kind for end, kind in RECORDED.items() if matches(end, tail)), None)
 
 
 def network_name(vehicle: str, ride: str) -> str:
-    """The name of the file with the roads of a ride."""
+    """Return the name of the file with the roads of a ride."""
     return f"{vehicle}/{ride}{NETWORK_ENDING}"
 
 
@@ -127,7 +127,7 @@ def unpacked(data: bytes) -> bytes | None:
 
 
 def schema_to_view(kind: type[msgspec.Struct]) -> dict[str, Any]:
-    """A JSON Schema of a message that viewers of MCAP files can read.
+    """Return a JSON Schema of a message that viewers of MCAP files can read.
 
     They read a field's one `type`, and of lists what all items are. So fields that may be null,
     and lists within lists, are left undeclared: all messages fit the schema, but so do others.
@@ -182,11 +182,11 @@ class RecordedMessages:
     networks: tuple[bytes, ...] = ()  # packed; see `unpacked`
 
     def scene(self, index: int) -> SceneReport:
-        """A scene."""
+        """Return a scene."""
         return unpack(self.scenes[index], SceneReport)
 
     def trace(self, index: int) -> plan_trace.PlanTrace:
-        """A decision."""
+        """Return a decision."""
         return unpack(self.traces[index], TraceReport).trace
 
     @property
@@ -293,7 +293,7 @@ def _add(tracks: dict[str, _Track], entry: Entry, kind: Any) -> None:
 def read_ride(
     pieces: Iterable[Piece], vehicle: str | None = None
 ) -> tuple[RecordedMessages, str | None]:
-    """The latest ride of a car in a recording.
+    """Return the latest ride of a car in a recording.
 
     Args:
         pieces: of the recording.

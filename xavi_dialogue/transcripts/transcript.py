@@ -91,7 +91,7 @@ class Transcript:
     steps: tuple[Step, ...]
 
     def get(self, key: str, default: str | None = None) -> str | None:
-        """A value of the header."""
+        """Return a value of the header."""
         return dict(self.header).get(key, default)
 
 
@@ -162,7 +162,7 @@ def _befallen(number: int, line: str) -> Befallen:
 
 
 def write(transcript: Transcript) -> str:
-    """The transcript as text; `read` gives it back."""
+    """Return the transcript as text; `read` gives it back."""
     blocks = ["\n".join(f"{key}: {value}" for key, value in transcript.header)]
     before: Step | None = None
     for step in transcript.steps:

@@ -57,7 +57,7 @@ def place(
 
 
 def to_json(value: object) -> str:
-    """The value as one line of JSON."""
+    """Return the value as one line of JSON."""
     import msgspec
 
     return msgspec.json.encode(value).decode()
