@@ -39,7 +39,7 @@ def _sessions(shell: Streams) -> Command:
     def sessions(
         session: Annotated[str | None, typer.Argument(help="Only this one.")] = None,
         export: Annotated[
-            bool, typer.Option("--export", help="Print all that is kept, as lines of JSON.")
+            bool, typer.Option("--export", help="Print all stored data as lines of JSON.")
         ] = False,
         as_json: AsJson = False,
         store: StoreFile = None,
@@ -72,7 +72,7 @@ def _forget(shell: Streams) -> Command:
         session: Annotated[str | None, typer.Argument(help="Which to forget.")] = None,
         everything: Annotated[bool, typer.Option("--all", help="Forget all.")] = False,
         older_than: Annotated[
-            float | None, typer.Option(min=0.0, metavar="DAYS", help="Only what is older.")
+            float | None, typer.Option(min=0.0, metavar="DAYS", help="Only older conversations.")
         ] = None,
         yes: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,
         store: StoreFile = None,
