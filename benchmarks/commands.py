@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from benchmarks.figures import Report
     from benchmarks.sufficiency.sufficiency import SufficiencyReport
 
-Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # is told where notes go
+Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # gets a function for notes
 Show: TypeAlias = Callable[[Measure, bool], None]  # measures, and prints: as JSON or for people
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
@@ -40,7 +40,7 @@ Page = Annotated[
 
 
 def commands(show: Show) -> typer.Typer:
-    """The group of commands.
+    """Return the group of commands.
 
     Args:
         show: runs a measurement and prints what it found.
@@ -181,7 +181,7 @@ def _of_parsing(group: typer.Typer, show: Show) -> None:
         ] = False,
         as_json: AsJson = False,
     ) -> None:
-        """What texts as a whole ask, and how often that is told right."""
+        """How often the intent of a text is recognised."""
         keep = WEIGHTS if learn else None
         show(lambda note: intents(texts, keep, note), as_json)
 
@@ -193,7 +193,7 @@ def _of_parsing(group: typer.Typer, show: Show) -> None:
         ride: OneRide = RIDE,
         as_json: AsJson = False,
     ) -> None:
-        """Whether a word that nobody knows goes unheard in a question."""
+        """Whether an unknown word in a question is ignored."""
         show(lambda note: unknown(questions, ride, number, seed, note), as_json)
 
     @group.command("fuzz")
@@ -244,7 +244,7 @@ def recognise(
         scenarios: names or folders; None: ours.
         counts: seeds of each, networks, number of the first, networks with constants changed.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
     """
     from benchmarks.prediction.recognise import SCENARIOS, measure, tasks
     from benchmarks.prediction.recognise_report import report
@@ -323,7 +323,7 @@ def intents(texts: Path, keep: Path | None, note: Callable[[str], None]) -> "Rep
 def unknown(
     questions: Path, ride: Path, number: int, seed: int, note: Callable[[str], None]
 ) -> "Report":
-    """Ask questions with words that nobody knows."""
+    """Ask questions with unknown words."""
     from benchmarks.language.unknown import measure
 
     return measure(questions, ride, number, seed, note)

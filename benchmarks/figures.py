@@ -16,7 +16,7 @@ class Report(Protocol):
     """What a benchmark found: a struct that can be written as JSON."""
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
 
 
 class Target(msgspec.Struct, frozen=True):
@@ -55,7 +55,7 @@ class Figures(msgspec.Struct, frozen=True):
     figures: tuple[Figure, ...]
 
     def table(self) -> str:
-        """The figures for people."""
+        """Return the figures for people."""
         return figures_table(self.figures)
 
 
@@ -74,7 +74,7 @@ class Watch:
         self.taken.setdefault(name, []).append(self._clock() - began)
 
     def figures(self) -> tuple[Figure, ...]:
-        """The durations [ms], in the order in which they were first taken."""
+        """Return the durations [ms], in the order in which they were first taken."""
         return tuple(
             figure(name, "ms", [1000.0 * one for one in taken])
             for name, taken in self.taken.items()
@@ -122,7 +122,7 @@ def figures_table(figures: Sequence[Figure]) -> str:
 
 
 def figure(name: str, unit: str, values: Sequence[float]) -> Figure:
-    """The median, the 99th percentile and the highest of some values, at least one."""
+    """Return the median, the 99th percentile and the highest of some values, at least one."""
     p50, p99, most = (
         round(v, 3) for v in (quantile(values, 50), quantile(values, 99), max(values))
     )
@@ -130,14 +130,14 @@ def figure(name: str, unit: str, values: Sequence[float]) -> Figure:
 
 
 def quantile(values: Sequence[float], percent: int) -> float:
-    """A percentile of some values, at least one; between two of them it is interpolated."""
+    """Return a percentile of some values, at least one; between two of them it is interpolated."""
     if len(values) == 1:
         return values[0]
     return quantiles(values, n=100, method="inclusive")[percent - 1]
 
 
 def mean(values: Sequence[float]) -> float | None:
-    """The mean; None of nothing."""
+    """Return the mean; None of nothing."""
     return sum(values) / len(values) if values else None
 
 

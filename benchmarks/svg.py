@@ -30,7 +30,7 @@ class Panel:
 
 
 def chart(panels: Sequence[Panel]) -> str:
-    """The panels side by side, as an SVG document with a legend."""
+    """Return the panels side by side, as an SVG document with a legend."""
     width = len(panels) * (LEFT + WIDE) + 20.0
     height = TOP + HIGH + BELOW + 22.0
     body = [

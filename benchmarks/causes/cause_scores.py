@@ -94,7 +94,7 @@ class CausesReport(msgspec.Struct, frozen=True):
     cases: tuple[Case, ...]
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         names = list(self.rows[-1].scores) if self.rows else []
         head = ["", "worlds", "failed", "refused", "kind right"]
         head += [f"{name} {what}" for name in names for what in ("P", "R", "F1", "holds")]

@@ -1,7 +1,7 @@
 """`xavi bench causes`: whether those are named without whom the deed vanishes in SUMO.
 
 In each world our planner drives; the most marked deed is asked about (see `asking`). Who is a
-cause is told by driving the same world again without vehicles (see `removal`): a world counts
+cause is found by driving the same world again without vehicles (see `removal`): a world counts
 only where the deed vanishes and stays as its kind has it, else the next one is drawn. The answer
 is scored by the vehicles that it names, and two cheap rivals beside it.
 """
@@ -36,7 +36,7 @@ from xavi_dialogue.dialogue.standing import reason_of
 from xavi_dialogue.service.in_process import planner_for
 from xavi_dialogue.vehicle.episode import network_of
 
-EVERY = 5  # worlds after which progress is told
+EVERY = 5  # worlds between notes on progress
 LATELY = 4.0  # [s] before the moment asked about in which causes must have been seen
 TRIES = 25  # worlds drawn for one seed
 
@@ -74,7 +74,7 @@ def measure(
         family: of roads.
         jobs: processes side by side.
         keep: folder in which the scenario folders are left; None: they are not kept.
-        note: is told the progress.
+        note: takes notes on progress.
     """
     folder = None if keep is None else str(keep)
     tasks: list[Task] = [(seed + k, family, folder) for k in range(worlds)]
@@ -87,7 +87,7 @@ def measure(
 
 
 def examine(task: Task) -> Case:
-    """Examine one world, by its seed; what goes wrong is told in the result."""
+    """Examine one world, by its seed; errors are in the result."""
     seed, family, keep = task
     scratch = Path(tempfile.mkdtemp(prefix="xavi-world-"))
     folder = scratch / "world" if keep is None else Path(keep) / f"{kind_of(seed)}-{seed}"
@@ -106,7 +106,7 @@ def examine(task: Task) -> Case:
 
 
 def _examined(world: World, family: Family, scenario: Scenario) -> Case | None:
-    """What is asked and answered in a world; None where it is not of its kind."""
+    """Return what is asked and answered in a world; None where it is not of its kind."""
     network = network_of(scenario)
     whole = ride(scenario, network)
     alone = ride(without(world, scenario, world.others), network)

@@ -60,7 +60,7 @@ class Ridden:
         return tuple(event.action for event in carried_out(self.events))
 
     def record(self, now: float) -> Record:
-        """What is known at a moment [s]."""
+        """Return what is known at a moment [s]."""
         traces = tuple(trace for trace in self.traces if trace.sim_time <= now)
         events = tuple(event for event in self.events if event.sim_time <= now)
         return Record(now, traces, events, ended=now >= self.time[-1])
@@ -109,7 +109,7 @@ def ride(scenario: Scenario, network: Network) -> Ridden:
 
 
 def question(ridden: Ridden, alone: Ridden) -> Question:
-    """The deed that is most marked, by the rule above.
+    """Return the deed that is most marked, by the rule above.
 
     Args:
         ridden: the ride.
@@ -145,7 +145,7 @@ def slowing(ridden: Ridden, alone: Ridden) -> Question | None:
 def ask(
     asked: Question, ridden: Ridden, again: Replan
 ) -> tuple[Answer | Refusal, tuple[PlanTrace, ...]]:
-    """The answer, and the plans that were made again for it."""
+    """Return the answer, and the plans that were made again for it."""
     record = ridden.record(asked.now)
     extra: tuple[PlanTrace, ...] = ()
     for _ in range(ROUNDS):
@@ -172,7 +172,7 @@ def decision_of(ridden: Ridden, found: Answer | Refusal, now: float) -> PlanTrac
 
 
 def _slowest(ridden: Ridden, alone: Ridden) -> int | None:
-    """The sample at which a ride is slowest against one alone at the same place.
+    """Return the sample at which a ride is slowest against one alone at the same place.
 
     Only those count at which the speed had fallen before; of equally slow ones the first does.
     """
@@ -187,6 +187,6 @@ def _slowest(ridden: Ridden, alone: Ridden) -> int | None:
 
 
 def _lately(ridden: Ridden, sample: int) -> float:
-    """The highest speed [m/s] in the last seconds before a sample."""
+    """Return the highest speed [m/s] in the last seconds before a sample."""
     first = bisect_left(ridden.time, ridden.time[sample] - WITHIN)
     return max(ridden.speed[first : sample + 1])

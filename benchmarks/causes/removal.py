@@ -58,7 +58,7 @@ class Deeds:
         return self._known[gone]
 
     def _loss(self, ridden: Ridden) -> float:
-        """The most speed [m/s] lost against driving alone about the place asked about.
+        """Return the most speed [m/s] lost against driving alone about the place asked about.
 
         Where it is asked about what is done alone as well, against the highest speed there.
         """

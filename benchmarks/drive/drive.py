@@ -10,7 +10,7 @@ from benchmarks.figures import Figure, figure, in_columns, mean, quantile
 
 WORST = 20
 SLOW = 1.05  # times what SUMO's driver takes
-EVERY = 25  # runs after which progress is told
+EVERY = 25  # runs between notes on progress
 ALL = "all"
 
 
@@ -57,7 +57,7 @@ class DriveReport(msgspec.Struct, frozen=True):
     left_out: tuple[str, ...] = ()  # scenarios that cannot be driven for want of netconvert
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         names = [name for name in Tally.__struct_fields__ if name != "scenario"]
         columns = [*self.scenarios, self.all]
         rows = [["", *(tally.scenario for tally in columns)]]
@@ -86,7 +86,7 @@ def measure(
         scenarios: at least one.
         runs: how many in all.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
     """
     tasks = spread(scenarios, runs)
     done: list[Run] = []
@@ -108,7 +108,7 @@ def spread(scenarios: Sequence[str], runs: int) -> list[tuple[str, int]]:
 
 
 def report(runs: Sequence[Run]) -> DriveReport:
-    """The runs, counted by scenario in the order of their first run."""
+    """Return the runs, counted by scenario in the order of their first run."""
     names = list(dict.fromkeys(run.scenario for run in runs))
     by_name = {name: [run for run in runs if run.scenario == name] for name in names}
     taken = {name: [ms for run in by_name[name] for ms in run.decisions] for name in names}
@@ -152,12 +152,12 @@ def tally(name: str, runs: Sequence[Run]) -> Tally:
 
 
 def arrived(drive: Drive) -> bool:
-    """Whether a drive reached its goal."""
+    """Check whether a drive reached its goal."""
     return drive.ended == "arrived"
 
 
 def worst(runs: Sequence[Run]) -> tuple[Bad, ...]:
-    """The runs that went worst, the worst first."""
+    """Return the runs that went worst, the worst first."""
     judged = [(_badness(run), run) for run in runs]
     ranked = [(bad, run) for bad, run in judged if bad is not None]
     ranked.sort(key=lambda pair: (*pair[0][:2], pair[1].scenario, pair[1].seed))

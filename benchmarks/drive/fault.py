@@ -28,7 +28,7 @@ EPSILON = 1e-6  # [s]
 
 
 def caused_by_ego(before: Sequence[Scene], now: Scene, vehicle: int, network: Network) -> bool:
-    """Whether the ego caused a collision, by the rule above.
+    """Check whether the ego caused a collision, by the rule above.
 
     Args:
         before: the scenes of the last seconds before the collision, oldest first.
@@ -44,21 +44,21 @@ def caused_by_ego(before: Sequence[Scene], now: Scene, vehicle: int, network: Ne
 
 
 def stood(scenes: Sequence[Scene]) -> bool:
-    """Whether the ego stood throughout the last second of some scenes."""
+    """Check whether the ego stood throughout the last second of some scenes."""
     recent = _since(scenes, STOOD)
     long = recent[-1].time - recent[0].time >= STOOD - EPSILON
     return long and all(scene.ego.speed < STANDING for scene in recent)
 
 
 def follows(other: VehicleState, ego: VehicleState) -> bool:
-    """Whether the other's front is behind the ego's rear bumper, in its track."""
+    """Check whether the other's front is behind the ego's rear bumper, in its track."""
     along, aside = _seen_from(ego, other)
     near = abs(aside) <= (ego.width + other.width) / 2.0
     return along <= -ego.length and near and _aligned(other, ego)
 
 
 def intruded(scenes: Sequence[Scene], network: Network) -> bool:
-    """Whether the ego came into its lane within the last seconds, or sticks out of it."""
+    """Check whether the ego came into its lane within the last seconds, or sticks out of it."""
     places = [_place(network, scene.ego) for scene in _since(scenes, KEPT)]
     known = [(network.lanes[place.lane], place) for place in places if place is not None]
     if not known:
@@ -71,7 +71,7 @@ def intruded(scenes: Sequence[Scene], network: Network) -> bool:
 
 
 def provoked_by_ego(scene: Scene, vehicle: int) -> bool:
-    """Whether a vehicle that brakes hard has the ego as the nearest one ahead."""
+    """Check whether a vehicle that brakes hard has the ego as the nearest one ahead."""
     braking = scene.vehicles[vehicle]
     ahead: dict[int, float] = {}
     for name, other in scene.vehicles.items():
@@ -82,12 +82,12 @@ def provoked_by_ego(scene: Scene, vehicle: int) -> bool:
 
 
 def _since(scenes: Sequence[Scene], seconds: float) -> list[Scene]:
-    """The scenes of the last seconds."""
+    """Return the scenes of the last seconds."""
     return [scene for scene in scenes if scene.time >= scenes[-1].time - seconds - EPSILON]
 
 
 def _seen_from(observer: VehicleState, other: VehicleState) -> tuple[float, float]:
-    """The other's front [m]: ahead of the observer's front, and to its left."""
+    """Return the other's front [m]: ahead of the observer's front, and to its left."""
     dx, dy = (b - a for a, b in zip(observer.position, other.position, strict=True))
     cos, sin = math.cos(observer.heading), math.sin(observer.heading)
     return dx * cos + dy * sin, dy * cos - dx * sin
@@ -107,6 +107,6 @@ def _gives_way(network: Network, lane: Lane) -> bool:
 
 
 def _changed(lanes: dict[str, Lane]) -> bool:
-    """Whether two of the lanes lie side by side."""
+    """Check whether two of the lanes lie side by side."""
     edges = [lane.edge for lane in lanes.values() if not lane.internal]
     return len(edges) != len(set(edges))

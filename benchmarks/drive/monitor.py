@@ -74,7 +74,7 @@ class Observer:
             self._recent.popleft()
 
     def drive(self, ended: Ended) -> Drive:
-        """What came of the drive that ends with the latest scene."""
+        """Return what came of the drive that ends with the latest scene."""
         time = self._recent[-1].time
         return Drive(ended, time, tuple(self.hits), self.hard_brakes, self.provoked)
 
@@ -89,7 +89,7 @@ class Observer:
 
 
 def reached(network: Network, goal: Goal, scene: Scene) -> bool:
-    """Whether the ego is at its goal: on its edge, at or beyond its position."""
+    """Check whether the ego is at its goal: on its edge, at or beyond its position."""
     places = network.locate(scene.ego.position, scene.ego.heading)
     if not places:
         return False

@@ -55,7 +55,7 @@ class Run(msgspec.Struct, frozen=True):
 
 
 def run(task: tuple[str, int]) -> Run:
-    """Drive a scenario (name or folder) with a seed; what goes wrong is told in the result."""
+    """Drive a scenario (name or folder) with a seed; errors are in the result."""
     name, seed = task
     try:
         warm()
@@ -81,14 +81,14 @@ def warm() -> None:
 
 
 def by_sumo(world: Simulation, scenario: Scenario, network: Network, see: See = _overlook) -> Drive:
-    """The scenario with SUMO as driver of the ego; each scene is shown to `see`."""
+    """Return the scenario with SUMO as driver of the ego; each scene is shown to `see`."""
     return _driven(world, scenario, network, lambda _: None, see)
 
 
 def by_planner(
     world: Simulation, scenario: Scenario, network: Network, seed: int, see: See = _overlook
 ) -> tuple[Drive, tuple[Decided, ...]]:
-    """The scenario with our planner, and what each decision took.
+    """Return the scenario with our planner, and what each decision took.
 
     Each scene is shown to `see`.
     """
@@ -138,7 +138,7 @@ def in_processes(
     jobs: int,
     died: Callable[[Task], Result],
 ) -> Iterator[Result]:
-    """The results in the order of the tasks, from processes of their own.
+    """Yield the results in the order of the tasks, from processes of their own.
 
     Args:
         function: of one task; a function of a module.

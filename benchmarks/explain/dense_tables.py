@@ -41,12 +41,12 @@ class Tables:
 
 
 def available() -> bool:
-    """Whether pgmpy can be imported."""
+    """Check whether pgmpy can be imported."""
     return find_spec("pgmpy") is not None
 
 
 def tables(trace: PlanTrace) -> Tables:
-    """The tables of a record.
+    """Return the tables of a record.
 
     Raises:
         Uneven: its plans differ in length.

@@ -93,7 +93,7 @@ class ExplainReport(Aimed, frozen=True):
     paper: tuple[factorisations.Beside, ...]  # the paper's factorisation on the same decisions
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         parts = [figures_table(self.figures)] if self.figures else ["no recorded rides"]
         parts.append(_columns(self.growth, Growth))
         parts.append(_columns(self.beside, Beside) if self.beside else "pgmpy is not installed")
@@ -107,7 +107,7 @@ def measure(folder: Path, note: Callable[[str], None]) -> ExplainReport:
 
     Args:
         folder: where recorded rides lie (*.ride.jsonl.gz).
-        note: is told what is left out.
+        note: takes notes on what is left out.
 
     Raises:
         RideFileError: a file there is no recorded ride.
@@ -134,7 +134,7 @@ def measure(folder: Path, note: Callable[[str], None]) -> ExplainReport:
 
 
 def stories(rides: Mapping[str, RecordedRide]) -> tuple[factorisations.Beside, ...]:
-    """The paper's factorisation beside ours on the rides by its stories, S1 and S2."""
+    """Return the paper's factorisation beside ours on the rides by its stories, S1 and S2."""
     found = (factorisations.beside(name, rides[name]) for name in STORIES if name in rides)
     return tuple(row for rows in found for row in rows)
 
@@ -155,7 +155,7 @@ def recorded(name: str, ride: RecordedRide, watch: Watch) -> None:
 
 
 def sizes() -> Iterator[tuple[str, int, int, int]]:
-    """The sizes of made-up decisions: what grows, vehicles, depth, rollouts."""
+    """Yield the sizes of made-up decisions: what grows, vehicles, depth, rollouts."""
     vehicles, depth, rollouts = USUAL
     yield from (("vehicles", count, depth, rollouts) for count in VEHICLES)
     yield from (("depth", vehicles, count, rollouts) for count in DEPTHS)

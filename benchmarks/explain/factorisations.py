@@ -46,14 +46,14 @@ class Summary(msgspec.Struct, frozen=True):
 
 
 def beside(name: str, ride: RecordedRide) -> Iterator[Beside]:
-    """Every foil of every free decision of a ride that may reach the goal."""
+    """Yield every foil of every free decision of a ride that may reach the goal."""
     for trace in ride.traces:
         if trace.under_way is None and trace.plan:
             yield from _foils(name, trace)
 
 
 def summary(rows: Iterable[Beside]) -> Summary:
-    """How far the two are apart."""
+    """Return how far the two are apart."""
     rows = list(rows)
     done = [abs(row.done - row.paper_done) for row in rows]
     later = [
@@ -75,7 +75,7 @@ def summary(rows: Iterable[Beside]) -> Summary:
 
 
 def table(rows: Iterable[Beside]) -> str:
-    """The rows, and below them how far the two are apart, for people."""
+    """Return the rows, and below them how far the two are apart, for people."""
     rows = list(rows)
     names = [name.replace("_", " ") for name in Beside.__struct_fields__]
     cells = [[_cell(value) for value in msgspec.structs.astuple(row)] for row in rows]
@@ -85,7 +85,7 @@ def table(rows: Iterable[Beside]) -> str:
 
 
 def written(page: str, rows: Iterable[Beside]) -> str:
-    """A page with the table between its markers.
+    """Return a page with the table between its markers.
 
     Raises:
         ValueError: the page has no markers.

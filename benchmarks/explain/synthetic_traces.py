@@ -32,7 +32,7 @@ Plan = tuple[Action, ...]
 
 
 def made_up(vehicles: int, depth: int, rollouts: int, seed: int = 0) -> PlanTrace:
-    """A decision with so many others, actions in a row, and rollouts drawn at random."""
+    """Return a decision with so many others, actions in a row, and rollouts drawn at random."""
     rng = random.Random(f"{vehicles}/{depth}/{rollouts}/{seed}")
     seen = _predictions(vehicles, rng)
     options = [(g, t) for g in range(len(GOALS)) for t in range(WAYS)]
@@ -50,7 +50,7 @@ def made_up(vehicles: int, depth: int, rollouts: int, seed: int = 0) -> PlanTrac
 
 
 def complete(vehicles: int, depth: int, seed: int = 0) -> PlanTrace:
-    """A decision in which every plan was tried with every sample, once."""
+    """Return a decision in which every plan was tried with every sample, once."""
     rng = random.Random(f"{vehicles}/{depth}/{seed}")
     options = [(g, t) for g in range(len(GOALS)) for t in range(WAYS)]
     samples = list(itertools.product(options, repeat=vehicles))

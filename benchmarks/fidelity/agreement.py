@@ -64,7 +64,7 @@ class Bin(msgspec.Struct, frozen=True):
 def agreement(
     scenario: str, cases: Sequence[Case], guesses: Mapping[Key, Guess] | None = None
 ) -> Agreement:
-    """The cases of a scenario in numbers, with what their names alone would have said."""
+    """Return the cases of a scenario in numbers, with what their names alone would have said."""
     told = [case for case in cases if case.foreseen.declined is None]
     shares = _shares(told)
     blind = [_as_blind(c) for c in cases if c.blind is not None and c.blind.declined is None]
@@ -98,7 +98,7 @@ def agreement(
 def _times(
     timed: Sequence[Case], blind: Sequence[Case], known: Mapping[Key, Guess]
 ) -> dict[str, float | None]:
-    """The errors of the differences in time [s]; skill is that over cases with a rival."""
+    """Return the errors of the differences in time [s]; skill is that over cases with a rival."""
     errors = [_foreseen_time(c) - _later(c) for c in timed]
     sizes = [abs(error) for error in errors]
     blindly = [
@@ -124,7 +124,7 @@ def _times(
 
 
 def by_outcome(cases: Sequence[Case]) -> tuple[OutcomeRow, ...]:
-    """Each outcome apart."""
+    """Return each outcome apart."""
     told = [case for case in cases if case.foreseen.declined is None]
     return tuple(
         OutcomeRow(
@@ -151,7 +151,7 @@ def calibration(
     told: Callable[[Outcome, float], float] = lambda _, given: given,
     bins: int = 5,
 ) -> tuple[Bin, ...]:
-    """How often outcomes happened that were given about the same probability.
+    """Return how often outcomes happened that were given about the same probability.
 
     Args:
         cases: foils and what came of them.
@@ -177,12 +177,12 @@ def calibration(
 
 
 def right(case: Case) -> bool:
-    """Whether the outcome that is named happened."""
+    """Check whether the outcome that is named happened."""
     return case.foreseen.likeliest == case.happened.outcome
 
 
 def same_sign(case: Case) -> bool:
-    """Whether the foil was rightly said to arrive sooner, or later."""
+    """Check whether the foil was rightly said to arrive sooner, or later."""
     return (_foreseen_time(case) > 0.0) == (_later(case) > 0.0)
 
 
@@ -191,7 +191,7 @@ def tables(
     outcomes: Sequence[OutcomeRow],
     bins: Mapping[str, Sequence[Bin]],
 ) -> str:
-    """The numbers for people."""
+    """Return the numbers for people."""
     names = [name for name in Agreement.__struct_fields__ if name != "scenario"]
     first = [["", *(row.scenario for row in rows)]]
     first += [[n.replace("_", " "), *(_cell(getattr(row, n)) for row in rows)] for n in names]
@@ -210,7 +210,7 @@ def tables(
 
 
 def _as_blind(case: Case) -> Case:
-    """A case in which that is said which would be if the others did not react."""
+    """Return a case in which that is said which would be if the others did not react."""
     assert case.blind is not None
     return msgspec.structs.replace(case, foreseen=case.blind)
 

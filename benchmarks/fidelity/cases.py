@@ -77,7 +77,7 @@ class _Pending(msgspec.Struct):
 
 
 def compare(task: Task) -> Compared:
-    """Compare all foils of every so many decisions of one ride; errors are told in the result."""
+    """Compare all foils of every so many decisions of one ride; errors are in the result."""
     try:
         warm()
         with _scenario(task) as scenario, Simulation(scenario, task.seed) as world:
@@ -156,7 +156,7 @@ def _blind(trace: PlanTrace, network: Network) -> PlanTrace:
 
 
 def _settled(one: _Pending) -> list[Case]:
-    """The cases of a decision, with how much later the foils arrived."""
+    """Return the cases of a decision, with how much later the foils arrived."""
     fact = one.fact.time if one.fact is not None else None
     return [
         msgspec.structs.replace(

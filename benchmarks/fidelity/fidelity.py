@@ -1,7 +1,7 @@
 """`xavi bench fidelity`: what we say of foils, beside what SUMO makes of them.
 
 At each decision of each ride, for each foil that applies, SUMO is run on from the very same
-state with the ego carrying out the foil and what it is told to be followed by (see `resimulate`),
+state with the ego carrying out the foil and what is said to follow it (see `resimulate`),
 and what an answer would say is compared with what happened: the outcome, and by how much the ego
 arrives later at the destination than it did. Beside it stands what would be said if the others of
 a rollout did not react to the ego, and what the foil's name alone lets one expect.
@@ -64,7 +64,7 @@ class FidelityReport(msgspec.Struct, frozen=True):
     left_out: tuple[str, ...] = ()  # scenarios that cannot be driven for want of netconvert
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         rows = (*self.scenarios, *self.kinds, self.all)
         parts = [tables(rows, self.outcomes, self.calibration)]
         parts += [coverage_table(self.coverage), extension_table(self.extension)]
@@ -84,7 +84,7 @@ class Learnt(msgspec.Struct, frozen=True):
     failed: tuple[str, ...]
 
     def table(self) -> str:
-        """The table for people."""
+        """Return the table for people."""
         source = self.ranges.source
         lines = [f"{source.cases} foils of {source.rides} rides, {source.missed} never arrived"]
         lines += [
@@ -98,7 +98,7 @@ class Learnt(msgspec.Struct, frozen=True):
 def tasks(
     scenarios: Sequence[str], seeds: Sequence[int], networks: Sequence[int], every: int
 ) -> list[Task]:
-    """The rides whose foils are compared.
+    """Return the rides whose foils are compared.
 
     Args:
         scenarios: names or folders.
@@ -116,7 +116,7 @@ def measure(asked: Sequence[Task], jobs: int, note: Callable[[str], None]) -> Fi
     Args:
         asked: the rides, at least one.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
     """
     return report(_driven(asked, jobs, note), table())
 
@@ -128,7 +128,7 @@ def learnt(networks: Sequence[int], every: int, jobs: int, note: Callable[[str],
         networks: their numbers, in a row.
         every: as in `tasks`.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
 
     Raises:
         ValueError: there are too few rides.
@@ -153,7 +153,7 @@ def _died(task: Task) -> Compared:
 
 
 def report(found: Sequence[Compared], ranges: Ranges) -> FidelityReport:
-    """The rides that were compared, in numbers, with ranges that were learnt on others."""
+    """Return the rides that were compared, in numbers, with ranges that were learnt on others."""
     cases = [case for one in found for case in one.cases]
     groups = {
         name: [case for case in cases if case.scenario == name]
@@ -213,7 +213,7 @@ def _command(case: Case) -> str:
 
 
 def _again(scenario: str, seed: int) -> str:
-    """The command that repeats a ride."""
+    """Return the command that repeats a ride."""
     if scenario == RANDOM:
         return f"xavi bench fidelity --seeds 0 --networks 1 --seed {seed}"
     return f"xavi bench fidelity --networks 0 --scenario {scenario} --seed {seed}"

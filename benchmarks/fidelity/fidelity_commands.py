@@ -11,7 +11,7 @@ from benchmarks.chosen import ours, processes, there
 if TYPE_CHECKING:
     from benchmarks.figures import Report
 
-Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # is told where notes go
+Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # gets a function for notes
 Show: TypeAlias = Callable[[Measure, bool], None]  # measures, and prints: as JSON or for people
 
 
@@ -62,7 +62,7 @@ def fidelity(
         seeds: of each, and the numbers of networks.
         every: how many decisions apart.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
     """
     from msgspec.structs import replace
 

@@ -29,7 +29,7 @@ class Foreseen(msgspec.Struct, frozen=True):
     low: float | None = None
     high: float | None = None
     declined: Reason | None = None
-    plan: tuple[Action, ...] = ()  # the foil, and what it is told to be followed by
+    plan: tuple[Action, ...] = ()  # the foil, and what is said to follow it
     extended: float | None = None  # [s] `time` to the destination, by an estimate of the rest
 
     @property
@@ -39,7 +39,7 @@ class Foreseen(msgspec.Struct, frozen=True):
 
 
 def foresee(trace: PlanTrace, roads: Roads) -> dict[Action, Foreseen]:
-    """What would be said of every foil that applies, by foil."""
+    """Return what would be said of every foil that applies, by foil."""
     ride = Ride(Record(trace.sim_time, (trace,)))
     fact = trace.plan[0].action
     return {

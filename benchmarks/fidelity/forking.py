@@ -30,7 +30,7 @@ class _Told(msgspec.Struct, frozen=True):
 
 
 def in_fork(work: Callable[[], Found], kind: type[Found]) -> Found:
-    """What work comes to in a copy of this process, in which it leaves no trace.
+    """Return what work comes to in a copy of this process, in which it leaves no trace.
 
     Args:
         work: ends with a value that can be written as JSON.

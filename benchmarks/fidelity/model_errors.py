@@ -63,7 +63,7 @@ def fitted(cases: Sequence[Known]) -> ModelError:
 
 
 def _shares(given: NDArray[np.float64], kinds: NDArray[np.int_]) -> NDArray[np.float64]:
-    """How probable each outcome (len(OUTCOMES),) is among those that were not foreseen."""
+    """Return how probable each outcome (len(OUTCOMES),) is among those that were not foreseen."""
     counts = PRIOR + np.bincount(kinds, 1.0 - given, len(OUTCOMES))
     return np.asarray(counts / counts.sum(), dtype=np.float64)
 

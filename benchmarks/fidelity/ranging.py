@@ -42,7 +42,7 @@ class Extension(msgspec.Struct, frozen=True):
 
 
 def timed(cases: Sequence[Case]) -> list[Case]:
-    """The cases of which a range might be said, and whose fact came to the destination."""
+    """Return the cases of which a range might be said, and whose fact came to the destination."""
     return [
         case
         for case in cases
@@ -89,7 +89,7 @@ def learn(found: Sequence[Compared], command: str) -> Ranges:
 
 
 def _outcomes(rides: Sequence[Compared]) -> list[Known]:
-    """What came of the foils whose outcomes were foreseen."""
+    """Return what came of the foils whose outcomes were foreseen."""
     return [
         Known(
             f"{case.scenario}-{case.seed}",
@@ -164,7 +164,7 @@ def coverage_table(rows: Sequence[Coverage]) -> str:
 
 
 def extension_table(rows: Sequence[Extension]) -> str:
-    """The estimates for people."""
+    """Return the estimates for people."""
     head = ("beyond waypoints", "n", "error", "bias", "error extended", "bias extended")
     cells = [
         (
@@ -178,7 +178,7 @@ def extension_table(rows: Sequence[Extension]) -> str:
 
 
 def _held(cases: Sequence[Case], ends: Callable[[Case], Ends]) -> tuple[float | None, float | None]:
-    """The share of cases that lie within ranges, and the mean width [s] of these."""
+    """Return the share of cases that lie within ranges, and the mean width [s] of these."""
     found = [(case, *ends(case)) for case in cases]
     held = [
         float(case.later is not None and low <= case.later <= high) for case, low, high in found

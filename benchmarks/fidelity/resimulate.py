@@ -40,12 +40,12 @@ class Aim:
 
     @classmethod
     def of(cls, network: Network, trace: PlanTrace) -> "Aim":
-        """That of a decision."""
+        """Return that of a decision."""
         goal = trace.goal if trace.waypoint is None else trace.waypoint
         return cls(network, goal, trace.goal, trace.sim_time, trace.settings.horizon)
 
     def come_to(self, scene: Scene, touched: tuple[int, ...]) -> Happened | None:
-        """What a drive has come to by a scene, as rollouts are judged; None: it goes on.
+        """Return what a drive has come to by a scene, as rollouts are judged; None: it goes on.
 
         Args:
             scene: the latest one.
@@ -65,14 +65,14 @@ class Aim:
         return round(scene.time - self.start, 3) if there else None
 
     def over(self, scene: Scene) -> bool:
-        """Whether the arrival is waited for no longer."""
+        """Check whether the arrival is waited for no longer."""
         return scene.time >= self.start + PATIENCE - EPSILON
 
     def _at(self, goal: EgoGoal, scene: Scene) -> bool:
         return reached(self.network, Goal(goal.edge, goal.position, goal.lane), scene)
 
     def _leads_there(self, scene: Scene) -> bool:
-        """Whether the goal can still be reached from the road the ego is on."""
+        """Check whether the goal can still be reached from the road the ego is on."""
         places = self.network.locate(scene.ego.position, scene.ego.heading)
         lane = self.network.lanes[places[0].lane] if places else None
         if lane is None or lane.internal:
@@ -85,7 +85,7 @@ class Aim:
 def drive_foil(
     world: Simulation, driver: Driver, aim: Aim, plan: Sequence[Action], scene: Scene, step: float
 ) -> Happened:
-    """What comes of a plan in SUMO, from the scene in which the driver has just decided.
+    """Return what comes of a plan in SUMO, from the scene in which the driver has just decided.
 
     It happens in a forked process: world and driver stay as they are.
 
@@ -129,7 +129,7 @@ def _drive_on(
 
 
 def _ends(found: Happened, aim: Aim, scene: Scene) -> bool:
-    """Whether a drive that has come to something need not go on up to the destination."""
+    """Check whether a drive that has come to something need not go on up to the destination."""
     return aim.over(scene) or (found.outcome == "dead" and aim.goal == aim.destination)
 
 

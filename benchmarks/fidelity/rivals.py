@@ -19,7 +19,7 @@ class Guess(NamedTuple):
 
 
 def key_of(case: Case) -> Key:
-    """What tells a case from all others."""
+    """Return what tells a case from all others."""
     return case.scenario, case.seed, case.time, case.foil
 
 

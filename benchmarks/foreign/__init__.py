@@ -1,1 +1,1 @@
-"""`xavi bench foreign`: driving on networks that nobody here made, beside SUMO's own driver."""
+"""`xavi bench foreign`: driving on networks from elsewhere, beside SUMO's own driver."""

@@ -11,7 +11,7 @@ from benchmarks.chosen import processes
 if TYPE_CHECKING:
     from benchmarks.figures import Report
 
-Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # is told where notes go
+Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # gets a function for notes
 Show: TypeAlias = Callable[[Measure, bool], None]  # measures, and prints: as JSON or for people
 
 
@@ -45,7 +45,7 @@ def of_networks(group: typer.Typer, show: Show) -> None:
         ] = None,
         as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     ) -> None:
-        """Driving on networks that nobody here made, beside SUMO's own driver."""
+        """Driving on networks from elsewhere, compared with SUMO's own driver."""
         wanted = (networks or [], site or [], range(seed, seed + seeds))
         show(lambda note: foreign(wanted, (results, keep), jobs, note), as_json)
 
@@ -62,7 +62,7 @@ def foreign(
         wanted: folders to look in, names of networks, and seeds.
         files: of results, and a folder for traffic that is made up.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
     """
     from benchmarks.foreign.measure import measure
 

@@ -56,7 +56,7 @@ class Conducting:
         self._count += 1
 
     def conduct(self) -> Conduct:
-        """What came of the drive."""
+        """Return what came of the drive."""
         broken, egos = self._rules.broken(), [scene.ego for scene in self._scenes]
         company = sum(len(x.vehicles) + len(x.people) - 1 for x in self._scenes)
         return Conduct(
@@ -77,7 +77,7 @@ class Conducting:
         )
 
     def _off_lane(self) -> Sequence[bool]:
-        """Whether the ego is in more than one lane or in a junction, scene by scene."""
+        """Return whether the ego is in more than one lane or in a junction, scene by scene."""
         found = []
         for scene in self._scenes:
             places = self.network.locate(scene.ego.position, scene.ego.heading)

@@ -32,7 +32,7 @@ def measure(
         results: file of rides, one a line, to which each is added; those in it are not driven.
         keep: where traffic that is made up stays.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
 
     Raises:
         NetconvertMissing: no folder is given, and the distribution is not installed.

@@ -126,7 +126,7 @@ def _smooth(values: Array) -> Array:
 
 
 def _derived(values: Array, window: int, order: int, degree: int = 2) -> Array:
-    """A derivative by the filter of Savitzky and Golay (Analytical Chemistry 36, 1964)."""
+    """Return a derivative by the filter of Savitzky and Golay (Analytical Chemistry 36, 1964)."""
     width = min(window, len(values))
     degree = min(degree, width - 1)
     found: Array = savgol_filter(values, width, degree, deriv=min(order, degree), delta=SAMPLE)
@@ -154,7 +154,7 @@ def _moved(ego: VehicleState, seconds: float) -> VehicleState:
 
 
 def _matters(ego: VehicleState, other: VehicleState, off_lane: bool) -> bool:
-    """Whether it is for the ego to keep clear of another."""
+    """Check whether it is for the ego to keep clear of another."""
     back = REAR - ego.length
     x = ego.position[0] + back * math.cos(ego.heading)
     y = ego.position[1] + back * math.sin(ego.heading)

@@ -48,7 +48,7 @@ class ForeignReport(Aimed, frozen=True, kw_only=True):
     left_out: tuple[LeftOut, ...] = ()
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         parts = [in_columns([_HEAD, *(_row(one) for one in (*self.sites, self.all))])]
         parts += ["", figures_table(self.figures), "", targets_table(self.targets)]
         parts += ["", "rides that did not go well:"]
@@ -114,7 +114,7 @@ def _figures(rides: Sequence[Ridden]) -> tuple[Figure, ...]:
 
 
 def _by_crowd(rides: Sequence[Ridden]) -> dict[int, list[float]]:
-    """What decisions took [ms], by how many others there were at most."""
+    """Return what decisions took [ms], by how many others there were at most."""
     most = [*(most for most, _ in CROWDS), 1000]
     found: dict[int, list[float]] = {bound: [] for bound in most}
     for ride in rides:
@@ -137,7 +137,7 @@ def worst(rides: Sequence[Ridden]) -> tuple[Bad, ...]:
 
 
 def _badness(ride: Ridden) -> tuple[int, str] | None:
-    """How bad (the lower the worse) and what happened; None where all went well."""
+    """Return how bad (the lower the worse) and what happened; None where all went well."""
     ours, sumo = ride.ours, ride.sumo
     if ours is None or sumo is None:
         return 0, ride.error or "failed"
@@ -164,7 +164,7 @@ def _badness(ride: Ridden) -> tuple[int, str] | None:
 
 
 def _row(one: Tally) -> list[str]:
-    """What we did, and behind a slash what SUMO's driver did."""
+    """Return what we did, and behind a slash what SUMO's driver did."""
     a, b = one.ours, one.sumo
     return [
         one.site,

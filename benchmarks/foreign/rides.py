@@ -86,7 +86,7 @@ def ride(site: Site, seed: int, folder: Path) -> Chosen:
 
 
 def _configurations(site: Site, seed: int, folder: Path, reasons: list[str]) -> Iterator[Path]:
-    """The site's own configurations; then one with traffic that is made up."""
+    """Yield the site's own configurations; then one with traffic that is made up."""
     yield from (Path(file) for file in site.configurations)
     net = Path(site.network)
     try:
@@ -104,7 +104,7 @@ def _network(configuration: Path) -> Network:
 
 
 def _along(trail: Trail, network: Network) -> Iterator[Way]:
-    """The ways that begin where a vehicle enters an edge."""
+    """Yield the ways that begin where a vehicle enters an edge."""
     edges = edges_of(network)
     for first, start in enumerate(trail.stays[:-1]):
         if start.edge not in edges or _length(network, start.edge) < ROOM:

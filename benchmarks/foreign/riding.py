@@ -61,7 +61,7 @@ class Ridden(msgspec.Struct, frozen=True):
 
 
 def rode(task: Task) -> Ridden:
-    """Choose a ride and drive it; what goes wrong is told in the result."""
+    """Choose a ride and drive it; errors are in the result."""
     name, seed = task.site.name, task.seed
     with _folder(task) as folder:
         try:
@@ -79,7 +79,7 @@ def rode(task: Task) -> Ridden:
 
 @contextmanager
 def _folder(task: Task) -> Iterator[Path]:
-    """Where traffic that is made up goes."""
+    """Yield where traffic that is made up goes."""
     part = Path(task.site.name) / str(task.seed)
     if task.keep is not None:
         yield Path(task.keep) / part

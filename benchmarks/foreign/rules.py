@@ -91,7 +91,7 @@ class Rules:
         self._was_off = off
 
     def broken(self) -> Broken:
-        """What was broken so far."""
+        """Return what was broken so far."""
         waiting = self._passing
         if waiting is not None and self._may_be_red(waiting):
             self._reds.append(waiting.time)
@@ -101,7 +101,7 @@ class Rules:
         return Broken(self._lights, reds, self._crossings, violated, limits, off)
 
     def _places(self, scene: Scene) -> tuple[Location, ...]:
-        """The lanes that may be the ego's."""
+        """Return the lanes that may be the ego's."""
         found = self.network.locate(scene.ego.position, scene.ego.heading)
         least = abs(found[0].lateral) if found else 0.0
         return tuple(x for x in found if abs(x.lateral) <= least + SAME)
@@ -132,7 +132,7 @@ class Rules:
                 self._reds.append(passing.time)
 
     def _link(self, start: Lane, end: Lane) -> Link | None:
-        """The link from one lane to another, or else between their edges."""
+        """Return the link from one lane to another, or else between their edges."""
         lanes = self.network.edge_lanes(start.edge)
         found = [x for lane in lanes for x in self.network.links_from(lane.id)]
         found = [x for x in found if self.network.lanes[x.to_lane].edge == end.edge]
@@ -141,7 +141,7 @@ class Rules:
         return ranked[0][1] if ranked else None
 
     def _may_be_red(self, passing: _Passing) -> bool:
-        """Whether every link from where the ego went in was red, as the drive ends inside."""
+        """Check whether every link from where the ego went in was red, as the drive ends inside."""
         controls = [link.control for link in self.network.links_from(passing.lane.id)]
         return bool(controls) and all(control in passing.red for control in controls)
 
@@ -186,7 +186,7 @@ class Rules:
         return False
 
     def _lanes_at(self, corner: Point) -> Iterator[tuple[Lane, Location]]:
-        """The lanes of vehicles near a place, whichever way they lead."""
+        """Yield the lanes of vehicles near a place, whichever way they lead."""
         for place in self.network.locate(corner, 0.0, 6.0, math.pi):
             yield self.network.lanes[place.lane], place
         for place in self.network.locate_aside(corner, 0.0, 6.0, math.pi):
@@ -196,13 +196,13 @@ class Rules:
 
 
 def _ahead(place: Point, heading: float, position: Point) -> float:
-    """How far [m] a position is beyond a place, along a heading."""
+    """Return how far [m] a position is beyond a place, along a heading."""
     dx, dy = position[0] - place[0], position[1] - place[1]
     return dx * math.cos(heading) + dy * math.sin(heading)
 
 
 def _in_the_way(crossing: Crossing, scene: Scene, person: PersonState) -> bool:
-    """Whether somebody on a crossing may cross, and is or will soon be before the ego."""
+    """Check whether somebody on a crossing may cross, and is or will soon be before the ego."""
     shown = None if not isinstance(crossing.control, Signal) else scene.light(crossing.control)
     if shown is not None and shown.state in RED:
         return False

@@ -76,7 +76,7 @@ def net_of(configuration: Path) -> Path | str:
 
 
 def _sites(folder: Path, nets: Iterable[Path], used: dict[Path, list[Path]]) -> Iterator[Site]:
-    """The networks by name; of several files with the same content, the first one counts."""
+    """Yield the networks by name; of several files with the same content, the first one counts."""
     known: dict[str, tuple[Path, list[Path]]] = {}
     for net in nets:
         content = hashlib.sha256(net.read_bytes()).hexdigest()
@@ -93,14 +93,14 @@ def _files(folder: Path, endings: tuple[str, ...]) -> list[Path]:
 
 
 def _name(file: Path, folder: Path) -> str:
-    """The path from the folder on, without its ending."""
+    """Return the path from the folder on, without its ending."""
     name = str(file.relative_to(folder)) if file.is_relative_to(folder) else file.name
     endings = sorted((*ENDINGS, *NETS, *MAPS), key=len, reverse=True)
     return name.removesuffix(next(x for x in endings if name.endswith(x)))
 
 
 def _short(name: str, names: Iterable[str]) -> str:
-    """The last parts of a path that no other ends with."""
+    """Return the last parts of a path that no other ends with."""
     parts = name.split("/")
     for count in range(1, len(parts)):
         end = "/".join(parts[-count:])

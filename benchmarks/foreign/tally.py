@@ -68,7 +68,7 @@ def tally(site: str, rides: Sequence[Ridden]) -> Tally:
 
 
 def arrived(driven: Driven) -> bool:
-    """Whether a driver reached the goal."""
+    """Check whether a driver reached the goal."""
     return driven.drive.ended == "arrived"
 
 
@@ -84,7 +84,7 @@ def score(own: Driven, other: Driven) -> float:
 
 
 def _counted(pairs: Sequence[tuple[Driven, Driven]]) -> Counted:
-    """One driver's doings; the other stands beside it in each pair."""
+    """Return one driver's doings; the other stands beside it in each pair."""
     drives, conducts = [a.drive for a, _ in pairs], [a.conduct for a, _ in pairs]
     return Counted(
         arrived=sum(arrived(a) for a, _ in pairs),

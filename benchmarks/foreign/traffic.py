@@ -52,7 +52,7 @@ def _trips(net: Path, folder: Path, name: str, rate: float, seed: int, *kind: st
 
 
 def _kilometres(network: Network) -> float:
-    """The length [km] of the lanes for cars."""
+    """Return the length [km] of the lanes for cars."""
     return sum(x.length for x in network.lanes.values() if not x.internal) / 1000.0
 
 

@@ -66,7 +66,7 @@ class FuzzReport(Aimed, frozen=True):
     tried: Tried
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         runs, understood = self.tried.runs, self.tried.understood
         shares = ", ".join(
             f"{source} {100 * understood.get(source, 0) / runs[source]:.1f} %"
@@ -112,7 +112,7 @@ def measure(
         runs: how many texts.
         seed: of the texts.
         jobs: how many processes work side by side.
-        note: is told how far it is.
+        note: takes notes on progress.
 
     Raises:
         FaultFound: a text cannot be read or grounded, or takes too long.
@@ -139,13 +139,13 @@ def measure(
 
 
 def told(fault: Fault) -> str:
-    """A fault on one line."""
+    """Return a fault on one line."""
     behind = "" if fault.context == "()" else f" after {fault.context}"
     return f"understanding {fault.text}{behind}: {fault.what}"
 
 
 def together(found: Sequence[Tried]) -> Tried:
-    """What came of several batches, at least one."""
+    """Return what came of several batches, at least one."""
     slowest = max(found, key=lambda one: one.slowest)
     return Tried(
         dict(sum((Counter(one.runs) for one in found), Counter())),
@@ -179,7 +179,7 @@ def attempt(batch: Batch) -> Tried:
 
 
 def heard(one: Case, record: Record, slowest: float) -> tuple[Grounding, float]:
-    """What a text means, and the processor time [ms] that it takes.
+    """Return what a text means, and the processor time [ms] that it takes.
 
     A text that seems the slowest is timed once more, and the faster time counts.
 
@@ -218,7 +218,7 @@ def _text(rng: Random, source: str, questions: Sequence[str]) -> str:
 
 @cache
 def asked(folder: Path) -> tuple[str, ...]:
-    """The texts of annotated questions.
+    """Return the texts of annotated questions.
 
     Raises:
         QuestionFileError: they cannot be read.
@@ -232,7 +232,7 @@ def _record(ride: Path) -> Record:
 
 
 def shorter(one: Case, fails: Callable[[Case], bool]) -> Case:
-    """A text that fails as another does, with what it fails without left out."""
+    """Return a text that fails as another does, with what it fails without left out."""
     turns = (Case(one.source, turn, ()) for turn in (*one.context, one.text))
     one = next((turn for turn in turns if fails(turn)), one)
     size = len(one.text)
@@ -245,7 +245,7 @@ def shorter(one: Case, fails: Callable[[Case], bool]) -> Case:
 
 
 def _failing(one: Case, record: Record) -> Fault:
-    """The fault of a text that fails, told of as short a text as possible."""
+    """Return the fault of a text that fails, told of as short a text as possible."""
     least = shorter(one, lambda case: _error(case, record) is not None)
     return _fault(least, _error(least, record) or "it failed once, and no longer does")
 

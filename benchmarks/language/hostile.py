@@ -27,7 +27,7 @@ Family = Callable[[Random], list[str]]  # texts drawn by a generator
 
 
 def families() -> dict[str, Family]:
-    """The families by name; their texts are within the caps, and mostly at them."""
+    """Return the families by name; their texts are within the caps, and mostly at them."""
     return {
         "frames repeated": lambda _: [repeated(frame) for frame in FRAMES],
         "each word repeated": lambda rng: [repeated(word) for word in rng.sample(known(), WORDS)],
@@ -60,18 +60,18 @@ def ambiguous() -> tuple[str, ...]:
 
 
 def repeated(phrase: str) -> str:
-    """A phrase over and over, up to the caps."""
+    """Return a phrase over and over, up to the caps."""
     return capped(phrase.split() * MAX_TOKENS)
 
 
 def capped(words: Sequence[str]) -> str:
-    """As many of the words as are read."""
+    """Return as many of the words as are read."""
     lengths = accumulate(len(word) + 1 for word in words[:MAX_TOKENS])
     return " ".join(words[: sum(1 for _ in takewhile(lambda n: n <= MAX_CHARACTERS + 1, lengths))])
 
 
 def half(text: str) -> str:
-    """The first half of a text's words, or of its characters where it is one word."""
+    """Return the first half of a text's words, or of its characters where it is one word."""
     words = text.split()
     return " ".join(words[: len(words) // 2]) if len(words) > 1 else text[: len(text) // 2]
 

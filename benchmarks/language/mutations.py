@@ -26,7 +26,7 @@ _HIGHEST = 0x110000
 
 
 def mutated(rng: Random, questions: Sequence[str]) -> str:
-    """One of the questions with a few random changes."""
+    """Return one of the questions with a few random changes."""
     text = rng.choice(questions)
     for _ in range(rng.randint(1, MOST_CHANGES)):
         text = rng.choice(_CHANGES)(rng, text, questions)
@@ -66,7 +66,7 @@ def _character(rng: Random) -> str:
 
 
 def _likely(rng: Random) -> str:
-    """A character that is a letter, a mark or a digit somewhere."""
+    """Return a character that is a letter, a mark or a digit somewhere."""
     letter = chr(rng.randrange(0xD800))
     return letter if unicodedata.category(letter)[0] in "LMN" else "a"
 

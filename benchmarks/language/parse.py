@@ -73,7 +73,7 @@ class ParseReport(Aimed, frozen=True):
     hostile: tuple[Hardest, ...]
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         head = ("", "n", "type", "exact", "primary", "confidently wrong")
         everything = [replace(one.all, group=one.name) for one in self.sets]
         parts = [_agreements(head, [*everything, *([self.unseen] if self.unseen else [])])]
@@ -98,7 +98,7 @@ def measure(
     Args:
         questions: where the folders `learn` and `blind` are; there may be no blind ones.
         ride: a recorded ride in which texts are grounded when they are timed.
-        note: is told how far it is.
+        note: takes notes on progress.
         attacks: families of hostile texts; default: all of them.
 
     Raises:
@@ -124,7 +124,7 @@ def measure(
 
 
 def _aimed(report: ParseReport) -> ParseReport:
-    """The report, held against its targets."""
+    """Return the report, held against its targets."""
     last, timed = report.sets[-1].all, report.figures[-1]
     worst = max((one.most for one in report.hostile), default=None)
     return aimed(
@@ -138,7 +138,7 @@ def _aimed(report: ParseReport) -> ParseReport:
 
 
 def scored(parser: Parser, name: str, questions: Sequence[Question]) -> Set:
-    """How a parser fares on questions, at least one."""
+    """Return how a parser fares on questions, at least one."""
     verdicts = [(question, _verdict(parser, question)) for question in questions]
     return Set(
         name,
@@ -154,7 +154,7 @@ def _verdict(parser: Parser, question: Question) -> Verdict:
 
 
 def _unseen(parser: Parser, asked: dict[str, tuple[Question, ...]]) -> Agreement | None:
-    """How it fares on blind questions that do not stand among the others too."""
+    """Return how it fares on blind questions that do not stand among the others too."""
     learnt = {question.text.casefold() for question in asked[LEARN]}
     rest = [question for question in asked.get(BLIND, ()) if question.text.casefold() not in learnt]
     verdicts = [_verdict(parser, question) for question in rest]
@@ -173,7 +173,7 @@ def _grouped(
 
 
 def hardest(name: str, family: Family, record: Record) -> Hardest:
-    """The times of a family's texts, and how they grow from half of each.
+    """Return the times of a family's texts, and how they grow from half of each.
 
     All are timed once; the slowest again, to tell texts that are slow from moments that were.
     """

@@ -19,7 +19,7 @@ SHAPE = '{"id": .., "text": .., "style": .., "query": {"type": .., "actor": .., 
 
 
 def read_folder(folder: Path) -> tuple[Question, ...]:
-    """The questions of all files of a folder, files in the order of their names.
+    """Return the questions of all files of a folder, files in the order of their names.
 
     Raises:
         QuestionFileError: there is no such folder, it holds no questions, or a line is broken.
@@ -38,7 +38,7 @@ def read_folder(folder: Path) -> tuple[Question, ...]:
 
 
 def read(file: Path) -> tuple[Question, ...]:
-    """The questions of a file, in order; empty lines are passed over.
+    """Return the questions of a file, in order; empty lines are passed over.
 
     Raises:
         QuestionFileError: it cannot be read, or a line is broken.

@@ -73,7 +73,7 @@ def verdict(question: Question, predicted: QueryFields) -> Verdict:
 
 
 def agreement(group: str, verdicts: Sequence[Verdict]) -> Agreement:
-    """The shares of verdicts in a group, at least one."""
+    """Return the shares of verdicts in a group, at least one."""
     return Agreement(
         group,
         len(verdicts),
@@ -89,7 +89,7 @@ def _percent(held: Sequence[bool]) -> float:
 
 
 def _comparable(predicted: QueryFields, accepted: QueryFields) -> bool:
-    """Whether both are about the same vehicle's doing or not doing."""
+    """Check whether both are about the same vehicle's doing or not doing."""
     return (
         accepted.type not in TALK
         and predicted.actor == accepted.actor
@@ -98,7 +98,7 @@ def _comparable(predicted: QueryFields, accepted: QueryFields) -> bool:
 
 
 def _essence(query: QueryFields, blurred: bool) -> tuple[object, ...]:
-    """What of a query is compared."""
+    """Return what of a query is compared."""
     if query.type in TALK:
         return (query.type,)
     return (

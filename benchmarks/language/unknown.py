@@ -1,4 +1,4 @@
-"""`xavi bench unknown`: a word that nobody knows in a question must not go unheard.
+"""`xavi bench unknown`: an unknown word in a question must not be ignored.
 
 Into each of some questions that are understood as they stand a made-up word is put. A plain answer
 then, without owning up to that word, may answer another question than the one that was asked.
@@ -58,7 +58,7 @@ class UnknownReport(Aimed, frozen=True):
     wrong: tuple[Heard, ...]  # the plain answers
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         rows = [("", "questions"), *((fate, str(n)) for fate, n in self.fates.items())]
         wrong = [f"{one.text}\n    {one.reply}" for one in self.wrong] or ["none"]
         parts = (in_columns(rows), "plain answers:\n" + "\n".join(wrong))
@@ -68,14 +68,14 @@ class UnknownReport(Aimed, frozen=True):
 def measure(
     questions: Path, ride: Path, number: int, seed: int, note: Callable[[str], None]
 ) -> UnknownReport:
-    """Ask questions with a word in them that nobody knows.
+    """Ask questions with an unknown word.
 
     Args:
         questions: where the folder `learn` of annotated questions is.
         ride: the recorded ride that is asked about.
         number: how many questions.
         seed: of the questions, the words and their places.
-        note: is told if there are too few questions.
+        note: takes notes if there are too few questions.
 
     Raises:
         QuestionFileError: the questions cannot be read.
@@ -116,7 +116,7 @@ def tried(text: str, rng: Random, ride: RecordedRide) -> Heard:
 
 
 def fate(reply: Reply, word: str) -> Fate:
-    """Tell what came of a question with a word that nobody knows."""
+    """Describe the result of a question with an unknown word."""
     if reply.kind == "clarification":
         return "asked back"
     if reply.kind == "refusal":

@@ -42,7 +42,7 @@ SPOTS = (
 def crowd(
     network: Network, goal: EgoGoal, settings: Settings, others: int, shift: float = 0.0
 ) -> tuple[Frame, Moment]:
-    """A decision on the middle lane of the longest road of three lanes.
+    """Return a decision on the middle lane of the longest road of three lanes.
 
     Args:
         network: has such a road, at least 300 m long.

@@ -1,4 +1,4 @@
-"""`xavi bench plan`: how fast decisions are, on this machine.
+"""`xavi bench plan`: how fast decisions are on this machine.
 
 Times depend on the machine. Ratios to the yardstick, a plain loop that is timed in the same
 run, compare machines.
@@ -64,7 +64,7 @@ class PlanReport(msgspec.Struct, frozen=True):
     memory: tuple[Memory, ...]
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         names = [name for name in Growth.__struct_fields__ if name != "axis"]
         rows = [[name.replace("_per_", "/").replace("_", " ") for name in names]]
         rows += [[_cell(getattr(row, name)) for name in names] for row in self.growth]
@@ -104,7 +104,7 @@ def measure(hours: float) -> PlanReport:
 
 
 def timed_yardstick() -> float:
-    """The shortest time [s] of a few that a plain loop takes."""
+    """Return the shortest time [s] of a few that a plain loop takes."""
     taken = []
     for _ in range(5):
         began, total = time.perf_counter(), 0.0

@@ -38,7 +38,7 @@ def start_up() -> list[float]:
 
 
 def memory(hours: float) -> tuple[Memory, ...]:
-    """Drive in a process of its own for so many simulated hours; what it holds after each ride."""
+    """Drive in a separate process for some simulated hours; return its memory after each ride."""
     with get_context("spawn").Pool(1) as pool:
         return pool.apply(rides, (hours, ROADS))
 
@@ -62,6 +62,6 @@ def rides(hours: float, scenarios: tuple[str, ...]) -> tuple[Memory, ...]:
 
 
 def resident() -> float:
-    """What this process holds in memory now [MB]."""
+    """Return what this process holds in memory now [MB]."""
     pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / MEGABYTE

@@ -31,7 +31,7 @@ class Approach:
 
 
 def approaches(roads: Roads, scenes: Sequence[Scene], view: float) -> tuple[Approach, ...]:
-    """Every approach of every vehicle but the ego.
+    """Return every approach of every vehicle but the ego.
 
     Args:
         roads: the road network.
@@ -48,7 +48,7 @@ def approaches(roads: Roads, scenes: Sequence[Scene], view: float) -> tuple[Appr
 
 
 def track_at(scenes: Sequence[Scene], sample: int, vehicle: int, longest: int) -> Observed:
-    """A vehicle as observed up to a sample, for at most so many samples."""
+    """Return a vehicle as observed up to a sample, for at most so many samples."""
     first = sample
     while first > max(0, sample - longest) and vehicle in scenes[first - 1].vehicles:
         first -= 1
@@ -65,7 +65,7 @@ def track_at(scenes: Sequence[Scene], sample: int, vehicle: int, longest: int) -
 
 
 def _stretches(scenes: Sequence[Scene], vehicle: int) -> Iterator[range]:
-    """The runs of samples in which a vehicle is in view."""
+    """Yield the runs of samples in which a vehicle is in view."""
     begun: int | None = None
     for k in range(len(scenes) + 1):
         seen = k < len(scenes) and vehicle in scenes[k].vehicles
@@ -99,7 +99,7 @@ def _approaches(
 
 
 def _edge(roads: Roads, state: VehicleState) -> str | None:
-    """The road that a vehicle is on; None within junctions and off the road."""
+    """Return the road that a vehicle is on; None within junctions and off the road."""
     found = lanes_at(roads, state.position, state.heading)
     lane = roads.network.lanes[found[0].lane] if found else None
     return None if lane is None or lane.internal else lane.edge

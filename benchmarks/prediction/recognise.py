@@ -64,7 +64,7 @@ def measure(asked: Sequence[Task], jobs: int, note: Callable[[str], None]) -> li
     Args:
         asked: the rides.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
     """
     found: list[Watched] = []
     for one in in_processes(watch, asked, jobs, lambda t: Watched(t, error="its process died")):
@@ -74,7 +74,7 @@ def measure(asked: Sequence[Task], jobs: int, note: Callable[[str], None]) -> li
 
 
 def watch(task: Task) -> Watched:
-    """Drive a ride and watch the others; errors are told in the result.
+    """Drive a ride and watch the others; errors are in the result.
 
     Our planner drives the ego of a scenario, since the stories hang on it; SUMO that of a network.
     """

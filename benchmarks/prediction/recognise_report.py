@@ -54,7 +54,7 @@ class RecogniseReport(msgspec.Struct, frozen=True):
     failed: tuple[str, ...]
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         parts = [text for part in self.parts for text in _part(part)]
         parts += [_map(row) for row in self.maps]
         if self.constants:

@@ -29,7 +29,7 @@ class Recording:
     _known: dict[int, Mapping[int, Sequence[Belief]]] = field(default_factory=dict)
 
     def beliefs(self, sample: int) -> Mapping[int, Sequence[Belief]]:
-        """What was to be expected of everybody in view, from their tracks up to a sample."""
+        """Return what was to be expected of everybody in view, from their tracks up to a sample."""
         found = self._known.get(sample)
         if found is None:
             scene = self.scenes[sample]
@@ -39,7 +39,7 @@ class Recording:
         return found
 
     def track(self, sample: int, vehicle: int) -> Observed:
-        """What the car remembers of a vehicle at a sample."""
+        """Return what the car remembers of a vehicle at a sample."""
         return track_at(self.scenes, sample, vehicle, MEMORY)
 
 

@@ -39,7 +39,7 @@ class Story(msgspec.Struct, frozen=True):
 
 
 def tell(name: str, seed: int, recording: Recording) -> Story | None:
-    """The story of a ride; None where the scenario has none."""
+    """Return the story of a ride; None where the scenario has none."""
     plot = PLOTS.get(name)
     if plot is None:
         return None
@@ -61,12 +61,12 @@ def manoeuvre(events: Sequence[Event], action: Action) -> tuple[float | None, fl
 
 
 def likely(beliefs: Sequence[Belief], kind: Action) -> float:
-    """The probability of the goals of a kind."""
+    """Return the probability of the goals of a kind."""
     return sum(belief.probability for belief in beliefs if belief.goal.kind == kind)
 
 
 def _known(recording: Recording, plot: Plot) -> float | None:
-    """When [s] the ego first knew, if it did before the vehicle went out of view."""
+    """Return when [s] the ego first knew, if it did before the vehicle went out of view."""
     for sample, scene in enumerate(recording.scenes):
         seen = plot.vehicle in scene.vehicles
         if seen and likely(recording.beliefs(sample)[plot.vehicle], plot.kind) >= SURE:

@@ -39,7 +39,7 @@ class Claim(msgspec.Struct, frozen=True):
 
 
 def claim_of(found: Contrast, effects: int, causes: int) -> Claim:
-    """What the sentence of a contrast claims: its largest effects, where the foil arrives.
+    """Return what the sentence of a contrast claims: its largest effects, where the foil arrives.
 
     Args:
         found: has a foil and its outcome.
@@ -75,7 +75,7 @@ def differing(ours: Claim, theirs: Claim) -> tuple[Part, ...]:
 
 
 def _later(ours: tuple[Doing, ...], theirs: tuple[Doing, ...]) -> bool:
-    """Whether our causes are those of the other claim but for first actions."""
+    """Check whether our causes are those of the other claim but for first actions."""
     return len(ours) == len(theirs) and all(
         one.vehicle == other.vehicle and one.actions in (other.actions, other.actions[1:])
         for one, other in zip(ours, theirs, strict=True)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def command(show: Show) -> Callable[..., None]:
-    """The command.
+    """Return the command.
 
     Args:
         show: runs a measurement and prints what it found.

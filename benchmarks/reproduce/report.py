@@ -26,7 +26,7 @@ class Reproduction(msgspec.Struct, frozen=True):
     foils: tuple[FoilFound, ...]
 
     def table(self) -> str:
-        """The tables for people."""
+        """Return the tables for people."""
         lines = [
             f"{self.asked} counterfactuals: {self.answered} complete sentences, "
             f"{self.declined} refusals with their reason."
@@ -46,7 +46,7 @@ def measure(seeds: int, jobs: int, note: Callable[[str], None]) -> Reproduction:
     Args:
         seeds: of each story, from 0 on.
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
     """
     scenarios = dict.fromkeys(foil.scenario for foil in FOILS)
     tasks = [(name, seed) for name in scenarios for seed in range(seeds)]
@@ -58,7 +58,7 @@ def measure(seeds: int, jobs: int, note: Callable[[str], None]) -> Reproduction:
 
 
 def reproduction(told: Sequence[Told], seeds: int) -> Reproduction:
-    """What was told, beside the rows of the paper."""
+    """Return what was told, beside the rows of the paper."""
     foils = compare(told)
     once = [found for found in foils if found.table < 3]
     return Reproduction(
@@ -105,7 +105,7 @@ def _row(row: RowFound, found: FoilFound) -> Iterator[str]:
 
 
 def _against(row: RowFound, grounds: Grounds | None) -> Iterator[str]:
-    """The figures behind a row that is not borne out, or by few seeds."""
+    """Yield the figures behind a row that is not borne out, or by few seeds."""
     if grounds is None:
         return
     if row.claim.outcome == "collision":
@@ -153,7 +153,7 @@ def _said(one: Sentence) -> str:
 
 
 def _chance(p: float | None) -> str:
-    """A probability: 0 only where it is nothing at all."""
+    """Return a probability: 0 only where it is nothing at all."""
     if p is None:
         return "unknown"
     return "0" if p == 0.0 else f"{p:.3f}"

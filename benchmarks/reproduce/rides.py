@@ -50,7 +50,7 @@ class Told(msgspec.Struct, frozen=True):
 
 
 def tell(task: tuple[str, int]) -> tuple[Told, ...]:
-    """Drive a scenario with a seed, and ask about its foils; errors are told in the result."""
+    """Drive a scenario with a seed, and ask about its foils; errors are in the result."""
     name, seed = task
     foils = tuple(foil for foil in FOILS if foil.scenario == name)
     try:
@@ -60,7 +60,7 @@ def tell(task: tuple[str, int]) -> tuple[Told, ...]:
 
 
 def broken(task: tuple[str, int], error: str) -> tuple[Told, ...]:
-    """What is told of a ride that broke off."""
+    """Describe a ride that failed."""
     name, seed = task
     return tuple(Told(foil, seed, error=error) for foil in FOILS if foil.scenario == name)
 
@@ -96,13 +96,13 @@ def _ask(conversation: Conversation, foil: Foil, seed: int, at: float, network: 
 
 
 def _contrastive(reply: Reply) -> Answer | Refusal | None:
-    """The first answer of a reply that the paper has a sentence for; None: there is none."""
+    """Return the first answer of a reply that the paper has a sentence for; None: there is none."""
     answers = msgspec.convert(reply.answers, tuple[Answer | Refusal, ...])
     return next((one for one in answers if contrast_of(one) is not None), None)
 
 
 def _wordings(answer: Answer | Refusal, contrast: Contrast, foil: Foil) -> tuple[Wording, ...]:
-    """The answer put into words in each size that the rows of its foil have."""
+    """Return the answer put into words in each size that the rows of its foil have."""
     found = []
     for effects, causes in dict.fromkeys((row.effects, row.causes) for row in rows_of(foil)):
         context = SpeechContext(style="paper", max_effects=effects, max_causes=causes)
@@ -126,7 +126,7 @@ def _weighed(
 def _drive(
     scenario: Scenario, seed: int, network: Network, told: Sequence[Told]
 ) -> dict[Action, Happened]:
-    """What SUMO makes of the foils from the very decisions that were explained.
+    """Return what SUMO makes of the foils from the very decisions that were explained.
 
     One that cannot be driven is left out.
     """

@@ -106,5 +106,5 @@ ROWS = (
 
 
 def rows_of(foil: Foil) -> tuple[Row, ...]:
-    """The rows of a foil, those of all tables."""
+    """Return the rows of a foil, those of all tables."""
     return tuple(row for row in ROWS if row.foil == foil)

@@ -123,7 +123,7 @@ def _size_of(one: Row | Wording) -> tuple[int, int]:
 
 
 def _size(rows: Sequence[Row], told: Sequence[Told]) -> SizeFound:
-    """The rows of one size beside our sentences of that size."""
+    """Return the rows of one size beside our sentences of that size."""
     effects, causes = size = _size_of(rows[0])
     said = [(w, one.seed) for one in told for w in one.wordings if _size_of(w) == size]
     apart = {w.text: _apart(w.claim, rows) for w, _ in said}
@@ -137,7 +137,7 @@ def _size(rows: Sequence[Row], told: Sequence[Told]) -> SizeFound:
 
 
 def _apart(ours: Claim, rows: Sequence[Row]) -> tuple[Part, ...]:
-    """What tells a claim from the row nearest to it; nothing where it is in a row."""
+    """Return what tells a claim from the row nearest to it; nothing where it is in a row."""
     return min((differing(ours, row.claim) for row in rows), key=len)
 
 
@@ -165,7 +165,7 @@ def _counted(said: Sequence[tuple[str, int]]) -> tuple[Sentence, ...]:
 
 
 def _complete(text: str) -> bool:
-    """Whether nothing is missing: neither the end, nor a cause after its "because"."""
+    """Check whether nothing is missing: neither the end, nor a cause after its "because"."""
     return text.startswith("If ego had ") and text.endswith(".") and "because ." not in text
 
 

@@ -51,7 +51,7 @@ def weigh(
     rows: Sequence[Row],
     network: Network,
 ) -> Weighed | None:
-    """The evidence on a foil; None where no rollout begins with it.
+    """Return the evidence on a foil; None where no rollout begins with it.
 
     Args:
         trace: the decision.
@@ -112,7 +112,7 @@ def _bearing(
 
 
 def _goes(trace: PlanTrace, cause: Doing, choice: Choice) -> bool:
-    """Whether a choice ends as the actions do; the first of them may be done already."""
+    """Check whether a choice ends as the actions do; the first of them may be done already."""
     goals = next(p.goals for p in trace.predictions if p.vehicle == cause.vehicle)
     done = goals[choice[0]].trajectories[choice[1]].actions
     moves = tuple(action for action in done if action != "continue")

@@ -22,7 +22,7 @@ class NoBrowser(RunFault):
 
 
 def program() -> str:
-    """Where the browser is.
+    """Return where the browser is.
 
     Raises:
         NoBrowser: none is installed.
@@ -53,7 +53,7 @@ class Window:
         self.page.goto(address)
 
     def run(self, program: str) -> Any:
-        """What an expression or program of the page comes to."""
+        """Return what an expression or program of the page comes to."""
         return self.page.evaluate(program)
 
     def until(self, condition: str) -> None:
@@ -76,7 +76,7 @@ class Window:
         self.page.wait_for_timeout(1000.0 * seconds)
 
     def heap(self) -> int:
-        """The memory of the page's program after a collection [bytes]."""
+        """Return the memory of the page's program after a collection [bytes]."""
         self.session.send("Performance.enable")
         self.session.send("HeapProfiler.collectGarbage")
         told = self.session.send("Performance.getMetrics")["metrics"]
@@ -85,7 +85,7 @@ class Window:
 
 @contextmanager
 def opened() -> Iterator[Window]:
-    """A page in a browser of its own, closed at the end.
+    """Yield a page in a browser of its own, closed at the end.
 
     Raises:
         NoBrowser: none is installed, or playwright is not.

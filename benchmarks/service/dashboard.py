@@ -89,7 +89,7 @@ class Report(msgspec.Struct, frozen=True):
     dropped: int  # scenes while memory is measured
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         frames: list[tuple[str, ...]] = [
             ("vehicles", "scenes", "painted", "dropped", "frames/s", "ms a frame", "most")
         ]
@@ -137,7 +137,7 @@ def measure(seconds: float, minutes: float, note: Callable[[str], None]) -> Repo
     Args:
         seconds: for each number of vehicles.
         minutes: over which memory is measured.
-        note: is told what goes on.
+        note: takes notes on progress.
 
     Raises:
         NoBrowser: none is installed, or playwright is not.

@@ -68,7 +68,7 @@ class Report(Aimed, frozen=True):
     service_bytes: float  # of the service's memory at the end
 
     def table(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         rows = [
             ("", "asked", "a second", "answered", "busy", "timed out", "lost", "p50 ms", "p99 ms"),
             *(_row(load) for load in self.loads),
@@ -94,7 +94,7 @@ def measure(sessions: int, seconds: float, note: Callable[[str], None]) -> Repor
     Args:
         sessions: how many passengers there are.
         seconds: how long they ask at each rate.
-        note: is told what goes on.
+        note: takes notes on progress.
     """
     watch = Watch()
     note("within one process")
@@ -123,7 +123,7 @@ def measure(sessions: int, seconds: float, note: Callable[[str], None]) -> Repor
 
 
 def _targets(figures: Sequence[Figure], loads: Sequence[Load]) -> Iterator[Target]:
-    """What is to be reached, beside what was."""
+    """Yield what is to be reached, beside what was."""
     taken = {one.name: one.p99 for one in figures}
     for kind, bound in TAILS.items():
         name = f"{OVER_THE_BUS} {kind}"
@@ -134,7 +134,7 @@ def _targets(figures: Sequence[Figure], loads: Sequence[Load]) -> Iterator[Targe
 
 
 def ride(name: str) -> tuple[Conversation, Network]:
-    """A scenario, driven to its end and recorded."""
+    """Return a scenario, driven to its end and recorded."""
     scenario = load(name)
     network = network_of(scenario)
     conversation = Conversation(make_pipeline(), planner_for(network))
@@ -195,6 +195,6 @@ def _crowded(
 
 
 def _counters(backend: LocalBackend) -> dict[str, float]:
-    """How the service fares."""
+    """Return how the service fares."""
     payload = call(backend.bus, Keys().of("alive/service"), b"", 10.0)
     return unpack(payload, AliveReport).counters

@@ -113,7 +113,7 @@ def _load(name: str, rows: list[Question], tally: _Tally, began: float) -> Load:
 
 
 def _end(outcome: Outcome) -> str:
-    """What became of a question, in a word or two."""
+    """Return what became of a question, in a word or two."""
     if isinstance(outcome, TooLate):
         return "timed out"
     try:

@@ -31,14 +31,14 @@ class Served:
     pid: int
 
     def resident(self) -> int:
-        """The memory of the dashboard's process that is in use [bytes]."""
+        """Return the memory of the dashboard's process that is in use [bytes]."""
         pages = int(Path(f"/proc/{self.pid}/statm").read_text(encoding="ascii").split()[1])
         return pages * os.sysconf("SC_PAGE_SIZE")
 
 
 @contextmanager
 def served() -> Iterator[Served]:
-    """A dashboard and a bus; both end with the context.
+    """Yield a dashboard and a bus; both end with the context.
 
     Raises:
         ChildFailed: it does not come up.
@@ -76,7 +76,7 @@ def _started(endpoint: str, folder: Path, said: Path) -> "subprocess.Popen[bytes
 
 
 def _address(process: "subprocess.Popen[bytes]", said: Path) -> str:
-    """Where the dashboard is, by what it says."""
+    """Return where the dashboard is, by what it says."""
     while True:
         ended = process.poll() is not None
         text = said.read_text(encoding="utf-8", errors="replace")

@@ -82,7 +82,7 @@ class Traffic:
         return {name: _state(mover) for name, mover in enumerate(self._movers)}
 
     def _next(self, mover: _Mover) -> Lane:
-        """The lane after a vehicle's; at the end of the map, some other one."""
+        """Return the lane after a vehicle's; at the end of the map, some other one."""
         lanes = self._network.lanes
         if not mover.ahead:
             links = self._network.links_from(mover.lane.id)
@@ -103,7 +103,7 @@ def _state(mover: _Mover) -> VehicleState:
 
 
 class SyntheticVehicle:
-    """Reports what it is told to."""
+    """Reports scenes, traces and events as requested."""
 
     def __init__(self, bus: Bus, keys: Keys, roads: Path | None = None) -> None:
         """Begin a ride.
@@ -111,7 +111,7 @@ class SyntheticVehicle:
         Args:
             bus: to report on.
             keys: of the car.
-            roads: the network file that is told to who asks; None: it is not told.
+            roads: the network file to serve; None: none is served.
         """
         self._bus, self._keys = bus, keys
         self._alive: Presence | None = None

@@ -98,7 +98,7 @@ def measure(
         seeds: of each.
         every: 1 for each decision of a ride, 2 for every other one, ...
         jobs: processes side by side.
-        note: is told the progress.
+        note: takes notes on progress.
         left_out: scenarios that cannot be driven for want of netconvert.
     """
     tasks = [(name, seed, every) for seed in seeds for name in scenarios]

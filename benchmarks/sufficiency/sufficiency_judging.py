@@ -59,7 +59,7 @@ class Read(msgspec.Struct, frozen=True):
 
 
 def read(task: tuple[str, int, int]) -> Read:
-    """Judge the answers of one ride; errors are told in the result."""
+    """Judge the answers of one ride; errors are in the result."""
     scenario, seed, every = task
     try:
         return judged(asked(scenario, seed, every))
@@ -118,7 +118,7 @@ def decision_of(seen: Ridden, one: Answered) -> Decision | None:
 
 
 def _further(other: PlanTrace, trace: PlanTrace) -> bool:
-    """Whether a plan made again is the decision as it was, with further rollouts."""
+    """Check whether a plan made again is the decision as it was, with further rollouts."""
     change = other.what_if
     if change is None or other.sim_time != trace.sim_time:
         return False
@@ -148,7 +148,7 @@ def _judge(ride: Asked, seen: Ridden, one: Answered, text: str) -> Judged:
 
 
 def _shown(sentence: Sentence) -> str:
-    """A sentence as a pattern of what was not understood: figures and vehicles left open."""
+    """Return a sentence as a pattern of what was not understood: figures and vehicles left open."""
     text = FIGURE.sub("#", VEHICLE.sub("V", sentence.text))
     rest = "; ".join(FIGURE.sub("#", VEHICLE.sub("V", one)) for one in sentence.unread)
     return f"{text} [{rest or 'all of it'}]"

@@ -12,7 +12,7 @@ from benchmarks.truth.reckoning import Actions
 from planner.record.trace import Action, HeldUp, PlanTrace
 from sim.scene import EGO
 
-STALE = 0.10  # probability by which a belief that is told as held now may have changed
+STALE = 0.10  # probability by which a belief that is stated as held now may have changed
 SLOWS = 0.4  # [m/s] by which who slows down gets slower, at least
 NEAR = 1.5  # [s] about a time told in which something seen then counts
 WINDOW = 12.0  # [s] before a question about the past in which a reason may lie
@@ -63,7 +63,7 @@ def belief(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 
 def _old(decision: Decision) -> bool:
-    """Whether a decision is more than one older than that in force."""
+    """Check whether a decision is more than one older than that in force."""
     return decision.before is not None and decision.trace.sim_time < decision.before.sim_time
 
 
@@ -75,7 +75,7 @@ def _nearest_named(said: Said, match: re.Match[str]) -> tuple[int, ...]:
 def _slows(
     said: Said, match: re.Match[str], decision: Decision, named: tuple[int, ...]
 ) -> Iterator[Fault]:
-    """Check that whoever is expected to be slow is so in the drives that it holds up."""
+    """Check that a vehicle that is expected to be slow is so in the drives that it holds up."""
     told = re.search(r"(?:down to|at|to) about (\d+) km/h|from \d+ to (\d+) km/h", match["act"])
     stops = re.search(r"\bstop ahead of us", match["act"])
     joins = re.search(r"\bmove in ahead of us", match["act"])

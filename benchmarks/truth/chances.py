@@ -76,7 +76,7 @@ def _few(values: list[float]) -> str:
 
 
 def risks(trace: PlanTrace, kinds: frozenset[str], struck: tuple[int, ...]) -> list[float]:
-    """How many [%] of the drives beginning so collide, all and with the vehicles named."""
+    """Return how many [%] of the drives beginning so collide, all and with the vehicles named."""
     found: list[float] = []
     first = [r for r in trace.rollouts if r.actions and r.actions[0].action in kinds]
     later = [r for r in trace.rollouts if kinds & {step.action for step in r.actions}]

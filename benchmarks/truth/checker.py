@@ -84,7 +84,7 @@ def checked(
 
 
 def _unread(sentence: str, spans: list[tuple[int, int]]) -> tuple[str, ...]:
-    """The clauses of a sentence that no pattern meets, and the figures that none holds."""
+    """Return the clauses of a sentence that no pattern meets, and the figures that none holds."""
     cuts = [(m.start(), m.end()) for m in CLAUSE.finditer(sentence)]
     edges = [0, *(edge for cut in cuts for edge in cut), len(sentence)]
     clauses = zip(edges[::2], edges[1::2], strict=True)

@@ -28,7 +28,7 @@ def gives_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 
 def _party(said: Said, vehicle: int, other: int, time: float) -> bool:
-    """Whether another is near and still before the way of a vehicle."""
+    """Check whether another is near and still before the way of a vehicle."""
     seen, theirs = said.ride.offset(vehicle, other, time), said.ride.offset(other, vehicle, time)
     if seen is None or theirs is None:
         return False
@@ -38,7 +38,7 @@ def _party(said: Said, vehicle: int, other: int, time: float) -> bool:
 
 @claim(r"I am waiting for (?P<whom>V\d+)", r"I (?:have to|am ready to) let (?P<whom>V\d+) go first")
 def we_wait(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that whoever we wait for has not passed, and that we are slow."""
+    """Check that a vehicle that we wait for has not passed, and that we are slow."""
     known = [v for v in said.who(match["whom"]) if _party(said, EGO, v, said.now)]
     speed = min(said.speeds("we", (said.now - 1.0, said.now)), default=0.0)
     if not known:

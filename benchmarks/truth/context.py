@@ -35,7 +35,7 @@ class Said:
     decision: Decision | None = None  # that the answer tells of, where it is known
 
     def who(self, name: str) -> tuple[int, ...]:
-        """The vehicles that a name may stand for."""
+        """Return the vehicles that a name may stand for."""
         if name in ("we", "We", "I", "us"):
             return (EGO,)
         if name.startswith("V"):
@@ -43,7 +43,7 @@ class Said:
         return self.last()
 
     def last(self) -> tuple[int, ...]:
-        """The vehicles that "it" may stand for."""
+        """Return the vehicles that "it" may stand for."""
         spoken = re.findall(r"V(\d+)", self.before + self.text)
         if spoken:
             return tuple(v for k in spoken for v in self.mentions[int(k)].vehicles)
@@ -51,7 +51,7 @@ class Said:
         return (int(asked[1]),) if asked else tuple(self.ride.known(self.now))
 
     def told(self, text: str | None = None) -> tuple[float, float] | None:
-        """The interval [s] that a time phrase of the sentence names, if any does."""
+        """Return the interval [s] that a time phrase of the sentence names, if any does."""
         text = self.text if text is None else text
         if match := CLOCK.search(text):
             time = 60.0 * int(match[1]) + int(match[2])
@@ -64,13 +64,13 @@ class Said:
         return None
 
     def when(self, past: bool, text: str | None = None) -> tuple[float, float]:
-        """The interval [s] told: what a phrase names, or now, or what "did" means in it."""
+        """Return the interval [s] told: what a phrase names, or now, or what "did" means in it."""
         if not past:
             return self.now - 0.15, self.now
         return self.told(text) or self.episode()
 
     def episode(self) -> tuple[float, float]:
-        """The interval that a past question is about: the braking, or all up to now."""
+        """Return the interval that a past question is about: the braking, or all up to now."""
         if re.search(r"\b(stop|stand|wait)", self.question):
             held = [t for t in self.ride.span(0.0, self.now) if self.speeds("we", (t, t))[0] < 1.0]
             if held:
@@ -126,7 +126,7 @@ def claim(*patterns: str) -> Callable[[Check], Check]:
 
 
 def near(told: float, found: list[float], off: float = CLOSE) -> bool:
-    """Whether a value told lies within what was found, give or take."""
+    """Check whether a value told lies within what was found, give or take."""
     return bool(found) and min(found) - off <= told <= max(found) + off
 
 

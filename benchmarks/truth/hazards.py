@@ -17,7 +17,7 @@ STRUCK = r"(?: with (?P<who>V\d+|it))?"
     r"(?: with (?P<who>V\d+))?(?:, against (?P<other>(?:under |over )?\d+ %) for what I d(?:o|id))?"
 )
 def risk_of_foil(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
-    """Check the risk of a collision of a foil, and of the plan where it is told beside."""
+    """Check the risk of a collision of a foil, and of the plan if stated."""
     found = foil_of(said, match)
     if found is None:
         return
@@ -34,7 +34,7 @@ def risk_of_foil(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
     rf" for what I d(?:o|id), and at {PERCENT} for (?P<foil>[^.;]+)"
 )
 def both_risks(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
-    """Check the risks of plan and foil that are told side by side."""
+    """Check the risks of plan and foil that are stated together."""
     decision = said.decision
     foil = None if decision is None else decision.foil_of(match["foil"])
     if decision is None or foil is None:

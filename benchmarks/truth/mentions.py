@@ -40,7 +40,7 @@ class Mention:
 
 
 def mentions(text: str, ride: Ridden, now: float) -> tuple[str, list[Mention]]:
-    """The text with V0, V1, ... in place of what stands for vehicles, and these."""
+    """Return the text with V0, V1, ... in place of what stands for vehicles, and these."""
     known = {v: state for v, state in ride.known(now).items() if v != EGO}
     found: list[Mention] = []
     named: dict[tuple[str | None, str], int] = {}
@@ -63,13 +63,13 @@ def mentions(text: str, ride: Ridden, now: float) -> tuple[str, list[Mention]]:
 
 
 def fits(state: VehicleState, colour: str | None, kind: str | None) -> bool:
-    """Whether a vehicle looks as described."""
+    """Check whether a vehicle looks as described."""
     right_colour = colour is None or state.colour == colour
     return right_colour and (kind is None or state.kind in KINDS[kind])
 
 
 def placed(ride: Ridden, vehicle: int, place: str, time: float) -> bool:
-    """Whether a vehicle is where a place word says, within what people would call so."""
+    """Check whether a vehicle is where a place word says, within what people would call so."""
     seen = ride.offset(EGO, vehicle, time)
     if seen is None:
         return False

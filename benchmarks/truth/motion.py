@@ -139,7 +139,7 @@ def closest_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?P<way> in our way)?"
 )
 def stands(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that a vehicle stands, and in our way where it is told."""
+    """Check that a vehicle stands, and in our way if stated."""
     span = said.when(past(match))
 
     def still(vehicle: int, time: float) -> bool:
@@ -211,7 +211,7 @@ def place_of(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?: on the \w+)?|on our \w+|coming from the \w+|coming towards us)"
 )
 def place_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check where a vehicle is told to be."""
+    """Check the stated place of a vehicle."""
     span = said.when(past(match))
     if not said.some(match["who"], span, lambda v, t: placed(said.ride, v, match["place"], t)):
         yield Fault("place", match[0])

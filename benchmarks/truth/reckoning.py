@@ -96,7 +96,7 @@ def gains(fact: Side, foil: Side) -> dict[Term, float]:
 
 
 def _usual(fact: Side, foil: Side) -> float:
-    """The mean cost [s] of the drives that arrive, on the first side that has some."""
+    """Return the mean cost [s] of the drives that arrive, on the first side that has some."""
     for side in (fact, foil):
         known = [
             (weight, -drive.reward) for drive, weight in side.drives if drive.outcome == "done"
@@ -255,6 +255,6 @@ class Reckoning:
 
 
 def _missed(prior: float, draws: int) -> float:
-    """The mass of undrawn situations for which a drawn one of that prior stands."""
+    """Return the mass of undrawn situations for which a drawn one of that prior stands."""
     gone = (1.0 - min(prior, 1.0)) ** draws
     return prior * gone / (1.0 - gone) if gone < 1.0 else 0.0

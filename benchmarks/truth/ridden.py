@@ -17,7 +17,7 @@ from sim.scene import EGO, Point, VehicleState
 from xavi_dialogue.vehicle.episode import Moment, clock
 
 BRAKING = -0.5  # [m/s2]
-BREAK = 1.0  # [s] between two brakings that are told as one
+BREAK = 1.0  # [s] between two brakings that are stated as one
 
 
 @dataclass(frozen=True)
@@ -33,11 +33,11 @@ class Ridden:
         return max(0, bisect_right(self.times, time + 1e-6) - 1)
 
     def state(self, vehicle: int, time: float) -> VehicleState | None:
-        """A vehicle as seen at a time; None out of view."""
+        """Return a vehicle as seen at a time; None out of view."""
         return self.moments[self.index(time)].scene.vehicles.get(vehicle)
 
     def span(self, start: float, end: float) -> list[float]:
-        """The times of the moments of an interval."""
+        """Return the times of the moments of an interval."""
         inside = self.times[self.index(start) : self.index(end) + 1]
         return [time for time in inside if start - 0.11 <= time]
 
@@ -49,18 +49,18 @@ class Ridden:
         return found
 
     def decided(self, start: float, end: float) -> list[PlanTrace]:
-        """The decisions of an interval, with the one in force when it begins."""
+        """Return the decisions of an interval, with the one in force when it begins."""
         before = [trace for trace in self.traces if trace.sim_time <= start + 1e-6]
         within = [trace for trace in self.traces if start + 1e-6 < trace.sim_time <= end + 1e-6]
         return before[-1:] + within
 
     def place(self, vehicle: int, time: float) -> RoadPlace | None:
-        """Where a vehicle is on the road by the decision in force."""
+        """Return where a vehicle is on the road by the decision in force."""
         trace = self.decided(time, time)[-1]
         return None if trace.road is None else trace.road.places.get(vehicle)
 
     def gap(self, one: int, other: int, time: float) -> float | None:
-        """The distance [m] between two bodies; None where one is out of view."""
+        """Return the distance [m] between two bodies; None where one is out of view."""
         a, b = self.state(one, time), self.state(other, time)
         return None if a is None or b is None else apart(a, b)
 
@@ -79,7 +79,7 @@ class Ridden:
         )
 
     def brakings(self, until: float, vehicle: int = EGO) -> list[tuple[float, float]]:
-        """The stretches in which a vehicle slowed down notably, up to a time."""
+        """Return the stretches in which a vehicle slowed down notably, up to a time."""
         found: list[tuple[float, float]] = []
         for time in self.span(0.0, until):
             state = self.state(vehicle, time)
@@ -92,7 +92,7 @@ class Ridden:
         return [(start, end) for start, end in found if end - start > 0.15]
 
     def turned(self, vehicle: int, start: float, end: float) -> float:
-        """How far [rad] the heading goes to and fro within an interval."""
+        """Return how far [rad] the heading goes to and fro within an interval."""
         states = [self.state(vehicle, time) for time in self.span(start, end)]
         seen = [state.heading for state in states if state is not None]
         turns = [math.remainder(b - a, math.tau) for a, b in pairwise(seen)]
@@ -115,7 +115,7 @@ def centre(state: VehicleState) -> Point:
 
 
 def apart(a: VehicleState, b: VehicleState) -> float:
-    """The distance [m] between two bodies."""
+    """Return the distance [m] between two bodies."""
     if overlap(a, b):
         return 0.0
     one, two = corners(a), corners(b)

@@ -75,7 +75,7 @@ def insufficient(text: str, told: Sequence[Told], decision: Decision) -> Iterato
 def _sign(
     text: str, terms: Sequence[Term | Literal["close", "better"]], foil: Actions, decision: Decision
 ) -> Iterator[Fault]:
-    """Whether what is told for the plan outweighs what is told against it."""
+    """Check that reasons for the plan outweigh those against it."""
     if "close" in terms or "better" in terms:
         return
     known = [sum(gain[t] for t in _meant(terms, gain)) for gain in decision.gains(foil)]
@@ -101,7 +101,7 @@ def _meant(
 
 
 def _no_term(decision: Decision) -> Iterator[Fault]:
-    """Whether the plan is better where only who or what was in the way is told."""
+    """Return whether the plan is better where only who or what was in the way is told."""
     whole = decision.values(decision.asked)
     if whole and max(whole) < -EPSILON:
         yield Fault("plan worse than the foil", f"{seconds(whole)} over {_named(decision.asked)}")
@@ -118,7 +118,7 @@ def _risks(text: str, foils: Sequence[Actions], decision: Decision) -> Iterator[
 
 
 def _same(asked: Actions, told: Actions) -> bool:
-    """Whether two foils are one, but for going straight on at a junction or away from one."""
+    """Check whether two foils are one, but for going straight on at a junction or away from one."""
     straight = {"continue", "exit-straight"}
     return asked[-1] in told or bool({asked[-1], told[-1]} <= straight)
 

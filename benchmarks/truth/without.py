@@ -24,7 +24,7 @@ def tried(decision: Decision, who: tuple[int, ...]) -> list[PlanTrace]:
     r"(?P<who>V\d+) ma(?:kes|de) (?P<how>no difference)",
 )
 def decided_without(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that it was planned again without a vehicle, and came to what is told."""
+    """Check that it was planned again without a vehicle, and had the stated result."""
     if said.decision is None:
         return
     known = tried(said.decision, said.who(match["who"]))
@@ -71,7 +71,7 @@ def nobody_at_all(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"I would (?:have )?do(?:ne)? (?P<how>otherwise|the same, but for less of a reason)"
 )
 def several(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that it was planned again without so many vehicles, and came to what is told."""
+    """Check that it was planned again without so many vehicles, and had the stated result."""
     if said.decision is None:
         return
     named = re.findall(r"V\d+|it", match["who"] or "")

@@ -101,7 +101,7 @@ def _past(draw: Random, sketch: Sketch) -> Vehicle | None:
 
 
 def _ways(sketch: Sketch) -> set[str]:
-    """The edges that matter to the story."""
+    """Return the edges that matter to the story."""
     return {*sketch.ego.route, *(edge for one in sketch.cast for edge in one.route)}
 
 

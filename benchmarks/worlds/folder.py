@@ -53,7 +53,7 @@ def write_traffic(world: World, folder: Path, story: str) -> Scenario:
 
 
 def without(world: World, scenario: Scenario, gone: Collection[int]) -> Scenario:
-    """The scenario of a world without some of its vehicles; its route file stands beside."""
+    """Return the scenario of a world without some of its vehicles; its route file stands beside."""
     name = "-".join(["without", *map(str, sorted(gone))])
     target = scenario.folder / f"{name}.rou.xml"
     _save(_routes(world, gone), target)

@@ -53,7 +53,7 @@ def write_net(family: str, number: int, folder: Path) -> Scenario:
 
 
 def _arguments(draw: Random) -> list[str]:
-    """What netgenerate is asked for."""
+    """Return what netgenerate is asked for."""
     rest = ["--seed", str(draw.randrange(2**31)), "--default.speed", str(draw.choice(LIMITS))]
     rest += ["--default.lanenumber", str(draw.choice((1, 2, 2, 3)))]
     kind = draw.choice(("grid", "spider", "random", "random"))
@@ -101,7 +101,7 @@ def _world(draw: Random, network: Network, number: int) -> World | None:
 def _way(
     draw: Random, network: Network, after: dict[str, tuple[str, ...]]
 ) -> tuple[str, ...] | None:
-    """A way for the ego that visits no edge twice, and its first and last edges are long."""
+    """Return a way for the ego that visits no edge twice, and its first and last edges are long."""
     starts = [e for e in sorted(after) if network.edge_lanes(e)[0].length >= LEAST]
     wanted = draw.uniform(*LONG)
     for _ in range(TRIES if starts else 0):
@@ -118,7 +118,7 @@ def _way(
 def _near(
     network: Network, way: Sequence[str], after: dict[str, tuple[str, ...]]
 ) -> tuple[str, ...]:
-    """The edges that lead to one of a way, or to where one of it begins or ends."""
+    """Return the edges that lead to one of a way, or to where one of it begins or ends."""
     ends = {end for edge in way for end in (edge, *after.get(edge, ()))}
     return tuple(e for e in sorted(after) if ends & {*after[e]})
 
@@ -126,7 +126,7 @@ def _near(
 def _other(
     draw: Random, network: Network, after: dict[str, tuple[str, ...]], places: Sequence[str]
 ) -> Vehicle | None:
-    """A vehicle somewhere on some edges, with a way of its own."""
+    """Return a vehicle somewhere on some edges, with a way of its own."""
     edge = draw.choice(places)
     lanes = network.edge_lanes(edge)
     length = lanes[0].length

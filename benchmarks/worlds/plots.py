@@ -68,7 +68,7 @@ def distractor(draw: Random) -> Sketch:
 
 
 def nobody(draw: Random) -> Sketch:
-    """The ego slows down for a turn as it would alone, with somebody ahead of it."""
+    """Return the ego slows down for a turn as it would alone, with somebody ahead of it."""
     arm = draw.choice(("north", "south"))
     roads = crossing(draw, arms=(arm,))
     ego, _ = approaching(draw, roads.edges, "west", f"{arm}_out")
@@ -81,7 +81,7 @@ def nobody(draw: Random) -> Sketch:
 
 
 def _slow_ahead(draw: Random, main: Edge) -> tuple[Vehicle, Vehicle]:
-    """The ego, and somebody slow ahead of it."""
+    """Return the ego, and somebody slow ahead of it."""
     ego = starting(draw, ("main",), main, draw.uniform(10.0, 40.0))
     place = ego.position + draw.uniform(28.0, 55.0)
     top = main.speed * draw.uniform(0.3, 0.5)

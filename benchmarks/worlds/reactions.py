@@ -42,7 +42,7 @@ def _waiting(draw: Random, roads: Roads, route: tuple[str, str], end: str) -> Sk
 
 
 def _pulls_out(draw: Random) -> Sketch:
-    """One in the lane beside pulls out before the ego to pass somebody slow."""
+    """Return one in the lane beside pulls out before the ego to pass somebody slow."""
     roads = straight(draw, 2, (350.0, 500.0))
     main = roads.edges["main"]
     ego = replace(starting(draw, ("main",), main, draw.uniform(10.0, 30.0)), lane=1)

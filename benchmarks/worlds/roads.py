@@ -15,7 +15,7 @@ ASIDE = (22.0, 40.0)  # [m] between the main road and one that meets it nowhere
 
 
 def straight(draw: Random, lanes: int, length: tuple[float, float]) -> Roads:
-    """A road from west to east and back without junctions, and another beside it.
+    """Return a road from west to east and back without junctions, and another beside it.
 
     Args:
         draw: where chance comes from.
@@ -30,7 +30,7 @@ def straight(draw: Random, lanes: int, length: tuple[float, float]) -> Roads:
 
 
 def crossing(draw: Random, lanes: int = 1, arms: tuple[str, ...] = ()) -> Roads:
-    """A main road from west to east that a minor road joins, or crosses, at J.
+    """Return a main road from west to east that a minor road joins, or crosses, at J.
 
     The edges towards J are named `west_in` and so on, those away from it `west_out`.
 
@@ -76,19 +76,19 @@ def bent(draw: Random, roads: Roads) -> Roads:
 
 
 def _about(node: Node, angle: float) -> Node:
-    """A node turned about the junction."""
+    """Return a node turned about the junction."""
     cos, sin = math.cos(angle), math.sin(angle)
     return Node(node.id, node.x * cos - node.y * sin, node.x * sin + node.y * cos, node.end)
 
 
 def _away(node: Node) -> Node:
-    """A node of the road beside, three times as far away."""
+    """Return a node of the road beside, three times as far away."""
     far = 3.0 if node.id.startswith("aside") else 1.0
     return Node(node.id, far * node.x, far * node.y, node.end)
 
 
 def _arc(nodes: dict[str, Node], edge: Edge, bow: float) -> Edge:
-    """An edge along an arc that turns by an angle [rad] to the left of the way there."""
+    """Return an edge along an arc that turns by an angle [rad] to the left of the way there."""
     a, b = nodes[edge.start], nodes[edge.end]
     forth = edge.id in ("main", "aside_there")
     chord = math.dist((a.x, a.y), (b.x, b.y))
@@ -135,7 +135,7 @@ def _with_aside(
 
 
 def _turned(draw: Random, nodes: list[Node], edges: list[Edge]) -> Roads:
-    """The roads with the compass turned at random."""
+    """Return the roads with the compass turned at random."""
     angle = draw.uniform(-math.pi, math.pi)
     cos, sin = math.cos(angle), math.sin(angle)
     turned = (

@@ -12,7 +12,7 @@ TALL: tuple[Shape, ...] = ("truck", "bus")
 
 
 def leader(draw: Random) -> Sketch:
-    """One lane: somebody ahead is slow, or stands for a while."""
+    """Return one lane: somebody ahead is slow, or stands for a while."""
     roads = straight(draw, 1, (260.0, 420.0))
     main = roads.edges["main"]
     ego = starting(draw, ("main",), main, draw.uniform(10.0, 40.0))
@@ -39,7 +39,7 @@ def leader_on_two_lanes(draw: Random) -> Sketch:
 
 
 def cross(draw: Random) -> Sketch:
-    """The ego comes to a give-way line as somebody on the main road does."""
+    """Return the ego comes to a give-way line as somebody on the main road does."""
     roads = crossing(draw, arms=("south",))
     ends = ["west_out", "east_out"] + ["north_out"] * ("north_out" in roads.edges)
     end = draw.choice(ends)
@@ -55,14 +55,14 @@ def merge(draw: Random) -> Sketch:
 
 
 def oncoming(draw: Random) -> Sketch:
-    """The ego turns left, and somebody comes towards it."""
+    """Return the ego turns left, and somebody comes towards it."""
     roads = crossing(draw, arms=("north",))
     ego, time = approaching(draw, roads.edges, "west", "north_out")
     return Sketch(roads, ego, (meeting(draw, roads.edges, "east", time),))
 
 
 def occluder(draw: Random) -> Sketch:
-    """A tall vehicle of no concern hides, for some time, the one that matters."""
+    """Return a tall vehicle of no concern hides, for some time, the one that matters."""
     return draw.choice((_behind_a_standing_one, _behind_one_that_leaves, _behind_one_ahead))(draw)
 
 
@@ -70,12 +70,12 @@ ONE = (leader, leader_on_two_lanes, cross, merge, oncoming, occluder)
 
 
 def one(draw: Random) -> Sketch:
-    """One vehicle alone matters."""
+    """Return one vehicle alone matters."""
     return draw.choice(ONE)(draw)
 
 
 def _joining(draw: Random) -> Sketch:
-    """A slow vehicle turns from the side road into the ego's."""
+    """Return a slow vehicle turns from the side road into the ego's."""
     arm = draw.choice(("south", "north"))
     roads = crossing(draw, arms=(arm,))
     main = roads.edges["west_in"]
@@ -99,7 +99,7 @@ def _joining(draw: Random) -> Sketch:
 
 
 def _cutting_in(draw: Random) -> Sketch:
-    """A vehicle ahead in the left lane takes the ego's lane for its turn to the right."""
+    """Return a vehicle ahead in the left lane takes the ego's lane for its turn to the right."""
     roads = crossing(draw, lanes=2, arms=("south",))
     main = roads.edges["west_in"]
     ego = starting(draw, ("west_in", "east_out"), main, draw.uniform(15.0, 60.0))
@@ -119,7 +119,7 @@ def _cutting_in(draw: Random) -> Sketch:
 
 
 def _behind_a_standing_one(draw: Random) -> Sketch:
-    """A tall vehicle stands opposite the ego's lane before a give-way line."""
+    """Return a tall vehicle stands opposite the ego's lane before a give-way line."""
     roads = crossing(draw, arms=("south",))
     end = draw.choice(["west_out", "east_out"] + ["north_out"] * ("north_out" in roads.edges))
     ego, time = approaching(draw, roads.edges, "south", end)
@@ -131,7 +131,7 @@ def _behind_a_standing_one(draw: Random) -> Sketch:
 
 
 def _behind_one_ahead(draw: Random) -> Sketch:
-    """A tall vehicle goes straight on before the ego, which turns left."""
+    """Return a tall vehicle goes straight on before the ego, which turns left."""
     roads = crossing(draw, arms=("north",))
     ego, time = approaching(draw, roads.edges, "west", "north_out")
     planted = meeting(draw, roads.edges, "east", time)
@@ -142,7 +142,7 @@ def _behind_one_ahead(draw: Random) -> Sketch:
 
 
 def _behind_one_that_leaves(draw: Random) -> Sketch:
-    """A tall vehicle comes slowly along the road that the ego comes from."""
+    """Return a tall vehicle comes slowly along the road that the ego comes from."""
     sketch = _behind_a_standing_one(draw)
     top = draw.uniform(1.5, 5.0)
     place = draw.uniform(12.0, 20.0)

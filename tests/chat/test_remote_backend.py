@@ -176,7 +176,7 @@ def test_who_rides_along_sets_no_pace_and_sees_when_the_car_is_gone(town: Town) 
     with meet(THERE, ADA, 0.2) as (along, client):
         controller = ChatController(along, client, SessionHistory(client, "ada", THERE.header))
         for order in (controller.pause, controller.resume, lambda: controller.speed(2.0)):
-            with pytest.raises(CommandError, match="I only ride along here"):
+            with pytest.raises(CommandError, match="Only the program that started the car"):
                 order()
         with pytest.raises(CommandError):
             along.drive(client, child_commands.Until(8.0))

@@ -1,4 +1,4 @@
-"""A mind made by hand: what each text means and what each question is answered is laid down."""
+"""A pipeline with fixed meanings of texts and fixed answers to questions."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -71,7 +71,7 @@ class Faked:
 
 
 class Talk:
-    """A conversation with a mind made by hand, about the first story."""
+    """A conversation with a fake pipeline, about the first story."""
 
     def __init__(self, faked: Faked) -> None:
         self.faked, self.pipeline = faked, faked.pipeline()

@@ -1,4 +1,4 @@
-"""A scripted mind: it understands the names of what it shall do."""
+"""A scripted pipeline: it understands the names of what it must do."""
 
 from planner.record.trace import PlanTrace
 from xavi_dialogue.dialogue.pipeline import Pipeline
@@ -25,7 +25,7 @@ _LACKING = {"lack": 1, "lack, break": 1, "lack more": 2, "lack forever": 99}
 
 
 def order(text: str) -> Act:
-    """The act of a text that names what the mind shall do."""
+    """The act of a text that names what the pipeline must do."""
     return Ask(Identify(Unknown(text)))
 
 

@@ -572,7 +572,7 @@ def test_a_turn_that_was_kept_before_a_kill_is_not_said_twice(keeping: Retention
 
 
 def foreseeing(bench: Bench, calls: list[NeedRollout]) -> None:
-    """Have the mind need a plan to say why."""
+    """Have the pipeline need a plan to say why."""
 
     def explain(act: GroundedAct, record: Record) -> Result:
         need = NeedRollout(trace_id=record.traces[0].trace_id, removed=1)

@@ -167,7 +167,7 @@ PARTS: Mapping[Deed, tuple[tuple[str, tuple[str, ...], tuple[str, ...]], ...]] =
 
 
 def member(role: str, name: str | None = None) -> Member:
-    """A member of the bus.
+    """Return a member of the bus.
 
     Raises:
         BadName: there is no such role, or the name is not allowed.
@@ -235,7 +235,7 @@ def _rules(grant: Grant, one: Member) -> list[dict[str, Json]]:
 
 
 def table() -> str:
-    """The roles as a table in Markdown."""
+    """Return the roles as a table in Markdown."""
     titles: dict[str, tuple[Deed, ...]] = {
         "publishes": ("publish", "publish-kept"),
         "subscribes to": ("subscribe", "subscribe-kept"),

@@ -64,7 +64,7 @@ class Authority:
 
     @classmethod
     def new(cls, now: datetime, valid: timedelta) -> Self:
-        """A new one.
+        """Return a new one.
 
         Args:
             now: from when on it is valid; with a zone.
@@ -151,7 +151,7 @@ def read(certificate: bytes) -> CertificateInfo:
 
 
 def utc_now() -> datetime:
-    """The time of day."""
+    """Return the time of day."""
     return datetime.now(UTC)
 
 

@@ -89,7 +89,7 @@ class HealthReporter:
 
 
 def resident_bytes() -> int:
-    """The memory of this process that is in use [bytes].
+    """Return the memory of this process that is in use [bytes].
 
     Raises:
         OSError: the system does not report it.

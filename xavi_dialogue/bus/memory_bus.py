@@ -39,7 +39,7 @@ class MemoryHub:
     )
 
     def connect(self) -> "MemoryBus":
-        """A new connection."""
+        """Return a new connection."""
         return MemoryBus(self)
 
     def tell(self, key: str, alive: bool) -> None:

@@ -326,7 +326,7 @@ class _Label(msgspec.Struct):
 
 
 def pack(message: AnyMessage) -> bytes:
-    """The message as JSON."""
+    """Return the message as JSON."""
     return msgspec.json.encode(message)
 
 

@@ -19,5 +19,5 @@ def clean(text: str) -> str:
 
 
 def one_line(text: str) -> str:
-    """The text cleaned, on one line, with single spaces."""
+    """Return the text cleaned, on one line, with single spaces."""
     return " ".join(clean(text.replace("\t", " ")).split())

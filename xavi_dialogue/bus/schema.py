@@ -21,7 +21,7 @@ POINTER = "#/$defs/"
 
 
 def schema_of(message: type, name: str | None = None) -> dict[str, Any]:
-    """The JSON Schema of a message type, complete in itself: without `$ref` and `$defs`.
+    """Return the JSON Schema of a message type, complete in itself: without `$ref` and `$defs`.
 
     Args:
         message: a msgspec Struct or a dataclass.

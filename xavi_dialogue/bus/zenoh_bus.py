@@ -295,13 +295,13 @@ def _unreachable(config: zenoh.Config) -> str:
 
 
 def certificate_of(link: Link) -> Path | None:
-    """The file of the certificate that a link shows; BadLink as in `join`."""
+    """Return the file of the certificate that a link shows; BadLink as in `join`."""
     named = json.loads(_config(link).get_json(CERTIFICATE))
     return None if named is None else Path(named)
 
 
 def _config(link: Link) -> zenoh.Config:
-    """The configuration of a session.
+    """Return the configuration of a session.
 
     Raises:
         BadLink: the file cannot be used, or an endpoint or mode.

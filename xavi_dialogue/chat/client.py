@@ -35,6 +35,7 @@ from xavi_dialogue.bus.sanitize import clean
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Reason, Unavailable
 from xavi_dialogue.nlg.context import SpeechContext, Style
+from xavi_dialogue.process.exit_status import RunFault
 
 DEADLINE = 10.0  # [s] for an answer
 GRACE = 0.5  # [s] transport of a reply
@@ -47,7 +48,7 @@ T = TypeVar("T")
 OnEvent: TypeAlias = Callable[[EventReport], None]
 
 
-class ServiceLost(Exception):
+class ServiceLost(RunFault):
     """The service does not answer."""
 
 
@@ -161,7 +162,7 @@ class Client:
             raise _lost(error) from error
 
     def history(self, turns: int = MAX_TURNS) -> tuple[PastTurn, ...]:
-        """The latest turns of the session, oldest first; waits for them.
+        """Return the latest turns of the session, oldest first; waits for them.
 
         Args:
             turns: at most so many, 1 to 100.
@@ -174,7 +175,7 @@ class Client:
         return self._call("@rpc/history", wanted, read).turns
 
     def evidence(self, trace_id: str) -> PlanTrace:
-        """A decision of the present ride, or one planned again, by its id; waits for it.
+        """Return a decision of the present ride, or one planned again, by its id; waits for it.
 
         Raises:
             ServiceLost: there is no reply, or the decision is no longer in the record.
@@ -243,7 +244,7 @@ class Client:
 
 
 def new_request() -> str:
-    """A name for a request."""
+    """Return a name for a request."""
     return secrets.token_hex(8)
 
 

@@ -35,7 +35,7 @@ class ChatController:
         self._backend, self._client, self._session_history = backend, client, session_history
 
     def status(self) -> str:
-        """One line: time, speed, plan."""
+        """Return one line: time, speed, plan."""
         scene = self._client.scene
         if scene is None:
             return "waiting for the car"
@@ -132,12 +132,12 @@ class ChatController:
         self._backend.check()
 
     def new_request(self) -> str:
-        """A name for a question."""
+        """Return a name for a question."""
         return new_request()
 
 
 def vehicles_in_words(scene: SceneReport | None) -> str:
-    """The other vehicles in view, a line each."""
+    """Return the other vehicles in view, a line each."""
     if scene is None:
         return ALONE
     looks = (look_in(scene.vehicles, name, scene.sim_time) for name in sorted(scene.vehicles))

@@ -88,7 +88,7 @@ class SessionHistory:
         try:
             return self.client.history()
         except ServiceLost as error:
-            raise CommandError(f"What was said cannot be had: {error}.") from error
+            raise CommandError(f"The conversation is not available: {error}.") from error
 
 
 def _steps(turns: Iterable[PastTurn]) -> Iterator[At | Exchange]:

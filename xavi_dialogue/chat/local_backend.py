@@ -158,7 +158,7 @@ def start_processes(
     *,
     seeks: bool = False,
 ) -> Iterator[LocalBackend]:
-    """The same with any command that reports and obeys like a car.
+    """Yield the same with any command that reports and obeys like a car.
 
     Args:
         car: arguments of `xavi`; the endpoint to connect to is added.

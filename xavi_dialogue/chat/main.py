@@ -118,7 +118,7 @@ def at_terminal(ride: ChatOptions, history: Path, note: Write, *, speed: float) 
 def start_backend(
     ride: ChatOptions, speed: float, options: LocalOptions
 ) -> AbstractContextManager[LocalBackend]:
-    """The processes behind a conversation about a ride.
+    """Return the processes behind a conversation about a ride.
 
     Args:
         ride: to drive, or to play.
@@ -137,7 +137,7 @@ def start_backend(
 def client_of(
     passenger: Passenger, bus: Bus, keys: Keys, on_event: OnEvent | None = None
 ) -> Client:
-    """A passenger on the bus."""
+    """Return a passenger on the bus."""
     token, share = passenger.token, passenger.share
     return Client(bus, keys, passenger.session, on_event, token=token, share=share)
 

@@ -26,7 +26,7 @@ BRIEFLY = 5.0  # [s] the same for one question
 BACK = 15.0  # [s] for a service to come back
 POLL = 0.1  # [s]
 NAMED = 10  # cars that are named at most
-DECLINED = "I only ride along here: whoever started the car sets its pace."
+DECLINED = "Only the program that started the car sets its pace."
 GONE = "the car is not on the bus"
 
 

@@ -16,7 +16,7 @@ from xavi_dialogue.vehicle.episode import network_of, start
 def ask_once(
     scenario: Scenario, seed: int, text: str, until: float | None, style: Style = "passenger"
 ) -> Reply:
-    """The reply to a question asked at a moment of the ride.
+    """Return the reply to a question asked at a moment of the ride.
 
     Args:
         scenario: to drive.

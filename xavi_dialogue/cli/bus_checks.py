@@ -155,7 +155,7 @@ def component(bus: Bus, key: str) -> Finding:
 
 
 def told(findings: Iterable[Finding]) -> Iterator[str]:
-    """The findings as lines for people, 80 columns wide."""
+    """Yield the findings as lines for people, 80 columns wide."""
     counted = dict.fromkeys(SIGNS, 0)
     for finding in findings:
         counted[finding.verdict] += 1

@@ -11,49 +11,17 @@ from xavi_dialogue.bus.access_control import BadName
 from xavi_dialogue.bus.certificates import CertificateError
 from xavi_dialogue.bus.interface import BadLink, BusError
 from xavi_dialogue.bus.sanitize import one_line
-from xavi_dialogue.chat.client import ServiceLost
 from xavi_dialogue.chat.remote_backend import NotOnBus
-from xavi_dialogue.cli.parse import ParseUsageError
-from xavi_dialogue.cli.session_admin import SessionUsageError
 from xavi_dialogue.dashboard.web import MISSING
-from xavi_dialogue.dashboard.web.address import ListenError
-from xavi_dialogue.inspection.search_tree import TreeError
-from xavi_dialogue.inspection.trace_files import TraceFileError
-from xavi_dialogue.process.config import SettingsError
 from xavi_dialogue.process.exit_status import ExitStatus, RunFault, UsageFault
-from xavi_dialogue.process.subprocesses import ChildFailed
-from xavi_dialogue.security.client_token import IdentityError
-from xavi_dialogue.security.provisioning import BadEndpoint, KeysError, KeysExist, NotOnlyKeys
-from xavi_dialogue.storage.database import StoreError
-from xavi_dialogue.storage.recording_format import (
-    FileThere,
-    NotARecording,
-    NothingToPlay,
-    RecordingError,
-    TooMuch,
-)
-from xavi_dialogue.storage.ride_file import RideFileError
-from xavi_dialogue.transcripts.transcript import TranscriptError
 
+#: The status of each error: the first kind that fits. Packages that may import `process` derive
+#: their errors from `UsageFault` and `RunFault`.
 _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
-    (
-        (
-            *(ScenarioError, ParseUsageError, TranscriptError, TraceFileError, RideFileError),
-            *(TreeError, UsageFault, SessionUsageError, SettingsError, BadLink),
-            *(KeysExist, NotOnlyKeys, BadEndpoint, BadName, CertificateError),
-            *(FileThere, NotARecording, NothingToPlay, TooMuch, ListenError),
-        ),
-        ExitStatus.USAGE,
-    ),
-    (
-        (
-            *(SimulationError, DriverError, TraceError, BusError, ChildFailed, ServiceLost),
-            *(RunFault, StoreError, KeysError, IdentityError, RecordingError),
-            NetconvertMissing,
-        ),
-        ExitStatus.FAILED,
-    ),
+    ((UsageFault, ScenarioError, BadLink, BadName, CertificateError), ExitStatus.USAGE),
     ((NotOnBus,), ExitStatus.PLANNER_UNAVAILABLE),
+    ((RunFault, BusError, SimulationError, DriverError, TraceError), ExitStatus.FAILED),
+    ((NetconvertMissing,), ExitStatus.FAILED),
 )
 
 

@@ -58,7 +58,7 @@ Check: TypeAlias = Callable[[CheckedSystem], Finding]
 
 
 def python(_: CheckedSystem) -> Finding:
-    """The interpreter."""
+    """Return the interpreter."""
     found = f"{sys.version.split()[0]} at {sys.executable}"
     if sys.version_info < PYTHON:
         return Finding("python", "fault", found, "install Python 3.11 or newer and run make again")
@@ -66,7 +66,7 @@ def python(_: CheckedSystem) -> Finding:
 
 
 def packages(_: CheckedSystem) -> Finding:
-    """The packages that this program requires, extras left out."""
+    """Return the packages that this program requires, extras left out."""
     try:
         lines = importlib.metadata.requires(OURS) or []
     except importlib.metadata.PackageNotFoundError:
@@ -94,7 +94,7 @@ def _lacking(requirement: str) -> str | None:
 
 
 def _numbers(version: str) -> tuple[int, ...]:
-    """The numbers of a release, without zeros at its end."""
+    """Return the numbers of a release, without zeros at its end."""
     numbers = [int(part) for part in re.findall(r"\d+", version.partition("+")[0])]
     while numbers and not numbers[-1]:
         numbers.pop()
@@ -120,7 +120,7 @@ def maps(_: CheckedSystem) -> Finding:
 
 
 def compiled(_: CheckedSystem) -> Finding:
-    """The planner's compiled kernels."""
+    """Return the planner's compiled kernels."""
     place = kernel_cache.place()
     if place is None or place.name.startswith(kernel_cache.LENT):
         found = "nowhere to keep them: every command compiles them anew"
@@ -204,7 +204,7 @@ def terminal(_: CheckedSystem) -> Finding:
 
 
 def settings(patient: CheckedSystem) -> Finding:
-    """The file of settings."""
+    """Return the file of settings."""
     if patient.mistake is not None:
         return Finding("settings", "fault", patient.mistake, f"mend or remove {patient.settings}")
     if not patient.settings.exists():

@@ -13,25 +13,22 @@ from xavi_dialogue.nlu.notation import acts_line, reading_line
 from xavi_dialogue.nlu.parse import Parser
 from xavi_dialogue.nlu.projection import QueryFields, project_readings
 from xavi_dialogue.nlu.projection.fields import TALK
+from xavi_dialogue.process.exit_status import UsageFault
 
 MAX_VEHICLE = 10_000
-
-
-class ParseUsageError(ValueError):
-    """The command was used wrongly."""
 
 
 def vehicle_names(text: str) -> frozenset[int]:
     """Return the names in "0-5" or "0,2,7".
 
     Raises:
-        ParseUsageError: the text is neither.
+        UsageFault: the text is neither.
     """
     names: set[int] = set()
     for part in text.split(","):
         first, _, last = part.strip().partition("-")
         if not first.isdecimal() or not (last or first).isdecimal():
-            raise ParseUsageError(f"--vehicles takes names such as 0-5 or 0,2,7, not {text!r}")
+            raise UsageFault(f"--vehicles takes names such as 0-5 or 0,2,7, not {text!r}")
         names.update(range(int(first), min(int(last or first), MAX_VEHICLE) + 1))
     return frozenset(names)
 
@@ -87,7 +84,7 @@ def parse_lines(
         note: takes notes.
 
     Raises:
-        ParseUsageError: at the end, if some lines were invalid.
+        UsageFault: at the end, if some lines were invalid.
     """
     parser = Parser()
     broken = count = 0
@@ -104,7 +101,7 @@ def parse_lines(
         query = query_of(parser, question.text, question.context or ())
         yield msgspec.json.encode({"id": question.id, "query": query}).decode()
     if broken:
-        raise ParseUsageError(f"{broken} of {count} lines hold no question")
+        raise UsageFault(f"{broken} of {count} lines hold no question")
 
 
 def query_of(parser: Parser, text: str, context: Sequence[str] = ()) -> QueryFields:

@@ -10,16 +10,13 @@ from typing import Protocol
 
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.nlg.narration import clock
+from xavi_dialogue.process.exit_status import UsageFault
 from xavi_dialogue.storage.conversations import DAY, Store
 from xavi_dialogue.storage.database import Unwritable
 from xavi_dialogue.storage.rows import Summary
 
 WIDEST = 48  # characters of a question in the table
 HEAD = ("session", "turns", "last spoken in", "ride", "the last question")
-
-
-class SessionUsageError(ValueError):
-    """The options do not fit together, or name no session."""
 
 
 class InputHistoryFile(Protocol):
@@ -44,12 +41,12 @@ class ForgetOptions:
         """Check that it is clear what to erase.
 
         Raises:
-            SessionUsageError: it is not.
+            UsageFault: it is not.
         """
         if self.everything and (self.session is not None or self.older_than is not None):
-            raise SessionUsageError("--all goes with neither a session nor --older-than")
+            raise UsageFault("--all goes with neither a session nor --older-than")
         if not self.everything and self.session is None and self.older_than is None:
-            raise SessionUsageError("name a session, or give --all, or --older-than DAYS")
+            raise UsageFault("name a session, or give --all, or --older-than DAYS")
 
     def words(self) -> str:
         """Describe what will be erased."""
@@ -64,7 +61,7 @@ def kept(path: Path, name: str | None) -> tuple[Summary, ...]:
 
     Raises:
         StoreError: the file cannot be read.
-        SessionUsageError: there is no such session; the message lists those there are.
+        UsageFault: there is no such session; the message lists those there are.
     """
     if path.exists():
         with Store(path) as store:
@@ -76,11 +73,11 @@ def kept(path: Path, name: str | None) -> tuple[Summary, ...]:
 
 
 def export(path: Path, name: str | None) -> Iterator[str]:
-    """One session, or all, as lines of JSON.
+    """Yield one session, or all, as lines of JSON.
 
     Raises:
         StoreError: the file cannot be read.
-        SessionUsageError: there is no such session.
+        UsageFault: there is no such session.
     """
     if path.exists():
         with Store(path) as store:
@@ -91,7 +88,7 @@ def export(path: Path, name: str | None) -> Iterator[str]:
 
 
 def table(sessions: Sequence[Summary], zone: Callable[[float], datetime]) -> str:
-    """The sessions, a line each under a head.
+    """Return the sessions, a line each under a head.
 
     Args:
         sessions: to list.
@@ -123,7 +120,7 @@ def forget(
 
     Raises:
         StoreError: it cannot be erased.
-        SessionUsageError: it is not clear what to erase, or there is no such session.
+        UsageFault: it is not clear what to erase, or there is no such session.
     """
     wanted.check()
     with Store(path) if path.exists() else nullcontext() as store:
@@ -143,7 +140,7 @@ def _know(session: str, store: Store | None, typed: InputHistoryFile) -> None:
     """Check that a session is stored, or that nothing of it is left.
 
     Raises:
-        SessionUsageError: it is not stored; the message lists those that are.
+        UsageFault: it is not stored; the message lists those that are.
         StoreError: the file cannot be read, or erased data is still in it.
     """
     if session in typed.sessions():
@@ -159,7 +156,7 @@ def _check(name: str | None, store: Store) -> None:
     """Check that there is a session of that name, if any.
 
     Raises:
-        SessionUsageError: there is none; the message lists those there are.
+        UsageFault: there is none; the message lists those there are.
         StoreError: the file cannot be read.
     """
     if name is not None and not store.holds(name):
@@ -173,9 +170,9 @@ def _erase(typed: InputHistoryFile, session: str | None, before: float | None) -
         raise Unwritable(f"what was typed cannot be erased: {error.strerror}") from error
 
 
-def _unknown(name: str, others: Sequence[str]) -> SessionUsageError:
+def _unknown(name: str, others: Sequence[str]) -> UsageFault:
     known = ", ".join(others) or "none at all"
-    return SessionUsageError(f"there is no conversation {name}; there are: {known}")
+    return UsageFault(f"there is no conversation {name}; there are: {known}")
 
 
 def _row(one: Summary, zone: Callable[[float], datetime]) -> tuple[str, ...]:

@@ -33,7 +33,7 @@ class BusClient:
     passenger: Passenger
 
     async def history(self, turns: int) -> HistoryReply:
-        """The latest so many turns.
+        """Return the latest so many turns.
 
         Raises:
             Unanswered: there is no answer.
@@ -46,7 +46,7 @@ class BusClient:
             raise Unanswered(str(error)) from error
 
     async def evidence(self, trace_id: str) -> PlanTrace:
-        """A decision of the present ride, or one planned again.
+        """Return a decision of the present ride, or one planned again.
 
         Raises:
             Unanswered: there is no answer, or the decision is no longer known.

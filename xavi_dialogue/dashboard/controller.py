@@ -96,7 +96,7 @@ class Controller:
             try:
                 await self._look()
             except Exception:
-                _LOG.exception("a fault of ours", extra={"vehicle": self.keys.vehicle})
+                _LOG.exception("internal error", extra={"vehicle": self.keys.vehicle})
 
     async def _look(self) -> None:
         for message in self.record.wait(time.monotonic()):
@@ -171,7 +171,7 @@ class Controller:
         return self.archive.roads(name)
 
     def past(self) -> bytes:
-        """All moments so far."""
+        """Return all moments so far."""
         return self.record.past()
 
     def decision(self, name: str) -> bytes | None:
@@ -272,4 +272,4 @@ class Controller:
 def _done(tasks: set[asyncio.Task[None]], task: asyncio.Task[None]) -> None:
     tasks.discard(task)
     if not task.cancelled() and task.exception() is not None:
-        _LOG.error("a fault of ours", exc_info=task.exception())
+        _LOG.error("internal error", exc_info=task.exception())

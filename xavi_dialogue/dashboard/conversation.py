@@ -54,7 +54,7 @@ class Conversation:
         return Turns(turns=tuple(shown(begin + k, t) for k, t in enumerate(fresh)), reset=reset)
 
     def all(self) -> Turns:
-        """All that are known."""
+        """Return all that are known."""
         told = tuple(shown(self.first + k, turn) for k, turn in enumerate(self.turns))
         return Turns(turns=told, reset=True)
 
@@ -65,7 +65,7 @@ class Conversation:
         return last.suggestions if last is not None and last.kind == "answer" else ()
 
     def turn(self, n: int) -> PastTurn | None:
-        """One of them."""
+        """Return one of them."""
         k = n - self.first
         return self.turns[k] if 0 <= k < len(self.turns) else None
 
@@ -100,7 +100,7 @@ class Conversation:
 
 
 def shown(n: int, turn: PastTurn) -> TurnShown:
-    """A turn as browsers get it."""
+    """Return a turn as browsers get it."""
     return TurnShown(
         n=n,
         text=clean(turn.text),

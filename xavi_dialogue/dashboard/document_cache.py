@@ -72,7 +72,7 @@ class DocumentCache:
         self._reading = asyncio.get_running_loop().create_task(self._learn(ride.ride))
 
     def roads(self, name: str) -> bytes | None:
-        """The roads of a hash."""
+        """Return the roads of a hash."""
         return self._roads.get(name)
 
     def decision(self, name: str) -> bytes | None:

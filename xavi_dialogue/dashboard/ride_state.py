@@ -104,7 +104,7 @@ class RideState:
         return None if index < 0 else self.trace_cache.get(self.decisions[index].id)
 
     def past(self) -> bytes:
-        """All moments so far: `documents.Past` as JSON."""
+        """Return all moments so far: `documents.Past` as JSON."""
         reports = self.rides.reports
         return self.moments.document("" if reports is None else reports.ride)
 
@@ -143,7 +143,7 @@ class RideState:
 
 
 def happened(event: Event) -> Happened:
-    """An event as browsers get it."""
+    """Return an event as browsers get it."""
     return Happened(
         t=event.sim_time,
         kind=event.kind,

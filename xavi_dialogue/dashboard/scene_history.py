@@ -45,7 +45,7 @@ class SceneHistory:
                 self._keep(index, time, msgspec.json.encode(row))
 
     def document(self, ride: str) -> bytes:
-        """All moments: `documents.Past` as JSON."""
+        """Return all moments: `documents.Past` as JSON."""
         return b'{"ride":%b,"scenes":[%b]}' % (msgspec.json.encode(ride), b",".join(self._packed))
 
     def _keep(self, index: int, time: float, packed: bytes) -> None:

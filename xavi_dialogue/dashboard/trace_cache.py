@@ -38,7 +38,7 @@ class TraceCache:
             self._hold(trace)
 
     def get(self, name: str) -> PlanTrace | None:
-        """The trace of an id; None where it is not here (any more)."""
+        """Return the trace of an id; None where it is not here (any more)."""
         if name in self._at_hand:
             self._at_hand.move_to_end(name)
             return self._at_hand[name]

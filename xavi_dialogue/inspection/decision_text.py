@@ -43,7 +43,7 @@ class Extent:
 
 
 def show(trace: PlanTrace, extent: Extent) -> str:
-    """The decision as text.
+    """Return the decision as text.
 
     Raises:
         TreeError: the rollouts are no search.
@@ -58,7 +58,7 @@ def show(trace: PlanTrace, extent: Extent) -> str:
 
 
 def listing(traces: Sequence[PlanTrace]) -> str:
-    """One line for each decision of a ride."""
+    """Return one line for each decision of a ride."""
     rows: list[Row] = [("decision", "time", "speed", "plan")]
     for trace in traces:
         ego = trace.scene.get(EGO)
@@ -197,7 +197,7 @@ def _hindrances(held_up: Sequence[Hindrance]) -> str:
 
 
 def _compared(rows: Sequence[Compared]) -> Iterator[str]:
-    """The first actions by the weights of the samples that all were tried with."""
+    """Yield the first actions by the weights of the samples that all were tried with."""
     yield f"What was compared: {rows[0].samples} joint samples by their weights"
     table = [
         (

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 
 from planner.record.trace import ACTIONS, OUTCOMES, Action, HoldUp, Outcome, PlanTrace, Rollout
 from planner.search.tree import Node, Tree
+from xavi_dialogue.process.exit_status import UsageFault
 
 DEEPEST = 32  # macro actions in a row; the search takes far fewer
 
 
-class TreeError(ValueError):
+class TreeError(UsageFault):
     """Rollouts that are no search."""
 
 
@@ -58,7 +59,7 @@ class _Record:
 
 
 def grow(trace: PlanTrace) -> Branch:
-    """The root of a trace's search tree.
+    """Return the root of a trace's search tree.
 
     Raises:
         TreeError: a rollout takes more actions than any search does.
@@ -80,7 +81,7 @@ def grow(trace: PlanTrace) -> Branch:
 
 
 def replayed(trace: PlanTrace) -> Tree:
-    """The search's own tree: its rollouts backed up once more."""
+    """Return the search's own tree: its rollouts backed up once more."""
     tree = Tree()
     for rollout in trace.rollouts:
         if not rollout.forced:
@@ -104,7 +105,7 @@ def compared(trace: PlanTrace) -> dict[Action, float]:
 
 
 def _alike(trace: PlanTrace) -> dict[Action, float]:
-    """The same from a trace without weights."""
+    """Return the same from a trace without weights."""
     drawn = [rollout for rollout in trace.rollouts if not rollout.forced]
     added = trace.rollouts[len(drawn) :]
     rivals = [action for action in ACTIONS if any(_first(one) == action for one in drawn)]

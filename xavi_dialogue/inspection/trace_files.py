@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from planner.record.trace import PlanTrace, TraceError, decode
+from xavi_dialogue.process.exit_status import UsageFault
 from xavi_dialogue.storage.ride_file import RideFileError, load
 
 MAX_RIDE_BYTES = 64 * 1024 * 1024
@@ -16,7 +17,7 @@ GZIP = b"\x1f\x8b"
 EPSILON = 1e-6  # [s]
 
 
-class TraceFileError(ValueError):
+class TraceFileError(UsageFault):
     """A file that holds no trace that can be shown, or not the one asked for."""
 
 
@@ -29,7 +30,7 @@ class Traces:
 
 
 def content(name: str) -> bytes:
-    """The bytes of a file; `-` is standard input.
+    """Return the bytes of a file; `-` is standard input.
 
     Raises:
         TraceFileError: it cannot be opened, or is too large.

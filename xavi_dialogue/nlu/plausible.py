@@ -118,7 +118,7 @@ def _top(act: Act) -> float:
         case Ask(question=Whether(that=Related(thing=Nobody()) | Is(thing=Nobody()), tag=False)):
             return SLIGHT  # "there is nobody in front" rather tells that
         case Claim(that=Not(content=Happens(event=Event("do", Passenger(), None)))):
-            return ODD  # "I do not", of which nothing is told
+            return ODD  # "I do not", of which nothing is stated
         case Request(event=Event(action="do", object=None) | Event(actor=Described())):
             return ODD
         case Elliptic(thing=Ego() | Passenger(), event=None, time=Unsaid(), form="same" | "why"):
@@ -160,7 +160,7 @@ def _own(value: Any) -> float:
         case Why(suspect=Pronoun(form="it" | "this")):
             return DOUBTFUL
         case WhatIf(supposed=Is(state="visible", thing=Ego())):
-            return ODD  # "had you seen", of which nothing is told
+            return ODD  # "had you seen", of which nothing is stated
         case HowMany(of=Pronoun() | Unknown() | Feature(kind="space" | "way")):
             return ODD
         case HowDecide(of=Caused()):

@@ -62,7 +62,7 @@ class ChildCommandError(ValueError):
 
 
 def write(order: Order) -> str:
-    """The order as a line."""
+    """Return the order as a line."""
     match order:
         case Speed(factor):
             return f"speed {factor!r}"
@@ -75,7 +75,7 @@ def write(order: Order) -> str:
 
 
 def read(line: str) -> Order:
-    """The order in a line.
+    """Return the order in a line.
 
     Raises:
         ChildCommandError: the line is no order.

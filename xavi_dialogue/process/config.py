@@ -15,15 +15,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
+from xavi_dialogue.process.exit_status import UsageFault
+
 Options: TypeAlias = Mapping[str, Mapping[str, str]]  # by command: options and their parameters
 
 
-class SettingsError(ValueError):
+class SettingsError(UsageFault):
     """A file of settings that cannot be used."""
 
 
 def default_path() -> Path:
-    """The file of this user."""
+    """Return the file of this user."""
     # Deferred: few commands need it.
     from platformdirs import user_config_path
 
@@ -31,7 +33,7 @@ def default_path() -> Path:
 
 
 def read(path: Path, options: Options) -> dict[str, dict[str, Any]]:
-    """The options that a file sets, by command and parameter.
+    """Return the options that a file sets, by command and parameter.
 
     Args:
         path: of the file.

@@ -30,7 +30,7 @@ class ExitStatus(IntEnum):
 
 
 def status_of(reply: "Reply") -> ExitStatus:
-    """The exit status for a reply."""
+    """Return the exit status for a reply."""
     if reply.kind == "answer":
         return ExitStatus.ANSWERED
     match reply.reason:

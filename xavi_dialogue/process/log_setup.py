@@ -59,7 +59,7 @@ class LineFormatter(logging.Formatter):
         self._telling = telling
 
     def format(self, record: logging.LogRecord) -> str:
-        """One line, without its end."""
+        """Return one line, without its end."""
         try:
             fields = self._fields(record)
         except Exception:  # a wrong format string must not stop the ride

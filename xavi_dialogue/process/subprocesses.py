@@ -16,6 +16,7 @@ from types import TracebackType
 from typing import Self
 
 from xavi_dialogue.process import child_commands
+from xavi_dialogue.process.exit_status import RunFault
 from xavi_dialogue.process.log_setup import is_log
 
 TOP = Path(__file__).parents[2]  # the root of the packages, in a checkout or installed
@@ -25,7 +26,7 @@ FORCED = 1.0  # [s] and after SIGTERM
 WARNING = "xavi: warning: "  # the prefix of lines for the passenger
 
 
-class ChildFailed(Exception):
+class ChildFailed(RunFault):
     """A child process ended when it should not."""
 
 
@@ -216,7 +217,7 @@ class OptionalChild:
 
 
 def last_words(said: Sequence[str]) -> str:
-    """The last line that is no log and not empty; its log is written later than all else."""
+    """Return the last line that is no log and not empty; its log is written later than all else."""
     return next((line for line in reversed(said) if line.strip() and not is_log(line)), "")
 
 

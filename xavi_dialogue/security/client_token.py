@@ -15,10 +15,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from xavi_dialogue.process.exit_status import RunFault
+
 SECRET_BYTES = 32
 
 
-class IdentityError(Exception):
+class IdentityError(RunFault):
     """The user's secret cannot be read or created."""
 
 
@@ -32,7 +34,7 @@ class Passenger:
 
 
 def default_path() -> Path:
-    """The file of this user's secret."""
+    """Return the file of this user's secret."""
     # Deferred: few commands need it.
     from platformdirs import user_state_path
 

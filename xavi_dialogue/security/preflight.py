@@ -86,7 +86,7 @@ def check(link: Link, doing: Doing) -> Member | None:
 
 
 def own_name(link: Link, named: str | None) -> str | None:
-    """The name of a car that is to report a ride.
+    """Return the name of a car that is to report a ride.
 
     Args:
         link: to the hub.

@@ -20,6 +20,7 @@ from pathlib import Path
 from xavi_dialogue.bus.access_control import ROLES, Json, Member, access_control, member
 from xavi_dialogue.bus.certificates import Authority, Identity
 from xavi_dialogue.bus.zenoh_bus import SAFE
+from xavi_dialogue.process.exit_status import RunFault, UsageFault
 
 HUB = "service"  # the role of the hub's process
 LISTEN = "tls/127.0.0.1:7447"
@@ -31,19 +32,19 @@ AUTHORITY = "ca"
 SECRET, PUBLIC = 0o600, 0o644
 
 
-class KeysError(Exception):
+class KeysError(RunFault):
     """No keys were made."""
 
 
-class KeysExist(KeysError):
+class KeysExist(KeysError, UsageFault):
     """The folder has keys, which are not overwritten."""
 
 
-class NotOnlyKeys(KeysError):
+class NotOnlyKeys(KeysError, UsageFault):
     """The folder has other files, which are not deleted."""
 
 
-class BadEndpoint(KeysError):
+class BadEndpoint(KeysError, UsageFault):
     """Nothing to listen at or to connect to with certificates."""
 
 
@@ -107,7 +108,7 @@ def _host(endpoint: str) -> str:
 
 
 def material(order: KeyOptions, folder: Path, now: datetime) -> dict[str, bytes]:
-    """The files of a folder of keys, by their names.
+    """Return the files of a folder of keys, by their names.
 
     Args:
         order: the options.
@@ -134,7 +135,7 @@ def _files(name: str, identity: Identity) -> dict[str, bytes]:
 
 
 def configuration(one: Member, order: KeyOptions, folder: Path) -> dict[str, Json]:
-    """The Zenoh configuration of a member: of the hub, or of one of its clients."""
+    """Return the Zenoh configuration of a member: of the hub, or of one of its clients."""
     name, hub = one.common_name, one.role == HUB
     link: dict[str, object] = {
         "root_ca_certificate": str(folder / f"{AUTHORITY}.pem"),
@@ -215,7 +216,7 @@ def _check(folder: Path, force: bool) -> None:
     if there and not force:
         raise KeysExist(
             f"there are keys in {folder}; with --force all of them are replaced,"
-            " and whoever has one of the old ones is shut out"
+            " and the old ones are no longer accepted"
         )
 
 

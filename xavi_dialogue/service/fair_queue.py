@@ -33,7 +33,7 @@ class FairQueue(Generic[Item]):
             LookupError: the queue is empty.
         """
         if not self._waiting:
-            raise LookupError("nobody waits")
+            raise LookupError("the queue is empty")
         who = next(iter(self._waiting))
         items = self._waiting.pop(who)
         item = items.popleft()

@@ -85,7 +85,7 @@ class Conversation:
             self._tell(RideEnded(clock(moment)))
 
     def ask(self, text: str, at: float, style: Style = "passenger") -> Reply:
-        """The reply to a question asked at a moment [s] of the ride."""
+        """Return the reply to a question asked at a moment [s] of the ride."""
         self.asked += 1
         request = str(self.asked)
         output = self._tell(Asked(request, SESSION, text, at, style))

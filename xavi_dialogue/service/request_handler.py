@@ -88,7 +88,7 @@ class RequestHandler:
         return self.vehicles[vehicle]
 
     def all_vehicles(self) -> list[VehicleSession]:
-        """Those of cars, and that of all others."""
+        """Return those of cars, and that of all others."""
         return [*self.vehicles.values(), self.nowhere]
 
     def waiting(self) -> int:
@@ -230,7 +230,7 @@ class RequestHandler:
         return self.vehicles.get(vehicle, self.nowhere), wanted
 
     def _read(self, call: Call, kind: type[Told]) -> tuple[str, Told]:
-        """The car that a request is about, and the request.
+        """Return the car that a request is about, and the request.
 
         Raises:
             Refusal: it cannot be read.

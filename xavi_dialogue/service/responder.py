@@ -63,7 +63,7 @@ class Responder:
     sent: dict[tuple[str, str], tuple[AskRequest, bytes, float]] = field(default_factory=dict)
 
     def next(self) -> int:
-        """The sequence number of a reply."""
+        """Return the sequence number of a reply."""
         self.replies += 1
         return self.replies - 1
 

@@ -32,7 +32,7 @@ class Scheduler:
         return self.open.get(question.name) is question
 
     def of(self, session: str) -> list[Question]:
-        """The open questions of a session, oldest first."""
+        """Return the open questions of a session, oldest first."""
         return [one for one in self.open.values() if one.asked.session == session]
 
     def let_wait(self, question: Question) -> None:

@@ -156,7 +156,7 @@ class Service:
             pass  # the client has disconnected
         except Exception:
             self.alive.count("faults")
-            _LOG.exception("a fault of ours")
+            _LOG.exception("internal error")
 
     def _settle(self, vehicle_session: VehicleSession) -> None:
         """Answer one question of a vehicle's session, and update the average time."""

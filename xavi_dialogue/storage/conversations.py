@@ -123,7 +123,7 @@ class Store:
                         file.execute("INSERT OR IGNORE INTO events VALUES (?, ?, ?, ?)", row)
 
     def turns(self, session: str, limit: int) -> tuple[Turn, ...]:
-        """The latest turns of a session, oldest first."""
+        """Return the latest turns of a session, oldest first."""
         sql = "SELECT turn FROM turns WHERE session = ? ORDER BY number DESC LIMIT ?"
         rows = self._file.rows(sql, (session, limit))
         return tuple(decoded(self.path, session, turn, Turn) for (turn,) in reversed(rows))
@@ -134,7 +134,7 @@ class Store:
         return decoded_owner(self.path, session, rows[0][0]) if rows else None
 
     def answered(self, session: str, request: str, since: float) -> Turn | None:
-        """The turn, among the latest of a session, with which a request was answered.
+        """Return the turn, among the latest of a session, with which a request was answered.
 
         Args:
             session: that it is of.
@@ -159,7 +159,7 @@ class Store:
         return tuple(known(self.path, name) for (name,) in rows)
 
     def sessions(self, name: str | None = None) -> tuple[Summary, ...]:
-        """All sessions, or that of a name, the one that was spoken in last at the end."""
+        """Return all sessions, or that of a name, the one that was spoken in last at the end."""
         rows = self._file.rows(
             "SELECT name, count, first, last, scenario, seed, driven.sim_time, said.turn FROM"
             " (SELECT session AS name, count(*) AS count, min(wall_time) AS first,"

@@ -19,6 +19,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
+from xavi_dialogue.process.exit_status import RunFault
+
 APPLICATION = 0x58415649  # "XAVI", in the file's header
 PAUSE = 0.05  # [s] between attempts to open a file that another process is creating
 PAGE = 4096  # bytes
@@ -30,7 +32,7 @@ _BROKEN = frozenset({sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB, sqlite3.SQLI
 _UNFIT = (OverflowError, UnicodeError, ValueError, sqlite3.DataError, sqlite3.InterfaceError)
 
 
-class StoreError(Exception):
+class StoreError(RunFault):
     """The file cannot be used."""
 
 
@@ -272,7 +274,7 @@ class Database:
 
 
 def _plain(error: Exception) -> str:
-    """What an error says, without what cannot be printed."""
+    """Return what an error says, without what cannot be printed."""
     return str(error).encode(errors="backslashreplace").decode()
 
 

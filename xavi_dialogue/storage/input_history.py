@@ -24,7 +24,7 @@ class _Entry:
     session: str | None  # None: not known
 
     def within(self, session: str | None, before: datetime | None) -> bool:
-        """Whether it was typed in a session, None being any, and before a moment, if any."""
+        """Check whether it was typed in a session, None being any, and before a moment, if any."""
         if session is not None and self.session not in (None, session):
             return False
         return before is None or (self.time is not None and self.time < before)
@@ -65,7 +65,7 @@ class UnsavedInputHistory(InMemoryHistory):
 
 
 def sessions(file: Path) -> frozenset[str]:
-    """The sessions in which something was typed, as far as they are known.
+    """Return the sessions in which something was typed, as far as they are known.
 
     Raises:
         OSError: the file cannot be read.

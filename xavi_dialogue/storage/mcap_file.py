@@ -51,7 +51,7 @@ GZIP = "application/gzip"
 
 
 def _ending() -> bytes:
-    """The end of a file without an index."""
+    """Return the end of a file without an index."""
     builder = RecordBuilder()
     DataEnd(0).write(builder)
     Footer(0, 0, 0).write(builder)
@@ -207,7 +207,7 @@ def _within(number: int, limit: int) -> int:
 
 
 def _made(path: Path, overwrite: bool) -> int:
-    """An empty file, readable by its owner alone.
+    """Return an empty file, readable by its owner alone.
 
     Raises:
         OSError: there is one already, or it cannot be created.

@@ -32,6 +32,7 @@ from xavi_dialogue.bus.messages import (
 )
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.bus.schema import schema_of
+from xavi_dialogue.process.exit_status import RunFault, UsageFault
 
 PROFILE = "xavi"
 NETWORK_ENDING = ".net.xml.gz"
@@ -51,23 +52,23 @@ RECORDED: Mapping[str, type[Report | TurnReport]] = {
 }
 
 
-class RecordingError(Exception):
+class RecordingError(RunFault):
     """A recording cannot be written, read or played."""
 
 
-class NotARecording(RecordingError):
+class NotARecording(RecordingError, UsageFault):
     """No MCAP file, or not of this program."""
 
 
-class NothingToPlay(RecordingError):
+class NothingToPlay(RecordingError, UsageFault):
     """No ride in it that can be played."""
 
 
-class TooMuch(RecordingError):
+class TooMuch(RecordingError, UsageFault):
     """More than can be held while it is played."""
 
 
-class FileThere(RecordingError):
+class FileThere(RecordingError, UsageFault):
     """The file exists already."""
 
 
@@ -105,13 +106,13 @@ Piece: TypeAlias = Entry | AttachedFile | Truncation
 
 
 def kind_of(key: str) -> type[Report | TurnReport] | None:
-    """The message that is recorded under a key; None: nothing is."""
+    """Return the message that is recorded under a key; None: nothing is."""
     tail = key.split("/", 3)[-1]
     return next((kind for end, kind in RECORDED.items() if matches(end, tail)), None)
 
 
 def network_name(vehicle: str, ride: str) -> str:
-    """The name of the file with the roads of a ride."""
+    """Return the name of the file with the roads of a ride."""
     return f"{vehicle}/{ride}{NETWORK_ENDING}"
 
 
@@ -126,7 +127,7 @@ def unpacked(data: bytes) -> bytes | None:
 
 
 def schema_to_view(kind: type[msgspec.Struct]) -> dict[str, Any]:
-    """A JSON Schema of a message that viewers of MCAP files can read.
+    """Return a JSON Schema of a message that viewers of MCAP files can read.
 
     They read a field's one `type`, and of lists what all items are. So fields that may be null,
     and lists within lists, are left undeclared: all messages fit the schema, but so do others.
@@ -181,11 +182,11 @@ class RecordedMessages:
     networks: tuple[bytes, ...] = ()  # packed; see `unpacked`
 
     def scene(self, index: int) -> SceneReport:
-        """A scene."""
+        """Return a scene."""
         return unpack(self.scenes[index], SceneReport)
 
     def trace(self, index: int) -> plan_trace.PlanTrace:
-        """A decision."""
+        """Return a decision."""
         return unpack(self.traces[index], TraceReport).trace
 
     @property
@@ -292,7 +293,7 @@ def _add(tracks: dict[str, _Track], entry: Entry, kind: Any) -> None:
 def read_ride(
     pieces: Iterable[Piece], vehicle: str | None = None
 ) -> tuple[RecordedMessages, str | None]:
-    """The latest ride of a car in a recording.
+    """Return the latest ride of a car in a recording.
 
     Args:
         pieces: of the recording.

@@ -22,7 +22,7 @@ class ResumePoint:
     before: Summary | None = None  # None: it is new
 
     def place(self, asked: str | None) -> str:
-        """The scenario to drive: as asked, else that of before."""
+        """Return the scenario to drive: as asked, else that of before."""
         known = None if self.before is None else self.before.scenario
         return asked or known or DEFAULT_SCENARIO
 

@@ -11,9 +11,10 @@ import msgspec
 from planner.record.events import Event
 from planner.record.trace import PlanTrace, WhatIf
 from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.process.exit_status import UsageFault
 
 
-class RideFileError(ValueError):
+class RideFileError(UsageFault):
     """A recorded ride that cannot be read or written."""
 
 
@@ -54,7 +55,7 @@ def key(need: NeedRollout) -> str:
 
 
 def dump(ride: RecordedRide) -> bytes:
-    """The ride as a file; the same ride gives the same bytes."""
+    """Return the ride as a file; the same ride gives the same bytes."""
     lines = [_Line(scenario=ride.scenario, seed=ride.seed, halt=ride.halt)]
     lines += [_Line(trace=trace) for trace in ride.traces]
     lines += [_Line(event=event) for event in ride.events]

@@ -64,7 +64,7 @@ class _Asked(msgspec.Struct):
 
 
 def known(path: Path, name: object) -> str:
-    """The name of a session.
+    """Return the name of a session.
 
     Raises:
         Damaged: it is none.
@@ -107,7 +107,7 @@ def checked(path: Path, session: str, fields: Mapping[str, object], kind: type[T
 
 
 def decoded_owner(path: Path, session: str, text: object) -> str:
-    """The digest of a session's owner.
+    """Return the digest of a session's owner.
 
     Raises:
         Damaged: it is none.

@@ -35,7 +35,7 @@ class Retention:
 
 
 def default_path() -> Path:
-    """The file of this user's conversations."""
+    """Return the file of this user's conversations."""
     # Deferred: few importers of this module need it.
     from platformdirs import user_data_path
 

@@ -8,7 +8,7 @@ class ChatInterface(Protocol):
     """A chat as the terminal uses it."""
 
     def status(self) -> str:
-        """One line: time, speed, plan."""
+        """Return one line: time, speed, plan."""
 
     def vehicles(self) -> str:
         """Describe the vehicles in view."""
@@ -20,7 +20,7 @@ class ChatInterface(Protocol):
         """Return the words that Tab can complete."""
 
     def ask(self, text: str, request: str) -> Awaitable[str]:
-        """The answer to a question."""
+        """Return the answer to a question."""
 
     def why(self) -> Awaitable[str]:
         """Return the question why about the latest answer or action."""

@@ -68,14 +68,14 @@ class SilentScreen(Vt100_Output):
 
 
 def silent_screen(stdout: TextIO, terminal: str | None) -> SilentScreen:
-    """The terminal that a stream writes to."""
+    """Return the terminal that a stream writes to."""
     screen = SilentScreen.from_pty(stdout, term=terminal)
     assert isinstance(screen, SilentScreen)
     return screen
 
 
 def wrap(text: str, width: int) -> str:
-    """The text without terminal escapes, in lines of at most `width` columns.
+    """Return the text without terminal escapes, in lines of at most `width` columns.
 
     Lines break between words; a word wider than a line breaks where it must. Wide characters
     count twice, combining ones not at all and stay with what they combine with.

@@ -47,7 +47,7 @@ class Command:
 
 
 def forms(place: Place) -> tuple[Form, ...]:
-    """The commands that work in a place."""
+    """Return the commands that work in a place."""
     return tuple(form for form in _forms().values() if place == "terminal" or not form.terminal)
 
 
@@ -105,7 +105,7 @@ def moment(argument: str) -> float:
 
 
 def listed(place: Place, width: int) -> str:
-    """The commands, in lines of at most `width` columns."""
+    """Return the commands, in lines of at most `width` columns."""
     usages = {form.usage: form.does for form in forms(place)}
     column = max(map(len, usages)) + 2
     lines = []

@@ -78,7 +78,7 @@ class Replayed:
 
 
 def transcripts_in(folder: Path) -> tuple[Written, ...]:
-    """The transcripts of a folder, by name.
+    """Return the transcripts of a folder, by name.
 
     Raises:
         TranscriptError: there are none, or one cannot be read.
@@ -96,7 +96,7 @@ def by_ride(written: Sequence[Written]) -> Mapping[Path, tuple[Written, ...]]:
 
 
 def recording(path: Path) -> RecordedRide:
-    """A recorded ride; of a single decision, a ride that consists of it.
+    """Return a recorded ride; of a single decision, a ride that consists of it.
 
     Raises:
         RideFileError: there is none.

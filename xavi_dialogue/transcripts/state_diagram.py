@@ -12,7 +12,7 @@ BEGIN, END = "<!-- conversation: begin -->\n", "<!-- conversation: end -->"
 
 
 def drawn(document: str) -> str:
-    """The document with the diagram as it is now between its marks.
+    """Return the document with the diagram as it is now between its marks.
 
     Raises:
         ValueError: the marks are missing.

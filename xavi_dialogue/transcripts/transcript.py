@@ -27,6 +27,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal, TypeAlias, get_args
 
+from xavi_dialogue.process.exit_status import UsageFault
+
 _MOMENT = re.compile(r"@\s*(\d{1,6}(?:\.\d{1,6})?)\s*s?")
 _HEADER = re.compile(r"(\w+):\s*(.*)")
 KEYS = ("scenario", "seed", "style", "trace")
@@ -44,7 +46,7 @@ Befallen: TypeAlias = Literal[
 BEFALLEN: tuple[Befallen, ...] = get_args(Befallen)
 
 
-class TranscriptError(ValueError):
+class TranscriptError(UsageFault):
     """A transcript that cannot be read."""
 
 
@@ -89,7 +91,7 @@ class Transcript:
     steps: tuple[Step, ...]
 
     def get(self, key: str, default: str | None = None) -> str | None:
-        """A value of the header."""
+        """Return a value of the header."""
         return dict(self.header).get(key, default)
 
 
@@ -160,7 +162,7 @@ def _befallen(number: int, line: str) -> Befallen:
 
 
 def write(transcript: Transcript) -> str:
-    """The transcript as text; `read` gives it back."""
+    """Return the transcript as text; `read` gives it back."""
     blocks = ["\n".join(f"{key}: {value}" for key, value in transcript.header)]
     before: Step | None = None
     for step in transcript.steps:

@@ -88,7 +88,7 @@ def moments(world: World, driver: Drives, step: float, duration: float) -> Itera
 
 
 def clock(moment: Moment) -> float:
-    """The time [s] of a moment, as it is reported and asked about."""
+    """Return the time [s] of a moment, as it is reported and asked about."""
     return round(moment.scene.time, 6)
 
 
@@ -107,12 +107,12 @@ def halts(until: float | None, time: float, events: Sequence[Event]) -> bool:
 
 
 def network_of(scenario: Scenario) -> Network:
-    """The road network of a scenario."""
+    """Return the road network of a scenario."""
     return read_network(scenario.network)
 
 
 def settings_of(scenario: Scenario) -> Settings:
-    """The planner's settings in a scenario."""
+    """Return the planner's settings in a scenario."""
     return Settings(view_radius=scenario.view_radius, reacting=True)
 
 

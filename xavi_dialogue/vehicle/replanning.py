@@ -126,7 +126,7 @@ def durations(traces: Sequence[PlanTrace], network: Network) -> Mapping[str, tup
 
 
 def _examples(trace: PlanTrace) -> Iterator[tuple[str, WhatIf]]:
-    """One request of each kind; about the vehicle with the lowest name."""
+    """Yield one request of each kind; about the vehicle with the lowest name."""
     if trace.plan:
         yield "actions forced", WhatIf((trace.plan[0].action,))
     for prediction in trace.predictions[:1]:

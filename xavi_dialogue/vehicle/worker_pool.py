@@ -84,7 +84,7 @@ class _Worker:
         niceness = min(os.getpriority(os.PRIO_PROCESS, 0) + NICENESS, 19)
         with contextlib.suppress(ProcessLookupError):
             os.setpriority(os.PRIO_PROCESS, self._process.pid, niceness)
-        threading.Thread(target=self._listen, name="whatif-ear", daemon=True).start()
+        threading.Thread(target=self._listen, name="whatif-replies", daemon=True).start()
 
     @property
     def pid(self) -> int:

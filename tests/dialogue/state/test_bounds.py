@@ -1,4 +1,4 @@
-"""What the manager keeps of a ride, and when it stops planning again, with a scripted mind."""
+"""What the manager keeps of a ride, and when it stops planning again, with a scripted pipeline."""
 
 from collections.abc import Iterable
 from typing import Any

@@ -1,4 +1,4 @@
-"""Turns of several acts, repairs, clarifications and whys, with a mind made by hand."""
+"""Turns of several acts, repairs, clarifications and whys, with a fake pipeline."""
 
 import msgspec
 import pytest

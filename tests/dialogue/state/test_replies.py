@@ -1,4 +1,4 @@
-"""What is replied to acts of every kind, with a mind made by hand."""
+"""What is replied to acts of every kind, with a fake pipeline."""
 
 from typing import Any
 

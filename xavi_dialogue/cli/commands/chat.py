@@ -43,7 +43,7 @@ AnyScenario = Annotated[
     typer.Option("--scenario", help="A name, a folder, or a .sumocfg. Default: s1."),
 ]
 Share = Annotated[
-    bool, typer.Option("--share", help="Let others on the bus read what is asked and answered.")
+    bool, typer.Option("--share", help="Let others on the bus read the conversation.")
 ]
 
 
@@ -69,7 +69,7 @@ def _chat(shell: Streams) -> Callable[..., None]:
             typer.Option(dir_okay=False, metavar="FILE", help="Record the ride (MCAP)."),
         ] = None,
         force: Annotated[
-            bool, typer.Option("--force", help="Of --record: overwrite a file that is there.")
+            bool, typer.Option("--force", help="With --record: overwrite an existing file.")
         ] = False,
         store: StoreFile = None,
         keep_days: KeepDays = KEEP_DAYS,

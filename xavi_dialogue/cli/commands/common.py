@@ -57,7 +57,7 @@ def place(
 
 
 def to_json(value: object) -> str:
-    """The value as one line of JSON."""
+    """Return the value as one line of JSON."""
     import msgspec
 
     return msgspec.json.encode(value).decode()
@@ -76,10 +76,10 @@ ScenarioName = Annotated[
     str, typer.Option("--scenario", help="A name, a folder, or a SUMO configuration (.sumocfg).")
 ]
 EgoId = Annotated[
-    str | None, typer.Option("--ego", metavar="ID", help="Of a .sumocfg: the vehicle to be.")
+    str | None, typer.Option("--ego", metavar="ID", help="With a .sumocfg: the vehicle to drive.")
 ]
 EgoFrom = Annotated[
-    str | None, typer.Option("--ego-from", metavar="EDGE", help="Of a .sumocfg: where to start.")
+    str | None, typer.Option("--ego-from", metavar="EDGE", help="With a .sumocfg: where to start.")
 ]
 EgoTo = Annotated[
     str | None, typer.Option("--ego-to", metavar="EDGE", help="With --ego-from: where to go.")
@@ -93,7 +93,7 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Control = Annotated[bool, typer.Option("--control", hidden=True)]
 SessionName = Annotated[
     str | None,
-    typer.Option(callback=_name, help="A conversation to begin or go on with. Default: a new one."),
+    typer.Option(callback=_name, help="A conversation to begin or resume. Default: a new one."),
 ]
 SpeedFactor = Annotated[
     float | None,
@@ -105,7 +105,7 @@ StoreFile = Annotated[
         "--store",
         dir_okay=False,
         envvar="XAVI_STORE",
-        help="File of what is kept. Default: the user's.",
+        help="File of conversations. Default: the user's.",
     ),
 ]
 KeepDays = Annotated[
@@ -114,7 +114,7 @@ KeepDays = Annotated[
         min=0,
         max=36500,
         envvar="XAVI_KEEP_DAYS",
-        help="Days after which what was said is erased; 0: not kept.",
+        help="Days until conversations are erased; 0: not stored.",
     ),
 ]
 Vehicle = Annotated[

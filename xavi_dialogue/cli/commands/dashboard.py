@@ -40,21 +40,19 @@ ListenAt = Annotated[
         "--listen",
         envvar="XAVI_DASHBOARD_LISTEN",
         metavar="HOST:PORT",
-        help="Where browsers find the page. Default: 127.0.0.1:8480; port 0: any that is free.",
+        help="Address of the page. Default: 127.0.0.1:8480; port 0: any free port.",
     ),
 ]
 Token = Annotated[
     str | None,
     typer.Option(
         envvar="XAVI_DASHBOARD_TOKEN",
-        help="That browsers must bring. Default: none on this machine alone, else a random one.",
+        help="Token for browsers. Default: none on this machine only, else a random one.",
     ),
 ]
 HostNames = Annotated[
     list[str] | None,
-    typer.Option(
-        "--host-name", metavar="NAME", help="A name that the page is opened under; repeatable."
-    ),
+    typer.Option("--host-name", metavar="NAME", help="Another host name of the page; repeatable."),
 ]
 Played = Annotated[
     Path | None,

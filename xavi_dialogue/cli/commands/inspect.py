@@ -16,7 +16,7 @@ from xavi_dialogue.cli.commands.common import (
     place,
     to_json,
 )
-from xavi_dialogue.process.exit_status import ExitStatus
+from xavi_dialogue.process.exit_status import ExitStatus, UsageFault
 
 
 def add(app: typer.Typer, shell: Streams) -> None:
@@ -31,7 +31,7 @@ def add(app: typer.Typer, shell: Streams) -> None:
     app.add_typer(folders, name="scenario")
     app.command("transcripts")(_transcripts(shell))
     traces = typer.Typer(
-        help="Look into recorded decisions.", no_args_is_help=True, rich_markup_mode=None
+        help="Show recorded decisions.", no_args_is_help=True, rich_markup_mode=None
     )
     traces.command("show")(_trace_show(shell))
     app.add_typer(traces, name="trace")
@@ -41,8 +41,12 @@ def _parse(shell: Streams) -> Callable[..., None]:
     def parse(
         text: Annotated[str | None, typer.Argument()] = None,
         jsonl: Annotated[bool, typer.Option("--jsonl", help="Read question lines.")] = False,
-        vehicles: Annotated[str, typer.Option(help="Names there are, such as 0-5 or 0,2.")] = "0-5",
-        explain: Annotated[bool, typer.Option("--explain", help="Show how.")] = False,
+        vehicles: Annotated[
+            str, typer.Option(help="Names of vehicles, such as 0-5 or 0,2.")
+        ] = "0-5",
+        explain: Annotated[
+            bool, typer.Option("--explain", help="Show the share of each word.")
+        ] = False,
         as_json: AsJson = False,
     ) -> None:
         """Show the query that a question means."""
@@ -55,7 +59,7 @@ def _parse(shell: Streams) -> Callable[..., None]:
                     shell.write(answer)
                 return
             if text is None:
-                raise parsing.ParseUsageError("a question is missing; or read lines with --jsonl")
+                raise UsageFault("a question is missing; or read lines with --jsonl")
             shown, understood = parsing.parse_text(text, names, explain=explain, as_json=as_json)
             shell.write(shown)
         if not understood:
@@ -112,11 +116,13 @@ def _scenario_new(shell: Streams) -> Callable[..., None]:
 
 def _transcripts(shell: Streams) -> Callable[..., None]:
     def transcripts(
-        accept: Annotated[bool, typer.Option("--accept", help="Rewrite what differs.")] = False,
+        accept: Annotated[
+            bool, typer.Option("--accept", help="Rewrite transcripts that differ.")
+        ] = False,
         covered: Annotated[
             bool, typer.Option("--coverage", help="Show what no conversation exercises.")
         ] = False,
-        folder: Annotated[Path, typer.Option(help="Where the transcripts lie.")] = Path(
+        folder: Annotated[Path, typer.Option(help="Folder of the transcripts.")] = Path(
             "transcripts"
         ),
     ) -> None:
@@ -142,12 +148,16 @@ def _trace_show(shell: Streams) -> Callable[..., None]:
         file: Annotated[
             str, typer.Argument(help="A trace or a ride, gzipped or not; - for stdin.")
         ],
-        decision: Annotated[int | None, typer.Option(min=0, help="Of a ride: its number.")] = None,
-        at: Annotated[
-            float | None, typer.Option(min=0.0, help="Of a ride: the latest by [s].")
+        decision: Annotated[
+            int | None, typer.Option(min=0, help="In a ride: number of the decision.")
         ] = None,
-        depth: Annotated[int, typer.Option(min=1, help="Actions in a row that are shown.")] = 2,
-        everything: Annotated[bool, typer.Option("--all", help="Every branch and reason.")] = False,
+        at: Annotated[
+            float | None, typer.Option(min=0.0, help="In a ride: the latest decision by [s].")
+        ] = None,
+        depth: Annotated[int, typer.Option(min=1, help="Number of successive actions shown.")] = 2,
+        everything: Annotated[
+            bool, typer.Option("--all", help="Show every branch and reason.")
+        ] = False,
     ) -> None:
         """Show the search tree of a decision; of a ride, first the list of its decisions."""
         from xavi_dialogue.inspection import decision_text as text

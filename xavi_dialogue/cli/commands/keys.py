@@ -22,12 +22,12 @@ def add(app: typer.Typer, shell: Streams) -> None:
 
 def _keys(shell: Streams) -> Callable[..., None]:
     def keys(
-        folder: Annotated[Path, typer.Argument(help="Where to write them; a folder of their own.")],
+        folder: Annotated[Path, typer.Argument(help="Folder to write; it holds nothing else.")],
         host: Annotated[
             list[str] | None,
             typer.Option(
                 metavar="NAME_OR_ADDRESS",
-                help="Under which the hub is connected to, beside this machine; repeatable.",
+                help="Another host name of the hub, besides this machine; repeatable.",
             ),
         ] = None,
         listen: Annotated[
@@ -38,20 +38,18 @@ def _keys(shell: Streams) -> Callable[..., None]:
         ] = None,
         connect: Annotated[
             str | None,
-            typer.Option(metavar="ENDPOINT", help="Where the others find it. Default: there."),
+            typer.Option(metavar="ENDPOINT", help="Where clients find it. Default: the same."),
         ] = None,
         passenger: Annotated[
             list[str] | None,
-            typer.Option(metavar="NAME", help="Has a certificate of their own; repeatable."),
+            typer.Option(metavar="NAME", help="Gets a separate certificate; repeatable."),
         ] = None,
         vehicle: Annotated[
             list[str] | None,
-            typer.Option(metavar="NAME", help="Has a certificate of its own; repeatable."),
+            typer.Option(metavar="NAME", help="Gets a separate certificate; repeatable."),
         ] = None,
-        days: Annotated[int, typer.Option(min=1, max=3650, help="For so long.")] = 365,
-        force: Annotated[
-            bool, typer.Option("--force", help="Replace all the keys that are there.")
-        ] = False,
+        days: Annotated[int, typer.Option(min=1, max=3650, help="Days of validity.")] = 365,
+        force: Annotated[bool, typer.Option("--force", help="Replace all existing keys.")] = False,
     ) -> None:
         """Make keys for a bus on which every component may do only what its role permits."""
         from xavi_dialogue.bus.certificates import utc_now
@@ -76,7 +74,7 @@ def _told(order: "KeyOptions", folder: Path, now: "datetime", vehicle: str | Non
         lines.append(f"  {name:{width}}  {name}.json5 (with {name}.pem, {name}.key)")
     lines += [
         "Give each machine ca.pem and the three files of its role, under the same path.",
-        "Keep ca.key to yourself: who has it can be anybody on the bus.",
+        "Keep ca.key secret: with it, any identity on the bus can be made.",
         "Then:",
     ]
     car = "car" if vehicle is None else f"car.{vehicle}"

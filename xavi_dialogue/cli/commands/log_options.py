@@ -12,16 +12,16 @@ from xavi_dialogue.cli.commands.common import Streams
 
 Form = Annotated[
     Literal["text", "json", "off"],
-    typer.Option("--log", envvar="XAVI_LOG", help="Log to standard error: how."),
+    typer.Option("--log", envvar="XAVI_LOG", help="Log to standard error in this format."),
 ]
 Level = Annotated[
     Literal["debug", "info", "warning", "error"],
-    typer.Option("--log-level", envvar="XAVI_LOG_LEVEL", help="Log what is at least so grave."),
+    typer.Option("--log-level", envvar="XAVI_LOG_LEVEL", help="Log from this level on."),
 ]
 Dialogue = Annotated[
     bool,
     typer.Option(
-        "--log-dialogue", envvar="XAVI_LOG_DIALOGUE", help="Log what passengers say, too."
+        "--log-dialogue", envvar="XAVI_LOG_DIALOGUE", help="Also log what passengers say."
     ),
 ]
 

@@ -38,7 +38,7 @@ Car = Annotated[
     typer.Option(metavar="NAME", help="Which car of the recording. Default: the only one."),
 ]
 From = Annotated[
-    float | None, typer.Option("--from", min=0.0, metavar="T", help="Begin there [s of the ride].")
+    float | None, typer.Option("--from", min=0.0, metavar="T", help="Begin at this time [s].")
 ]
 
 
@@ -50,13 +50,11 @@ def add(app: typer.Typer, shell: Streams) -> None:
 
 def _record(shell: Streams) -> Callable[..., None]:
     def record(
-        file: Annotated[Path, typer.Argument(metavar="FILE", help="To be written (MCAP).")],
+        file: Annotated[Path, typer.Argument(metavar="FILE", help="File to write (MCAP).")],
         connect: Connect = None,
         zenoh: ZenohFile = None,
         vehicle: Vehicle = "car",
-        force: Annotated[
-            bool, typer.Option("--force", help="Overwrite a file that is there.")
-        ] = False,
+        force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
         control: Control = False,
     ) -> None:
         """Record what a car reports, and what passengers share; --vehicle all: every car."""

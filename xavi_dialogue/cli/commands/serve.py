@@ -42,7 +42,7 @@ def _drive(shell: Streams) -> Callable[..., None]:
         scenario: ScenarioName = "s1",
         seed: Seed = None,
         duration: Annotated[
-            float | None, typer.Option(min=0.1, help="At most so long [s].")
+            float | None, typer.Option(min=0.1, help="Longest duration [s].")
         ] = None,
         speed: SpeedFactor = 0.0,
         connect: Connect = None,
@@ -53,10 +53,10 @@ def _drive(shell: Streams) -> Callable[..., None]:
             typer.Option(help="Save the decisions, for `trace show`: FILE.ride.jsonl.gz."),
         ] = None,
         workers: Annotated[
-            int, typer.Option(min=1, max=64, help="Processes that plan what-ifs for others.")
+            int, typer.Option(min=1, max=64, help="Worker processes for what-ifs.")
         ] = 1,
         waiting: Annotated[
-            int, typer.Option(min=1, max=1000, help="What-ifs that may wait for one of them.")
+            int, typer.Option(min=1, max=1000, help="What-ifs that may wait for a worker.")
         ] = 8,
         as_json: AsJson = False,
         control: Control = False,
@@ -106,7 +106,7 @@ def _serve(shell: Streams) -> Callable[..., None]:
         ] = None,
         mode: Annotated[
             Literal["peer", "router"] | None,
-            typer.Option(help="As what. Default: peer; router to pass on what other hubs say."),
+            typer.Option(help="Default: peer; router: also forward messages between hubs."),
         ] = None,
         zenoh: ZenohFile = None,
         store: StoreFile = None,

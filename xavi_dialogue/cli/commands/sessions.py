@@ -39,7 +39,7 @@ def _sessions(shell: Streams) -> Command:
     def sessions(
         session: Annotated[str | None, typer.Argument(help="Only this one.")] = None,
         export: Annotated[
-            bool, typer.Option("--export", help="Print all that is kept, as lines of JSON.")
+            bool, typer.Option("--export", help="Print all stored data as lines of JSON.")
         ] = False,
         as_json: AsJson = False,
         store: StoreFile = None,
@@ -72,7 +72,7 @@ def _forget(shell: Streams) -> Command:
         session: Annotated[str | None, typer.Argument(help="Which to forget.")] = None,
         everything: Annotated[bool, typer.Option("--all", help="Forget all.")] = False,
         older_than: Annotated[
-            float | None, typer.Option(min=0.0, metavar="DAYS", help="Only what is older.")
+            float | None, typer.Option(min=0.0, metavar="DAYS", help="Only older conversations.")
         ] = None,
         yes: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,
         store: StoreFile = None,
@@ -123,13 +123,13 @@ class _Typed:
 
 
 def _agreed(question: str) -> bool:
-    """Return the typed text.
+    """Ask the user to confirm.
 
     Raises:
-        SessionUsageError: nothing was typed.
+        UsageFault: there is no terminal to ask at.
     """
-    from xavi_dialogue.cli.session_admin import SessionUsageError
+    from xavi_dialogue.process.exit_status import UsageFault
 
     if not sys.stdin.isatty():
-        raise SessionUsageError("without a terminal, --yes says that nobody is to be asked")
+        raise UsageFault("without a terminal, confirm with --yes")
     return typer.prompt(f"{question} y/n", err=True).strip().lower() in {"y", "yes"}

@@ -53,7 +53,7 @@ def sides(
 
 
 def _decided(trace: PlanTrace) -> bool:
-    """Whether a trace tells of what was decided: others were not supposed to be otherwise."""
+    """Check whether a trace tells of what was decided: others were not supposed to be otherwise."""
     again = trace.what_if
     return again is None or not (again.gone or again.vehicle is not None)
 
@@ -103,7 +103,7 @@ def _found(model: CausalModel, plan: Actions) -> ContrastSide | None:
 
 
 def _under(model: CausalModel, plan: Actions) -> Intervention | None:
-    """What comes of exactly a plan.
+    """Return what comes of exactly a plan.
 
     It was found under the first actions of the plan of the decision, or of this one.
     """
@@ -131,7 +131,7 @@ def _supposed(
 
 
 def _agrees(said: Contrastive, here: Intervention, there: Intervention) -> bool:
-    """Whether two sides give the figures of an explanation."""
+    """Check whether two sides give the figures of an explanation."""
     outcome = said.outcome
     if outcome is not None and not _same(outcome.probability, chances(there).of(outcome.name)):
         return False

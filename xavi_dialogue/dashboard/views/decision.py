@@ -32,7 +32,7 @@ from xavi_dialogue.explain.history.ride import enough
 
 
 def in_short(trace: PlanTrace, before: PlanTrace | None) -> Decision:
-    """A decision in short.
+    """Return a decision in short.
 
     Args:
         trace: the decision.
@@ -50,7 +50,7 @@ def in_short(trace: PlanTrace, before: PlanTrace | None) -> Decision:
 
 
 def whole(trace: PlanTrace, network: Network | None) -> DecisionShown:
-    """A decision with all that browsers show of it.
+    """Return a decision with all that browsers show of it.
 
     Args:
         trace: the decision.
@@ -88,7 +88,7 @@ def whole(trace: PlanTrace, network: Network | None) -> DecisionShown:
 
 
 def chosen_plan(model: CausalModel) -> Intervention | None:
-    """What was to be expected of the plan: of as many of its actions as were tried enough.
+    """Return what was to be expected of the plan: of as many of its actions as were tried enough.
 
     Where none was, of as many as were tried at all; None where there is no plan.
     """
@@ -121,7 +121,7 @@ def _capital(text: str) -> str:
 
 
 def _changed(before: PlanTrace, trace: PlanTrace) -> bool:
-    """Whether what is to be done next is something else, and not merely what came next."""
+    """Check whether what is to be done next is something else, and not merely what came next."""
     old, new = _plan(before), _plan(trace)
     if old[:1] == new[:1]:
         return False
@@ -131,7 +131,7 @@ def _changed(before: PlanTrace, trace: PlanTrace) -> bool:
 
 
 def _belief(known: VehiclePrediction) -> Belief:
-    """What a vehicle is expected to do; goals that are called alike are one."""
+    """Return what a vehicle is expected to do; goals that are called alike are one."""
     goals: dict[str, float] = {}
     for goal in known.goals:
         words = goal_words(goal)
@@ -203,7 +203,7 @@ def _tried(
     here: Intervention | None,
     in_lane: bool,
 ) -> Alternative:
-    """An action that was tried, against what was chosen; `here` is None of that itself."""
+    """Return an action that was tried, against what was chosen; `here` is None of that itself."""
     line = likeliest(trace, there)
     return Alternative(
         action=action,
@@ -253,7 +253,7 @@ def _refused(model: CausalModel) -> tuple[tuple[Action, str], ...]:
 
 
 def _goal(trace: PlanTrace, network: Network) -> Point | None:
-    """Where the passenger wants to go [m]; None where that is not on these roads."""
+    """Return where the passenger wants to go [m]; None where that is not on these roads."""
     lanes = [lane for lane in network.lanes.values() if lane.edge == trace.goal.edge]
     if not lanes:
         return None

@@ -42,14 +42,14 @@ _NAMED = re.compile(r"\bvehicle (\d{1,9})\b", re.IGNORECASE)
 
 
 def vehicles_of(reply: Reply) -> tuple[int, ...]:
-    """The other vehicles that a reply speaks of, or that it was asked about; each once."""
+    """Return the other vehicles that a reply speaks of, or that it was asked about; each once."""
     named = [int(number) for number in _NAMED.findall(reply.text)]
     named += asked_about(reply)
     return tuple(dict.fromkeys(vehicle for vehicle in named if vehicle != EGO))
 
 
 def has_evidence(reply: Reply) -> bool:
-    """Whether there is more behind a reply than the decision that it is about."""
+    """Check whether there is more behind a reply than the decision that it is about."""
     told = told_of(reply)
     if told is None or not told.said.evidence.traces:
         return False
@@ -58,13 +58,13 @@ def has_evidence(reply: Reply) -> bool:
 
 
 def traces_of(reply: Reply) -> tuple[str, ...]:
-    """The ids of the decisions, and of the plans made again, that a reply rests on."""
+    """Return the ids of the decisions, and of the plans made again, that a reply rests on."""
     told = told_of(reply)
     return () if told is None else tuple(dict.fromkeys(told.said.evidence.traces))
 
 
 def of_turn(n: int, reply: Reply, traces: Mapping[str, PlanTrace]) -> EvidenceShown | None:
-    """What a turn rests on; None where nothing is behind it.
+    """Return what a turn rests on; None where nothing is behind it.
 
     Args:
         n: number of the turn.
@@ -113,7 +113,7 @@ def _shown(
 
 
 def _decision(known: list[PlanTrace], traces: Mapping[str, PlanTrace]) -> PlanTrace | None:
-    """The decision as it was taken, where it is at hand; else as it was planned again."""
+    """Return the decision as it was taken, where it is at hand; else as it was planned again."""
     if not known:
         return None
     moment = (known[0].sim_time, known[0].decision)
@@ -170,7 +170,7 @@ def _run(trace: PlanTrace, result: Result, in_lane: bool) -> Run:
 
 
 def _samples(trace: PlanTrace, rollout: Rollout) -> tuple[tuple[int, str, float], ...]:
-    """What the others do in a rollout, and how probable that was."""
+    """Return what the others do in a rollout, and how probable that was."""
     known = {prediction.vehicle: prediction for prediction in trace.predictions}
     found = []
     for sample in sorted(rollout.samples, key=lambda sample: sample.vehicle):
@@ -213,5 +213,5 @@ def _causes(told: TypedAnswer, known: list[PlanTrace]) -> tuple[CauseShown, ...]
 
 
 def _was_tried(cause: Cause, removed: set[int]) -> bool:
-    """Whether it was planned again without a vehicle: that it does otherwise shows less."""
+    """Check whether it was planned again without a vehicle: that it does otherwise shows less."""
     return cause.necessary is not None or cause.vehicle in removed

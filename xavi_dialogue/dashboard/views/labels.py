@@ -29,7 +29,7 @@ POSSIBLE = 0.3  # what is expected with less is told as what might be
 
 @cache
 def deed(action: str, form: str = "base", *, in_lane: bool = False) -> str:
-    """What the ego does, in a verb form: "move to the left lane".
+    """Return what the ego does, in a verb form: "move to the left lane".
 
     Args:
         action: of the ego.
@@ -56,7 +56,7 @@ def refusals(
 
 
 def plan_words(plan: Iterable[Action], *, in_lane: bool = False) -> str:
-    """A plan: "move to the left lane, then turn left"; where there is none, the car stops.
+    """Return a plan: "move to the left lane, then turn left"; where there is none, the car stops.
 
     Args:
         plan: of the ego.
@@ -152,12 +152,12 @@ def checked_words(cause: Cause) -> str | None:
 
 
 def component_words(component: str) -> str:
-    """A component of the reward: "time to the goal"."""
+    """Return a component of the reward: "time to the goal"."""
     return _table()["component"][component]
 
 
 def event_words(event: Event) -> str:
-    """An event as a sentence: "I change to the left lane."."""
+    """Return an event as a sentence: "I change to the left lane."."""
     other = _table()["event"]
     if event.kind == "action-ended" and event.action is not None:  # perhaps it was given up
         return capitalise(other[event.kind].format(deed(event.action, "gerund")))
@@ -170,12 +170,12 @@ def event_words(event: Event) -> str:
 
 
 def dashboard_words(kind: str, name: str) -> str:
-    """A phrase of `grammars/dashboard.toml`."""
+    """Return a phrase of `grammars/dashboard.toml`."""
     return _table()[kind][name]
 
 
 def _told(said: Message) -> str:
-    """A message as a sentence."""
+    """Return a message as a sentence."""
     return capitalise(sentence(_said(fill(grammar(), said))))
 
 

@@ -59,7 +59,7 @@ def read(packed: bytes) -> tuple[Network, tuple[Outline, ...]]:
 
 
 def shown(network: Network, outlines: Sequence[Outline]) -> Roads:
-    """The network as browsers draw it; the id of a link is its place in `network.links`."""
+    """Return the network as browsers draw it; the id of a link is its place in `network.links`."""
     numbers = link_ids(network)
     lanes = [_lane(lane, "cars") for lane in network.lanes.values()]
     others = [_lane(lane, _use(lane)) for lane in network.other_lanes.values()]
@@ -131,7 +131,7 @@ def line(points: Iterable[Point]) -> Line:
 
 
 def scene(report: SceneReport) -> SceneShown:
-    """A scene as browsers get it."""
+    """Return a scene as browsers get it."""
     return SceneShown(
         seq=report.seq,
         t=report.sim_time,

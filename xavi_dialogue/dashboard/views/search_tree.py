@@ -19,7 +19,7 @@ def branches(trace: PlanTrace) -> tuple[Branch, ...]:
 
 
 def rounded(value: float | None) -> float | None:
-    """A value or a time, rounded."""
+    """Return a value or a time, rounded."""
     return None if value is None else round(value, DIGITS)
 
 

@@ -11,7 +11,7 @@ CHANCES = 4  # decimals of probabilities
 
 
 def likeliest(trace: PlanTrace, plan: Mixture, limit: int = 1) -> tuple[Drive, ...]:
-    """The likeliest lines of the ego among some results, of those that are in the record.
+    """Return the likeliest lines of the ego among some results, of those that are in the record.
 
     Rollouts that drive the same line to the same end are one.
 
@@ -49,7 +49,7 @@ def predicted(trace: PlanTrace, way: TrajectoryPrediction) -> Drive | None:
 
 
 def chance(value: float) -> float:
-    """A probability, rounded, and kept to at most 1."""
+    """Return a probability, rounded, and kept to at most 1."""
     return round(min(value, 1.0), CHANCES)
 
 

@@ -6,6 +6,8 @@ import secrets
 from dataclasses import dataclass, field
 from typing import Self
 
+from xavi_dialogue.process.exit_status import UsageFault
+
 DEFAULT_HOST = "127.0.0.1"
 DEFAULT_PORT = 8480
 LOCAL_NAMES = ("localhost", "127.0.0.1", "[::1]")
@@ -15,7 +17,7 @@ _NAME = re.compile(r"(?=.{1,253}$)[a-z0-9_]([a-z0-9_-]{0,62})(\.[a-z0-9_]([a-z0-
 _TOKEN = re.compile(r"[A-Za-z0-9_-]{16,128}")
 
 
-class ListenError(Exception):
+class ListenError(UsageFault):
     """The address cannot be used; the message says how to correct it."""
 
 

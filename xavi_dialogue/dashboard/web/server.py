@@ -147,7 +147,7 @@ class Server:
 
 
 def bind(listen: ListenOptions) -> socket.socket:
-    """A socket that listens.
+    """Return a socket that listens.
 
     Raises:
         ListenError: the address cannot be used.

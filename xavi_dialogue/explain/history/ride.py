@@ -207,7 +207,7 @@ class Ride:
         )
 
     def without(self, trace: PlanTrace, *vehicles: int) -> PlanTrace | None:
-        """The plan made again from a decision without vehicles; None where that cannot be had.
+        """The plan made again from a decision without vehicles; None where that is not available.
 
         Raises:
             Unanswered: rollouts are needed.

@@ -4,7 +4,7 @@ import math
 
 from xavi_dialogue.nlg.surface.tables import WordingError, table
 
-LEAST = 0.01 - 1e-9  # from which a probability is told in whole percent
+LEAST = 0.01 - 1e-9  # from which a probability is stated in whole percent
 
 
 def chance(probability: float, form: str) -> str:
@@ -24,7 +24,7 @@ def chance(probability: float, form: str) -> str:
 
 
 def percent(probability: float) -> str:
-    """A probability in whole percent, never all or nothing; one below 1 % is told as such."""
+    """A probability in whole percent, never all or nothing; one below 1 % is stated as such."""
     bounds = table("chances")["bounds"]
     whole = math.floor(probability * 100 + 0.5)
     if whole >= 100:

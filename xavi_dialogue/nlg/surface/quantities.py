@@ -7,10 +7,10 @@ from xavi_dialogue.nlg.surface.tables import table
 from xavi_dialogue.nlg.surface.values import Number, Quantity, Range
 
 KMH = 3.6  # [km/h] per [m/s]
-MINUTES = 100.0  # [s] from which a time is told in minutes
+MINUTES = 100.0  # [s] from which a time is stated in minutes
 HOUR = 3600.0  # [s]
 JUST = 2.5  # [s] how long ago something was "just now"
-RECENT = 9.0  # [s] how long ago something is told in seconds; beyond, by the clock
+RECENT = 9.0  # [s] how long ago something is stated in seconds; beyond, by the clock
 ROUNDING = 1e-6  # [s]
 SMALL = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
          "eleven", "twelve")  # fmt: skip

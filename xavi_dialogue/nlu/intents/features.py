@@ -1,6 +1,6 @@
 """Features of a text: its words, their neighbours, and what the grammar made of it.
 
-The part that asks counts once more by itself, so that what is told beside it does not drown it.
+The part that asks counts once more by itself, so that what is stated beside it does not drown it.
 """
 
 import re

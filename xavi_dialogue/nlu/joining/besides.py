@@ -125,7 +125,7 @@ def _left(act: Act | None, before: Sequence[Act | None]) -> Act | None:
 
 
 def _told(act: Act | None, sooner: bool) -> Act | None:
-    """Take what reads as a question without its mark for what is told beside the question."""
+    """Take what reads as a question without its mark for what is stated beside the question."""
     if not isinstance(act, Ask):
         return act
     if not is_well_typed(act):

@@ -18,7 +18,7 @@ from xavi_dialogue.explain.answers.ride.priority import priority_at, rule_betwee
 BESIDE: Final = 2.0  # [m] sideways from which somebody is in another lane
 ALONG: Final = ("ahead", "behind", "beside")  # how the bearing of who drives our way begins
 BEFORE_US: Final = ("cross", "pull-out")
-POSSIBLE: Final = 0.1  # probability from which it is told that it may do so by the rule
+POSSIBLE: Final = 0.1  # probability from which it is stated that it may do so by the rule
 SINCE: Final = 1.0  # [s] over which distances are compared to tell whether somebody comes closer
 ASIDE_IN: Final = 0.6  # [s] over which places are compared to tell whether it drives sideways
 ASIDE: Final = 0.2  # [m] by which it has moved sideways then

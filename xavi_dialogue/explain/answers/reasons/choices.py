@@ -220,7 +220,7 @@ def deed_of(scene: Asked, found: Premise) -> Episode | None:
 
 
 def _over(scene: Asked, event: Event | None, found: Premise) -> bool:
-    """Whether it is told as past: what was asked so, or has ended."""
+    """Whether it is stated as past: what was asked so, or has ended."""
     if found.deed is None:
         return is_past(scene, event) and found.trace is not scene.ride.latest
     if found.deed.ended is None and (event is None or event.tense != "future"):

@@ -20,7 +20,7 @@ AS_CHANGE: dict[ActionName, ActionName] = {
     "exit-left": "change-left",
     "exit-right": "change-right",
 }
-BEGUN = 0.5  # [s] since when what was begun is told as past
+BEGUN = 0.5  # [s] since when what was begun is stated as past
 LATELY = 10.0  # [s] since when a junction that was crossed may be meant
 JUST = 4.0  # [s] since when a change of lanes is what "going" means
 SOON = 4.0  # [s] before we went within which waiting was the other choice

@@ -13,7 +13,7 @@ from xavi_dialogue.explain.facts.episodes.lead_in import held_since
 from xavi_dialogue.explain.history.nearing import junctions_ahead
 
 THROUGH: tuple[ActionName, ...] = ("exit-left", "exit-right", "exit-straight")
-NOTED = 1.5  # [s] from which it is told that we slowed down before
+NOTED = 1.5  # [s] from which it is stated that we slowed down before
 BEFORE = 0.2  # [s] before we enter
 
 

@@ -118,7 +118,7 @@ def happens_without(ride: Ride, reasons: Reasons, vehicles: tuple[int, ...]) -> 
         Whether it does; None where that cannot be planned.
 
     Raises:
-        Unanswered: it does, but one of them is told as a reason that could not be tried; or the
+        Unanswered: it does, but one of them is stated as a reason that could not be tried; or the
             record lacks what was decided; or rollouts are needed.
     """
     model = ride.model(reasons.trace)

@@ -1,7 +1,7 @@
 """Traffic lights as causes: that one holds us is told by the drives imagined at a decision.
 
 Whether it matters is tried by planning that decision again with the light green for good: it does
-where this saves time. Who stands before us in the queue is told beside it.
+where this saves time. Who stands before us in the queue is stated beside it.
 """
 
 from collections.abc import Iterable
@@ -56,7 +56,7 @@ def light_causes(
     until = ride.now if hold.goes_on else hold.end
     time = min(max(at, hold.begin), until) if deed.action in STILL else trace.sim_time
     if deed.end is None and hold.goes_on:
-        time = ride.now  # what goes on is told as of now
+        time = ride.now  # what goes on is stated as of now
     one = shown(ride, hold.signal, time) or shown(ride, hold.signal, trace.sim_time)
     if one is None:
         return None

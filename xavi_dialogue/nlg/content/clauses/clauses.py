@@ -23,7 +23,7 @@ from xavi_dialogue.nlg.content.clauses.tenses import PRESENT, event_tense, goes_
 from xavi_dialogue.nlg.surface.tables import table, word
 from xavi_dialogue.nlg.surface.values import Bare, Clause, Owned, Tense, Who
 
-#: Actions that last, and are told as being under way in the present.
+#: Actions that last, and are stated as being under way in the present.
 STATES = frozenset(("see", "have", "happen"))
 PLACES = (Junction, Exit, Lane, Road)  # they are blocked as such, not their way
 LEAVING = frozenset(("leave", "exit-left", "exit-right", "exit-straight", "turn"))

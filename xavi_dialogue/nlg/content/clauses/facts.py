@@ -31,12 +31,12 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import afoot, word
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Range, Tense, Who
 
-RISK = 0.01  # probability of a collision from which it is told
-CHANGED = 1.4  # [m/s] change of speed from which it is told
+RISK = 0.01  # probability of a collision from which it is stated
+CHANGED = 1.4  # [m/s] change of speed from which it is stated
 TOLD = 0.1  # probability from which an answer names an alternative
-BESIDES = 2  # likely alternatives that are told
+BESIDES = 2  # likely alternatives that are stated
 MOST_PASSED = 2  # exits of a roundabout that are counted
-LONG = 1.5  # [s] from which it is told how long somebody stood or waited
+LONG = 1.5  # [s] from which it is stated how long somebody stood or waited
 LASTING = frozenset(("stand", "wait", "block", "follow"))
 
 

@@ -13,7 +13,7 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Moment, Quantity, Who
 
-_FEW = 3  # vehicles whose speeds are told one by one
+_FEW = 3  # vehicles whose speeds are stated one by one
 _MANY = 2  # measures that go into one sentence
 
 
@@ -73,7 +73,7 @@ def _range(speeds: list[Measure]) -> Message:
 
 
 def measure_messages(measures: tuple[Measure, ...], context: SpeechContext) -> list[Message]:
-    """Make the messages for measures that are told together: none says what another does."""
+    """Make the messages for measures that are stated together: none says what another does."""
     limits = any(m.attribute == "limit" and m.value is not None for m in measures)
     limits = limits and len(measures) > 1
     rivals = len({str(m.thing) for m in measures if m.attribute == "speed"})

@@ -32,7 +32,7 @@ def own_verbs(actions: Iterable[str], against: Iterable[str] = ()) -> tuple[Clau
 
     Args:
         actions: the row of actions.
-        against: what they are told beside: going on is staying in the lane beside a lane change.
+        against: what they are stated beside: going on is staying in the lane beside a lane change.
     """
     row, other = plain(actions), tuple(against)
     return _row(row, other, ego=True)

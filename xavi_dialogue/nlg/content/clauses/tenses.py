@@ -49,14 +49,14 @@ def began(episode: Episode, context: SpeechContext) -> Moment | None:
 
 
 def tense_at(time: float, now: float, present: float = PRESENT) -> Tense:
-    """The tense in which a state at a time of the ride is told."""
+    """The tense in which a state at a time of the ride is stated."""
     if time > now + PRESENT:
         return "future"
     return "past" if now - time > present else "present"
 
 
 def tense_of(tense: terms.Tense, time: Time, now: float) -> Tense:
-    """The tense in which a proposition is told: that of the question, corrected by its time."""
+    """The tense in which a proposition is stated: that of the question, corrected by its time."""
     match time:
         case At(at=at):
             behind = tense in ("past", "perfect") and now - at > NAMED

@@ -23,7 +23,7 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Who
 
-MOVED = 0.1  # change of probability from which it is told
+MOVED = 0.1  # change of probability from which it is stated
 NAMED = 5  # options named
 #: How well something is known by its probability, best first.
 _KNOWN = ((0.95, "sure"), (0.65, "likely"), (0.35, "guess"), (0.0, "no"))

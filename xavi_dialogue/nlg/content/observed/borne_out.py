@@ -1,4 +1,4 @@
-"""What a verdict says by itself, and which facts are told beside it."""
+"""What a verdict says by itself, and which facts are stated beside it."""
 
 from xavi_dialogue.domain import terms
 from xavi_dialogue.domain.answers import Verdict

@@ -46,7 +46,7 @@ from xavi_dialogue.nlg.surface.values import Clause, Moment, Number, Quantity, T
 PLAIN = frozenset(("continue", "move", "keep-lane", "go"))
 CHANGING = frozenset(("slow-down", "speed-up", "brake", "stop"))
 TOWARDS = {"give-way": "to", "wait": "for", "let-go": "for"}  # before whom it concerned
-FEW = 3  # vehicles that are told beside their number
+FEW = 3  # vehicles that are stated beside their number
 MANY = 5  # vehicles that are described one by one
 
 

@@ -17,7 +17,7 @@ UNITS = {"distance": "m", "time-to-collision": "s", "speed": "m/s", "duration": 
          "deceleration": "m/s2", "delay": "s", "speed-change": "m/s"}  # fmt: skip
 YIELDING = frozenset(("give-way", "wait", "let-go"))
 NAMED = 3  # vehicles that are named
-LONG = 1.5  # [s] from which it is told how long something took
+LONG = 1.5  # [s] from which it is stated how long something took
 
 
 def plan_summit(answer: Summit, context: SpeechContext) -> Plan:

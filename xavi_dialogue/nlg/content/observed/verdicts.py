@@ -43,8 +43,8 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Qua
 
 ON = frozenset(("signal", "wait", "stand", "follow", "give-way", "let-go", "block"))
 LASTS = ON | {"move"}
-CERTAIN = 0.95  # probability from which what we plan is told as such
-LIKELY = 0.5  # probability from which it is told when something comes
+CERTAIN = 0.95  # probability from which what we plan is stated as such
+LIKELY = 0.5  # probability from which it is stated when something comes
 AT_ONCE = 1.0  # [s] within which it comes at once
 IN_ONE = 2  # facts that go into the sentence of the verdict
 
@@ -106,7 +106,7 @@ def _settled(answer: Verdict) -> bool:
 
 
 def _facts(facts: tuple[Fact, ...], answer: Verdict, context: SpeechContext) -> tuple[Message, ...]:
-    """The messages of facts that are told together."""
+    """The messages of facts that are stated together."""
     measures = tuple(f for f in facts if isinstance(f, Measure))
     if measures:
         if _by_number(answer.that):  # the reference is the number that was asked about
@@ -121,7 +121,7 @@ def _by_number(that: Proposition) -> bool:
 
 
 def together(facts: tuple[Fact, ...]) -> list[tuple[Fact, ...]]:
-    """The facts in rows: measures in a row are told together."""
+    """The facts in rows: measures in a row are stated together."""
     return [tuple(row) for _, row in groupby(facts, key=lambda f: isinstance(f, Measure))]
 
 

@@ -15,8 +15,8 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import table
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Quantity, Range, Who
 
-RISK = 0.01  # probability of a collision from which it is told
-SURE = 0.995  # probability from which none is told
+RISK = 0.01  # probability of a collision from which it is stated
+SURE = 0.995  # probability from which none is stated
 EVEN, LIKELY = 0.45, 0.55  # bounds of what may or may not be
 STANDING = 0.5  # [m/s]
 SLOWING = 0.6  # [m/s] a loss of speed worth calling so

@@ -32,7 +32,7 @@ from xavi_dialogue.nlg.surface.values import Chance, Moment, Who
 OF_RISKS = frozenset[Asking](("crash", "safe", "safer"))  # questions that are of risks themselves
 TIMED = frozenset[Asking](("arrival", "could", "quicker"))  # those that are of times
 SAFER = 0.01  # probability of a collision by which something is safer
-ALIKE = 0.1  # difference of probabilities up to which two outcomes are told as one
+ALIKE = 0.1  # difference of probabilities up to which two outcomes are stated as one
 ABOUT = 1.5  # factor up to which a time is about as long as it is said to be
 
 

@@ -17,7 +17,7 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Tense, Who
 
-LIKELY = 0.5  # probability from which a collision is told as what comes
+LIKELY = 0.5  # probability from which a collision is stated as what comes
 KNOWN = 0.005  # probability from which something was reckoned with
 
 

@@ -26,13 +26,13 @@ def suspected(
     """Put the verdict on the vehicle that the question takes for the cause before the reason.
 
     Args:
-        reason: the reason that is told.
+        reason: the reason that is stated.
         suspect: the vehicle; None where the question names none.
         part: which part it has.
         time: [s] at which it is described.
         cleared: vehicles that make no difference.
         besides: who else is the cause, where it is taken for the only one.
-        past: the reason is told as past.
+        past: the reason is stated as past.
         told: the reason names it.
     """
     if suspect is None or part is None:

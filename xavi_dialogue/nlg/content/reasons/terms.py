@@ -16,10 +16,10 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Number, Quantity, Who
 
 LIKELY = 0.5  # probability from which an outcome is what comes, and no chance
-SURE = 0.995  # probability from which none is told
+SURE = 0.995  # probability from which none is stated
 LITTLE = 2.25  # [s] a gain up to which it is called little
 LARGE = 8.0  # [s] a difference that is much in everyday words
-TINY = 0.01  # probability below which it is told as under 1 %
+TINY = 0.01  # probability below which it is stated as under 1 %
 ROUND = 5.0  # [s] to which the time that is compared is rounded
 STEERING = ("angular-acceleration", "curvature")
 RIDES = ("jerk", "angular-acceleration", "curvature")
