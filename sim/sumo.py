@@ -15,7 +15,7 @@ from sim.boxes import overlap
 from sim.engine import EgoGone, Engine, SimulationError, SimulationRunning, SumoFailed, SumoMissing
 from sim.names import VehicleNames
 from sim.perception import appearance
-from sim.perception.looking import Eyes, Painted, View
+from sim.perception.looking import Painted, Perception, View
 from sim.roads.bridges import apart
 from sim.roads.netfile import read_network
 from sim.scene import Command, Scene, VehicleState
@@ -70,7 +70,7 @@ class Simulation:
             names, painted = self._start(seed)
             self._names = names
             self._roads, radius = read_network(scenario.network), scenario.view_radius
-            self._eyes = Eyes(self._engine, self._ego, radius, names, painted, self._roads)
+            self._eyes = Perception(self._engine, self._ego, radius, names, painted, self._roads)
             self._view = self._look(None)
         except BaseException:
             self.close()

@@ -16,6 +16,12 @@ STRAY = {
     "an index of packages": r"-{2}(?:(?:extra-)?index-url|find-links|trusted-host)",
     "a promise": r"\b(?:TO[D]O|FIX[M]E|X[X]X)\b",
 }
+#: Files of other programs that documents name.
+FOREIGN_FILES = {"docs/metrics.md", "pdm_scorer.py", "randomTrips.py"}
+OUR_FOLDERS = {
+    *("benchmarks", "docs", "grammars", "planner", "scripts", "sim", "tests", "transcripts"),
+    "xavi_dialogue",
+}
 LOCKS = re.compile(r"(?:^|/)(?:uv|poetry|pdm)\.lock$|(?:^|/)pylock.*\.toml$|(?:^|/)Pipfile\.lock$")
 
 
@@ -78,11 +84,50 @@ def test_the_makefile_offers_what_everybody_expects(root: Path) -> None:
     assert targets(root) >= {"chat", "test", "lint", "bench", "clean", "help"}
 
 
-def test_files_named_in_the_documents_exist(root: Path) -> None:
-    for page in [root / "README.md", root / "ARCHITECTURE.md", *(root / "docs").glob("*.md")]:
-        links = re.findall(r"\]\((?!https?:)([^)#\s]+)", page.read_text(encoding="utf-8"))
+def markdown(root: Path) -> list[Path]:
+    return [path for path in committed(root) if path.suffix == ".md"]
+
+
+def test_links_in_the_documents_lead_somewhere(root: Path) -> None:
+    for page in markdown(root):
+        links = re.findall(r"\]\((?!https?:|mailto:)([^)#\s]+)", page.read_text(encoding="utf-8"))
         missing = [link for link in links if not (page.parent / link).exists()]
         assert missing == [], page.name
+
+
+def test_files_named_in_the_documents_exist(root: Path) -> None:
+    """A file or folder may be named without the folders above it."""
+    known = set()
+    for path in committed(root):
+        parts = path.relative_to(root).parts
+        whole = ["/".join(parts[:k]) for k in range(1, len(parts) + 1)]
+        known.update(name[k:] for name in whole for k in starts(name))
+    for page in markdown(root):
+        if page.name == "CHANGELOG.md":  # names what was there then
+            continue
+        named = re.findall(r"`([a-z_][\w./]*)`", page.read_text(encoding="utf-8"))
+        files = {name.rstrip("/") for name in named if looks_like_a_file(name)}
+        assert files - known <= FOREIGN_FILES, page.name
+
+
+def starts(path: str) -> list[int]:
+    """Where the name of each part of a path begins."""
+    return [0, *(place.end() for place in re.finditer("/", path))]
+
+
+def looks_like_a_file(name: str) -> bool:
+    first = name.split("/")[0]
+    ending = name.endswith((".py", ".rules", ".lark", ".toml", ".md", ".js", ".sh"))
+    return ending or (first in OUR_FOLDERS and "/" in name and "NAME" not in name)
+
+
+def test_names_beside_files_in_the_glossary_are_in_them(root: Path) -> None:
+    page = (root / "docs" / "glossary.md").read_text(encoding="utf-8")
+    for file, name in re.findall(r"`([\w/]+\.py)` \(`(\w+)`\)", page):
+        path = next(
+            root / top / file for top in ("", "xavi_dialogue") if (root / top / file).is_file()
+        )
+        assert re.search(rf"\b{name}\b", path.read_text(encoding="utf-8")), f"{file}: {name}"
 
 
 @pytest.mark.parametrize("what", STRAY)

@@ -10,7 +10,7 @@ import pytest
 
 from planner.record.trace import decode, encode
 from tests import stories
-from xavi_dialogue.service.in_process import make_mind
+from xavi_dialogue.service.in_process import make_pipeline
 from xavi_dialogue.transcripts.coverage import measure
 from xavi_dialogue.transcripts.replay import (
     BESIDE,
@@ -51,7 +51,7 @@ for one in transcripts_in(Path(sys.argv[1])):
 
 @each
 def test_a_conversation_comes_out_of_its_recording(one: Written) -> None:
-    played = replay_recorded(one.transcript, recording(one.ride), make_mind())
+    played = replay_recorded(one.transcript, recording(one.ride), make_pipeline())
     assert write(played.transcript) == one.text
 
 

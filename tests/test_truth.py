@@ -16,7 +16,7 @@ from planner.record.trace import PlanTrace, Rollout
 from sim.setup import scenario
 from xavi_dialogue.dialogue.explanation import Contrastive
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.service.in_process import Conversation, drive_to, make_mind, planner_for
+from xavi_dialogue.service.in_process import Conversation, drive_to, make_pipeline, planner_for
 from xavi_dialogue.vehicle.episode import network_of, start
 
 pytestmark = pytest.mark.slow
@@ -50,7 +50,7 @@ class Asked:
 def ask(name: str, seed: int, text: str) -> Asked:
     world = scenario.load(name)
     network = network_of(world)
-    conversation = Conversation(make_mind(), planner_for(network))
+    conversation = Conversation(make_pipeline(), planner_for(network))
     with start(world, seed, network) as ride:
         at = drive_to(ride, conversation, None)
     reply = conversation.ask(text, at)

@@ -15,7 +15,7 @@ from typer.core import TyperGroup
 
 from xavi_dialogue.cli.commands import chat, dashboard, doctor, keys, record, serve, sessions
 from xavi_dialogue.cli.commands import inspect as looking
-from xavi_dialogue.cli.commands.common import Shell, to_json
+from xavi_dialogue.cli.commands.common import Streams, to_json
 from xavi_dialogue.process.exit_status import ExitStatus
 from xavi_dialogue.process.kernel_cache import find_place
 
@@ -171,7 +171,7 @@ def _note(text: str) -> None:
     print(f"{line}\n", end="", file=sys.stderr, flush=True)  # in one piece, whatever else writes
 
 
-SHELL = Shell(_errors, _write, _note, _lines)
+SHELL = Streams(_errors, _write, _note, _lines)
 for room in (chat, dashboard, serve, record, looking, sessions, keys, doctor):
     room.add(app, SHELL)
 

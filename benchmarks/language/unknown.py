@@ -16,7 +16,7 @@ from benchmarks.language.latency import understood
 from benchmarks.language.questions import LEARN, read_folder
 from planner.record.trace import PlanTrace
 from xavi_dialogue.dialogue.manager import fold
-from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.events import EventRecorded, Input, RideEnded, TraceRecorded
 from xavi_dialogue.dialogue.state.state import Dialogue
@@ -26,7 +26,7 @@ from xavi_dialogue.domain.meaning import Ask
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.nlu.grammar.lexicon import lexicon
 from xavi_dialogue.nlu.text.spelling import corrections
-from xavi_dialogue.service.in_process import Conversation, NoPlan, make_mind
+from xavi_dialogue.service.in_process import Conversation, NoPlan, make_pipeline
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.ride_file import RecordedRide
 
@@ -148,13 +148,13 @@ def report(found: Sequence[Heard]) -> UnknownReport:
 
 def _asked(text: str, ride: RecordedRide) -> Reply:
     """Ask at the end of a ride, as the first question of a conversation."""
-    mind = make_mind()
-    return Conversation(mind, _again(ride), _driven(mind, ride)).ask(text, ride.halt)
+    pipeline = make_pipeline()
+    return Conversation(pipeline, _again(ride), _driven(pipeline, ride)).ask(text, ride.halt)
 
 
-def _driven(mind: Mind, ride: RecordedRide) -> Dialogue:
+def _driven(pipeline: Pipeline, ride: RecordedRide) -> Dialogue:
     inputs: list[Input] = [*map(TraceRecorded, ride.traces), *map(EventRecorded, ride.events)]
-    return fold(mind, [*inputs, *([] if ride.ended is None else [RideEnded(ride.ended)])])
+    return fold(pipeline, [*inputs, *([] if ride.ended is None else [RideEnded(ride.ended)])])
 
 
 def _again(ride: RecordedRide) -> Callable[[PlanTrace, NeedRollout], PlanTrace]:

@@ -22,7 +22,7 @@ from xavi_dialogue.domain.answers import Answer, Contrast, Reason, Refusal
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.paper import contrast_of
 from xavi_dialogue.nlg.say import say
-from xavi_dialogue.service.in_process import Conversation, drive_to, make_mind, planner_for
+from xavi_dialogue.service.in_process import Conversation, drive_to, make_pipeline, planner_for
 from xavi_dialogue.vehicle.episode import network_of, settings_of, start
 
 
@@ -67,7 +67,7 @@ def broken(task: tuple[str, int], error: str) -> tuple[Told, ...]:
 
 def _tell(scenario: Scenario, seed: int, foils: tuple[Foil, ...]) -> tuple[Told, ...]:
     network = network_of(scenario)
-    conversation = Conversation(make_mind(), planner_for(network))
+    conversation = Conversation(make_pipeline(), planner_for(network))
     with start(scenario, seed, network) as ride:
         at = drive_to(ride, conversation, None)
     told = tuple(_ask(conversation, foil, seed, at, network) for foil in foils)

@@ -18,7 +18,7 @@ from msgspec.structs import replace
 from benchmarks.figures import Figure, figure, figures_table, in_columns
 from benchmarks.service.browser import Window, opened
 from benchmarks.service.served import Served, served
-from benchmarks.service.synthetic_vehicle import ForgedCar, Traffic
+from benchmarks.service.synthetic_vehicle import SyntheticVehicle, Traffic
 from planner.record.trace import PlanTrace
 from sim.roads.network import Network
 from sim.setup.scenario import Scenario, load
@@ -115,7 +115,7 @@ class _Ride:
 
     def go(self) -> None:
         """Report until it is over."""
-        car = ForgedCar(self.bus, Keys(), self.scenario.network)
+        car = SyntheticVehicle(self.bus, Keys(), self.scenario.network)
         car.appear()
         traffic = Traffic(self.network, self.vehicles, SEED)
         began = time.monotonic()

@@ -22,10 +22,10 @@ from sim.setup.scenario import load
 from xavi_dialogue.bus.interface import Keys, call
 from xavi_dialogue.bus.messages import AliveReport, unpack
 from xavi_dialogue.chat.client import Client
-from xavi_dialogue.chat.local_backend import Convoy, convoy, first_scene
+from xavi_dialogue.chat.local_backend import LocalBackend, first_scene, start_local
 from xavi_dialogue.process.child_commands import Until
-from xavi_dialogue.service.in_process import Conversation, drive_to, make_mind, planner_for
-from xavi_dialogue.storage.turn_log import Keeping
+from xavi_dialogue.service.in_process import Conversation, drive_to, make_pipeline, planner_for
+from xavi_dialogue.storage.turn_log import Retention
 from xavi_dialogue.vehicle.episode import network_of, start
 
 SCENARIOS = ("s1", "s2")
@@ -101,23 +101,23 @@ def measure(sessions: int, seconds: float, note: Callable[[str], None]) -> Repor
     for name in SCENARIOS:
         _alone(watch, name)
     with TemporaryDirectory() as folder:
-        keeping = Keeping(Path(folder) / "dialogue.sqlite3", days=1)
-        with convoy(SCENARIOS[0], SEED, 0.0, keeping) as behind:
-            client = Client(behind.bus, Keys(), "bench")
-            first_scene(behind, client)
-            at = behind.drive(client, Until(None), halt=True).sim_time
+        keeping = Retention(Path(folder) / "dialogue.sqlite3", days=1)
+        with start_local(SCENARIOS[0], SEED, 0.0, keeping) as backend:
+            client = Client(backend.bus, Keys(), "bench")
+            first_scene(backend, client)
+            at = backend.drive(client, Until(None), halt=True).sim_time
             note("one passenger over the bus")
             for moment in (one for one in MOMENTS if one <= at):
-                _over_the_bus(watch, behind, client, moment, QUESTIONS)
-            loads, memory = _crowded(behind, sessions, seconds, at, note)
+                _over_the_bus(watch, backend, client, moment, QUESTIONS)
+            loads, memory = _crowded(backend, sessions, seconds, at, note)
     for story in STORIES:
         note(f"one passenger over the bus in {story}, seeds {SEEDS[0]} to {SEEDS[-1]}")
         for seed in SEEDS:
-            with convoy(story, seed, 0.0) as behind:
-                client = Client(behind.bus, Keys(), "bench")
-                first_scene(behind, client)
-                at = behind.drive(client, Until(None), halt=True).sim_time
-                _over_the_bus(watch, behind, client, at, DEEPER)
+            with start_local(story, seed, 0.0) as backend:
+                client = Client(backend.bus, Keys(), "bench")
+                first_scene(backend, client)
+                at = backend.drive(client, Until(None), halt=True).sim_time
+                _over_the_bus(watch, backend, client, at, DEEPER)
     figures = watch.figures()
     return aimed(Report("dialogue", figures, loads, *memory), *_targets(figures, loads))
 
@@ -137,7 +137,7 @@ def ride(name: str) -> tuple[Conversation, Network]:
     """A scenario, driven to its end and recorded."""
     scenario = load(name)
     network = network_of(scenario)
-    conversation = Conversation(make_mind(), planner_for(network))
+    conversation = Conversation(make_pipeline(), planner_for(network))
     with start(scenario, SEED, network) as moments:
         drive_to(moments, conversation, scenario.duration)
     return conversation, network
@@ -157,24 +157,24 @@ def _alone(watch: Watch, name: str) -> None:
 
 
 def _over_the_bus(
-    watch: Watch, behind: Convoy, client: Client, at: float, questions: Sequence[str]
+    watch: Watch, backend: LocalBackend, client: Client, at: float, questions: Sequence[str]
 ) -> None:
     """From a passenger's process through the service's, about a moment [s]."""
     for question in questions:
-        before = _counters(behind)["what_ifs"]
+        before = _counters(backend)["what_ifs"]
         began = time.perf_counter()
         client.ask(question, at)
         taken = time.perf_counter() - began
-        again = _counters(behind)["what_ifs"] > before
+        again = _counters(backend)["what_ifs"] > before
         kind = "planned again" if again else "from the record"
         watch.taken.setdefault(f"{OVER_THE_BUS} {kind}", []).append(taken)
 
 
 def _crowded(
-    behind: Convoy, sessions: int, seconds: float, until: float, note: Callable[[str], None]
+    backend: LocalBackend, sessions: int, seconds: float, until: float, note: Callable[[str], None]
 ) -> tuple[tuple[Load, ...], tuple[float, float]]:
     """Many passengers: all at once, then at given rates; and the memory that they take."""
-    bus, keys, loads = behind.bus, Keys(), []
+    bus, keys, loads = backend.bus, Keys(), []
     moments = [moment for moment in MOMENTS if moment <= until]
 
     def asked(count: int, rate: float) -> Iterator[Question]:
@@ -183,18 +183,18 @@ def _crowded(
             text = QUESTIONS[(k + k // len(QUESTIONS)) % len(QUESTIONS)]
             yield Question(due, f"passenger-{k % sessions}", text, moments[7 * k % len(moments)])
 
-    before = _counters(behind)["resident_bytes"]
+    before = _counters(backend)["resident_bytes"]
     note(f"{sessions} passengers, all at once")
     loads.append(ask_all(bus, keys, "all at once", asked(sessions, 0.0)))
-    each = (_counters(behind)["resident_bytes"] - before) / sessions
+    each = (_counters(backend)["resident_bytes"] - before) / sessions
     for rate in RATES:
         note(f"{sessions} passengers, {rate} questions a second")
         count = round(rate * seconds)
         loads.append(ask_all(bus, keys, f"{rate} a second", asked(count, rate)))
-    return tuple(loads), (round(each), _counters(behind)["resident_bytes"])
+    return tuple(loads), (round(each), _counters(backend)["resident_bytes"])
 
 
-def _counters(behind: Convoy) -> dict[str, float]:
+def _counters(backend: LocalBackend) -> dict[str, float]:
     """How the service fares."""
-    payload = call(behind.bus, Keys().of("alive/service"), b"", 10.0)
+    payload = call(backend.bus, Keys().of("alive/service"), b"", 10.0)
     return unpack(payload, AliveReport).counters

@@ -11,7 +11,7 @@ from planner.record.events import Event
 from planner.record.trace import PlanTrace
 from sim.roads.network import Lane, Network, point_at
 from sim.scene import Scene, VehicleState
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Bus, Keys, Presence
 from xavi_dialogue.bus.messages import CarState, EventReport, SceneReport, TraceReport, pack
 from xavi_dialogue.vehicle.map_server import serve_roads
@@ -102,7 +102,7 @@ def _state(mover: _Mover) -> VehicleState:
     return VehicleState(place, round(heading, 4), speed, 0.0, length, width, kind, mover.colour)
 
 
-class ForgedCar:
+class SyntheticVehicle:
     """Reports what it is told to."""
 
     def __init__(self, bus: Bus, keys: Keys, roads: Path | None = None) -> None:
@@ -127,7 +127,7 @@ class ForgedCar:
 
     def appear(self) -> None:
         """Be there."""
-        self._alive = Alive("car").serve(self._bus, self._keys)
+        self._alive = HealthReporter("car").serve(self._bus, self._keys)
 
     def vanish(self) -> None:
         """Be there no longer."""

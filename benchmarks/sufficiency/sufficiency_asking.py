@@ -9,7 +9,7 @@ from benchmarks.drive.runs import warm
 from planner.record.trace import Action, PlanTrace
 from sim.roads.network import Network
 from sim.setup.scenario import load
-from xavi_dialogue.service.in_process import Conversation, make_mind, planner_for
+from xavi_dialogue.service.in_process import Conversation, make_pipeline, planner_for
 from xavi_dialogue.vehicle.episode import Moment, clock, network_of, start
 
 Kind: TypeAlias = Literal["why", "why-not", "instead", "what-if", "how"]
@@ -112,7 +112,7 @@ def asked(scenario: str, seed: int, every: int) -> Asked:
 
 def answers(moments: Sequence[Moment], network: Network, every: int) -> list[Answered]:
     """Answer the questions at every so many decisions of a ride, each as if it were the first."""
-    conversation = Conversation(make_mind(), planner_for(network))
+    conversation = Conversation(make_pipeline(), planner_for(network))
     found: list[Answered] = []
     decisions = 0
     for moment in moments:

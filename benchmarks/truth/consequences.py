@@ -25,7 +25,7 @@ NOTHING = 0.75  # [s] from which a gain is not nothing
 
 
 @claim(
-    rf"would (?:have )?(?P<how>cost|saved?) us (?:about )?{SIZE}",
+    rf"would (?:only )?(?:have )?(?P<how>cost|saved?) us (?:about )?{SIZE}",
     rf"we would (?:have )?(?P<how>lose|lost|gain(?:ed)?) (?:about )?{SIZE}",
     rf"there,? (?:on average, |about )?{SIZE} (?P<how>later|sooner)",
 )

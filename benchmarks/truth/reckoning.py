@@ -29,6 +29,7 @@ DOCUMENTED = Costs(
     {"stop": 2.0, "change-left": 1.0, "change-right": 1.0},
 )
 OUTCOMES: dict[Outcome, Term] = {"collision": "collision", "dead": "dead", "termination": "late"}
+HIDDEN = "hidden {}"  # who might come unseen, by the index in the trace
 SUPPORT = 0.5  # of the best-known continuation's prior mass that one must have to be a candidate
 
 
@@ -115,9 +116,10 @@ def _excess(side: Side, outcome: Outcome, usual: float) -> float:
 
 
 def joint(drive: Rollout) -> Joint:
-    """Return the situation of a drive: goal and trajectory of each vehicle, and how lights go."""
+    """Return the situation of a drive: what each vehicle does, how lights go, who comes unseen."""
     others = sorted((s.vehicle, s.goal, s.trajectory) for s in drive.samples)
-    return (*others, *sorted((s.controller, s.course) for s in drive.lights))
+    hidden = sorted((HIDDEN.format(s.phantom), int(s.comes)) for s in drive.phantoms)
+    return (*others, *sorted((s.controller, s.course) for s in drive.lights), *hidden)
 
 
 class Reckoning:
@@ -149,6 +151,7 @@ class Reckoning:
         for how in ESTIMATORS:
             plans = [plan for plan in self._ended if plan[: len(prefix)] == prefix]
             known = [side for plan in plans if (side := self._follow(plan, how)) is not None]
+            known = [side for side in known if side.plan in self._compared] or known
             most = max((side.mass for side in known), default=0.0)
             known = [side for side in known if side.mass >= SUPPORT * most]
             if known:
@@ -183,7 +186,15 @@ class Reckoning:
         for light in self.trace.lights:
             for k, course in enumerate(light.courses):
                 found[light.controller, k] = course.probability
+        for k, one in enumerate(self.trace.phantoms):
+            found[HIDDEN.format(k), 0] = 1.0 - one.probability
+            found[HIDDEN.format(k), 1] = one.probability
         return found
+
+    @cached_property
+    def _compared(self) -> set[Actions]:
+        drives = (drive for drive in self.trace.rollouts if drive.weight is not None)
+        return {tuple(step.action for step in drive.actions) for drive in drives}
 
     @cached_property
     def _ended(self) -> dict[Actions, dict[Joint, Rollout]]:

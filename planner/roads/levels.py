@@ -14,19 +14,18 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from sim.roads.lines import ON_LANE, crossings
 from sim.roads.network import Lane, Link, Network, angle_between
 from sim.scene import Point
 
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-ASIDE = 2.0  # [m] from the middle of its lane up to which one is on it
 BODY = 25.0  # [m] that a body reaches back at most
 WIDE = 5.0  # [m] of the road that is crossed, to each side of its lane
 NEAR = 30.0  # [m] from a junction within which lanes that it joins may just overlap
 SAME = 8.0  # [m] from a crossing within which other lanes may be taken for the one that crosses
 END = 0.5  # [m] from the end of a lane within which another one just touches it
-STEEP = math.radians(15.0)  # at which roads cross at least
 NOBODY_ELSEWHERE: Bools = np.zeros((0, 0), np.bool_)
 FOOT, CAR = "pedestrian", "passenger"
 
@@ -82,7 +81,7 @@ def _along(one: Passing, states: Array, lengths: Array) -> Bools:
     if one.on_foot:
         turned = 2.0 * turned  # people walk both ways
     turned = np.abs(np.arctan2(np.sin(turned), np.cos(turned)))
-    found: Bools = (away[rows, best] <= ASIDE) & (turned <= one.turn * (1.0 + one.on_foot))
+    found: Bools = (away[rows, best] <= ON_LANE) & (turned <= one.turn * (1.0 + one.on_foot))
     found &= (arc >= one.before) & (arc <= one.after + lengths)
     return found
 
@@ -191,7 +190,7 @@ class Levels:
             unknown = other.internal and other.edge not in self._junctions
             if other.edge == own.edge or unknown or (joined and (own.internal or other.internal)):
                 continue
-            for place, at, theirs, heading, turn in _crossings(own.centreline, other.centreline):
+            for place, at, theirs, heading, turn in crossings(own.centreline, other.centreline):
                 ends = (at, own.length - at, theirs, other.length - theirs)
                 beside = min(ends) < (NEAR if joined else END)
                 if not beside and not self._mistaken(own, other, place, heading):
@@ -221,7 +220,7 @@ class Levels:
                 long = math.dist((ax, ay), (bx, by))
                 points[0] = (ax - (bx - ax) * wide / long, ay - (by - ay) * wide / long)
             begin = at + (wide if at < wide else 0.0)
-            reach = wide + BODY + ASIDE
+            reach = wide + BODY + ON_LANE
             half = 0.5 * min(turn, math.pi - turn)
             row = np.array(points, np.float64)
             yield Passing(lane.edge, on_foot, place, reach, row, begin - wide, begin + wide, half)
@@ -235,33 +234,6 @@ class Levels:
         for link in links:
             beyond = [self._by_name[name].centreline for name in (*link.via, link.to_lane)]
             yield (*lane.centreline, *(point for line in beyond for point in line))
-
-
-def _crossings(
-    own: Sequence[Point], other: Sequence[Point]
-) -> Iterator[tuple[Point, float, float, float, float]]:
-    """Where two lines cross steeply between their ends.
-
-    Yields:
-        The place [m], how far [m] it is along each, the heading [rad] of the other one there, and
-        the angle [rad] between them.
-    """
-    at = 0.0
-    for a, b in pairwise(own):
-        theirs, long = 0.0, math.dist(a, b)
-        for c, d in pairwise(other):
-            far = math.dist(c, d)
-            dx, dy, ex, ey = b[0] - a[0], b[1] - a[1], d[0] - c[0], d[1] - c[1]
-            sine = dx * ey - dy * ex
-            if abs(sine) > math.sin(STEEP) * long * far > 0.0:
-                s = ((c[0] - a[0]) * ey - (c[1] - a[1]) * ex) / sine
-                t = ((c[0] - a[0]) * dy - (c[1] - a[1]) * dx) / sine
-                if 0.0 < s <= 1.0 and 0.0 < t <= 1.0:
-                    turn = math.acos(max(-1.0, min(1.0, (dx * ex + dy * ey) / (long * far))))
-                    place = (a[0] + s * dx, a[1] + s * dy)
-                    yield place, at + s * long, theirs + t * far, math.atan2(ey, ex), turn
-            theirs += far
-        at += long
 
 
 def _distance(a: Point, b: Point, place: Point) -> float:

@@ -21,14 +21,14 @@ AIM = 20.0  # [s] of free driving ahead that a decision aims for at most
 LEAST = 10.0  # [m] into a road at which a waypoint lies
 
 
-class Toll(NamedTuple):
+class LaneCost(NamedTuple):
     """What driving along a lane takes where nobody is in the way."""
 
     time: float  # [s]
     cost: float  # [s] with what its bends cost in comfort
 
 
-def toll(roads: Roads, lane: str) -> Toll:
+def toll(roads: Roads, lane: str) -> LaneCost:
     """What driving along a lane takes, at the speed that its limit and its bends allow."""
     found = roads.tolls.get(lane)
     if found is None:
@@ -39,7 +39,7 @@ def toll(roads: Roads, lane: str) -> Toll:
         turning = float(np.sum(np.abs(np.diff(line.cap * line.curvature))))
         bending = float(np.sum(bend * steps / pace))
         comfort = WEIGHTS["angular-acceleration"] * turning + WEIGHTS["curvature"] * bending
-        found = roads.tolls[lane] = Toll(time, time + comfort)
+        found = roads.tolls[lane] = LaneCost(time, time + comfort)
     return found
 
 

@@ -36,7 +36,7 @@ class View:
     near: Mapping[str, VehicleState | PersonState]  # by name's key: seen or not, the ego not
 
 
-class Eyes:
+class Perception:
     """Looks at a running simulation for its ego, step by step."""
 
     def __init__(

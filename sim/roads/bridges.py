@@ -5,13 +5,11 @@ Where roads cross at one level, a map has a junction, at which their lanes end.
 
 import math
 from collections.abc import Sequence
-from itertools import pairwise
 
 from sim.boxes import Box
+from sim.roads.lines import ON_LANE, crossings
 from sim.roads.network import Lane, Location, Network
 from sim.scene import Point
-
-ASIDE = 2.0  # [m] from the middle of its lane up to which one is on it
 
 
 def apart(network: Network, one: Box, other: Box) -> bool:
@@ -19,8 +17,10 @@ def apart(network: Network, one: Box, other: Box) -> bool:
     first, second = _lane(network, one), _lane(network, other)
     if first is None or second is None or first.edge == second.edge:
         return False
-    return any(_cross(first.centreline, line) for line in _around(network, second)) or any(
-        _cross(second.centreline, line) for line in _around(network, first)
+    return any(
+        any(crossings(own.centreline, line))
+        for own, other in ((first, second), (second, first))
+        for line in _around(network, other)
     )
 
 
@@ -29,7 +29,7 @@ def _lane(network: Network, box: Box) -> Lane | None:
     every = {**network.other_lanes, **network.lanes}
     beside = network.locate_aside(box.position, box.heading, turn=math.pi)
     found = min((*network.locate(box.position, box.heading), *beside), key=_away, default=None)
-    if found is None or _away(found) > ASIDE or every[found.lane].internal:
+    if found is None or _away(found) > ON_LANE or every[found.lane].internal:
         return None
     return every[found.lane]
 
@@ -44,17 +44,3 @@ def _around(network: Network, lane: Lane) -> list[Sequence[Point]]:
     names = [name for link in before for name in (link.from_lane, *link.via)]
     names += [name for link in network.links_from(lane.id) for name in (*link.via, link.to_lane)]
     return [lane.centreline, *(network.lanes[name].centreline for name in names)]
-
-
-def _cross(one: Sequence[Point], other: Sequence[Point]) -> bool:
-    """Whether two lines cross between their ends."""
-    return any(
-        _side(a, b, c) * _side(a, b, d) < 0.0 and _side(c, d, a) * _side(c, d, b) < 0.0
-        for a, b in pairwise(one)
-        for c, d in pairwise(other)
-    )
-
-
-def _side(a: Point, b: Point, c: Point) -> float:
-    """On which side of a line from a to b a point c is."""
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

@@ -2,9 +2,13 @@
 
 import math
 from bisect import bisect_right
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from sim.scene import Point
+
+ON_LANE = 2.0  # [m] from the middle of a lane up to which a vehicle is on it
+STEEP = math.radians(15.0)  # least angle at which roads cross
 
 
 def project(line: tuple[Point, ...], position: Point) -> tuple[float, float, float]:
@@ -64,3 +68,32 @@ def point_at(line: tuple[Point, ...], offset: float) -> tuple[Point, float]:
     span = arc[k + 1] - arc[k]
     share = min(max((offset - arc[k]) / span, 0.0), 1.0) if span > 0.0 else 0.0
     return (ax + (bx - ax) * share, ay + (by - ay) * share), math.atan2(by - ay, bx - ax)
+
+
+def crossings(
+    own: Sequence[Point], other: Sequence[Point]
+) -> Iterator[tuple[Point, float, float, float, float]]:
+    """Yield where two lines cross steeply between their ends.
+
+    Roads that cross so without a junction are on different levels: a bridge and a road below.
+
+    Yields:
+        The place [m], how far [m] it is along each, the heading [rad] of the other one there, and
+        the angle [rad] between them.
+    """
+    at = 0.0
+    for a, b in pairwise(own):
+        theirs, long = 0.0, math.dist(a, b)
+        for c, d in pairwise(other):
+            far = math.dist(c, d)
+            dx, dy, ex, ey = b[0] - a[0], b[1] - a[1], d[0] - c[0], d[1] - c[1]
+            sine = dx * ey - dy * ex
+            if abs(sine) > math.sin(STEEP) * long * far > 0.0:
+                s = ((c[0] - a[0]) * ey - (c[1] - a[1]) * ex) / sine
+                t = ((c[0] - a[0]) * dy - (c[1] - a[1]) * dx) / sine
+                if 0.0 < s <= 1.0 and 0.0 < t <= 1.0:
+                    turn = math.acos(max(-1.0, min(1.0, (dx * ex + dy * ey) / (long * far))))
+                    place = (a[0] + s * dx, a[1] + s * dy)
+                    yield place, at + s * long, theirs + t * far, math.atan2(ey, ex), turn
+            theirs += far
+        at += long

@@ -92,20 +92,6 @@ class Network:
         met = (beside.get(index) for index in link.other_foes)
         return tuple(way for way in met if isinstance(way, Crossing))
 
-    def crossing_at(self, position: Point, margin: float = 0.5) -> Crossing | None:
-        """The crossing that a place is on.
-
-        Args:
-            position: [m]
-            margin: [m] around the crossing that counts as on it.
-        """
-        for crossing in self.crossings:
-            offset, lateral, _ = project(crossing.line, position)
-            inside = -margin <= offset <= cumulative(crossing.line)[-1] + margin
-            if inside and abs(lateral) <= crossing.width / 2.0 + margin:
-                return crossing
-        return None
-
     def edge_lanes(self, edge: str) -> tuple[Lane, ...]:
         """The lanes of an edge from right to left.
 

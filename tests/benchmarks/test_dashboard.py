@@ -11,7 +11,7 @@ from benchmarks.figures import figure
 from benchmarks.service import browser
 from benchmarks.service.browser import NoBrowser
 from benchmarks.service.dashboard import Frames, Memory, Report
-from benchmarks.service.synthetic_vehicle import ForgedCar, Traffic
+from benchmarks.service.synthetic_vehicle import SyntheticVehicle, Traffic
 from planner.record.events import Event
 from sim.roads.network import Network
 from sim.setup import scenario
@@ -71,7 +71,7 @@ def test_a_forged_car_reports_as_a_real_one(town: Network) -> None:
         there: list[bool] = []
         other.watch(keys.of("alive/car"), lambda _, alive: there.append(alive))
         other.subscribe(keys.of("scene"), lambda _, payload: heard.append(payload))
-        car = ForgedCar(bus, keys, scenario.load("town").network)
+        car = SyntheticVehicle(bus, keys, scenario.load("town").network)
         car.appear()
         trace = s1_ride().traces[0]
         car.decide(trace)

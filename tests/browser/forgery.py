@@ -11,7 +11,7 @@ from planner.record.events import Event
 from planner.record.trace import PlanTrace
 from sim.scene import VehicleState
 from tests.traces import s1_ride
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Bus, BusError, Call, Keys
 from xavi_dialogue.bus.messages import (
     AskReply,
@@ -93,7 +93,7 @@ class ForgedService:
             PastTurn(f"{text} {n}", answer(f"<b class=forged>{n}</b>"))
             for n, text in enumerate(MARKUP)
         ]
-        Alive("service").serve(self.bus, self.keys)
+        HealthReporter("service").serve(self.bus, self.keys)
         for name, handle in (("ask", self._ask), ("history", self._history)):
             self.bus.serve(self.keys.of(f"@rpc/{name}"), self._answering(handle))
 

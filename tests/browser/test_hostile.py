@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import expect
 
-from benchmarks.service.synthetic_vehicle import ForgedCar
+from benchmarks.service.synthetic_vehicle import SyntheticVehicle
 from tests.browser.conftest import Visits
 from tests.browser.forgery import MARKUP, ForgedService, decisions, events, traffic
 from tests.browser.screen import Screen
@@ -31,7 +31,7 @@ def hostile(crew: Crew) -> Iterator[Dashboard]:
     over = threading.Event()
     with host(Link.of_hub(endpoint)) as bus:
         ForgedService(bus).open()
-        car = ForgedCar(bus, Keys())
+        car = SyntheticVehicle(bus, Keys())
         car.scenario = MARKUP[0]
         car.appear()
         for trace in decisions():

@@ -16,8 +16,8 @@ raise ImportError("SUMO is not installed")
 
 
 def test_a_recording_is_seen_and_asked_about(crew: Crew, visit: Visits, tmp_path: Path) -> None:
-    tape = tmp_path / "ride.mcap"
-    chat = crew.xavi("chat", *S1, "--record", str(tape))
+    recorded = tmp_path / "ride.mcap"
+    chat = crew.xavi("chat", *S1, "--record", str(recorded))
     chat.order("@ 8.0s", "Why did you change lanes?")
     assert "left lane" in chat.hear(1)[0]
     assert chat.popen.stdin is not None
@@ -28,7 +28,7 @@ def test_a_recording_is_seen_and_asked_about(crew: Crew, visit: Visits, tmp_path
         (without / name).mkdir(parents=True)
         (without / name / "__init__.py").write_text(NO_SUMO)
     shown = dashboard(
-        crew, "--replay", str(tape), "--keep-days", "0", extra={"PYTHONPATH": str(without)}
+        crew, "--replay", str(recorded), "--keep-days", "0", extra={"PYTHONPATH": str(without)}
     )
     screen = visit(shown.address)
     expect(screen.page.locator("#strip")).to_contain_text("This is a recording.")

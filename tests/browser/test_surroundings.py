@@ -10,7 +10,7 @@ import pytest
 from msgspec import structs
 from playwright.sync_api import expect
 
-from benchmarks.service.synthetic_vehicle import ForgedCar
+from benchmarks.service.synthetic_vehicle import SyntheticVehicle
 from planner.record.hidden_record import Phantom
 from sim.scene import Light, LightState, PersonState, Scene, Signal, Unseen, VehicleState
 from tests.browser.conftest import Visits
@@ -53,7 +53,7 @@ def junction(crew: Crew) -> Iterator[Dashboard]:
     """A car that sees all this."""
     endpoint, over = free_endpoint(), threading.Event()
     with host(Link.of_hub(endpoint)) as bus:
-        car = ForgedCar(bus, Keys(), ROADS)
+        car = SyntheticVehicle(bus, Keys(), ROADS)
         car.appear()
         trace = structs.replace(s1_ride().traces[0], phantoms=(SOMEBODY,), sim_time=BEGIN)
 

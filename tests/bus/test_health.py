@@ -2,7 +2,7 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 
 from xavi_dialogue import __version__
-from xavi_dialogue.bus.health import MEMORY, Alive
+from xavi_dialogue.bus.health import MEMORY, HealthReporter
 from xavi_dialogue.bus.interface import Keys, call
 from xavi_dialogue.bus.memory_bus import MemoryHub
 from xavi_dialogue.bus.messages import AliveReport, unpack
@@ -12,7 +12,7 @@ KEYS = Keys("shuttle-3")
 
 def test_a_component_tells_how_it_fares() -> None:
     now = [100.0]
-    alive = Alive("car", ["scenes", "events"], clock=lambda: now[0])
+    alive = HealthReporter("car", ["scenes", "events"], clock=lambda: now[0])
     hub, seen = MemoryHub(), []
     alive.serve(hub.connect(), KEYS)
     hub.connect().watch(KEYS.of("alive/*"), lambda key, there: seen.append((key, there)))
@@ -44,12 +44,12 @@ def test_a_component_tells_how_it_fares() -> None:
 def test_a_component_that_withdraws_is_not_alive() -> None:
     hub, seen = MemoryHub(), []
     hub.connect().watch(KEYS.of("alive/car"), lambda _, there: seen.append(there))
-    Alive("car").serve(hub.connect(), KEYS).withdraw()
+    HealthReporter("car").serve(hub.connect(), KEYS).withdraw()
     assert seen == [True, False]
 
 
 def test_no_count_of_any_thread_is_lost() -> None:
-    alive, start = Alive("car"), threading.Barrier(4)
+    alive, start = HealthReporter("car"), threading.Barrier(4)
 
     def count() -> None:
         start.wait()

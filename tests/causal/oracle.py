@@ -107,6 +107,8 @@ def intervene(trace, do, given=None, support=0.5):
             candidates.append((sum(w * row[2].reward for w, row in rows), covered, plan, rows))
     if not candidates:
         return None
+    compared = [tuple(a.action for a in r.actions) for r in trace.rollouts if r.weight is not None]
+    candidates = [c for c in candidates if c[2] in compared] or candidates
     most = max(c[1] for c in candidates)
     known = [c for c in candidates if c[1] >= support * most]
     best = known[0]

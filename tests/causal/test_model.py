@@ -9,7 +9,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.record.trace import OUTCOMES, Sample
-from tests.traces import Aim, End, Way, World, joints, prior, random_world, trace_of
+from tests.traces import (
+    Aim,
+    End,
+    Way,
+    World,
+    joints,
+    prior,
+    random_world,
+    recorded,
+    trace_of,
+)
 from xavi_dialogue.causal.model import CausalModel, InconsistentTrace
 
 worlds = st.integers(0, 10_000).map(lambda seed: random_world(random.Random(seed)))
@@ -182,3 +192,22 @@ def test_a_continuation_seen_once_in_a_lucky_sample_is_not_the_best():
     assert found is not None
     assert found.plan == ("continue", "continue")
     assert found.expectation("time") == pytest.approx(9.0)
+
+
+def test_the_continuation_is_the_one_that_the_decision_compared():
+    """Going on after the stop went well in the likely sample; compared was going right in both."""
+    aims = {1: (Aim("continue", 1.0, (Way(("continue",), 0.9), Way(("continue",), 0.1))),)}
+    on, right = ("stop", "continue"), ("stop", "exit-right")
+    ends = {on: End(time=5.0), right: End(time=9.0)}
+    world = World(aims, (on, right), lambda plan, chosen: (ends[plan], 2))
+    rows = [(on, ((1, 0, 0),), 1, False), *((right, ((1, 0, k),), 1, True) for k in (0, 1))]
+    known = recorded(world, rows)
+    assert CausalModel(known).intervene(("stop",)).plan == on
+    drives = tuple(
+        msgspec.structs.replace(r, weight=(0.9, 0.1)[r.samples[0].trajectory] if r.forced else None)
+        for r in known.rollouts
+    )
+    model = CausalModel(msgspec.structs.replace(known, rollouts=drives))
+    assert model.intervene(("stop",)).plan == right
+    assert model.intervene(("stop",)).coverage == pytest.approx(1.0)
+    assert model.intervene(on).plan == on  # where it is asked for

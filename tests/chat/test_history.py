@@ -34,12 +34,12 @@ from xavi_dialogue.bus.messages import (
     pack,
     unpack,
 )
-from xavi_dialogue.chat.backend import Behind
-from xavi_dialogue.chat.batch import Piped
+from xavi_dialogue.chat.backend import Backend
+from xavi_dialogue.chat.batch import BatchChat
 from xavi_dialogue.chat.client import Client
-from xavi_dialogue.chat.controller import LOST, RemoteCabin
-from xavi_dialogue.chat.history import NOTHING, Minutes
-from xavi_dialogue.chat.local_backend import Convoy
+from xavi_dialogue.chat.controller import LOST, ChatController
+from xavi_dialogue.chat.history import NOTHING, SessionHistory
+from xavi_dialogue.chat.local_backend import LocalBackend
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.exit_status import ExitStatus, status_of
@@ -120,8 +120,8 @@ def client(service: FakeService) -> Client:
 
 
 @pytest.fixture
-def minutes(client: Client) -> Minutes:
-    return Minutes(client, "ada", HEADER)
+def session_history(client: Client) -> SessionHistory:
+    return SessionHistory(client, "ada", HEADER)
 
 
 def scene(at: float, state: CarState = "driving", ride: str = "r1") -> SceneReport:
@@ -141,79 +141,83 @@ def scene(at: float, state: CarState = "driving", ride: str = "r1") -> SceneRepo
 
 
 def test_why_is_asked_of_what_was_said_last_else_of_what_was_done(
-    minutes: Minutes, client: Client
+    session_history: SessionHistory, client: Client
 ) -> None:
-    assert minutes.why() == slash_commands.WHY_DONE
+    assert session_history.why() == slash_commands.WHY_DONE
     client.ask("What are you doing?")
-    assert minutes.why() == slash_commands.WHY
+    assert session_history.why() == slash_commands.WHY
 
 
-def test_what_was_said_is_told_with_its_moments(minutes: Minutes, client: Client) -> None:
-    assert minutes.told() == NOTHING
+def test_what_was_said_is_told_with_its_moments(
+    session_history: SessionHistory, client: Client
+) -> None:
+    assert session_history.told() == NOTHING
     for text, at in (("One?", 1.0), ("Two?", 1.0), ("Three?", 2.5)):
         client.ask(text, at)
-    assert minutes.told() == (
+    assert session_history.told() == (
         "@ 1.0s\n\n> One?\nAnswer to One?\n\n> Two?\nAnswer to Two?\n\n"
         "@ 2.5s\n\n> Three?\nAnswer to Three?"
     )
 
 
-def test_what_is_saved_is_a_transcript(minutes: Minutes, client: Client, tmp_path: Path) -> None:
+def test_what_is_saved_is_a_transcript(
+    session_history: SessionHistory, client: Client, tmp_path: Path
+) -> None:
     client.ask("One?", 1.0)
     file = tmp_path / "said.txt"
-    assert minutes.save(str(file), NOW) == f"Saved one question and its answer to {file}."
+    assert session_history.save(str(file), NOW) == f"Saved one question and its answer to {file}."
     read = transcript.read(file.read_text())
     assert dict(read.header) == dict(HEADER)
     assert "> One?\nAnswer to One?\n" in file.read_text()
 
 
 def test_what_is_saved_as_json_lines_can_be_read_back(
-    minutes: Minutes, client: Client, tmp_path: Path
+    session_history: SessionHistory, client: Client, tmp_path: Path
 ) -> None:
     client.ask("One?", 1.0)
     client.ask("Two?", 2.0)
     file = tmp_path / "said.jsonl"
-    assert minutes.save(str(file), NOW) == f"Saved 2 questions and their answers to {file}."
+    assert session_history.save(str(file), NOW) == f"Saved 2 questions and their answers to {file}."
     read = [msgspec.json.decode(line, type=PastTurn) for line in file.read_text().splitlines()]
     assert read == list(client.history())
 
 
 def test_a_file_without_a_name_is_named_after_session_and_time(
-    minutes: Minutes, client: Client, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    session_history: SessionHistory, client: Client, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     client.ask("One?")
-    minutes.save("", NOW)
+    session_history.save("", NOW)
     assert [file.name for file in tmp_path.iterdir()] == ["ada-20260504-030201.txt"]
 
 
 def test_no_file_is_written_over_and_none_without_anything_said(
-    minutes: Minutes, client: Client, tmp_path: Path
+    session_history: SessionHistory, client: Client, tmp_path: Path
 ) -> None:
     file = tmp_path / "said.txt"
     with pytest.raises(CommandError, match="nothing to save"):
-        minutes.save(str(file), NOW)
+        session_history.save(str(file), NOW)
     assert not file.exists()
     client.ask("One?")
     file.write_text("mine")
     with pytest.raises(CommandError, match=r"said\.txt already; it stays as it is"):
-        minutes.save(str(file), NOW)
+        session_history.save(str(file), NOW)
     assert file.read_text() == "mine"
     with pytest.raises(CommandError, match="cannot be written: No such file"):
-        minutes.save(str(tmp_path / "nowhere" / "said.txt"), NOW)
+        session_history.save(str(tmp_path / "nowhere" / "said.txt"), NOW)
 
 
 def test_what_is_saved_is_for_its_owner_alone(
-    minutes: Minutes, client: Client, tmp_path: Path
+    session_history: SessionHistory, client: Client, tmp_path: Path
 ) -> None:
     client.ask("One?")
     for name in ("said.txt", "said.jsonl"):
-        minutes.save(str(tmp_path / name), NOW)
+        session_history.save(str(tmp_path / name), NOW)
         assert (tmp_path / name).stat().st_mode & 0o777 == 0o600
 
 
 def test_what_cannot_be_saved_whole_leaves_nothing_in_its_way(
-    minutes: Minutes, client: Client, tmp_path: Path
+    session_history: SessionHistory, client: Client, tmp_path: Path
 ) -> None:
     for k in range(20):
         client.ask(f"{k} " + "long " * 200)
@@ -223,24 +227,26 @@ def test_what_cannot_be_saved_whole_leaves_nothing_in_its_way(
     try:
         resource.setrlimit(resource.RLIMIT_FSIZE, (4096, limits[1]))
         with pytest.raises(CommandError, match="cannot be written: File too large"):
-            minutes.save(str(file), NOW)
+            session_history.save(str(file), NOW)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
         signal.signal(signal.SIGXFSZ, before)
     assert not file.exists()
-    assert minutes.save(str(file), NOW).startswith("Saved 20")
+    assert session_history.save(str(file), NOW).startswith("Saved 20")
 
 
-def test_a_place_that_nobody_has_is_no_place_to_save(minutes: Minutes, client: Client) -> None:
+def test_a_place_that_nobody_has_is_no_place_to_save(
+    session_history: SessionHistory, client: Client
+) -> None:
     client.ask("One?")
     with pytest.raises(CommandError, match="There is no place ~nobody-of-this-name/x"):
-        minutes.save("~nobody-of-this-name/x", NOW)
+        session_history.save("~nobody-of-this-name/x", NOW)
 
 
 def test_forgetting_needs_no_history(client: Client, service: FakeService) -> None:
     client.ask("One?")
     service.hub.connect().serve(KEYS.of("@rpc/history"), lambda call: call.refuse(b""))
-    assert Minutes(client, "ada", HEADER).forget() == "Erased one question and its answer."
+    assert SessionHistory(client, "ada", HEADER).forget() == "Erased one question and its answer."
 
 
 def test_whether_a_service_answers_needs_no_history(client: Client, service: FakeService) -> None:
@@ -251,8 +257,8 @@ def test_whether_a_service_answers_needs_no_history(client: Client, service: Fak
     bus = service.hub.connect()
     bus.serve(KEYS.of("@rpc/history"), lambda call: call.reply(b"x" * HistoryReply.LIMIT * 2))
     bus.serve(KEYS.of("@rpc/cancel"), lambda call: call.reply(cancelled(call.payload)))
-    behind = Convoy(Serving(), Serving(), bus)  # type: ignore[arg-type]
-    assert behind.recover(client)
+    backend = LocalBackend(Serving(), Serving(), bus)  # type: ignore[arg-type]
+    assert backend.recover(client)
 
 
 def cancelled(payload: bytes) -> bytes:
@@ -265,15 +271,15 @@ def test_forgetting_tells_how_much_it_was_and_takes_what_was_typed_with_it(
     client: Client,
 ) -> None:
     typed = ["/save secret.txt"]  # also where nothing came of it
-    minutes = Minutes(client, "ada", HEADER, typed.clear)
-    assert minutes.forget() == "There was nothing to erase."
+    session_history = SessionHistory(client, "ada", HEADER, typed.clear)
+    assert session_history.forget() == "There was nothing to erase."
     assert typed == []
     client.ask("One?")
-    assert minutes.forget() == "Erased one question and its answer."
+    assert session_history.forget() == "Erased one question and its answer."
     client.ask("One?")
     client.ask("Two?")
-    assert minutes.forget() == "Erased 2 questions and their answers."
-    assert minutes.told() == NOTHING
+    assert session_history.forget() == "Erased 2 questions and their answers."
+    assert session_history.told() == NOTHING
 
 
 def test_what_could_not_be_erased_is_told(client: Client, service: FakeService) -> None:
@@ -281,21 +287,26 @@ def test_what_could_not_be_erased_is_told(client: Client, service: FakeService) 
         raise PermissionError(13, "Permission denied")
 
     with pytest.raises(CommandError, match="typed is not erased: Permission denied"):
-        Minutes(client, "ada", HEADER, fail).forget()
+        SessionHistory(client, "ada", HEADER, fail).forget()
     service.all_gone = False
     with pytest.raises(CommandError, match="Not all of it"):
-        Minutes(client, "ada", HEADER).forget()
+        SessionHistory(client, "ada", HEADER).forget()
     service.refuses = True
     with pytest.raises(CommandError, match="the dialogue service refused: not now"):
-        Minutes(client, "ada", HEADER).forget()
+        SessionHistory(client, "ada", HEADER).forget()
 
 
 @pytest.mark.parametrize("lose", [FakeService.hang, FakeService.vanish])
 def test_without_a_service_nothing_is_had_and_that_is_told(
-    minutes: Minutes, service: FakeService, lose: Callable[[FakeService], None]
+    session_history: SessionHistory, service: FakeService, lose: Callable[[FakeService], None]
 ) -> None:
     lose(service)
-    for wanted in (minutes.why, minutes.told, minutes.forget, partial(minutes.save, "", NOW)):
+    for wanted in (
+        session_history.why,
+        session_history.told,
+        session_history.forget,
+        partial(session_history.save, "", NOW),
+    ):
         with pytest.raises(CommandError, match="the dialogue service does not answer"):
             wanted()
 
@@ -319,10 +330,10 @@ def test_tokens_go_with_all_that_is_asked_and_a_wrong_one_is_told_in_words(
     for name in ("ask", "history", "forget", "cancel"):
         bus.serve(KEYS.of(f"@rpc/{name}"), refuse)
     client = Client(bus, KEYS, "ada", token="t" * 43, share=True)
-    minutes = Minutes(client, "ada", HEADER)
+    session_history = SessionHistory(client, "ada", HEADER)
     refused = client.ask("One?")
     client.cancel("r1")
-    for wanted in (minutes.told, minutes.forget):
+    for wanted in (session_history.told, session_history.forget):
         with pytest.raises(CommandError, match=f": {FOREIGN}\\."):
             wanted()
     assert (refused.text, status_of(refused)) == (f"({FOREIGN})", ExitStatus.DECLINED)
@@ -361,7 +372,7 @@ def test_a_question_that_is_refused_is_told_in_brackets(
     refused = "(the dialogue service refused: not now)"
     reply = client.ask("One?", 3.0)
     assert (reply.text, reply.reason, reply.sim_time) == (refused, "busy", 3.0)
-    told = asyncio.run(cabin(client, FakeConvoy(service, able=False)).ask("One?", "r1"))
+    told = asyncio.run(controller(client, FakeBackend(service, able=False)).ask("One?", "r1"))
     assert told == refused
 
 
@@ -377,7 +388,7 @@ def test_a_service_that_talks_nonsense_ends_no_conversation(
     assert pipe.out[1:] == ["Answer to Two?"]
 
 
-class FakeConvoy:
+class FakeBackend:
     """Starts the service anew, or in vain."""
 
     def __init__(self, service: FakeService, *, able: bool = True) -> None:
@@ -414,15 +425,15 @@ class FakeConvoy:
         return "the car is away" if not self.able else ""
 
 
-def cabin(client: Client, behind: Behind) -> RemoteCabin:
-    return RemoteCabin(behind, client, Minutes(client, "ada", HEADER))
+def controller(client: Client, backend: Backend) -> ChatController:
+    return ChatController(backend, client, SessionHistory(client, "ada", HEADER))
 
 
 def test_a_question_that_a_dead_service_missed_is_asked_again(
     client: Client, service: FakeService
 ) -> None:
     service.vanish()
-    told = asyncio.run(cabin(client, FakeConvoy(service)).ask("One?", "r1"))
+    told = asyncio.run(controller(client, FakeBackend(service)).ask("One?", "r1"))
     assert told == "Answer to One?"
 
 
@@ -430,7 +441,7 @@ def test_when_no_service_comes_back_the_passenger_is_told(
     client: Client, service: FakeService
 ) -> None:
     service.vanish()
-    told = asyncio.run(cabin(client, FakeConvoy(service, able=False)).ask("One?", "r1"))
+    told = asyncio.run(controller(client, FakeBackend(service, able=False)).ask("One?", "r1"))
     assert told == f"{LOST} the dialogue service does not answer."
 
 
@@ -445,11 +456,13 @@ class Pipe:
     notes: list[str] = field(default_factory=list)
 
     def say(self, *lines: str) -> bool:
-        minutes = Minutes(self.client, "ada", HEADER)
-        behind = FakeConvoy(self.service)
+        session_history = SessionHistory(self.client, "ada", HEADER)
+        backend = FakeBackend(self.service)
         write, note = self.out.append, self.notes.append
-        piped = Piped(behind, self.client, minutes, write, note, self.as_json, scene(8.0), 8.0)
-        return all(piped.take(line) for line in lines)
+        batch = BatchChat(
+            backend, self.client, session_history, write, note, self.as_json, scene(8.0), 8.0
+        )
+        return all(batch.take(line) for line in lines)
 
 
 @pytest.fixture
@@ -553,11 +566,13 @@ def test_of_a_ride_that_goes_on_by_itself_now_is_asked_until_a_moment_is_named(
     pipe: Pipe, client: Client
 ) -> None:
     client.scene = scene(3.0)
-    minutes, behind = Minutes(client, "ada", HEADER), FakeConvoy(pipe.service)
+    session_history, backend = SessionHistory(client, "ada", HEADER), FakeBackend(pipe.service)
     write, note = pipe.out.append, pipe.notes.append
-    piped = Piped(behind, client, minutes, write, note, False, scene(1.0), None, live=True)
+    batch = BatchChat(
+        backend, client, session_history, write, note, False, scene(1.0), None, live=True
+    )
     for line in ("One?", "/plan", "@ 2.0s", "Two?", "@ 9.0s", "Three?"):
-        assert piped.take(line)
+        assert batch.take(line)
     assert [turn.reply.sim_time for turn in pipe.service.turns] == [3.0, 2.0, 9.0]
     assert pipe.notes == []
     assert "I plan to go on." in pipe.out
@@ -566,7 +581,7 @@ def test_of_a_ride_that_goes_on_by_itself_now_is_asked_until_a_moment_is_named(
 def test_what_ails_the_car_is_in_the_status_and_orders_are_declined(
     client: Client, service: FakeService
 ) -> None:
-    sat = cabin(client, FakeConvoy(service, able=False))
+    sat = controller(client, FakeBackend(service, able=False))
     client.scene = scene(3.0, "paused")
     assert sat.status().endswith("the car is away")
     for order in (sat.pause, sat.resume, lambda: sat.speed(2.0)):

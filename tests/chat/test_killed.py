@@ -17,13 +17,13 @@ from xavi_dialogue.dialogue.state.events import (
 from xavi_dialogue.dialogue.state.state import Dialogue
 from xavi_dialogue.dialogue.state.states import Phase
 from xavi_dialogue.nlg.context import Style
-from xavi_dialogue.service.in_process import SESSION, Conversation, make_mind
+from xavi_dialogue.service.in_process import SESSION, Conversation, make_pipeline
 from xavi_dialogue.storage.conversations import NewTurn, Store
 from xavi_dialogue.transcripts.replay import Written, recording, replay_recorded, transcripts_in
 from xavi_dialogue.transcripts.transcript import write
 
 TRANSCRIPTS = transcripts_in(Path(__file__).parents[2] / "transcripts")
-MIND = make_mind()
+PIPELINE = make_pipeline()
 
 
 def record_of(dialogue: Dialogue) -> tuple[Input, ...]:
@@ -40,7 +40,7 @@ def record_of(dialogue: Dialogue) -> tuple[Input, ...]:
 def test_a_conversation_that_is_killed_after_every_answer_is_the_same(
     one: Written, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    whole = replay_recorded(one.transcript, recording(one.ride), MIND)
+    whole = replay_recorded(one.transcript, recording(one.ride), PIPELINE)
     store = Store(tmp_path / "dialogue.sqlite3")
     ask = Conversation.ask
 
@@ -48,7 +48,7 @@ def test_a_conversation_that_is_killed_after_every_answer_is_the_same(
         before = store.turns(SESSION, 200)
         resumed = (Resumed(SESSION, before),) if before else ()
         if self.dialogue.session(SESSION).phase is not Phase.PLANNING:  # else it is turned away
-            self.dialogue = fold(self.mind, (*record_of(self.dialogue), *resumed))
+            self.dialogue = fold(self.pipeline, (*record_of(self.dialogue), *resumed))
         reply = ask(self, text, at, style)
         turn = self.dialogue.sessions[SESSION].turns[-1]
         store.keep([NewTurn(SESSION, None, time.time(), turn)])
@@ -56,7 +56,7 @@ def test_a_conversation_that_is_killed_after_every_answer_is_the_same(
         return reply
 
     monkeypatch.setattr(Conversation, "ask", ask_anew)
-    played = replay_recorded(one.transcript, recording(one.ride), MIND)
+    played = replay_recorded(one.transcript, recording(one.ride), PIPELINE)
     assert write(played.transcript) == write(whole.transcript)
     assert store.sessions()[0].turns > 0
     store.close()

@@ -11,13 +11,13 @@ from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.memory_bus import MemoryBus, MemoryHub
 from xavi_dialogue.bus.messages import CancelReply, CancelRequest, pack, unpack
 from xavi_dialogue.chat import remote_backend
-from xavi_dialogue.chat.controller import RemoteCabin
-from xavi_dialogue.chat.history import Minutes
+from xavi_dialogue.chat.controller import ChatController
+from xavi_dialogue.chat.history import SessionHistory
 from xavi_dialogue.chat.remote_backend import (
     GONE,
-    Cars,
-    Missing,
-    There,
+    NamesOnBus,
+    NotOnBus,
+    RemoteCar,
     ask_there,
     meet,
     through_pipe,
@@ -28,7 +28,7 @@ from xavi_dialogue.security.client_token import Passenger
 from xavi_dialogue.terminal.slash_commands import CommandError
 
 ADA = Passenger("ada", "t" * 43)
-THERE = There(Link.to_hub(), "car")
+THERE = RemoteCar(Link.to_hub(), "car")
 
 
 class Town:
@@ -81,7 +81,7 @@ def town(monkeypatch: pytest.MonkeyPatch) -> Town:
 
 
 def missing(town: Town) -> str:
-    with pytest.raises(Missing) as caught, meet(THERE, ADA, 0.2):
+    with pytest.raises(NotOnBus) as caught, meet(THERE, ADA, 0.2):
         pytest.fail("nobody is there")
     return str(caught.value)
 
@@ -105,7 +105,7 @@ def test_a_service_that_is_there_and_does_not_answer_is_not_said_to_be_missing(
     assert missing(town) == "the dialogue service is there, but does not answer"
     reply = ask_there(THERE, ADA, "One?", 2.0, "passenger")
     assert "is there, but does not answer" in reply.text
-    keyed = There(Link.to_hub(config=tmp_path / "observer.json5"), "car")
+    keyed = RemoteCar(Link.to_hub(config=tmp_path / "observer.json5"), "car")
     reply = ask_there(keyed, ADA, "One?", 2.0, "passenger")
     assert "but this key may not ask it; a passenger's may" in reply.text
 
@@ -133,7 +133,7 @@ def test_a_car_that_says_nothing_is_told_from_one_that_is_not_there(
 
 
 def test_cars_come_and_go() -> None:
-    cars, key = Cars(), Keys("bus-7").of("alive/car")
+    cars, key = NamesOnBus(), Keys("bus-7").of("alive/car")
     cars.see(key, True)
     cars.see("nothing/of/ours", True)
     assert cars.told() == "there is bus-7"
@@ -174,17 +174,17 @@ def test_who_rides_along_sets_no_pace_and_sees_when_the_car_is_gone(town: Town) 
     town.serve()
     town.drive("car")
     with meet(THERE, ADA, 0.2) as (along, client):
-        cabin = RemoteCabin(along, client, Minutes(client, "ada", THERE.header))
-        for order in (cabin.pause, cabin.resume, lambda: cabin.speed(2.0)):
+        controller = ChatController(along, client, SessionHistory(client, "ada", THERE.header))
+        for order in (controller.pause, controller.resume, lambda: controller.speed(2.0)):
             with pytest.raises(CommandError, match="I only ride along here"):
                 order()
         with pytest.raises(CommandError):
             along.drive(client, child_commands.Until(8.0))
         along.set_off()
         along.check()
-        assert GONE not in cabin.status()
+        assert GONE not in controller.status()
         along.cars.see(Keys().of("alive/car"), False)
-        assert GONE in cabin.status()
+        assert GONE in controller.status()
 
 
 def test_a_service_that_is_away_for_a_moment_is_waited_for(town: Town) -> None:

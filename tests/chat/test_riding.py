@@ -9,14 +9,14 @@ from typer.testing import CliRunner, Result
 from xavi_dialogue.__main__ import app
 from xavi_dialogue.chat import local_backend
 from xavi_dialogue.chat import main as chat
-from xavi_dialogue.chat.local_backend import Company
-from xavi_dialogue.chat.main import Ride
+from xavi_dialogue.chat.local_backend import LocalOptions
+from xavi_dialogue.chat.main import ChatOptions
 
 
 @pytest.fixture
-def rides(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[Ride]:
+def rides(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[ChatOptions]:
     """The rides that would have been begun."""
-    begun: list[Ride] = []
+    begun: list[ChatOptions] = []
     monkeypatch.setattr(chat, "through_pipe", lambda ride, *_, **__: begun.append(ride))
     for kind in ("DATA", "STATE", "CONFIG"):
         monkeypatch.setenv(f"XDG_{kind}_HOME", str(tmp_path))
@@ -28,7 +28,7 @@ def xavi(*arguments: str) -> Result:
 
 
 def test_a_recording_is_begun_over_another_only_if_that_is_said(
-    rides: list[Ride], tmp_path: Path
+    rides: list[ChatOptions], tmp_path: Path
 ) -> None:
     file = tmp_path / "ride.mcap"
     assert xavi("chat", "--record", str(file)).exit_code == 0
@@ -55,14 +55,14 @@ def test_the_recorder_is_told_whether_to_overwrite(
     monkeypatch.setattr(local_backend, "Child", FakeChild)
     with ExitStack() as stack:
         local_backend._recorder(
-            stack, Company(tmp_path / "ride.mcap", overwrite), "tcp/127.0.0.1:1"
+            stack, LocalOptions(tmp_path / "ride.mcap", overwrite), "tcp/127.0.0.1:1"
         )
     [command] = commands
     assert command[:2] == ["record", str(tmp_path / "ride.mcap")]
     assert ("--force" in command) == overwrite
 
 
-def test_who_names_a_conversation_is_not_told_its_name(rides: list[Ride]) -> None:
+def test_who_names_a_conversation_is_not_told_its_name(rides: list[ChatOptions]) -> None:
     assert "goes on with it" in xavi("chat").stderr
     assert "sunday" not in xavi("chat", "--session", "sunday").stderr
     assert [ride.passenger.session == "sunday" for ride in rides] == [False, True]

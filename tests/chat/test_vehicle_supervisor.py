@@ -13,9 +13,9 @@ from xavi_dialogue.bus.memory_bus import MemoryHub
 from xavi_dialogue.bus.messages import CarState, SceneReport, pack
 from xavi_dialogue.chat import vehicle_supervisor
 from xavi_dialogue.chat.client import Client
-from xavi_dialogue.chat.vehicle_supervisor import AGAIN, NO_MORE, STANDING, SteadyCar
+from xavi_dialogue.chat.vehicle_supervisor import AGAIN, NO_MORE, STANDING, VehicleSupervisor
 from xavi_dialogue.process import child_commands
-from xavi_dialogue.process.subprocesses import ChildFailed, Expendable
+from xavi_dialogue.process.subprocesses import ChildFailed, OptionalChild
 from xavi_dialogue.terminal.slash_commands import CommandError
 
 KEYS = Keys()
@@ -104,14 +104,16 @@ def client(garage: Garage) -> Client:
 
 
 @pytest.fixture
-def car(garage: Garage, client: Client, monkeypatch: pytest.MonkeyPatch) -> Iterator[SteadyCar]:
+def car(
+    garage: Garage, client: Client, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[VehicleSupervisor]:
     monkeypatch.setattr(vehicle_supervisor, "POLL", 0.01)
-    with SteadyCar(garage.start, 1.0, garage.told.append) as car:  # type: ignore[arg-type]
+    with VehicleSupervisor(garage.start, 1.0, garage.told.append) as car:  # type: ignore[arg-type]
         yield car
     assert garage.started[-1].stopped
 
 
-def ride(car: SteadyCar, garage: Garage, client: Client) -> FakeProcess:
+def ride(car: VehicleSupervisor, garage: Garage, client: Client) -> FakeProcess:
     """A ride that is under way."""
     first = garage.started[0]
     first.show(0.0, "paused")
@@ -123,7 +125,7 @@ def ride(car: SteadyCar, garage: Garage, client: Client) -> FakeProcess:
 
 
 def test_a_car_that_never_was_on_the_road_is_not_started_anew(
-    car: SteadyCar, garage: Garage
+    car: VehicleSupervisor, garage: Garage
 ) -> None:
     garage.started[0].kill()
     with pytest.raises(ChildFailed, match="signal 9"):
@@ -134,7 +136,7 @@ def test_a_car_that_never_was_on_the_road_is_not_started_anew(
 
 
 def test_the_ride_is_driven_to_where_it_was_and_then_on_as_wished(
-    car: SteadyCar, garage: Garage, client: Client
+    car: VehicleSupervisor, garage: Garage, client: Client
 ) -> None:
     first = ride(car, garage, client)
     first.kill()
@@ -156,7 +158,7 @@ def test_the_ride_is_driven_to_where_it_was_and_then_on_as_wished(
 
 
 def test_what_is_ordered_meanwhile_is_done_afterwards(
-    car: SteadyCar, garage: Garage, client: Client
+    car: VehicleSupervisor, garage: Garage, client: Client
 ) -> None:
     first = ride(car, garage, client)
     first.kill()
@@ -170,7 +172,7 @@ def test_what_is_ordered_meanwhile_is_done_afterwards(
 
 
 def test_a_scene_of_the_ride_that_broke_off_obeys_nothing(
-    car: SteadyCar, garage: Garage, client: Client
+    car: VehicleSupervisor, garage: Garage, client: Client
 ) -> None:
     first = ride(car, garage, client)
     first.kill()
@@ -182,7 +184,7 @@ def test_a_scene_of_the_ride_that_broke_off_obeys_nothing(
 
 
 def test_one_that_ends_again_on_its_way_goes_for_where_the_first_was(
-    car: SteadyCar, garage: Garage, client: Client
+    car: VehicleSupervisor, garage: Garage, client: Client
 ) -> None:
     ride(car, garage, client).kill()
     second = garage.again(1)
@@ -192,7 +194,7 @@ def test_one_that_ends_again_on_its_way_goes_for_where_the_first_was(
 
 
 def test_after_the_third_time_the_ride_is_over_and_that_is_told_once(
-    car: SteadyCar, garage: Garage, client: Client
+    car: VehicleSupervisor, garage: Garage, client: Client
 ) -> None:
     ride(car, garage, client).kill()
     for number in (1, 2, 3):
@@ -210,7 +212,7 @@ def test_after_the_third_time_the_ride_is_over_and_that_is_told_once(
 
 
 def test_one_that_says_nothing_is_ended_and_started_anew(
-    car: SteadyCar, garage: Garage, client: Client, monkeypatch: pytest.MonkeyPatch
+    car: VehicleSupervisor, garage: Garage, client: Client, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(vehicle_supervisor, "PATIENCE", 0.2)
     ride(car, garage, client).kill()
@@ -220,7 +222,7 @@ def test_one_that_says_nothing_is_ended_and_started_anew(
 
 
 def test_the_end_of_the_chat_waits_for_no_car(garage: Garage, client: Client) -> None:
-    car = SteadyCar(garage.start, 1.0, garage.told.append)  # type: ignore[arg-type]
+    car = VehicleSupervisor(garage.start, 1.0, garage.told.append)  # type: ignore[arg-type]
     with car:
         ride(car, garage, client).kill()
         garage.again(1)
@@ -230,7 +232,7 @@ def test_the_end_of_the_chat_waits_for_no_car(garage: Garage, client: Client) ->
 
 def test_the_end_of_one_that_can_be_spared_is_told_once(garage: Garage) -> None:
     recorder = garage.start()
-    spared = Expendable(recorder, garage.told.append)  # type: ignore[arg-type]
+    spared = OptionalChild(recorder, garage.told.append)  # type: ignore[arg-type]
     spared.check()
     assert garage.told == []
     recorder.kill()

@@ -19,14 +19,14 @@ from typer.testing import CliRunner, Result
 from xavi_dialogue import __version__
 from xavi_dialogue.__main__ import app
 from xavi_dialogue.bus.certificates import Authority
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Keys
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import AliveReport, pack
 from xavi_dialogue.bus.zenoh_bus import ZenohBus, host
 from xavi_dialogue.cli import bus_checks, host_checks
 from xavi_dialogue.cli.bus_checks import examine, keys, on_the_bus, port, roster, told
-from xavi_dialogue.cli.host_checks import Finding, Patient
+from xavi_dialogue.cli.host_checks import CheckedSystem, Finding
 from xavi_dialogue.process import kernel_cache
 from xavi_dialogue.storage.conversations import Store
 
@@ -38,8 +38,8 @@ MACHINE = [
 
 
 @pytest.fixture
-def patient(tmp_path: Path) -> Patient:
-    return Patient(tmp_path / "dialogue.sqlite3", tmp_path / "config.toml")
+def patient(tmp_path: Path) -> CheckedSystem:
+    return CheckedSystem(tmp_path / "dialogue.sqlite3", tmp_path / "config.toml")
 
 
 def free() -> str:
@@ -67,7 +67,7 @@ def test_a_machine_that_is_well(tmp_path: Path) -> None:
     assert not (tmp_path / "kept").exists(), "looking must not make anything"
 
 
-def test_people_read_it_in_80_columns(patient: Patient) -> None:
+def test_people_read_it_in_80_columns(patient: CheckedSystem) -> None:
     long = Finding("car-with-a-very-long-name/service", "fault", "word " * 40, "then " * 40)
     lines = list(told([*host_checks.on_this_machine(patient), long]))
     assert max(len(line) for text in lines for line in text.splitlines()) <= 80
@@ -83,7 +83,7 @@ def test_a_store_that_cannot_be_made(tmp_path: Path) -> None:
     assert "--store" in found["store"].advice
 
 
-def test_a_store_that_cannot_be_written(patient: Patient) -> None:
+def test_a_store_that_cannot_be_written(patient: CheckedSystem) -> None:
     Store(patient.store).close()
     holder = sqlite3.connect(patient.store, isolation_level=None)
     holder.execute("PRAGMA journal_mode = DELETE")
@@ -95,7 +95,7 @@ def test_a_store_that_cannot_be_written(patient: Patient) -> None:
 
 
 @pytest.mark.parametrize("content", [b"no database at all", b"SQLite format 3\0" + bytes(4096)])
-def test_a_damaged_store_is_told_and_left_as_it_is(patient: Patient, content: bytes) -> None:
+def test_a_damaged_store_is_told_and_left_as_it_is(patient: CheckedSystem, content: bytes) -> None:
     patient.store.write_bytes(content)
     found = host_checks.store(patient)
     assert found.verdict == "fault"
@@ -103,7 +103,7 @@ def test_a_damaged_store_is_told_and_left_as_it_is(patient: Patient, content: by
     assert patient.store.read_bytes() == content
 
 
-def test_a_store_of_a_later_version(patient: Patient) -> None:
+def test_a_store_of_a_later_version(patient: CheckedSystem) -> None:
     Store(patient.store).close()
     with sqlite3.connect(patient.store) as later:
         later.execute("PRAGMA user_version = 99")
@@ -114,7 +114,7 @@ def test_a_store_of_a_later_version(patient: Patient) -> None:
     )
 
 
-def test_a_store_with_conversations(patient: Patient) -> None:
+def test_a_store_with_conversations(patient: CheckedSystem) -> None:
     Store(patient.store).close()
     found = host_checks.store(patient)
     assert (found.verdict, "conversations: 0" in found.found) == ("ok", True)
@@ -135,7 +135,7 @@ def test_settings_with_an_unknown_option_are_a_finding_here_and_stop_all_others(
 
 
 def test_packages_that_are_missing_or_old(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, patient: Patient
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, patient: CheckedSystem
 ) -> None:
     info = tmp_path / "xavi_dialogue-0.0.9.dist-info"
     info.mkdir()
@@ -197,9 +197,9 @@ def test_a_machine_that_is_ill(tmp_path: Path) -> None:
 
 
 def test_a_check_that_breaks_off_does_not_keep_the_others_from_being_done(
-    monkeypatch: pytest.MonkeyPatch, patient: Patient
+    monkeypatch: pytest.MonkeyPatch, patient: CheckedSystem
 ) -> None:
-    def broken(_: Patient) -> Finding:
+    def broken(_: CheckedSystem) -> Finding:
         raise ZeroDivisionError("by zero")
 
     monkeypatch.setattr(host_checks, "CHECKS", (broken, host_checks.python))
@@ -238,9 +238,9 @@ def test_a_port_at_which_our_service_is(hub: ZenohBus) -> None:
     assert port(free()).found.endswith("is free")
 
 
-def test_a_bus_that_is_well(hub: ZenohBus, patient: Patient) -> None:
+def test_a_bus_that_is_well(hub: ZenohBus, patient: CheckedSystem) -> None:
     for name in ("car", "service"):
-        Alive(name, ("rejected",)).serve(hub, Keys("shuttle"))
+        HealthReporter(name, ("rejected",)).serve(hub, Keys("shuttle"))
     found = list(examine(patient, Link.to_hub(hub.places[0]), NOW))
     assert [one.check for one in found] == [
         *(*MACHINE, "hub", "roster", "shuttle/car", "shuttle/service")

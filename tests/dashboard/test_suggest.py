@@ -12,7 +12,7 @@ from planner.record.events import Event
 from planner.record.trace import PlanTrace
 from sim.roads.netfile import read_network
 from sim.roads.network import Network
-from tests.dialogue.talking import MIND, driven, ride
+from tests.dialogue.talking import PIPELINE, driven, ride
 from tests.stories import rides
 from tests.traces import s1_ride, straight_track
 from xavi_dialogue.dashboard.suggestions import MOST, suggestions
@@ -43,7 +43,7 @@ def conversation(name: str) -> Conversation:
             raise NoPlan("planner-unavailable")
         return planner_for(roads)(trace, need)
 
-    return Conversation(MIND, again, driven(name))
+    return Conversation(PIPELINE, again, driven(name))
 
 
 def moments(name: str) -> list[float]:
@@ -79,7 +79,7 @@ def test_suggestions_are_few_and_understood_and_never_about_ourselves_as_a_vehic
         assert len(set(found)) == len(found)
         seen = frozenset(v for t in ride(name).traces if t.sim_time <= at for v in t.scene)
         for text in found:
-            [best, *_] = MIND.read(text)
+            [best, *_] = PIPELINE.read(text)
             assert best.acts, text
             assert not best.unknown, text
             named = {int(number) for number in re.findall(r"vehicle (\d+)", text)}

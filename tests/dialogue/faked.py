@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from tests.traces import s1_ride
 from xavi_dialogue.dialogue.manager import advance, fold
-from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.dialogue.state.events import (
     Answered,
     Asked,
@@ -40,8 +40,8 @@ class Faked:
     discourses: list[Discourse] = field(default_factory=list)
     contexts: list[SpeechContext] = field(default_factory=list)
 
-    def mind(self) -> Mind:
-        return Mind(self.read, self.ground, self.explain, self.say, lambda record: {})
+    def pipeline(self) -> Pipeline:
+        return Pipeline(self.read, self.ground, self.explain, self.say, lambda record: {})
 
     def read(self, text: str) -> tuple[Reading, ...]:
         return (Reading(acts=self.texts.get(text, ()), shares=()),)
@@ -74,18 +74,18 @@ class Talk:
     """A conversation with a mind made by hand, about the first story."""
 
     def __init__(self, faked: Faked) -> None:
-        self.faked, self.mind = faked, faked.mind()
+        self.faked, self.pipeline = faked, faked.pipeline()
         ride = s1_ride()
         record: list[Input] = [
             *map(TraceRecorded, ride.traces),
             *map(EventRecorded, ride.events),
         ]
-        self.dialogue: Dialogue = fold(self.mind, record)
+        self.dialogue: Dialogue = fold(self.pipeline, record)
         self.at = ride.now
         self.asked = 0
 
     def put(self, event: Input) -> Output | None:
-        self.dialogue, outputs = advance(self.mind, self.dialogue, event)
+        self.dialogue, outputs = advance(self.pipeline, self.dialogue, event)
         return outputs[0] if outputs else None
 
     def begin(self, text: str) -> Output | None:

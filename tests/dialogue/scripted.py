@@ -1,7 +1,7 @@
 """A scripted mind: it understands the names of what it shall do."""
 
 from planner.record.trace import PlanTrace
-from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.domain.answers import (
     Activity,
     Answer,
@@ -29,7 +29,7 @@ def order(text: str) -> Act:
     return Ask(Identify(Unknown(text)))
 
 
-def scripted_mind() -> Mind:
+def scripted_pipeline() -> Pipeline:
     """Understands "answer", "lack", "lack more", "suppose", "refuse", "huh", "either" and more.
 
     The others are "quiz me", "the second", "break" and "lack, break"; any other text is answered.
@@ -43,7 +43,7 @@ def scripted_mind() -> Mind:
         }
         return (Reading(acts=acts.get(text, (order(text),)), shares=()),)
 
-    return Mind(read, _ground, _explain, _say, lambda record: {})
+    return Pipeline(read, _ground, _explain, _say, lambda record: {})
 
 
 def _ground(readings: tuple[Reading, ...], record: Record, discourse: Discourse) -> Grounding:

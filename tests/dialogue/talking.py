@@ -20,11 +20,11 @@ from xavi_dialogue.dialogue.state.events import (
 )
 from xavi_dialogue.dialogue.state.state import Dialogue, Session
 from xavi_dialogue.dialogue.state.turn import Turn
-from xavi_dialogue.service.in_process import make_mind
+from xavi_dialogue.service.in_process import make_pipeline
 from xavi_dialogue.storage import ride_file
 
 RIDES = Path(__file__).parents[2] / "transcripts" / "rides"
-MIND = make_mind()
+PIPELINE = make_pipeline()
 NAME = "ada"
 
 
@@ -39,7 +39,7 @@ def driven(name: str) -> Dialogue:
     """The state after all that was recorded of a ride, before anything was asked."""
     known = ride(name)
     inputs: list[Input] = [*map(TraceRecorded, known.traces), *map(EventRecorded, known.events)]
-    return fold(MIND, [*inputs, *([] if known.ended is None else [RideEnded(known.ended)])])
+    return fold(PIPELINE, [*inputs, *([] if known.ended is None else [RideEnded(known.ended)])])
 
 
 class Talk:
@@ -68,7 +68,7 @@ class Talk:
 
     def resume(self, turns: tuple[Turn, ...]) -> None:
         """Go on with a conversation of before."""
-        self.dialogue, _ = advance(MIND, self.dialogue, Resumed(NAME, turns))
+        self.dialogue, _ = advance(PIPELINE, self.dialogue, Resumed(NAME, turns))
 
     @property
     def session(self) -> Session:
@@ -82,6 +82,6 @@ class Talk:
         return RolloutsArrived(wanted.request, NAME, found)
 
     def _put(self, event: Input) -> Output:
-        self.dialogue, [output] = advance(MIND, self.dialogue, event)
+        self.dialogue, [output] = advance(PIPELINE, self.dialogue, event)
         assert isinstance(output, Answered | RolloutsWanted)
         return output

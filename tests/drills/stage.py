@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from tests.drills.bus import Ear, Passenger, on_bus
+from tests.drills.bus_clients import Listener, Passenger, on_bus
 from tests.drills.processes import Crew, Process, free_endpoint, until
 from xavi_dialogue.bus.interface import Bus
 
@@ -22,7 +22,7 @@ class Stage:
     service: Process
     car: Process
     bus: Bus
-    ear: Ear
+    listener: Listener
 
     def passenger(self, session: str) -> Passenger:
         return Passenger(self.bus, session)
@@ -33,7 +33,7 @@ class Stage:
 
     def ready(self) -> bool:
         """Whether the car has a planner that waits for work."""
-        return until(lambda: self.ear.fares()["workers_idle"] >= 1.0)
+        return until(lambda: self.listener.fares()["workers_idle"] >= 1.0)
 
 
 @contextmanager
@@ -53,10 +53,10 @@ def staged(
     service = crew.serve(endpoint, *serve, extra=extra)
     car = crew.drive(endpoint, *drive, "--control", extra=extra)
     with on_bus(endpoint) as bus:
-        stage = Stage(crew, endpoint, service, car, bus, Ear(bus))
-        assert until(lambda: bool(stage.ear.scenes) or car.popen.poll() is not None), car.said
+        stage = Stage(crew, endpoint, service, car, bus, Listener(bus))
+        assert until(lambda: bool(stage.listener.scenes) or car.popen.poll() is not None), car.said
         assert car.popen.poll() is None, car.said
         if at is not None:
             car.order(f"until {at}")
-            assert stage.ear.halted(at), car.said
+            assert stage.listener.halted(at), car.said
         yield stage

@@ -19,9 +19,9 @@ from planner.record.trace import Action
 from sim.setup.scenario import load
 from sim.sumo import EgoGone, SumoFailed
 from tests.fakes import s1_moments
-from tests.service.desk import PATIENCE, children, there, until
+from tests.vehicle.pool_jobs import PATIENCE, children, there, until
 from tests.vehicle.test_outbox import Bench as StalledBench
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Bus, Call, Keys, NoAnswer, call
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.memory_bus import MemoryHub
@@ -36,10 +36,10 @@ from xavi_dialogue.bus.messages import (
 )
 from xavi_dialogue.bus.zenoh_bus import host, join
 from xavi_dialogue.process.child_commands import Order, Orders, Quit, Signals
-from xavi_dialogue.vehicle.bus_session import Attendance, Dismissed, NameTaken, claim
+from xavi_dialogue.vehicle.bus_session import NameTaken, QuitBeforeRide, ServiceMonitor, claim
 from xavi_dialogue.vehicle.episode import Moment
 from xavi_dialogue.vehicle.main import _remedied
-from xavi_dialogue.vehicle.node import COUNTERS, Car, Pace
+from xavi_dialogue.vehicle.node import COUNTERS, Pace, VehicleNode
 from xavi_dialogue.vehicle.telemetry import Reporter
 
 KEY = Keys().of
@@ -54,7 +54,9 @@ def test_the_ride_goes_on_while_the_bus_stalls_and_all_of_it_is_reported_then() 
 
     orders: Orders = queue.SimpleQueue()
     reporter = Reporter(bench.outbox, Keys(), alive=bench.alive)
-    Car(s1_moments(), 0.5, (note,), reporter, orders, Pace(0.0, running=True), stays=False).run()
+    VehicleNode(
+        s1_moments(), 0.5, (note,), reporter, orders, Pace(0.0, running=True), stays=False
+    ).run()
     assert times == [moment.scene.time for moment in s1_moments()]
     assert bench.bus.sent == []
     bench.bus.gate.set()
@@ -73,7 +75,7 @@ def test_a_car_claims_a_name_that_nobody_has() -> None:
 
 def test_two_cars_of_one_name_are_one_too_many() -> None:
     hub = MemoryHub()
-    Alive("car", COUNTERS).serve(hub.connect(), Keys("shuttle-3"))
+    HealthReporter("car", COUNTERS).serve(hub.connect(), Keys("shuttle-3"))
     with pytest.raises(NameTaken, match=r"a car named 'shuttle-3' .* --vehicle NAME"):
         claim(hub.connect(), Keys("shuttle-3"), Signals())
     claim(hub.connect(), Keys("shuttle-4"), Signals())
@@ -108,7 +110,7 @@ def test_a_car_told_to_quit_claims_nothing() -> None:
         for number, handler in before.items():
             signal.signal(number, handler)
     assert (signals.status, orders.get_nowait()) == (143, Quit())
-    with pytest.raises(Dismissed):
+    with pytest.raises(QuitBeforeRide):
         claim(MemoryHub().connect(), Keys(), signals)
 
 
@@ -117,7 +119,7 @@ def test_it_is_logged_when_the_service_goes_and_comes_back(
 ) -> None:
     caplog.set_level(logging.INFO)
     hub = MemoryHub()
-    hub.connect().watch(KEY("alive/service"), Attendance("shuttle-3"))
+    hub.connect().watch(KEY("alive/service"), ServiceMonitor("shuttle-3"))
     for _ in range(2):
         with hub.connect() as service:
             service.appear(KEY("alive/service"))
@@ -165,7 +167,7 @@ def xavi(*arguments: str, log: Path | None = None) -> Iterator[subprocess.Popen[
         process.communicate()
 
 
-class Ear:
+class Listener:
     """Hears a car on the bus."""
 
     def __init__(self, bus: Bus) -> None:
@@ -207,21 +209,21 @@ def test_a_hub_that_is_killed_and_comes_back_finds_all_that_was_reported(tmp_pat
     serve = ("serve", "--listen", endpoint, "--keep-days", "0")
     with xavi("drive", "--connect", endpoint, "--speed", "0.5", log=log):
         with xavi(*serve) as hub, join(Link.to_hub(endpoint), PATIENCE) as bus:
-            ear = Ear(bus)
-            assert until(lambda: bool(ear.scenes) and len(ear.traces) >= 2)
+            listener = Listener(bus)
+            assert until(lambda: bool(listener.scenes) and len(listener.traces) >= 2)
             hub.kill()
             hub.wait()
         assert until(lambda: "service lost; driving on" in log.read_text())
         with xavi(*serve), join(Link.to_hub(endpoint), PATIENCE) as bus:
-            ear = Ear(bus)
-            assert until(lambda: bool(ear.scenes and ear.traces and ear.events))
-            assert until(lambda: bool(ear.alive))
-            assert ear.alive == [True]
-            assert until(lambda: len(ear.traces) == ear.scenes[-1].traces)
-            for reports in (ear.traces, ear.events):
+            listener = Listener(bus)
+            assert until(lambda: bool(listener.scenes and listener.traces and listener.events))
+            assert until(lambda: bool(listener.alive))
+            assert listener.alive == [True]
+            assert until(lambda: len(listener.traces) == listener.scenes[-1].traces)
+            for reports in (listener.traces, listener.events):
                 assert [report.seq for report in reports] == list(range(len(reports)))
-            assert ear.plans_again()
-            fares = ear.fares().counters
+            assert listener.plans_again()
+            fares = listener.fares().counters
             assert fares["what_ifs_planned"] >= 1.0  # the service may have asked as well
             assert fares["workers"] == 1.0
             assert fares["reports_dropped"] == 0.0
@@ -254,17 +256,17 @@ def test_a_car_ends_when_told_to_in_every_state(state: str, number: int, tmp_pat
         xavi(*drive, log=log) as car,
         join(Link.to_hub(endpoint)) as bus,
     ):
-        ear = Ear(bus)
-        assert until(lambda: bool(ear.scenes and ear.traces))
+        listener = Listener(bus)
+        assert until(lambda: bool(listener.scenes and listener.traces))
         assert car.stdin is not None
         if state != "paused":
             car.stdin.write("resume\n" if state == "ended" else "speed 1\nresume\n")
             car.stdin.flush()
-        assert until(lambda: ear.scenes[-1].state == state)
+        assert until(lambda: listener.scenes[-1].state == state)
         if state == "paused":
-            assert until(lambda: ear.fares().counters["workers_idle"] == 1.0)
-            threading.Thread(target=_plan_for_long, args=(ear,), daemon=True).start()
-            assert until(lambda: ear.fares().counters["workers_idle"] == 0.0)
+            assert until(lambda: listener.fares().counters["workers_idle"] == 1.0)
+            threading.Thread(target=_plan_for_long, args=(listener,), daemon=True).start()
+            assert until(lambda: listener.fares().counters["workers_idle"] == 0.0)
         assert until(lambda: len(children(car.pid)) == 1)
         workers = children(car.pid)
         car.send_signal(number)
@@ -273,6 +275,6 @@ def test_a_car_ends_when_told_to_in_every_state(state: str, number: int, tmp_pat
     assert "Traceback" not in log.read_text()
 
 
-def _plan_for_long(ear: Ear) -> None:
+def _plan_for_long(listener: Listener) -> None:
     with suppress(NoAnswer):
-        ear.plans_again(rollouts=1000)
+        listener.plans_again(rollouts=1000)

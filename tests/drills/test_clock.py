@@ -62,7 +62,7 @@ def test_deadlines_are_kept_while_the_clock_jumps(crew: Crew, tmp_path: Path) ->
         assert ada.ask(WHERE).kind == "answer"
         for shift in (HOUR, -HOUR):
             answer = ada.begin(WHERE, at=HALT + 30.0, deadline=3.0)  # it does not come
-            assert until(lambda: stage.ear.fares("service")["waiting"] == 1.0)
+            assert until(lambda: stage.listener.fares("service")["waiting"] == 1.0)
             clock.shift(shift)
             told = answer.get(timeout=DEADLINE)
             assert told.reason == "timed-out"

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.drills.bus import Answer, Passenger
+from tests.drills.bus_clients import Answer, Passenger
 from tests.drills.processes import DEADLINE, Crew, until
 from tests.drills.stage import HALT, WHERE, WHY, staged
 from xavi_dialogue.storage.conversations import Store
@@ -32,8 +32,8 @@ def test_each_of_many_questions_gets_one_reply_in_time(
         assert answered
         assert {answer.kind for answer in answered} == {"answer"}
         too_much = MANY - len(answered)  # counted once they have been told so
-        assert until(lambda: stage.ear.fares("service")["busy"] == too_much)
-        assert stage.ear.fares("service")["waiting"] == 0.0
+        assert until(lambda: stage.listener.fares("service")["busy"] == too_much)
+        assert stage.listener.fares("service")["waiting"] == 0.0
         _same_within(everybody, texts, told, store)
         assert stage.passenger("last").ask(WHERE, HALT).kind == "answer"
 

@@ -3,7 +3,7 @@
 import resource
 from pathlib import Path
 
-from tests.drills.bus import Passenger, on_bus
+from tests.drills.bus_clients import Passenger, on_bus
 from tests.drills.processes import PATIENCE, Crew, Process, free_endpoint, until
 from tests.drills.stage import HALT, staged
 from xavi_dialogue.storage.conversations import Store
@@ -70,7 +70,7 @@ def test_a_recording_on_a_full_disk_ends_with_one_line_and_can_be_read(
         full = file.stat().st_size  # it may have grown meanwhile, and does not from now on
         stage.car.order(f"until {HALT}")
         assert recorder.popen.wait(PATIENCE) == 1
-        assert stage.ear.halted(HALT)
+        assert stage.listener.halted(HALT)
         [line] = [line for line in recorder.said.splitlines() if "recording into" not in line]
         assert str(file) in line
         assert sum(isinstance(piece, Entry) for piece in read(file)) >= 3

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.drills.bus import Ear, on_bus
+from tests.drills.bus_clients import Listener, on_bus
 from tests.drills.processes import ENDED, Crew, Process, free_endpoint, until
 from tests.drills.stage import HALT, WHERE, WHY, staged
 from xavi_dialogue.storage.mcap_file import read
@@ -34,7 +34,7 @@ def test_a_service_ends_in_every_state(
             for planner in stage.planners():
                 os.kill(planner, signal.SIGSTOP)
             stage.passenger("ada").begin(WHY, HALT)
-            assert until(lambda: stage.ear.fares()["workers_idle"] == 0.0)
+            assert until(lambda: stage.listener.fares()["workers_idle"] == 0.0)
         elif state in ("full", "answering"):
             count = CROWD if state == "full" else 1
             for asker in range(count):
@@ -73,19 +73,21 @@ def test_recorder_and_player_end_with_all_in_the_file(
     file = tmp_path / "ride.mcap"
     with staged(crew, at=4.0) as stage:
         recorder = crew.xavi("record", str(file), "--connect", stage.endpoint)
-        assert until(lambda: "xavi/v1/car/alive/recorder" in stage.ear.alive), recorder.said
-        assert until(lambda: stage.ear.fares("recorder")["messages"] >= len(stage.ear.traces) + 3)
-        assert until(lambda: told(file) == len(stage.ear.traces) + len(stage.ear.events))
+        assert until(lambda: "xavi/v1/car/alive/recorder" in stage.listener.alive), recorder.said
+        assert until(
+            lambda: stage.listener.fares("recorder")["messages"] >= len(stage.listener.traces) + 3
+        )
+        assert until(lambda: told(file) == len(stage.listener.traces) + len(stage.listener.events))
         assert recorder.end(number) == 0, recorder.said
-        decisions = [report.trace.trace_id for report in stage.ear.traces]
+        decisions = [report.trace.trace_id for report in stage.listener.traces]
         assert stage.car.end(number) == 128 + number
     endpoint = free_endpoint()
     crew.serve(endpoint, "--keep-days", "0")
     player = play(crew, file, endpoint)
     with on_bus(endpoint) as bus:
-        ear = Ear(bus)
-        assert until(lambda: ear.now >= 3.9 and ear.whole()), player.said
-        assert [report.trace.trace_id for report in ear.traces] == decisions
+        listener = Listener(bus)
+        assert until(lambda: listener.now >= 3.9 and listener.whole()), player.said
+        assert [report.trace.trace_id for report in listener.traces] == decisions
         assert player.end(number) in (0, *statuses(number)), player.said
     nobody = free_endpoint()  # hosts a bus there
     for early in (

@@ -2,7 +2,7 @@
 
 import time
 
-from tests.drills.bus import Passenger
+from tests.drills.bus_clients import Passenger
 from tests.drills.processes import DEADLINE, ENDED, Crew, resident_bytes
 from tests.drills.stage import HALT, WHERE, WHY, staged
 from xavi_dialogue.chat.client import new_request
@@ -23,7 +23,7 @@ def test_whoever_floods_the_bus_nobody_else_suffers(crew: Crew) -> None:
         flood = crew.python("-m", "tests.drills.flood", stage.endpoint, "1")
         flood.hear(1)
         over = time.monotonic() + MOST
-        fares = stage.ear.fares("service")
+        fares = stage.listener.fares("service")
         while any(fares[name] < least for name, least in ENOUGH.items()):
             assert time.monotonic() < over, fares
             passenger = Passenger(stage.bus, new_request(), token=TOKEN)
@@ -32,7 +32,7 @@ def test_whoever_floods_the_bus_nobody_else_suffers(crew: Crew) -> None:
                 assert answer.taken < IN_TIME
                 assert answer.told == wanted
             time.sleep(0.3)
-            fares = stage.ear.fares("service")
+            fares = stage.listener.fares("service")
         flood.popen.stdin.close()  # type: ignore[union-attr]
         assert flood.popen.wait(3.0 * ENDED) == 0, flood.said
         after = resident_bytes(stage.service.pid), resident_bytes(stage.car.pid)

@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from tests.service.desk import children, there, until
+from tests.vehicle.pool_jobs import children, there, until
 from xavi_dialogue.__main__ import app
-from xavi_dialogue.process.subprocesses import Child, ChildFailed, Steady
+from xavi_dialogue.process.subprocesses import Child, ChildFailed, RestartedChild
 from xavi_dialogue.storage.conversations import Store
 
 PATIENCE = 120.0  # [s] before a test gives up on what never comes
@@ -187,7 +187,7 @@ def test_a_child_is_started_anew_only_so_often() -> None:
             return str(error).startswith("the hub has ended")
         return False
 
-    with Steady(lambda: Child("the hub", ["serve", "--listen", "nonsense"])) as steady:
+    with RestartedChild(lambda: Child("the hub", ["serve", "--listen", "nonsense"])) as steady:
         first = steady.pid
         assert until(gone)
         assert steady.pid == first

@@ -19,7 +19,7 @@ def kill(pids: list[int], number: int = signal.SIGKILL) -> None:
 
 def at_work(stage: Stage) -> bool:
     """Whether the planner is at something."""
-    return until(lambda: stage.ear.fares()["workers_idle"] == 0.0)
+    return until(lambda: stage.listener.fares()["workers_idle"] == 0.0)
 
 
 def test_a_planner_that_dies_once_costs_nothing_and_one_that_keeps_dying_its_evidence(

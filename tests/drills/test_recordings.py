@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from tests.fakes import s1_moments
-from tests.recording.test_player import Ears, recorded
+from tests.recording.test_player import Listeners, recorded
 from tests.recording.test_recorder import FakeCar, turn
 from xavi_dialogue.bus.interface import Keys, call
 from xavi_dialogue.bus.link import Link
@@ -147,14 +147,14 @@ def test_a_full_disk_is_told_in_one_line(hub: Hub, tmp_path: Path) -> None:
 def test_a_recording_is_played_to_others(hub: Hub, tmp_path: Path) -> None:
     path = tmp_path / "ride.mcap"
     recorded(path, s1_moments())
-    ears = Ears(hub.bus)
+    listeners = Listeners(hub.bus)
     player = hub.start("replay", str(path), "--speed", "0")
     hub.await_alive("car")
     assert player.stdin is not None
-    wait(lambda: any(scene.state == "ended" for scene in ears.scenes))
+    wait(lambda: any(scene.state == "ended" for scene in listeners.scenes))
     player.stdin.write("seek 2.0\n")
     player.stdin.flush()
-    wait(lambda: ears.scenes[-1].orders == 1)
+    wait(lambda: listeners.scenes[-1].orders == 1)
     second = hub.start("replay", str(path))
     _, told = second.communicate(timeout=PATIENCE)
     assert (second.returncode, told.count("\n")) == (1, 1)
@@ -166,8 +166,8 @@ def test_a_recording_is_played_to_others(hub: Hub, tmp_path: Path) -> None:
     player.communicate("quit\n", timeout=PATIENCE)
     assert player.returncode == other.returncode == 0
     traces = [moment.trace for moment in s1_moments() if moment.trace is not None]
-    assert [report.trace for report in ears.traces] == traces
-    assert [report.seq for report in ears.scenes] == sorted(r.seq for r in ears.scenes)
+    assert [report.trace for report in listeners.traces] == traces
+    assert [report.seq for report in listeners.scenes] == sorted(r.seq for r in listeners.scenes)
 
 
 @pytest.mark.parametrize("connected", [True, False])

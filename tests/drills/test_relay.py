@@ -3,7 +3,7 @@
 import msgspec
 import pytest
 
-from tests.drills.bus import Answer, Ear, Passenger, on_bus
+from tests.drills.bus_clients import Answer, Listener, Passenger, on_bus
 from tests.drills.processes import DEADLINE, Crew, free_endpoint, until
 from tests.drills.relay import Faults
 from tests.drills.stage import WHERE, WHY, Stage, staged
@@ -16,9 +16,9 @@ IN_TIME = DEADLINE + 1.0  # [s]
 ROUGH = {"dropped": 0.5, "twice": 0.4, "held": 0.5}
 
 
-def ask_all(bus: Bus, ear: Ear, stage: Stage) -> list[Answer]:
+def ask_all(bus: Bus, listener: Listener, stage: Stage) -> list[Answer]:
     """What is said while the ride goes on, each moment as soon as it has come."""
-    assert until(lambda: ear.fares("service")["cars"] == 1.0)
+    assert until(lambda: listener.fares("service")["cars"] == 1.0)
     stage.car.order(f"speed {SPEED}")
     said = []
     for at in MOMENTS:
@@ -26,7 +26,7 @@ def ask_all(bus: Bus, ear: Ear, stage: Stage) -> list[Answer]:
         said += [Passenger(bus, "ada").ask(text, at) for text in QUESTIONS]
         assert said[-1].reply is not None
         assert said[-1].reply.sim_time == at
-    assert stage.ear.halted(MOMENTS[-1])
+    assert stage.listener.halted(MOMENTS[-1])
     return said
 
 
@@ -36,16 +36,18 @@ def test_what_is_not_lost_for_good_changes_no_answer(crew: Crew, seed: int) -> N
     crew.serve(far, "--keep-days", "0")
     with staged(crew, at=None) as stage, on_bus(far) as bus:
         begin(crew, stage.endpoint, far, Faults(seed=seed, **ROUGH))
-        ear = Ear(bus)
-        said = ask_all(bus, ear, stage)
+        listener = Listener(bus)
+        said = ask_all(bus, listener, stage)
         wanted = [stage.passenger("ada").ask(text, at) for at in MOMENTS for text in QUESTIONS]
         assert [answer.told for answer in said] == [answer.told for answer in wanted]
         assert max(answer.taken for answer in said) < IN_TIME
-        assert ear.fares("service")["rejected"] == 0.0
-        scenes = stage.ear.scenes[-1].seq
-        assert len({scene.seq for scene in ear.scenes}) < scenes  # some did not come
-        assert len(ear.traces) > len(stage.ear.traces)  # and some came twice
-        assert [s.seq for s in ear.scenes] != sorted(s.seq for s in ear.scenes)  # or too early
+        assert listener.fares("service")["rejected"] == 0.0
+        scenes = stage.listener.scenes[-1].seq
+        assert len({scene.seq for scene in listener.scenes}) < scenes  # some did not come
+        assert len(listener.traces) > len(stage.listener.traces)  # and some came twice
+        assert [s.seq for s in listener.scenes] != sorted(
+            s.seq for s in listener.scenes
+        )  # or too early
 
 
 @pytest.mark.parametrize("lost", [(2, 3, 4, 5), (7,)], ids=["most", "one"])
@@ -57,8 +59,8 @@ def test_where_decisions_are_lost_for_good_nothing_is_said_about_them(
     with staged(crew, at=None) as stage, on_bus(far) as bus:
         faults = Faults(seed=3, **ROUGH, lost={"trace": lost, "event": (1,)})
         begin(crew, stage.endpoint, far, faults)
-        said = ask_all(bus, Ear(bus), stage)
-        gone = {report.trace.trace_id for report in stage.ear.traces if report.seq in lost}
+        said = ask_all(bus, Listener(bus), stage)
+        gone = {report.trace.trace_id for report in stage.listener.traces if report.seq in lost}
         assert len(gone) == len(lost)
         for answer in said:
             assert answer.taken < IN_TIME

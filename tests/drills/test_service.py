@@ -4,7 +4,7 @@ import threading
 import time
 from pathlib import Path
 
-from tests.drills.bus import Ear, Passenger, on_bus
+from tests.drills.bus_clients import Listener, Passenger, on_bus
 from tests.drills.processes import Crew, free_endpoint, until
 from tests.drills.stage import WHERE
 from xavi_dialogue.storage.conversations import Store
@@ -29,12 +29,12 @@ def test_a_service_that_is_killed_and_comes_back_knows_ride_and_conversation(
     car.order(f"speed {SPEED}", "resume")
     chat = crew.xavi("chat", "--connect", endpoint, "--session", "ada")
     with on_bus(endpoint) as bus:
-        ear = Ear(bus)
-        assert until(lambda: len(ear.traces) >= 2)
+        listener = Listener(bus)
+        assert until(lambda: len(listener.traces) >= 2)
         chat.order(*QUESTIONS[:2])
         chat.hear(2)
-        before, seen = time.monotonic(), ear.now
-        ride = ear.scenes[-1].ride
+        before, seen = time.monotonic(), listener.now
+        ride = listener.scenes[-1].ride
         service.kill()
         chat.order(QUESTIONS[2])  # nobody is there to answer it
         assert car.says("service lost; driving on")
@@ -45,7 +45,7 @@ def test_a_service_that_is_killed_and_comes_back_knows_ride_and_conversation(
         chat.popen.stdin.close()  # type: ignore[union-attr]
         assert chat.popen.wait(30.0) == 0, chat.said
     with on_bus(endpoint) as bus:
-        late = Ear(bus)
+        late = Listener(bus)
         assert until(lambda: bool(late.scenes) and late.whole())
         assert {scene.ride for scene in late.scenes} == {ride}
         driven, passed = late.now - seen, time.monotonic() - before
@@ -74,18 +74,18 @@ def test_who_comes_late_gets_all_that_is_kept(crew: Crew, tmp_path: Path) -> Non
     crew.serve(endpoint, "--store", str(tmp_path / "dialogue.sqlite3"))
     car = crew.drive(endpoint, "--scenario", "s2", "--vehicle", "taxi", "--control")
     with on_bus(endpoint) as bus:
-        ear = Ear(bus, "taxi")
-        assert until(lambda: bool(ear.scenes)), car.said
+        listener = Listener(bus, "taxi")
+        assert until(lambda: bool(listener.scenes)), car.said
         car.order("until 9.0")
-        assert ear.halted(9.0)
+        assert listener.halted(9.0)
         said = tuple(f"What do you see at {number} s?" for number in range(5))
         for text in said:
             assert Passenger(bus, "ada", "taxi").ask(text).reply is not None
     with on_bus(endpoint) as bus:
-        late = Ear(bus, "taxi")
+        late = Listener(bus, "taxi")
         assert late.halted(9.0)
-        assert late.traces == ear.traces
-        assert late.events == ear.events
+        assert late.traces == listener.traces
+        assert late.events == listener.events
         assert len(late.traces) >= 9
         there = {f"xavi/v1/taxi/alive/{component}" for component in ("car", "service")}
         assert until(lambda: late.alive >= there)

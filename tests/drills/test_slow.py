@@ -20,15 +20,15 @@ def test_who_stops_reading_holds_up_nobody(crew: Crew) -> None:
         ada = stage.passenger("ada")
         stage.car.order(f"until {HALT}")
         answers = []
-        while not (stage.ear.now >= HALT and stage.ear.state != "driving"):
+        while not (stage.listener.now >= HALT and stage.listener.state != "driving"):
             answers.append(ada.ask(WHERE))
             time.sleep(0.2)
             assert stage.car.popen.poll() is None
-        assert until(stage.ear.whole)
-        assert len(stage.ear.traces) >= HALT
+        assert until(stage.listener.whole)
+        assert len(stage.listener.traces) >= HALT
         assert {answer.kind for answer in answers} == {"answer"}
         assert max(answer.taken for answer in answers) < IN_TIME
-        assert stage.ear.fares()["reports_dropped"] == 0.0
+        assert stage.listener.fares()["reports_dropped"] == 0.0
         os.kill(slow.pid, signal.SIGCONT)
         slow.popen.stdin.close()  # type: ignore[union-attr]
         assert slow.popen.wait(ENDED) == 0, slow.said

@@ -34,8 +34,8 @@ def scenario(root: Path, folder: Path, addition: str) -> Path:
 def test_a_collision_is_talked_about(crew: Crew, root: Path, tmp_path: Path) -> None:
     folder = scenario(root, tmp_path / "crash", QUEUE)
     with staged(crew, at=60.0, drive=("--scenario", str(folder))) as stage:
-        assert stage.ear.state == "ended"
-        assert stage.ear.events[-1].event.kind == "collided"
+        assert stage.listener.state == "ended"
+        assert stage.listener.events[-1].event.kind == "collided"
         ada = stage.passenger("ada")
         told = [ada.ask(question) for question in ("What happened?", WHY_CRASH, WHY_CRASH, WHERE)]
         assert "collided" in told[0].text
@@ -57,11 +57,11 @@ def test_a_ride_that_sumo_gives_up_is_talked_about(crew: Crew, root: Path, tmp_p
         assert told[0].kind == "answer"
         assert told[1].kind == "answer" or told[1].reason == "planner-unavailable"
         assert not {answer.reason for answer in told} & {"timed-out", "busy"}
-        before = {scene.ride for scene in stage.ear.scenes}
+        before = {scene.ride for scene in stage.listener.scenes}
         again = stage.crew.drive(stage.endpoint, "--scenario", "s2", "--control")
-        assert until(lambda: stage.ear.scenes[-1].ride not in before), again.said
+        assert until(lambda: stage.listener.scenes[-1].ride not in before), again.said
         again.order("until 3.0")
-        assert stage.ear.halted(3.0)
+        assert stage.listener.halted(3.0)
         assert ada.ask(WHERE).kind == "answer"
 
 

@@ -1,7 +1,17 @@
 """Answers about danger: who stops in time, why no collision is expected, what stirred us."""
 
+from msgspec.structs import replace
+
 from tests.nlg.scenery import NOW
-from xavi_dialogue.domain.answers import Answer, Beliefs, Closeness, PullingUp, Sociable
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Beliefs,
+    Bound,
+    Closeness,
+    PullingUp,
+    Slowing,
+    Sociable,
+)
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure
 from xavi_dialogue.domain.findings import Assurance
 from xavi_dialogue.domain.hidden_areas import Hider, SightTold
@@ -16,6 +26,8 @@ TURN = Event("turn", V, side="right")
 TURNED = Episode(V, "exit-right", 8.5, 10.0)
 LEFT = (Expectation(("exit-left",), 0.9),)
 RIGHT = Belief(1, 19.0, (Expectation(("exit-right",), 0.97),))
+ON = Belief(1, 19.0, (Expectation(("continue",), 0.97),))
+TURNS = replace(TURN, tense="future")
 
 
 def grounds(of: Assurance, vehicle: int | None = 1, risk: float | None = 0.008) -> Closeness:
@@ -73,4 +85,18 @@ CASES: tuple[Answer, ...] = (
     SightTold("there", (TALL,)),
     SightTold("beyond", (TALL,)),
     SightTold("past", (TALL,)),
+    Slowing((1,), stops=True, held=0.8, time=25.0),
+    Slowing((2,), stops=True, held=0.0, time=20.5),
+    Slowing((1,), stops=False, held=0.7, slow=5.0),
+    Slowing((1,), stops=False, held=0.2, slow=5.0),
+    Slowing((1,), stops=False, held=0.7),
+    Slowing((1,), stops=False, held=0.0, slows=True, slow=5.0),
+    Slowing((1,), stops=False, held=0.0, slows=True),
+    *(Slowing((2,), False, 0.0, order=first) for first in ("they", "we", "nobody")),
+    Slowing((), stops=False, held=0.0, slow=5.0),
+    Bound(V, ON, unconsidered=TURNS),
+    Bound(V, ON, unconsidered=TURNS, signal=Episode(V, "signal", 17.0, side="left")),
+    Bound(V, replace(ON, time=5.0), unconsidered=TURNS),
+    Bound(V, ON, unconsidered=TURN),
+    Closeness(None, None, risk=0.008, asked="safe", past=False, giving=(2,)),
 )

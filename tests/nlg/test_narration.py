@@ -7,7 +7,7 @@ from planner.record.events import Event
 from planner.record.trace import ACTIONS
 from sim.scene import VehicleState
 from xavi_dialogue.bus.messages import SceneReport
-from xavi_dialogue.chat.controller import RemoteCabin
+from xavi_dialogue.chat.controller import ChatController
 from xavi_dialogue.nlg.narration import Teller, clock, narrate, plan_in_words, story
 
 
@@ -55,7 +55,7 @@ def test_a_plan_is_a_row_of_actions() -> None:
     assert plan_in_words(()) == ""
 
 
-def cabin(state: Any) -> RemoteCabin:
+def cabin(state: Any) -> ChatController:
     report = SceneReport(
         ride="r1",
         seq=0,
@@ -69,7 +69,7 @@ def cabin(state: Any) -> RemoteCabin:
         events=0,
     )
     known: Any = SimpleNamespace(scene=report, trouble=lambda: None)
-    return RemoteCabin(known, known, known)
+    return ChatController(known, known, known)
 
 
 def test_a_ride_that_is_over_has_neither_speed_nor_plan() -> None:

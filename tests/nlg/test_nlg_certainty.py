@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace as replace_struct
 
-from tests.nlg.causal_cases import CHANGED, LATER, MANY, ends
+from tests.nlg.causal_cases import ALONE, CHANGED, LATER, MANY, ends
 from tests.nlg.scenery import CONTEXT
 from xavi_dialogue.domain.answers import Certainty, ChoiceReason, SupposedOfUs
 from xavi_dialogue.domain.evidence import calibrated
@@ -85,6 +85,35 @@ def test_no_rule_of_an_answer_has_a_word_of_certainty():
 )
 def test_a_count_of_situations_is_told_with_its_weight(good, covered, proven, said):
     held = Certainty("choice", 0.87, 0.8, good, 32, 10.0, MANY, LATER, 1, covered, proven)
-    assert said in say(held, CONTEXT).text
+    more = replace(CONTEXT, detail="more")
+    assert said in say(held, more).text
     plain = replace_struct(held, proven=covered * good / 32, covered=covered)
-    assert ("likel" in say(plain, CONTEXT).text.split(". ", 1)[1]) is False
+    assert ("likel" in say(plain, more).text.split(". ", 1)[1]) is False
+
+
+@pytest.mark.parametrize("contrast", [LATER, ALONE])
+@pytest.mark.parametrize("share", [0.97, 0.87, 0.3])
+def test_how_sure_is_one_number_and_how_far_it_holds_is_told_when_asked(contrast, share):
+    about = "choice" if contrast.foil else "plan"
+    held = Certainty(about, share, 0.2, 32, 32, 10.0, MANY, contrast, 1, 0.8, 0.8)
+    assert say(held, CONTEXT).text.count(" %") == 1
+    more = say(held, replace(CONTEXT, detail="more")).text
+    assert "that chance is hardly below 20 %" in more
+    assert "in all 32 situations" in more
+
+
+@pytest.mark.parametrize(
+    ("contrast", "said"),
+    [
+        (replace_struct(ALONE, fact_collision=0.09), "what I did at 9 %. My plan will"),
+        (replace_struct(LATER, fact_collision=0.09), "at 9 % for what I did, and at "),
+        (replace_struct(LATER, collision=0.21), "at under 1 % for what I did, and at 21 % for"),
+    ],
+)
+def test_how_sure_tells_the_risk_of_a_collision_first(contrast, said):
+    about = "choice" if contrast.foil else "plan"
+    held = Certainty(about, 0.9, 0.8, 30, 32, 10.0, MANY, contrast, 1, 0.8, 0.8)
+    for detail in ("usual", "more"):
+        told = say(held, replace(CONTEXT, detail=detail)).text
+        assert told.startswith("I put the risk of a collision")
+        assert said in told

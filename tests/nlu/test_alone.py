@@ -3,8 +3,7 @@
 import pytest
 
 from xavi_dialogue.domain.meaning import Ask, Elliptic, Why
-from xavi_dialogue.domain.somebody_else import SOMEBODY_ELSE
-from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.domain.terms import SOMEBODY_ELSE, Vehicle
 from xavi_dialogue.nlu.interpret import interpret
 from xavi_dialogue.nlu.parse import Parser
 

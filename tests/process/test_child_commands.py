@@ -9,8 +9,8 @@ from xavi_dialogue.bus.interface import Keys
 from xavi_dialogue.bus.memory_bus import MemoryHub
 from xavi_dialogue.bus.messages import SceneReport, unpack
 from xavi_dialogue.process.child_commands import (
+    ChildCommandError,
     Order,
-    OrderError,
     Orders,
     Pause,
     Quit,
@@ -21,7 +21,7 @@ from xavi_dialogue.process.child_commands import (
     write,
 )
 from xavi_dialogue.vehicle.episode import Moment
-from xavi_dialogue.vehicle.node import Car, Pace
+from xavi_dialogue.vehicle.node import Pace, VehicleNode
 from xavi_dialogue.vehicle.telemetry import Reporter
 
 
@@ -36,7 +36,7 @@ def test_orders_come_through_as_they_were(order: Order) -> None:
     "line", ["", "fly", "speed", "speed -1", "speed inf", "until noon", "1 2 3"]
 )
 def test_what_is_no_order_is_refused(line: str) -> None:
-    with pytest.raises(OrderError):
+    with pytest.raises(ChildCommandError):
         read(line)
 
 
@@ -59,7 +59,7 @@ def drive(
         if moment.scene.time >= quit_at:
             waiting.put(Quit())
 
-    car = Car(
+    car = VehicleNode(
         ride=s1_moments(),
         step=0.5,
         records=(record,),

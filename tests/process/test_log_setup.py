@@ -23,9 +23,9 @@ from xavi_dialogue.process.log_setup import (
     OURS,
     WAITING,
     Form,
-    Lines,
-    Outlet,
-    Telling,
+    LineFormatter,
+    LogOptions,
+    ThreadedHandler,
     begin,
     is_log,
 )
@@ -42,7 +42,7 @@ def record(message: str = "question answered", error: Any = None, **extra: Any) 
 
 
 def told(form: Form, made: logging.LogRecord, **telling: Any) -> str:
-    return Lines(Telling(form, component="service", **telling)).format(made)
+    return LineFormatter(LogOptions(form, component="service", **telling)).format(made)
 
 
 def test_a_line_of_json_holds_what_was_given_in_a_fixed_order() -> None:
@@ -144,7 +144,7 @@ def fresh() -> Iterator[None]:
 @pytest.mark.usefixtures("fresh")
 def test_the_level_is_for_our_own_records() -> None:
     out = io.StringIO()
-    handler = begin(out, Telling("json", "info"))
+    handler = begin(out, LogOptions("json", "info"))
     logging.getLogger("xavi_dialogue.service.vehicle_session").info("heard")
     logging.getLogger("xavi_dialogue.service.vehicle_session").debug("unheard")
     logging.getLogger("numba").info("unheard")
@@ -159,8 +159,8 @@ def test_the_level_is_for_our_own_records() -> None:
 @pytest.mark.usefixtures("fresh")
 def test_to_begin_again_takes_the_place_of_what_was_before() -> None:
     first, second = io.StringIO(), io.StringIO()
-    begin(first, Telling())
-    handler = begin(second, Telling())
+    begin(first, LogOptions())
+    handler = begin(second, LogOptions())
     logging.getLogger("xavi_dialogue").warning("once")
     handler.close()
     assert first.getvalue() == ""
@@ -182,7 +182,7 @@ class Stuck(io.StringIO):
 
 def test_nobody_waits_for_a_reader_and_what_is_lost_is_counted() -> None:
     stuck = Stuck()
-    outlet = Outlet(stuck, Telling("json"))
+    outlet = ThreadedHandler(stuck, LogOptions("json"))
     outlet.handle(record("first"))
     stuck.reached.wait()
     for _ in range(WAITING + 5):
@@ -202,7 +202,7 @@ def test_a_reader_that_is_gone_stops_nothing() -> None:
     far, near = os.pipe()
     os.close(far)
     stream = os.fdopen(near, "w")
-    outlet = Outlet(stream, Telling())
+    outlet = ThreadedHandler(stream, LogOptions())
     for _ in range(3):
         outlet.handle(record())
     outlet.close()
@@ -214,7 +214,7 @@ def test_a_reader_that_is_gone_stops_nothing() -> None:
 def test_the_last_lines_of_a_process_are_written() -> None:
     code = (
         "import logging, sys; from xavi_dialogue.process.log_setup import *\n"
-        "begin(sys.stderr, Telling('json', 'info'))\n"
+        "begin(sys.stderr, LogOptions('json', 'info'))\n"
         "for i in range(500): logging.getLogger('planner').info('line', extra={'i': i})\n"
         "sys.exit(3)"
     )

@@ -34,11 +34,11 @@ from xavi_dialogue.process import child_commands
 from xavi_dialogue.recording import player
 from xavi_dialogue.recording.player import Player, load
 from xavi_dialogue.recording.recorder import Recorder
-from xavi_dialogue.service.in_process import make_mind
+from xavi_dialogue.service.in_process import make_pipeline
 from xavi_dialogue.service.server import Service
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.mcap_file import McapWriter, read
-from xavi_dialogue.storage.recording_format import NotARecording, Tape, tape_of
+from xavi_dialogue.storage.recording_format import NotARecording, RecordedMessages, read_ride
 from xavi_dialogue.vehicle import replan_worker
 from xavi_dialogue.vehicle.episode import Moment
 from xavi_dialogue.vehicle.map_server import serve_roads
@@ -50,7 +50,7 @@ KEYS = Keys()
 REPORTS = (SceneReport, TraceReport, EventReport)
 
 
-class Ears:
+class Listeners:
     """Hears a car."""
 
     def __init__(self, bus: Bus, keys: Keys = KEYS) -> None:
@@ -62,7 +62,9 @@ class Ears:
         bus.subscribe(keys.of("event"), lambda _, p: self.events.append(unpack(p, EventReport)))
 
 
-def recorded(path: Path, moments: Iterator[Moment], network: Path | None = None) -> Tape:
+def recorded_in(
+    path: Path, moments: Iterator[Moment], network: Path | None = None
+) -> RecordedMessages:
     """The tape of a ride that was recorded."""
     hub = MemoryHub()
     with McapWriter(path, "1") as file:
@@ -75,68 +77,70 @@ def recorded(path: Path, moments: Iterator[Moment], network: Path | None = None)
         for moment in moments:
             driven.drive(moment)
         recorder.work()
-    return tape_of(read(path))[0]
+    return read_ride(read(path))[0]
 
 
 @pytest.fixture
-def tape(tmp_path: Path) -> Tape:
-    return recorded(tmp_path / "ride.mcap", s1_moments())
+def recorded(tmp_path: Path) -> RecordedMessages:
+    return recorded_in(tmp_path / "ride.mcap", s1_moments())
 
 
-def played(tape: Tape, *orders: child_commands.Order, running: bool = False) -> tuple[Ears, Player]:
+def played(
+    recorded: RecordedMessages, *orders: child_commands.Order, running: bool = False
+) -> tuple[Listeners, Player]:
     """What is heard of a player that gets these orders, one after the other."""
     hub = MemoryHub()
-    ears = Ears(hub.connect())
+    listeners = Listeners(hub.connect())
     told: child_commands.Orders = queue.SimpleQueue()
     for order in (*orders, child_commands.Quit()):
         told.put(order)
-    one = Player(tape, hub.connect(), KEYS, Pace(0.0, running=running))
+    one = Player(recorded, hub.connect(), KEYS, Pace(0.0, running=running))
     one.play(told, stays=True)
-    return ears, one
+    return listeners, one
 
 
-def through(tape: Tape) -> Ears:
+def through(recorded: RecordedMessages) -> Listeners:
     hub = MemoryHub()
-    ears = Ears(hub.connect())
-    one = Player(tape, hub.connect(), KEYS, Pace(0.0, running=True))
+    listeners = Listeners(hub.connect())
+    one = Player(recorded, hub.connect(), KEYS, Pace(0.0, running=True))
     one.play(queue.SimpleQueue(), stays=False)
-    return ears
+    return listeners
 
 
-def test_it_reports_the_ride_as_a_car_would(tape: Tape) -> None:
-    ears = through(tape)
+def test_it_reports_the_ride_as_a_car_would(recorded: RecordedMessages) -> None:
+    listeners = through(recorded)
     moments = list(s1_moments())
     traces = [moment.trace for moment in moments if moment.trace is not None]
     events = [event for moment in moments for event in moment.events]
-    assert [report.trace for report in ears.traces] == traces
-    assert [report.event for report in ears.events] == events
-    for reports in (ears.scenes, ears.traces, ears.events):
+    assert [report.trace for report in listeners.traces] == traces
+    assert [report.event for report in listeners.events] == events
+    for reports in (listeners.scenes, listeners.traces, listeners.events):
         assert [report.seq for report in reports] == list(range(len(reports)))  # type: ignore[attr-defined]
-    rides = {report.ride for report in (*ears.scenes, *ears.traces, *ears.events)}
+    rides = {report.ride for report in (*listeners.scenes, *listeners.traces, *listeners.events)}
     assert len(rides) == 1
-    assert rides != {tape.ride}
-    first, last = ears.scenes[0], ears.scenes[-1]
+    assert rides != {recorded.ride}
+    first, last = listeners.scenes[0], listeners.scenes[-1]
     assert (first.sim_time, first.state, first.scenario, first.seed) == (0.0, "driving", "s1", 4)
     assert (last.sim_time, last.state) == (moments[-1].scene.time, "ended")
     assert (last.traces, last.events) == (len(traces), len(events))
 
 
-def test_every_play_is_a_ride_of_its_own(tape: Tape) -> None:
-    assert through(tape).scenes[0].ride != through(tape).scenes[0].ride
+def test_every_play_is_a_ride_of_its_own(recorded: RecordedMessages) -> None:
+    assert through(recorded).scenes[0].ride != through(recorded).scenes[0].ride
 
 
-def test_it_halts_where_a_car_would(tape: Tape) -> None:
-    ears, _ = played(tape, child_commands.Until(3.2))
-    scene = ears.scenes[-1]
+def test_it_halts_where_a_car_would(recorded: RecordedMessages) -> None:
+    listeners, _ = played(recorded, child_commands.Until(3.2))
+    scene = listeners.scenes[-1]
     assert scene.state == "driving"  # it had just been told
     told: child_commands.Orders = queue.SimpleQueue()
     hub = MemoryHub()
-    ears = Ears(hub.connect())
-    one = Player(tape, hub.connect(), KEYS, Pace(0.0, running=True, until=3.2, stops=True))
+    listeners = Listeners(hub.connect())
+    one = Player(recorded, hub.connect(), KEYS, Pace(0.0, running=True, until=3.2, stops=True))
     one.bus.subscribe(KEYS.of("scene"), lambda *_: _quit_when_halted(one, told))
     one.play(told, stays=True)
-    assert (ears.scenes[-1].sim_time, ears.scenes[-1].state) == (3.5, "paused")
-    assert max(report.sim_time for report in ears.traces) <= 3.5
+    assert (listeners.scenes[-1].sim_time, listeners.scenes[-1].state) == (3.5, "paused")
+    assert max(report.sim_time for report in listeners.traces) <= 3.5
 
 
 def _quit_when_halted(one: Player, orders: child_commands.Orders) -> None:
@@ -144,38 +148,38 @@ def _quit_when_halted(one: Player, orders: child_commands.Orders) -> None:
         orders.put(child_commands.Quit())
 
 
-def test_it_goes_to_any_moment_also_back(tape: Tape) -> None:
-    ears, _ = played(tape, *(child_commands.Seek(t) for t in (4.0, 1.0, 6.0, 2.2)))
-    sought = ears.scenes[1:5]
+def test_it_goes_to_any_moment_also_back(recorded: RecordedMessages) -> None:
+    listeners, _ = played(recorded, *(child_commands.Seek(t) for t in (4.0, 1.0, 6.0, 2.2)))
+    sought = listeners.scenes[1:5]
     assert [scene.sim_time for scene in sought] == [4.0, 1.0, 6.0, 2.5]
     assert [scene.orders for scene in sought] == [1, 2, 3, 4]
     assert {scene.state for scene in sought} == {"paused"}
-    seqs = [scene.seq for scene in ears.scenes]
+    seqs = [scene.seq for scene in listeners.scenes]
     assert seqs == sorted(set(seqs))
-    assert [report.seq for report in ears.traces] == list(range(len(ears.traces)))
-    assert [r.sim_time for r in ears.traces] == sorted({r.sim_time for r in ears.traces})
+    assert [report.seq for report in listeners.traces] == list(range(len(listeners.traces)))
+    assert [r.sim_time for r in listeners.traces] == sorted({r.sim_time for r in listeners.traces})
     assert sought[1].traces == sought[0].traces  # what is known is not unlearnt
     assert sought[2].traces > sought[1].traces
 
 
-def test_beyond_the_end_is_the_end(tape: Tape) -> None:
-    ears, one = played(
-        tape, child_commands.Seek(1000.0), child_commands.Resume(), child_commands.Seek(0.0)
+def test_beyond_the_end_is_the_end(recorded: RecordedMessages) -> None:
+    listeners, one = played(
+        recorded, child_commands.Seek(1000.0), child_commands.Resume(), child_commands.Seek(0.0)
     )
-    assert [scene.state for scene in ears.scenes[1:4]] == ["ended", "ended", "driving"]
+    assert [scene.state for scene in listeners.scenes[1:4]] == ["ended", "ended", "driving"]
     assert one.pace.obeyed == 4
 
 
 def test_a_ride_whose_end_was_not_recorded_is_not_said_to_be_over(tmp_path: Path) -> None:
     moments = list(s1_moments())[:5]
-    tape = recorded(tmp_path / "ride.mcap", iter(moments))
-    assert through(tape).scenes[-1].state == "paused"
+    recorded = recorded_in(tmp_path / "ride.mcap", iter(moments))
+    assert through(recorded).scenes[-1].state == "paused"
 
 
-def test_the_pace_is_kept(tape: Tape, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_pace_is_kept(recorded: RecordedMessages, monkeypatch: pytest.MonkeyPatch) -> None:
     now = 100.0
     monkeypatch.setattr(player.time, "monotonic", lambda: now)
-    one = Player(tape, MemoryHub().connect(), KEYS, Pace(2.0, running=True))
+    one = Player(recorded, MemoryHub().connect(), KEYS, Pace(2.0, running=True))
     one.go_to(0)
     assert one._delay() == pytest.approx(0.25)  # 0.5 s at twice the speed
     now += 0.2
@@ -195,7 +199,7 @@ class Inline:
 
     def submit(self, job: Job) -> None:
         result = replan_worker.obey(
-            msgspec.json.decode(job.order, type=replan_worker.Order), self.network
+            msgspec.json.decode(job.order, type=replan_worker.ReplanOrder), self.network
         )
         message = bytes(result.message)
         job.done(message if result.planned else msgspec.json.decode(message, type=Failure))
@@ -245,7 +249,7 @@ class Talk:
 
 @cache
 def real_mind():  # type: ignore[no-untyped-def]
-    return make_mind()
+    return make_pipeline()
 
 
 def test_replayed_the_answers_are_those_of_the_ride_byte_for_byte(
@@ -266,28 +270,28 @@ def test_replayed_the_answers_are_those_of_the_ride_byte_for_byte(
     asked = [(text, at) for at in (ride.halt, 2.0) for text in QUESTIONS]
     said = [encode(live.ask(*one)) for one in asked]
 
-    tape = recorded(tmp_path / "ride.mcap", ride_moments(ride), network)
-    assert [gzip.decompress(one) for one in tape.networks] == [network.read_bytes()]
+    recorded = recorded_in(tmp_path / "ride.mcap", ride_moments(ride), network)
+    assert [gzip.decompress(one) for one in recorded.networks] == [network.read_bytes()]
     roads = tmp_path / "roads.net.xml"
-    assert player._find_network(tape, roads)
+    assert player._find_network(recorded, roads)
     again = Talk()
     planning = Replanner(Inline(read_network(roads)))
     bus = again.hub.connect()
     bus.serve(KEYS.of("@rpc/whatif"), planning)
     bus.appear(KEYS.of("alive/car"))
-    one = Player(tape, bus, KEYS, Pace(0.0, running=False), planning.record)
+    one = Player(recorded, bus, KEYS, Pace(0.0, running=False), planning.record)
     for time in (0.0, ride.halt, 2.0):  # there, and back
-        one.go_to(tape.index_at(time))
+        one.go_to(recorded.index_at(time))
     again.service.work()
     assert [encode(again.ask(*one)) for one in asked] == said
     assert sum('"kind":"answer"' in line for line in said) >= 6
 
 
-def test_without_roads_the_car_says_that_it_cannot_plan(tape: Tape) -> None:
+def test_without_roads_the_car_says_that_it_cannot_plan(recorded: RecordedMessages) -> None:
     hub = MemoryHub()
     notes: list[str] = []
-    alive = player.Alive("car")
-    with player.planning_for(tape, hub.connect(), KEYS, alive, notes.append) as (planning, _):
+    alive = player.HealthReporter("car")
+    with player.planning_for(recorded, hub.connect(), KEYS, alive, notes.append) as (planning, _):
         hub.connect().serve(KEYS.of("@rpc/whatif"), planning)
         came: list[object] = []
         hub.connect().request(KEYS.of("@rpc/whatif"), b"", 1.0, came.append)
@@ -297,20 +301,22 @@ def test_without_roads_the_car_says_that_it_cannot_plan(tape: Tape) -> None:
 
 
 @pytest.mark.parametrize("roads", [b"<net", b"<net/>", b"not xml"])
-def test_roads_of_another_ride_are_not_planned_on(tmp_path: Path, tape: Tape, roads: bytes) -> None:
+def test_roads_of_another_ride_are_not_planned_on(
+    tmp_path: Path, recorded: RecordedMessages, roads: bytes
+) -> None:
     other = load_scenario("s2").network.read_bytes()
     for text in (roads, other):
-        foreign = replace(tape, networks=(gzip.compress(text, mtime=0),))
+        foreign = replace(recorded, networks=(gzip.compress(text, mtime=0),))
         assert not player._find_network(foreign, tmp_path / "roads.net.xml")
 
 
 def test_a_file_that_is_cut_off_is_played_with_a_warning(tmp_path: Path) -> None:
     path = tmp_path / "ride.mcap"
-    recorded(path, s1_moments())
+    recorded_in(path, s1_moments())
     path.write_bytes(path.read_bytes()[:-30])
     notes: list[str] = []
-    tape = load(path, None, notes.append)
-    assert len(tape.scenes) == len(list(s1_moments()))
+    recorded = load(path, None, notes.append)
+    assert len(recorded.scenes) == len(list(s1_moments()))
     [note] = notes
     assert note.startswith(f"warning: {path}: it was cut off")
 
@@ -338,12 +344,12 @@ def test_the_record_of_a_late_recorder_is_played_from_where_it_begins(tmp_path: 
         for moment in moments[6:]:
             driven.drive(moment)
         recorder.work()
-    tape, _ = tape_of(read(path))
-    assert tape.times[0] == moments[6].scene.time
-    ears = through(tape)
+    recorded, _ = read_ride(read(path))
+    assert recorded.times[0] == moments[6].scene.time
+    listeners = through(recorded)
     # What is not in it is missed, and not denied: numbers are those of the ride.
-    assert [report.seq for report in ears.traces] == list(range(1, driven.counts["trace"]))
-    assert ears.scenes[-1].traces == driven.counts["trace"]
+    assert [report.seq for report in listeners.traces] == list(range(1, driven.counts["trace"]))
+    assert listeners.scenes[-1].traces == driven.counts["trace"]
 
 
 NO_SUMO = """
@@ -359,7 +365,7 @@ print(sorted(name for name in sys.modules if name.startswith(("libsumo", "traci"
 
 def test_sumo_is_not_needed(tmp_path: Path, root: Path) -> None:
     path = tmp_path / "ride.mcap"
-    recorded(path, s1_moments())
+    recorded_in(path, s1_moments())
     command = [sys.executable, "-c", NO_SUMO, str(path)]
     done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
@@ -369,22 +375,22 @@ def test_orders_to_seek_are_written_and_read() -> None:
     assert child_commands.read(
         child_commands.write(child_commands.Seek(2.5))
     ) == child_commands.Seek(2.5)
-    with pytest.raises(child_commands.OrderError):
+    with pytest.raises(child_commands.ChildCommandError):
         child_commands.read("seek -1")
 
 
-def test_a_passenger_who_is_taken_back_asks_about_that_moment(tape: Tape) -> None:
+def test_a_passenger_who_is_taken_back_asks_about_that_moment(recorded: RecordedMessages) -> None:
     hub = MemoryHub()
     client = Client(hub.connect(), KEYS, "ada", lambda _: None)
-    one = Player(tape, hub.connect(), KEYS, Pace(1.0, running=True))
-    one.go_to(tape.index_at(6.0))
+    one = Player(recorded, hub.connect(), KEYS, Pace(1.0, running=True))
+    one.go_to(recorded.index_at(6.0))
     assert client.now() == 6.0
-    one.go_to(tape.index_at(2.0))
+    one.go_to(recorded.index_at(2.0))
     assert client.now() == 2.0
 
 
 def test_where_a_recording_ends_is_told_to_who_wants_to_go_beyond(tmp_path: Path) -> None:
-    tape = recorded(tmp_path / "ride.mcap", iter(list(s1_moments())[:5]))
+    recorded = recorded_in(tmp_path / "ride.mcap", iter(list(s1_moments())[:5]))
     hub, notes = MemoryHub(), list[str]()
     told: child_commands.Orders = queue.SimpleQueue()
     for order in (
@@ -396,6 +402,6 @@ def test_where_a_recording_ends_is_told_to_who_wants_to_go_beyond(tmp_path: Path
         told.put(order)
     told.put(child_commands.Quit())
     pace = Pace(0.0, running=False)
-    Player(tape, hub.connect(), KEYS, pace, note=notes.append).play(told, stays=True)
-    assert tape.times[-1] == 2.0
+    Player(recorded, hub.connect(), KEYS, pace, note=notes.append).play(told, stays=True)
+    assert recorded.times[-1] == 2.0
     assert notes == ["the recording ends at 0:02"] * 2

@@ -26,9 +26,9 @@ from xavi_dialogue.bus.messages import (
 )
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.recording import recorder
-from xavi_dialogue.recording.recorder import Numbers, Recorder
+from xavi_dialogue.recording.recorder import Recorder, SeenNumbers
 from xavi_dialogue.storage.mcap_file import McapWriter, read
-from xavi_dialogue.storage.recording_format import OVERHEAD, Attached, Entry, tape_of
+from xavi_dialogue.storage.recording_format import OVERHEAD, AttachedFile, Entry, read_ride
 from xavi_dialogue.vehicle.episode import Moment
 from xavi_dialogue.vehicle.map_server import NETWORK, serve_roads
 from xavi_dialogue.vehicle.telemetry import KEPT_EVENTS, KEPT_TRACES
@@ -131,7 +131,7 @@ def test_who_joins_late_records_what_is_kept_first_and_nothing_twice(studio: Stu
 
 
 def test_numbers_are_remembered_in_little_room(monkeypatch: pytest.MonkeyPatch) -> None:
-    numbers = Numbers()
+    numbers = SeenNumbers()
     assert [numbers.new(n) for n in (0, 1, 1, 5, 0, 5, 3)] == [
         *(True, True, False, True, False, False, True)
     ]
@@ -167,8 +167,8 @@ def test_a_ride_is_described_and_its_roads_are_kept(studio: Studio, tmp_path: Pa
     studio.recorder.work()
     studio.file.close()
     packed = gzip.compress(b"<net/>", mtime=0)
-    attached = [one for one in read(studio.path) if isinstance(one, Attached)]
-    assert attached == [Attached(f"car/{ride}.net.xml.gz", packed) for ride in ("r1", "r2")]
+    attached = [one for one in read(studio.path) if isinstance(one, AttachedFile)]
+    assert attached == [AttachedFile(f"car/{ride}.net.xml.gz", packed) for ride in ("r1", "r2")]
     with studio.path.open("rb") as file:
         facts = [dict(one.metadata) for one in make_reader(file).iter_metadata()]
     versions = {one.pop("version") for one in facts}
@@ -186,7 +186,7 @@ def test_roads_that_cannot_be_used_are_not_kept(studio: Studio, roads: bytes) ->
     FakeCar(bus).drive(next(s1_moments()))
     studio.recorder.work()
     studio.file.close()
-    assert not [one for one in read(studio.path) if isinstance(one, Attached)]
+    assert not [one for one in read(studio.path) if isinstance(one, AttachedFile)]
     assert studio.notes == ["warning: car does not tell its roads; replayed, it cannot plan"]
 
 
@@ -215,7 +215,7 @@ def test_every_car_is_recorded_where_that_is_wanted(tmp_path: Path) -> None:
     assert watched == [Keys(name).of("alive/recorder") for name in ("car", "a", "b")]
     entries = studio.entries()
     assert {one.key.split("/")[2] for one in entries} == {"a", "b"}
-    assert tape_of(entries, "b")[0].vehicle == "b"
+    assert read_ride(entries, "b")[0].vehicle == "b"
 
 
 def test_another_car_is_not_recorded(studio: Studio) -> None:

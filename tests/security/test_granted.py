@@ -11,7 +11,7 @@ import pytest
 import zenoh
 
 from sim.setup.scenario import load
-from tests.dialogue.scripted import scripted_mind
+from tests.dialogue.scripted import scripted_pipeline
 from tests.security.test_provisioning import PATIENCE, until, world_of
 from xavi_dialogue.bus.access_control import ROLES
 from xavi_dialogue.bus.catalogue import CAR_MESSAGES
@@ -24,7 +24,7 @@ from xavi_dialogue.recording.recorder import Recorder
 from xavi_dialogue.service.server import Service
 from xavi_dialogue.storage.mcap_file import McapWriter
 from xavi_dialogue.vehicle import bus_session
-from xavi_dialogue.vehicle.bus_session import Staff, company
+from xavi_dialogue.vehicle.bus_session import ReplanningOptions, join_bus
 from xavi_dialogue.vehicle.telemetry import Reporter
 
 DECLARES = {
@@ -96,7 +96,7 @@ def test_a_car_does_what_it_may_and_takes_no_orders(
     monkeypatch.setattr(bus_session, "join", watched)
     with world_of(tmp_path / "keys") as world:
         link = Link.to_hub(config=world.folder / "car.json5")
-        with company(link, CAR, load("s1").network, Staff(), Signals()) as others:
+        with join_bus(link, CAR, load("s1").network, ReplanningOptions(), Signals()) as others:
             Reporter(others.outbox, CAR)
     done = set.union(*(one.done for one in seen))
     assert beyond("car", done) == []
@@ -109,7 +109,7 @@ def test_a_car_does_what_it_may_and_takes_no_orders(
 
 def test_the_service_does_what_it_may(tmp_path: Path) -> None:
     with on_a_bus_with_keys(tmp_path / "keys", "service") as bus:
-        Service(bus, scripted_mind()).open()  # type: ignore[arg-type]
+        Service(bus, scripted_pipeline()).open()  # type: ignore[arg-type]
         assert len(bus.done) > 20
         assert beyond("service", bus.done) == []
 
@@ -132,7 +132,7 @@ def test_a_passenger_does_what_they_may(tmp_path: Path) -> None:
 def test_a_conversation_is_for_those_who_have_its_token(tmp_path: Path) -> None:
     over = threading.Event()
     with world_of(tmp_path / "keys") as world:
-        service = Service(world.hub, scripted_mind())
+        service = Service(world.hub, scripted_pipeline())
         service.open()
         thread = threading.Thread(target=service.run, args=(over.is_set,), daemon=True)
         thread.start()

@@ -38,10 +38,10 @@ from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.zenoh_bus import host, join
 from xavi_dialogue.security.provisioning import (
     BadEndpoint,
+    KeyOptions,
     KeysExist,
     KeysNotKept,
     NotOnlyKeys,
-    Wanted,
     keep,
     material,
     wanted,
@@ -118,7 +118,7 @@ class World:
     """A bus with keys, and one session of every role."""
 
     folder: Path
-    order: Wanted
+    order: KeyOptions
     hub: Bus
     members: dict[str, Bus]
 
@@ -177,8 +177,8 @@ def world(tmp_path: Path) -> Iterator[World]:
 def test_who_may_publish(world: World, tail: str, allowed: set[str], kept: bool) -> None:
     heard: list[bytes] = []
     ears = [world.hub, world.members["dashboard"]]
-    for ear in ears:
-        ear.subscribe(EACH(tail.replace("/s/", "/*/")), lambda _, said: heard.append(said))
+    for listener in ears:
+        listener.subscribe(EACH(tail.replace("/s/", "/*/")), lambda _, said: heard.append(said))
     world.settle()
     for name in world.others(allowed):
         if name != "dashboard" or "dashboard" in allowed:  # it would hear itself

@@ -24,9 +24,9 @@ from xavi_dialogue.bus.messages import (
 )
 from xavi_dialogue.chat.client import Client, ServiceLost
 from xavi_dialogue.dialogue import manager
-from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.service.in_process import make_mind
+from xavi_dialogue.service.in_process import make_pipeline
 from xavi_dialogue.service.server import Service
 from xavi_dialogue.storage.ride_file import RecordedRide
 from xavi_dialogue.transcripts.replay import Written, by_ride, recording, transcripts_in
@@ -61,9 +61,9 @@ class Prompt(MemoryBus):
 class Talk:
     """A service, a car whose ride was recorded, and a passenger."""
 
-    def __init__(self, ride: RecordedRide, mind: Mind, until: float) -> None:
+    def __init__(self, ride: RecordedRide, pipeline: Pipeline, until: float) -> None:
         hub = MemoryHub()
-        service = Service(hub.connect(), mind)
+        service = Service(hub.connect(), pipeline)
         service.open()
         car = hub.connect()
         car.appear(KEYS.of("alive/car"))
@@ -132,16 +132,16 @@ def refusal(outcome: Outcome) -> Failure:
 
 
 @pytest.fixture(scope="module")
-def mind() -> Mind:
-    return make_mind()
+def pipeline() -> Pipeline:
+    return make_pipeline()
 
 
 @pytest.mark.parametrize("name", RIDES)
-def test_all_that_answers_rest_on_can_be_had(name: str, mind: Mind) -> None:
+def test_all_that_answers_rest_on_can_be_had(name: str, pipeline: Pipeline) -> None:
     [path] = [path for path in ABOUT if path.name.startswith(name)]
     ride, about = recording(path), ABOUT[path]
     moments = [step.time for one in about for step in one.transcript.steps if isinstance(step, At)]
-    talk = Talk(ride, mind, max(ride.halt, ride.ended or 0.0, *moments))
+    talk = Talk(ride, pipeline, max(ride.halt, ride.ended or 0.0, *moments))
     replies = [reply for one in about for reply in asked(one, talk, ride.halt)]
     found = {one: talk.client("anybody").evidence(one) for one in sorted(named(replies))}
     assert all(trace.trace_id == one for one, trace in found.items())
@@ -166,7 +166,7 @@ def ask_for(bench: Bench, trace_id: str) -> Outcome:
 
 
 def test_evidence_comes_as_the_bytes_that_its_name_is_of(bench: Bench) -> None:
-    for trace in bench.service.desk().dialogue.traces:
+    for trace in bench.service.vehicle_session().dialogue.traces:
         assert ask_for(bench, trace.trace_id) == plan_trace.encode(trace)
 
 
@@ -182,7 +182,9 @@ def test_what_was_planned_again_can_be_had(bench: Bench) -> None:
 def plan(bench: Bench, call: Call) -> PlanTrace:
     """Reply to the service as the car does once it has planned again."""
     wanted = unpack(call.payload, WhatIfRequest)
-    [trace] = [t for t in bench.service.desk().dialogue.traces if t.trace_id == wanted.trace_id]
+    [trace] = [
+        t for t in bench.service.vehicle_session().dialogue.traces if t.trace_id == wanted.trace_id
+    ]
     found = again(trace, wanted)
     call.reply(plan_trace.encode(found))
     return found
@@ -201,9 +203,9 @@ def test_plans_beyond_those_that_are_remembered_are_told_to_be_gone(
 
 
 def test_another_ride_leaves_no_evidence(bench: Bench) -> None:
-    names = [trace.trace_id for trace in bench.service.desk().dialogue.traces]
+    names = [trace.trace_id for trace in bench.service.vehicle_session().dialogue.traces]
     bench.drive(until=1.0, appear=False)
-    kept = {trace.trace_id for trace in bench.service.desk().dialogue.traces}
+    kept = {trace.trace_id for trace in bench.service.vehicle_session().dialogue.traces}
     for one in names:
         assert isinstance(ask_for(bench, one), bytes if one in kept else Refused)
     assert set(names) - kept

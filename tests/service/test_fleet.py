@@ -11,7 +11,7 @@ import msgspec
 import pytest
 
 from planner.record import trace as plan_trace
-from tests.dialogue.scripted import activity, scripted_mind
+from tests.dialogue.scripted import activity, scripted_pipeline
 from tests.fakes import again, s1_moments
 from tests.service.test_service import Bench
 from xavi_dialogue.bus.interface import (
@@ -52,9 +52,9 @@ from xavi_dialogue.domain.meaning import Ask, Why
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.service import request_handler, server, vehicle_session
 from xavi_dialogue.service.fair_queue import FairQueue
-from xavi_dialogue.service.reorder_buffer import PATIENCE, InOrder, Ledger
+from xavi_dialogue.service.reorder_buffer import PATIENCE, ReorderBuffer, RideReports
 from xavi_dialogue.storage.conversations import Store
-from xavi_dialogue.storage.turn_log import Keeping, Memory
+from xavi_dialogue.storage.turn_log import Retention, TurnLog
 from xavi_dialogue.vehicle.telemetry import Reporter
 
 ANN, BOB = "a" * 43, "b" * 43  # tokens
@@ -106,7 +106,7 @@ def plans(bench: Bench, car: Bus, vehicle: str = "car") -> tuple[list[Call], Cal
         for one in tuple(held):
             held.remove(one)
             wanted = unpack(one.payload, WhatIfRequest)
-            traces = bench.service.desk(vehicle).dialogue.traces
+            traces = bench.service.vehicle_session(vehicle).dialogue.traces
             [trace] = [trace for trace in traces if trace.trace_id == wanted.trace_id]
             one.reply(plan_trace.encode(again(trace, wanted)))
         bench.service.work()
@@ -159,7 +159,7 @@ def test_each_car_is_spoken_of_by_its_own_record(bench: Bench) -> None:
     bench.service.work()
     assert [replied(came[name]).sim_time for name in ("one", "two")] == [3.0, 6.0]
     assert replied(came["three"]).reason == "planner-unavailable"
-    assert {*bench.service.reception.desks} == {"one", "two"}  # nobody can make up cars
+    assert {*bench.service.handler.vehicles} == {"one", "two"}  # nobody can make up cars
 
 
 def test_what_one_car_suffers_leaves_the_other_alone(bench: Bench) -> None:
@@ -184,7 +184,7 @@ def test_no_more_cars_than_there_is_room_for(bench: Bench, monkeypatch: pytest.M
     drive(bench, "one", 1.0).close()  # it is gone, and makes room
     drive(bench, "two", 1.0)
     drive(bench, "three", 1.0)
-    assert {*bench.service.reception.desks} == {"two", "three"}
+    assert {*bench.service.handler.vehicles} == {"two", "three"}
     drive(bench, "four", 1.0)
     came = ask(bench, "answer", "four")
     bench.service.work()
@@ -225,7 +225,7 @@ def test_questions_of_a_session_are_answered_in_their_order(bench: Bench) -> Non
     assert (slow, quick) == ([], [])
     answer()
     assert [replied(slow).kind, replied(quick).kind] == ["answer", "answer"]
-    turns = bench.service.desk().dialogue.sessions["ann"].turns
+    turns = bench.service.vehicle_session().dialogue.sessions["ann"].turns
     assert [turn.text for turn in turns] == ["lack", "answer"]
 
 
@@ -266,16 +266,16 @@ def test_a_question_whose_turn_does_not_come_in_time_fell_to_a_busy_service(benc
     drive(bench, "car", 3.0)
     came = ask(bench, "answer", deadline_ms=1000.0)
     bench.service._empty_inbox()
-    desk = bench.service.desk()
-    [question] = desk.waiting.open.values()
-    [given_up, *_] = desk.settle(question.came + 1.0)
+    vehicle_session = bench.service.vehicle_session()
+    [question] = vehicle_session.scheduler.open.values()
+    [given_up, *_] = vehicle_session.settle(question.came + 1.0)
     assert given_up.reply.reason == "busy"  # type: ignore[union-attr]
-    assert (came, desk.waiting.open) == ([], {})
+    assert (came, vehicle_session.scheduler.open) == ([], {})
 
 
 def test_who_could_not_be_answered_in_time_is_told_at_once(bench: Bench) -> None:
     plans(bench, drive(bench, "car", 3.0))
-    bench.service.reception.pace = 1.0  # [s] that a question takes
+    bench.service.handler.pace = 1.0  # [s] that a question takes
     came = [ask(bench, "answer", session=f"s{k}", deadline_ms=5000.0) for k in range(10)]
     patient = ask(bench, "answer", session="patient", deadline_ms=60_000.0)
     bench.service._empty_inbox()
@@ -283,7 +283,7 @@ def test_who_could_not_be_answered_in_time_is_told_at_once(bench: Bench) -> None
     assert {refused(one).reason for one in came[4:]} == {"busy"}
     bench.service.work()
     assert [replied(one).kind for one in (*came[:4], patient)] == ["answer"] * 5
-    assert bench.service.reception.pace < 1.0  # it takes less
+    assert bench.service.handler.pace < 1.0  # it takes less
 
 
 def history(bench: Bench, session: str, token: str | None) -> bytes:
@@ -331,13 +331,13 @@ def test_a_session_that_was_begun_without_a_token_is_open(bench: Bench) -> None:
 
 
 def test_the_owner_is_known_to_another_service_and_forgotten_with_the_session(
-    keeping: Keeping,
+    keeping: Retention,
 ) -> None:
-    first = Bench(Memory(keeping))
+    first = Bench(TurnLog(keeping))
     drive(first, "car", 3.0)
     ask(first, "answer", token=ANN)
     first.service.work()
-    later = Bench(Memory(keeping))
+    later = Bench(TurnLog(keeping))
     with pytest.raises(Refused):
         history(later, "ann", BOB)
     assert len(unpack(history(later, "ann", ANN), HistoryReply).turns) == 1
@@ -348,8 +348,8 @@ def test_the_owner_is_known_to_another_service_and_forgotten_with_the_session(
 
 
 @pytest.fixture
-def keeping(tmp_path_factory: pytest.TempPathFactory) -> Keeping:
-    return Keeping(tmp_path_factory.mktemp("kept") / "dialogue.sqlite3", 30)
+def keeping(tmp_path_factory: pytest.TempPathFactory) -> Retention:
+    return Retention(tmp_path_factory.mktemp("kept") / "dialogue.sqlite3", 30)
 
 
 def test_others_read_a_turn_only_where_the_passenger_allows(bench: Bench) -> None:
@@ -376,9 +376,9 @@ def test_who_was_silent_for_longest_is_forgotten_first(
     for name in ("a", "b", "c", "d"):
         ask(bench, "answer", session=name)
         bench.service.work()
-    assert {"waits", "d"} <= {*bench.service.desk().past}
-    assert len(bench.service.desk().past) == 2
-    assert {*bench.service.desk().dialogue.sessions} == {"waits", "d"}
+    assert {"waits", "d"} <= {*bench.service.vehicle_session().past}
+    assert len(bench.service.vehicle_session().past) == 2
+    assert {*bench.service.vehicle_session().dialogue.sessions} == {"waits", "d"}
     answer()
     assert replied(waits).kind == "answer"
 
@@ -413,30 +413,30 @@ def reports() -> list[SceneReport | TraceReport | EventReport]:
 
 
 def test_what_is_lost_for_good_is_given_up_and_the_record_goes_on() -> None:
-    ledger, recorded = Ledger(reports()[0].ride), 0
+    buffer, recorded = RideReports(reports()[0].ride), 0
     lost = [r for r in reports() if isinstance(r, TraceReport)][2]
     for report in reports():
         match report:
             case SceneReport():
-                recorded += sum(isinstance(one, TraceRecorded) for one in ledger.see(report))
+                recorded += sum(isinstance(one, TraceRecorded) for one in buffer.see(report))
             case TraceReport() if report.seq != lost.seq:
-                recorded += sum(isinstance(one, TraceRecorded) for one in ledger.trace(report))
+                recorded += sum(isinstance(one, TraceRecorded) for one in buffer.trace(report))
             case EventReport():
-                ledger.event(report)
+                buffer.event(report)
     traces = sum(isinstance(report, TraceReport) for report in reports())
-    assert not ledger.complete(1.0)
+    assert not buffer.complete(1.0)
     assert recorded == lost.seq
-    assert ledger.wait(100.0) == []  # it may still come
-    assert ledger.wait(100.0 + 0.5 * PATIENCE) == []
-    recorded += sum(isinstance(r, TraceRecorded) for r in ledger.wait(100.0 + PATIENCE))
-    assert (recorded, ledger.lost) == (traces - 1, 1)
-    assert ledger.complete(1.0)
-    assert ledger.over
-    assert ledger.trace(lost) == []  # too late, and no harm done
+    assert buffer.wait(100.0) == []  # it may still come
+    assert buffer.wait(100.0 + 0.5 * PATIENCE) == []
+    recorded += sum(isinstance(r, TraceRecorded) for r in buffer.wait(100.0 + PATIENCE))
+    assert (recorded, buffer.lost) == (traces - 1, 1)
+    assert buffer.complete(1.0)
+    assert buffer.over
+    assert buffer.trace(lost) == []  # too late, and no harm done
 
 
 def test_the_last_that_is_lost_is_not_waited_for_without_end() -> None:
-    items: InOrder[str] = InOrder(9, len)
+    items: ReorderBuffer[str] = ReorderBuffer(9, len)
     items.add(0, "a")
     assert items.give_up(3) == []
     assert (items.next, items.lost) == (3, 2)
@@ -446,18 +446,18 @@ def test_the_last_that_is_lost_is_not_waited_for_without_end() -> None:
 
 def test_nothing_that_comes_after_the_end_counts(bench: Bench) -> None:
     bench.drive()
-    traces = bench.service.desk().dialogue.traces
-    ride = bench.service.desk().ledger.ride  # type: ignore[union-attr]
+    traces = bench.service.vehicle_session().dialogue.traces
+    ride = bench.service.vehicle_session().reports.ride  # type: ignore[union-attr]
     more = TraceReport(ride=ride, seq=len(traces), sim_time=99.0, wall_time=0.0, trace=traces[-1])
     bench.car.publisher(Keys().of("trace")).put(pack(more))
     bench.service.work()
     assert bench.ask("answer").kind == "answer"
-    assert bench.service.desk().dialogue.traces == traces
+    assert bench.service.vehicle_session().dialogue.traces == traces
 
 
 def test_a_scene_may_go_back_in_time_and_be_asked_about(bench: Bench) -> None:
     bench.drive(until=6.0)
-    scene = bench.service.desk().ledger.scene  # type: ignore[union-attr]
+    scene = bench.service.vehicle_session().reports.scene  # type: ignore[union-attr]
     assert scene is not None
     fields = {name: getattr(scene, name) for name in scene.__struct_fields__}
     back = SceneReport(**{**fields, "seq": scene.seq + 1, "sim_time": 2.0})
@@ -471,13 +471,13 @@ def test_a_ride_is_known_by_its_first_decision_however_late_it_is_joined() -> No
     """What was said about a ride stays true where the service joins it after a while."""
     rides = []
     for late in (False, True):
-        ledger, named = Ledger(reports()[0].ride), Dialogue()
+        buffer, named = RideReports(reports()[0].ride), Dialogue()
         for report in reports():
             if isinstance(report, TraceReport):
                 if late and report.seq < 3:
-                    ledger.traces.begin(3)
-                for one in ledger.trace(report):
-                    named, _ = advance(scripted_mind(), named, one)
+                    buffer.traces.begin(3)
+                for one in buffer.trace(report):
+                    named, _ = advance(scripted_pipeline(), named, one)
         rides.append((named.ride_id, len(named.traces)))
     assert rides[0][0] == rides[1][0] is not None
     assert rides[0][1] == rides[1][1] + 3
@@ -510,7 +510,7 @@ def test_a_request_that_comes_twice_is_answered_once(bench: Bench) -> None:
     answer()
     assert slow[0] == slow[1]  # both hear the same, and nothing is said twice
     assert replied(slow[0]).kind == "answer"
-    turns = bench.service.desk().dialogue.sessions["ann"].turns
+    turns = bench.service.vehicle_session().dialogue.sessions["ann"].turns
     assert [turn.text for turn in turns] == ["lack"]
 
 
@@ -522,7 +522,7 @@ def test_who_missed_the_reply_may_ask_again(bench: Bench) -> None:
     bench.service.work()
     assert came[0] == again
     assert replied(other).reason == "too-little-evidence"  # another question of the same name
-    turns = bench.service.desk().dialogue.sessions["ann"].turns
+    turns = bench.service.vehicle_session().dialogue.sessions["ann"].turns
     assert [turn.text for turn in turns] == ["answer", "refuse"]
 
 
@@ -554,8 +554,8 @@ def test_after_a_while_a_name_is_another_request(
     assert [replied(one).sim_time for one in (before, later)] == [3.0, 6.0]
 
 
-def test_a_turn_that_was_kept_before_a_kill_is_not_said_twice(keeping: Keeping) -> None:
-    first, later = Bench(Memory(keeping)), Bench(Memory(keeping))
+def test_a_turn_that_was_kept_before_a_kill_is_not_said_twice(keeping: Retention) -> None:
+    first, later = Bench(TurnLog(keeping)), Bench(TurnLog(keeping))
     for bench in (first, later):  # the first is killed before its reply arrives
         drive(bench, "car", 3.0)
         said = ask(bench, "answer", request="once", at=3.0)
@@ -568,7 +568,7 @@ def test_a_turn_that_was_kept_before_a_kill_is_not_said_twice(keeping: Keeping) 
     forgotten = pack(ForgetRequest(request="f", session="ann"))
     later.passenger.request(Keys().of("@rpc/forget"), forgotten, 1.0, lambda _: None)
     later.service.work()
-    assert later.service._dispatch.sent == {}
+    assert later.service._responder.sent == {}
 
 
 def foreseeing(bench: Bench, calls: list[NeedRollout]) -> None:
@@ -581,7 +581,7 @@ def foreseeing(bench: Bench, calls: list[NeedRollout]) -> None:
             return need
         return activity(record)
 
-    bench.service.reception.mind = replace(scripted_mind(), explain=explain)
+    bench.service.handler.pipeline = replace(scripted_pipeline(), explain=explain)
 
 
 def test_what_a_passenger_will_ask_for_is_planned_before(bench: Bench) -> None:
@@ -646,7 +646,7 @@ def test_a_fault_in_foreseeing_is_nobody_s_business(
             raise ZeroDivisionError
         return activity(record)
 
-    bench.service.reception.mind = replace(scripted_mind(), explain=explain)
+    bench.service.handler.pipeline = replace(scripted_pipeline(), explain=explain)
     drive(bench, "car", 3.0)
     bench.service.work()
     assert "ZeroDivisionError" in caplog.text
@@ -672,7 +672,7 @@ def test_a_fault_of_ours_costs_one_request_and_no_more(
     bench: Bench, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     drive(bench, "car", 3.0)
-    monkeypatch.setattr(bench.service.desk(), "take", lambda _: 1 // 0)
+    monkeypatch.setattr(bench.service.vehicle_session(), "take", lambda _: 1 // 0)
     lost = ask(bench, "answer")
     bench.service.work()
     assert refused(lost).reason == "planner-failed"
@@ -702,7 +702,7 @@ def test_what_comes_in_faster_than_it_is_read_is_bounded(
 
 
 def test_what_waits_for_an_earlier_one_is_bounded() -> None:
-    items: InOrder[str] = InOrder(2, len)
+    items: ReorderBuffer[str] = ReorderBuffer(2, len)
     for number in range(1, 9):
         assert items.add(number, "x") == []
     assert len(items.held) == 2
@@ -729,8 +729,8 @@ def test_reading_makes_nothing_that_could_push_others_out(bench: Bench) -> None:
         history(bench, f"made-up-{k}", None)
         ask(bench, "answer", f"made-up-{k}", session="bob")
     bench.service.work()
-    assert {*bench.service.desk().past} == {"ann"}
-    assert {*bench.service.reception.desks} == {"car"}
+    assert {*bench.service.vehicle_session().past} == {"ann"}
+    assert {*bench.service.handler.vehicles} == {"car"}
 
 
 def test_a_record_at_fault_gets_a_bare_refusal_and_the_service_goes_on(
@@ -739,20 +739,20 @@ def test_a_record_at_fault_gets_a_bare_refusal_and_the_service_goes_on(
     def fail(*_: object) -> NoReturn:
         raise OverflowError  # whatever is asked, and whatever is to be said instead
 
-    sound = bench.service.reception.mind
-    bench.service.reception.mind = replace(scripted_mind(), explain=fail, say=fail)
+    sound = bench.service.handler.pipeline
+    bench.service.handler.pipeline = replace(scripted_pipeline(), explain=fail, say=fail)
     drive(bench, "bad", 3.0)
-    bench.service.reception.mind = sound
+    bench.service.handler.pipeline = sound
     drive(bench, "car", 3.0)
     lost = [ask(bench, "answer", "bad"), ask(bench, "answer", "bad", session="bob", at=9.0)]
     came = ask(bench, "answer")
     bench.service.work()
     assert (replied(lost[0]).reason, replied(lost[0]).kind) == ("planner-failed", "refusal")
     assert replied(came).kind == "answer"
-    desk = bench.service.desk("bad")
-    [late] = desk.settle(time.monotonic() + 60.0)
+    vehicle_session = bench.service.vehicle_session("bad")
+    [late] = vehicle_session.settle(time.monotonic() + 60.0)
     assert late.reply.reason == "planner-failed"  # type: ignore[union-attr]
-    assert desk.waiting.open == {}
+    assert vehicle_session.scheduler.open == {}
 
 
 @pytest.mark.parametrize("change", ["no ego", "huge"])
@@ -777,35 +777,35 @@ def test_a_name_is_a_plain_word(bench: Bench, name: str) -> None:
 
 def test_what_is_missing_of_the_record_is_known_to_be() -> None:
     """A denial needs the whole record: what is not in it may have been lost."""
-    ledger, told = Ledger(reports()[0].ride), []
+    buffer, told = RideReports(reports()[0].ride), []
     for report in reports():
         match report:
             case SceneReport():
-                told += ledger.see(report)
+                told += buffer.see(report)
             case TraceReport():
-                told += ledger.trace(report)
+                told += buffer.trace(report)
             case EventReport() if report.seq not in (1, 2):
-                told += ledger.event(report)
-    ledger.wait(100.0)
-    told += ledger.wait(100.0 + PATIENCE)
+                told += buffer.event(report)
+    buffer.wait(100.0)
+    told += buffer.wait(100.0 + PATIENCE)
     events = [r for r in reports() if isinstance(r, EventReport)]
     [gap] = [one for one in told if isinstance(one, RecordMissing)]
     assert gap.until == events[3].sim_time
     assert gap.since <= gap.until
-    dialogue = fold(scripted_mind(), told)
+    dialogue = fold(scripted_pipeline(), told)
     assert dialogue.record(99.0).gaps == ((gap.since, gap.until),)
     assert dialogue.record(gap.since - 0.1).gaps == ()
 
 
 def test_a_record_that_begins_late_knows_nothing_of_before() -> None:
-    ledger, told = Ledger(reports()[0].ride), []
+    buffer, told = RideReports(reports()[0].ride), []
     for report in reports():
         if isinstance(report, SceneReport):
-            told += ledger.see(report)
+            told += buffer.see(report)
         elif isinstance(report, TraceReport) and report.seq >= 3:
-            told += ledger.trace(report)
-    ledger.wait(100.0)
-    told += ledger.wait(100.0 + PATIENCE)
+            told += buffer.trace(report)
+    buffer.wait(100.0)
+    told += buffer.wait(100.0 + PATIENCE)
     traces = [report for report in reports() if isinstance(report, TraceReport)]
     gaps = [one for one in told if isinstance(one, RecordMissing)]
     assert (gaps[0].since, gaps[0].until) == (0.0, traces[3].sim_time)
@@ -824,16 +824,16 @@ def test_a_name_of_a_request_is_another_one_at_another_car(bench: Bench) -> None
 
 def test_only_a_ride_that_is_seen_begins_another_record(bench: Bench) -> None:
     drive(bench, "car", 6.0)
-    desk = bench.service.desk()
-    before = desk.dialogue.traces
+    vehicle_session = bench.service.vehicle_session()
+    before = vehicle_session.dialogue.traces
     for kind, name in ((TraceReport, "trace"), (EventReport, "event")):
         [forged, *_] = [r for r in reports() if isinstance(r, kind)]
         bench.car.publisher(Keys().of(name)).put(pack(forged))
     bench.service.work()
-    assert desk.dialogue.traces is before
+    assert vehicle_session.dialogue.traces is before
     car = drive(bench, "car", 3.0)  # decisions are heard of before the first scene is
-    assert len(desk.dialogue.traces) < len(before)
-    assert desk.dialogue.ride_id == before[0].trace_id
+    assert len(vehicle_session.dialogue.traces) < len(before)
+    assert vehicle_session.dialogue.ride_id == before[0].trace_id
     late = msgspec.structs.replace(
         next(r for r in reports() if isinstance(r, SceneReport)), ride="seen-before"
     )
@@ -843,8 +843,8 @@ def test_only_a_ride_that_is_seen_begins_another_record(bench: Bench) -> None:
     scene.put(pack(msgspec.structs.replace(late, ride="newest")))
     scene.put(pack(msgspec.structs.replace(late, seq=99)))  # of a ride that is past
     bench.service.work()
-    assert desk.ledger is not None
-    assert desk.ledger.ride == "newest"
+    assert vehicle_session.reports is not None
+    assert vehicle_session.reports.ride == "newest"
 
 
 def test_who_asked_twice_and_takes_it_back_is_left_waiting_nowhere(bench: Bench) -> None:
@@ -857,8 +857,8 @@ def test_who_asked_twice_and_takes_it_back_is_left_waiting_nowhere(bench: Bench)
     assert [len(one) for one in came] == [1, 1]
 
 
-def test_an_event_is_kept_with_its_own_ride(keeping: Keeping) -> None:
-    bench = Bench(Memory(keeping))
+def test_an_event_is_kept_with_its_own_ride(keeping: Retention) -> None:
+    bench = Bench(TurnLog(keeping))
     drive(bench, "car", 3.0)
     [stray, *_] = [report for report in reports() if isinstance(report, EventReport)]
     bench.car.publisher(Keys().of("event")).put(pack(stray))

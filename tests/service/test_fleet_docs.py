@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from xavi_dialogue.__main__ import app
 from xavi_dialogue.bus.health import MEMORY
 from xavi_dialogue.dashboard import controller
-from xavi_dialogue.process.log_setup import Lines, Telling
+from xavi_dialogue.process.log_setup import LineFormatter, LogOptions
 from xavi_dialogue.recording import recorder
 from xavi_dialogue.service import server
 from xavi_dialogue.vehicle import node
@@ -59,7 +59,7 @@ def test_the_log_line_shown_is_one(page: str) -> None:
     record.created = 1_795_289_506.949
     standard = {"time", "level", "component", "event", "logger"}
     vars(record).update({name: shown[name] for name in shown if name not in standard})
-    assert Lines(Telling("json", "info", "service")).format(record) == example
+    assert LineFormatter(LogOptions("json", "info", "service")).format(record) == example
 
 
 def test_every_counter_is_in_the_table(page: str) -> None:

@@ -12,7 +12,7 @@ import pytest
 
 from planner.record import trace as plan_trace
 from planner.record.events import Event
-from tests.dialogue.scripted import scripted_mind
+from tests.dialogue.scripted import scripted_pipeline
 from tests.fakes import again, s1_moments
 from xavi_dialogue.bus.catalogue import MESSAGES
 from xavi_dialogue.bus.interface import (
@@ -44,12 +44,12 @@ from xavi_dialogue.bus.messages import (
 from xavi_dialogue.chat.client import Client, ServiceLost
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.turn import Turn
-from xavi_dialogue.service.reorder_buffer import InOrder
+from xavi_dialogue.service.reorder_buffer import ReorderBuffer
 from xavi_dialogue.service.requests import Answer
 from xavi_dialogue.service.server import Service
 from xavi_dialogue.storage import turn_log as memory
 from xavi_dialogue.storage.conversations import DAY, New, NewTurn, RideName, Store
-from xavi_dialogue.storage.turn_log import MAX_PAST, PURGED_EVERY, Keeping, Memory
+from xavi_dialogue.storage.turn_log import MAX_PAST, PURGED_EVERY, Retention, TurnLog
 from xavi_dialogue.vehicle.telemetry import Reporter
 
 KEYS = Keys()
@@ -63,9 +63,9 @@ EMPTY = HistoryReply(session="ada", seq=0, sim_time=0.0, wall_time=0.0, turns=()
 class Bench:
     """A service, a car that reports, and passengers, on one in-memory hub."""
 
-    def __init__(self, memory: Memory | None = None) -> None:
+    def __init__(self, memory: TurnLog | None = None) -> None:
         self.hub = MemoryHub()
-        self.service = Service(self.hub.connect(), scripted_mind(), memory)
+        self.service = Service(self.hub.connect(), scripted_pipeline(), memory)
         self.service.open()
         self.car = self.hub.connect()
         self.passenger: Bus = self.hub.connect()
@@ -117,7 +117,7 @@ class Bench:
 def planned(bench: Bench, asked: Call) -> None:
     """Reply to the service as the car does once it has planned again."""
     wanted = unpack(asked.payload, WhatIfRequest)
-    traces = bench.service.desk().dialogue.traces
+    traces = bench.service.vehicle_session().dialogue.traces
     [trace] = [trace for trace in traces if trace.trace_id == wanted.trace_id]
     asked.reply(plan_trace.encode(again(trace, wanted)))
 
@@ -132,7 +132,7 @@ def test_a_question_is_answered_from_the_reported_record(bench: Bench) -> None:
     reply = bench.ask("foil")
     assert (reply.kind, reply.sim_time) == ("answer", 7.0)
     assert reply.timing_ms is not None
-    assert reply.trace_id == bench.service.desk().dialogue.traces[-1].trace_id
+    assert reply.trace_id == bench.service.vehicle_session().dialogue.traces[-1].trace_id
 
 
 def test_a_question_about_a_moment_to_come_waits_for_it(bench: Bench) -> None:
@@ -145,7 +145,7 @@ def test_a_question_about_a_moment_to_come_waits_for_it(bench: Bench) -> None:
 
 
 def test_reports_may_come_in_any_order() -> None:
-    items: InOrder[str] = InOrder(9, len)
+    items: ReorderBuffer[str] = ReorderBuffer(9, len)
     assert items.add(1, "b") == []
     assert items.add(0, "a") == ["a", "b"]
     assert items.add(0, "a") == []
@@ -153,14 +153,14 @@ def test_reports_may_come_in_any_order() -> None:
 
 
 def test_who_joins_late_begins_with_what_is_still_kept() -> None:
-    items: InOrder[str] = InOrder(9, len)
+    items: ReorderBuffer[str] = ReorderBuffer(9, len)
     assert items.add(7, "h") == []
     assert items.begin(0) == []
     assert items.begin(6) == []  # the seventh may still come
     assert items.add(6, "g") == ["g", "h"]
     assert items.begin(5) == []
     assert items.add(8, "i") == ["i"]
-    late: InOrder[str] = InOrder(9, len)
+    late: ReorderBuffer[str] = ReorderBuffer(9, len)
     assert [late.add(3, "d"), late.add(4, "e")] == [[], []]
     assert late.begin(4) == ["d", "e"]  # a little more was kept than had to be
 
@@ -181,22 +181,22 @@ def test_when_the_car_is_gone_the_conversation_goes_on(bench: Bench) -> None:
 def test_a_question_is_given_up_before_its_deadline(bench: Bench) -> None:
     bench.drive(until=3.0)
     came = bench.send("answer", at=6.0, deadline_ms=2000.0)
-    desk = bench.service.desk()
-    [question] = desk.waiting.open.values()
+    vehicle_session = bench.service.vehicle_session()
+    [question] = vehicle_session.scheduler.open.values()
     deadline = question.came + 2.0
-    assert desk.settle(deadline - 0.2) == []
-    [given_up] = desk.settle(deadline - 0.01)
+    assert vehicle_session.settle(deadline - 0.2) == []
+    [given_up] = vehicle_session.settle(deadline - 0.01)
     assert isinstance(given_up, Answer)
     assert given_up.reply.reason == "timed-out"
-    assert (came, desk.waiting.open) == ([], {})
+    assert (came, vehicle_session.scheduler.open) == ([], {})
 
 
 def test_a_question_that_is_planned_for_is_given_up_too(bench: Bench) -> None:
     bench.drive()
     bench.car.serve(KEYS.of("@rpc/whatif"), lambda _: None)
     bench.send("lack", deadline_ms=2000.0)
-    desk = bench.service.desk()
-    [given_up] = desk.settle(desk.waiting.open["ada", "q1"].came + 1.99)
+    vehicle_session = bench.service.vehicle_session()
+    [given_up] = vehicle_session.settle(vehicle_session.scheduler.open["ada", "q1"].came + 1.99)
     assert isinstance(given_up, Answer)
     assert given_up.reply.reason == "timed-out"
     assert bench.ask("answer", request="q2").kind == "answer"
@@ -253,7 +253,7 @@ def test_who_asks_and_goes_harms_nobody(bench: Bench) -> None:
     serve(Gone(pack(asked)))
     serve(Gone(b"junk"))
     assert bench.ask("answer").kind == "answer"
-    assert bench.service.desk().waiting.open == {}
+    assert bench.service.vehicle_session().scheduler.open == {}
 
 
 @pytest.mark.parametrize(
@@ -302,7 +302,9 @@ def test_rollouts_that_come_late_are_not_taken_for_those_of_another_question(ben
     planned(bench, held[0])
     bench.service.work()
     assert came == []
-    assert [need.vehicle for need in bench.service.desk().dialogue.planned] == [1]  # kept, unasked
+    assert [need.vehicle for need in bench.service.vehicle_session().dialogue.planned] == [
+        1
+    ]  # kept, unasked
     planned(bench, held[1])
     bench.service.work()
     assert unpack(came[0], AskReply).kind == "answer"  # type: ignore[arg-type]
@@ -310,7 +312,7 @@ def test_rollouts_that_come_late_are_not_taken_for_those_of_another_question(ben
 
 def test_a_car_that_plans_something_else_has_failed(bench: Bench) -> None:
     bench.drive()
-    trace = bench.service.desk().dialogue.traces[0]
+    trace = bench.service.vehicle_session().dialogue.traces[0]
     bench.car.serve(KEYS.of("@rpc/whatif"), lambda asked: asked.reply(plan_trace.encode(trace)))
     assert bench.ask("lack").reason == "planner-failed"
 
@@ -319,7 +321,7 @@ def test_another_ride_begins_another_record(bench: Bench) -> None:
     bench.drive()
     bench.drive(until=3.0, appear=False)
     assert bench.ask("answer").sim_time == 3.0
-    assert len(bench.service.desk().dialogue.traces) == 1
+    assert len(bench.service.vehicle_session().dialogue.traces) == 1
 
 
 def test_the_history_of_a_session_can_be_read(bench: Bench) -> None:
@@ -336,13 +338,13 @@ def reply_of(text: str) -> Reply:
 def test_a_history_has_the_latest_turns_that_fit(bench: Bench) -> None:
     large = reply_of("\U0001f600" * 10_000)
     turns = tuple(Turn(text=str(k), reply=large) for k in range(60))
-    bench.service.desk().resume("ada", turns)
+    bench.service.vehicle_session().resume("ada", turns)
     told = [int(text) for text in bench.history()]
     assert told == [*range(60 - len(told), 60)]
     size = len(pack(EMPTY)) + len(told) * len(msgspec.json.encode(PastTurn("59", large)))
     assert HistoryReply.LIMIT - 60_000 < size < HistoryReply.LIMIT
     huge = Turn(text="huge", reply=reply_of("x" * 2**20))
-    bench.service.desk().resume("ada", (turns[0], huge, turns[1], turns[2]))
+    bench.service.vehicle_session().resume("ada", (turns[0], huge, turns[1], turns[2]))
     assert bench.history() == ["1", "2"]
 
 
@@ -404,7 +406,7 @@ def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_file_that_holds_everybody_up_is_left_alone_for_a_while(
-    kept: Keeping, monkeypatch: pytest.MonkeyPatch
+    kept: Retention, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with Store(kept.path):
         pass
@@ -418,7 +420,7 @@ def test_a_file_that_holds_everybody_up_is_left_alone_for_a_while(
         keep(store, news)
 
     monkeypatch.setattr(Store, "keep", counted)
-    bench = Bench(Memory(kept))
+    bench = Bench(TurnLog(kept))
     bench.drive()
     monkeypatch.setattr(memory, "REST", 1e6)
     assert [bench.ask("answer", request=f"r{k}").kind for k in range(5)] == ["answer"] * 5
@@ -427,17 +429,17 @@ def test_a_file_that_holds_everybody_up_is_left_alone_for_a_while(
     other.close()
 
 
-def test_whose_a_session_is_counts_once_it_can_be_read_again(kept: Keeping) -> None:
+def test_whose_a_session_is_counts_once_it_can_be_read_again(kept: Retention) -> None:
     """Nobody takes over what belongs to somebody else while the file cannot be read."""
     victim, thief = "v" * 43, "t" * 43
-    first = Bench(Memory(kept))
+    first = Bench(TurnLog(kept))
     first.drive()
     first.ask("answer", token=victim)
     first.service._memory.close()
     hidden = kept.path.with_suffix(".hidden")
     kept.path.rename(hidden)
     kept.path.mkdir()
-    later = Bench(Memory(kept))
+    later = Bench(TurnLog(kept))
     later.drive()
     assert later.ask("refuse", token=thief).kind == "refusal"  # of a conversation of its own
     kept.path.rmdir()
@@ -447,14 +449,14 @@ def test_whose_a_session_is_counts_once_it_can_be_read_again(kept: Keeping) -> N
     assert texts(kept) == ["answer"]
 
 
-def test_as_long_as_it_cannot_be_read_whose_a_session_is_nobody_gets_it(kept: Keeping) -> None:
+def test_as_long_as_it_cannot_be_read_whose_a_session_is_nobody_gets_it(kept: Retention) -> None:
     victim, thief = "v" * 43, "t" * 43
-    first = Bench(Memory(kept))
+    first = Bench(TurnLog(kept))
     first.drive()
     for name in ("r1", "r2"):
         first.ask("answer", token=victim, request=name, session=name)
     first.service._memory.close()
-    bench = Bench(Memory(kept))
+    bench = Bench(TurnLog(kept))
     bench.drive()
     assert bench.ask("answer", token=victim, request="again", session="r1").kind == "answer"
     store = bench.service._memory._store
@@ -484,23 +486,23 @@ def test_as_long_as_it_cannot_be_read_whose_a_session_is_nobody_gets_it(kept: Ke
     kept.path.rmdir()
     hidden.rename(kept.path)
     assert [tried(kind, "r2") for kind in ("history", "ask", "forget")] == ["out-of-scope"] * 3
-    assert bench.service.desk().past.get("r2") is None
+    assert bench.service.vehicle_session().past.get("r2") is None
     store.close()
     assert texts(kept, "r2") == ["answer"]
 
 
 @pytest.fixture
-def kept(tmp_path: Path) -> Keeping:
-    return Keeping(tmp_path / "dialogue.sqlite3", 30)
+def kept(tmp_path: Path) -> Retention:
+    return Retention(tmp_path / "dialogue.sqlite3", 30)
 
 
-def texts(keeping: Keeping, session: str = "ada") -> list[str]:
+def texts(keeping: Retention, session: str = "ada") -> list[str]:
     with Store(keeping.path) as store:
         return [turn.text for turn in store.turns(session, 200)]
 
 
-def test_a_turn_is_on_disk_before_its_reply_is_sent(kept: Keeping) -> None:
-    bench = Bench(Memory(kept))
+def test_a_turn_is_on_disk_before_its_reply_is_sent(kept: Retention) -> None:
+    bench = Bench(TurnLog(kept))
     bench.drive()
     seen: list[list[str]] = []
     asked = AskRequest(request="q1", session="ada", text="answer")
@@ -509,10 +511,10 @@ def test_a_turn_is_on_disk_before_its_reply_is_sent(kept: Keeping) -> None:
     assert seen == [["answer"]]
 
 
-def test_nobody_waits_for_the_disk_itself(kept: Keeping, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nobody_waits_for_the_disk_itself(kept: Retention, monkeypatch: pytest.MonkeyPatch) -> None:
     done: list[str] = []
     monkeypatch.setattr(Store, "sync", lambda _: done.append("on the disk"))
-    bench = Bench(Memory(kept))
+    bench = Bench(TurnLog(kept))
     bench.drive()
     done.clear()
     asked = AskRequest(request="q1", session="ada", text="answer")
@@ -522,15 +524,15 @@ def test_nobody_waits_for_the_disk_itself(kept: Keeping, monkeypatch: pytest.Mon
     assert done == ["answered", "on the disk"]
 
 
-def test_a_conversation_is_resumed_by_another_service(kept: Keeping) -> None:
-    first = Bench(Memory(kept))
+def test_a_conversation_is_resumed_by_another_service(kept: Retention) -> None:
+    first = Bench(TurnLog(kept))
     first.drive()
     first.ask("answer")
-    later = Bench(Memory(kept))
+    later = Bench(TurnLog(kept))
     assert later.history() == ["answer"]  # before any car is heard of
     later.drive()
     later.ask("refuse")
-    turns = later.service.desk().dialogue.sessions["ada"].turns
+    turns = later.service.vehicle_session().dialogue.sessions["ada"].turns
     assert [turn.text for turn in turns] == ["answer", "refuse"]
     assert texts(kept) == ["answer", "refuse"]
 
@@ -541,24 +543,24 @@ def test_a_conversation_goes_on_when_another_ride_begins() -> None:
     bench.ask("answer")
     bench.drive(until=3.0, appear=False)
     bench.ask("refuse", request="q2")
-    turns = bench.service.desk().dialogue.sessions["ada"].turns
+    turns = bench.service.vehicle_session().dialogue.sessions["ada"].turns
     assert [turn.text for turn in turns] == ["answer", "refuse"]
 
 
-def test_no_more_is_resumed_than_can_be_used(kept: Keeping) -> None:
+def test_no_more_is_resumed_than_can_be_used(kept: Retention) -> None:
     reply = Reply(text="So.", kind="answer", sim_time=0.0)
     with Store(kept.path) as store:
         new = [Turn(text=str(k), reply=reply) for k in range(MAX_PAST + 5)]
         store.keep(NewTurn("ada", None, time.time(), turn) for turn in new)
-    bench = Bench(Memory(kept))
+    bench = Bench(TurnLog(kept))
     bench.drive()
     bench.ask("answer")
-    turns = bench.service.desk().dialogue.sessions["ada"].turns
+    turns = bench.service.vehicle_session().dialogue.sessions["ada"].turns
     assert [turn.text for turn in turns] == [*map(str, range(5, MAX_PAST + 5)), "answer"]
 
 
-def test_what_happens_is_kept_once_with_how_to_drive_it_again(kept: Keeping) -> None:
-    bench = Bench(Memory(kept))
+def test_what_happens_is_kept_once_with_how_to_drive_it_again(kept: Retention) -> None:
+    bench = Bench(TurnLog(kept))
     bench.drive()
     bench.ask("answer")
     with Store(kept.path) as store:
@@ -566,12 +568,12 @@ def test_what_happens_is_kept_once_with_how_to_drive_it_again(kept: Keeping) -> 
         lines = [json.loads(line) for line in store.export()]
     assert (listed.scenario, listed.seed, listed.sim_time) == ("s1", 4, 7.0)
     happened = [line["event"]["sim_time"] for line in lines if "event" in line]
-    assert happened == [event.sim_time for event in bench.service.desk().dialogue.events]
+    assert happened == [event.sim_time for event in bench.service.vehicle_session().dialogue.events]
     assert happened
 
 
-def test_a_conversation_is_forgotten_on_request(kept: Keeping) -> None:
-    bench = Bench(Memory(kept))
+def test_a_conversation_is_forgotten_on_request(kept: Retention) -> None:
+    bench = Bench(TurnLog(kept))
     bench.drive()
     bench.ask("answer")
     bench.ask("answer", request="q2", session="bob")
@@ -579,7 +581,9 @@ def test_a_conversation_is_forgotten_on_request(kept: Keeping) -> None:
     assert (texts(kept), texts(kept, "bob")) == ([], ["answer"])
     assert bench.history() == []
     bench.ask("refuse", request="q3")
-    assert [turn.text for turn in bench.service.desk().dialogue.sessions["ada"].turns] == ["refuse"]
+    assert [
+        turn.text for turn in bench.service.vehicle_session().dialogue.sessions["ada"].turns
+    ] == ["refuse"]
     assert bench.forget("eve").turns == 0
 
 
@@ -605,9 +609,9 @@ def test_who_is_forgotten_gets_no_answer_any_more(bench: Bench) -> None:
     assert bench.ask("answer").kind == "answer"
 
 
-def test_where_nothing_can_be_written_the_answer_comes_all_the_same(kept: Keeping) -> None:
+def test_where_nothing_can_be_written_the_answer_comes_all_the_same(kept: Retention) -> None:
     warnings: list[str] = []
-    bench = Bench(Memory(kept, warnings.append))
+    bench = Bench(TurnLog(kept, warnings.append))
     bench.drive()
     bench.ask("answer")
     hog = sqlite3.connect(kept.path, isolation_level=None)
@@ -624,8 +628,8 @@ def test_where_nothing_can_be_written_the_answer_comes_all_the_same(kept: Keepin
     assert texts(kept) == ["answer", "refuse", "huh", "answer"]
 
 
-def test_what_was_to_be_forgotten_is_erased_as_soon_as_it_can_be(kept: Keeping) -> None:
-    bench = Bench(Memory(kept))
+def test_what_was_to_be_forgotten_is_erased_as_soon_as_it_can_be(kept: Retention) -> None:
+    bench = Bench(TurnLog(kept))
     bench.drive()
     bench.ask("answer")
     hog = sqlite3.connect(kept.path, isolation_level=None)
@@ -639,10 +643,10 @@ def test_what_was_to_be_forgotten_is_erased_as_soon_as_it_can_be(kept: Keeping) 
     assert texts(kept) == ["refuse"]
 
 
-def test_a_file_that_cannot_be_used_is_told_once_and_answers_come(kept: Keeping) -> None:
+def test_a_file_that_cannot_be_used_is_told_once_and_answers_come(kept: Retention) -> None:
     kept.path.write_bytes(b"no database at all" * 100)
     warnings: list[str] = []
-    bench = Bench(Memory(kept, warnings.append))
+    bench = Bench(TurnLog(kept, warnings.append))
     bench.drive()
     assert bench.ask("answer").kind == "answer"
     assert bench.ask("answer", request="q2").kind == "answer"
@@ -650,17 +654,17 @@ def test_a_file_that_cannot_be_used_is_told_once_and_answers_come(kept: Keeping)
     assert str(kept.path) in warning
 
 
-def test_what_is_too_old_goes_when_the_service_starts(kept: Keeping) -> None:
+def test_what_is_too_old_goes_when_the_service_starts(kept: Retention) -> None:
     reply = Reply(text="So.", kind="answer", sim_time=0.0)
     old = Turn(text="old", reply=reply)
     with Store(kept.path) as store:
         store.keep([NewTurn("ada", None, time.time() - 31 * DAY, old)])
-    Bench(Memory(kept)).service.work()
+    Bench(TurnLog(kept)).service.work()
     assert texts(kept) == []
 
 
-def test_a_damaged_turn_is_told_and_others_are_spoken_with_as_ever(kept: Keeping) -> None:
-    first = Bench(Memory(kept))
+def test_a_damaged_turn_is_told_and_others_are_spoken_with_as_ever(kept: Retention) -> None:
+    first = Bench(TurnLog(kept))
     first.drive()
     first.ask("answer")
     first.ask("answer", request="q2", session="bob")
@@ -668,7 +672,7 @@ def test_a_damaged_turn_is_told_and_others_are_spoken_with_as_ever(kept: Keeping
         other.execute("UPDATE turns SET turn = x'ff' WHERE session = 'ada'")
     other.close()
     warnings: list[str] = []
-    bench = Bench(Memory(kept, warnings.append))
+    bench = Bench(TurnLog(kept, warnings.append))
     bench.drive()
     assert bench.ask("answer").kind == "answer"
     [warning] = warnings
@@ -681,9 +685,9 @@ def test_a_damaged_turn_is_told_and_others_are_spoken_with_as_ever(kept: Keeping
     assert (texts(kept), len(warnings)) == (["answer"], 1)
 
 
-def test_what_no_file_can_hold_costs_no_other_turn(kept: Keeping) -> None:
+def test_what_no_file_can_hold_costs_no_other_turn(kept: Retention) -> None:
     warnings: list[str] = []
-    memory = Memory(kept, warnings.append)
+    memory = TurnLog(kept, warnings.append)
     memory.hear(RideName("r1"), 2**63, 100.0, Event("arrived", 3.0))
     reply = Reply(text="So.", kind="answer", sim_time=0.0)
     memory.keep("ada", RideName("r1"), 100.0, Turn(text="Why?", reply=reply))
@@ -693,8 +697,8 @@ def test_what_no_file_can_hold_costs_no_other_turn(kept: Keeping) -> None:
     memory.close()
 
 
-def test_what_is_erased_is_forgotten_once_nobody_reads_it_any_more(kept: Keeping) -> None:
-    bench = Bench(Memory(kept))
+def test_what_is_erased_is_forgotten_once_nobody_reads_it_any_more(kept: Retention) -> None:
+    bench = Bench(TurnLog(kept))
     bench.drive()
     bench.ask("answer")
     reader = sqlite3.connect(kept.path, isolation_level=None)
@@ -708,8 +712,8 @@ def test_what_is_erased_is_forgotten_once_nobody_reads_it_any_more(kept: Keeping
     assert bench.forget("ada").forgotten
 
 
-def test_what_was_erased_is_purged_by_and_by(kept: Keeping) -> None:
-    memory = Memory(kept)
+def test_what_was_erased_is_purged_by_and_by(kept: Retention) -> None:
+    memory = TurnLog(kept)
     reply = Reply(text="xyzzy", kind="answer", sim_time=0.0)
     memory.keep("ada", None, 100.0, Turn(text="Why?", reply=reply))
     reader = sqlite3.connect(kept.path, isolation_level=None)
@@ -725,6 +729,6 @@ def test_what_was_erased_is_purged_by_and_by(kept: Keeping) -> None:
     memory.close()
 
 
-def words(keeping: Keeping) -> bytes:
+def words(keeping: Retention) -> bytes:
     files = keeping.path.parent.glob(f"{keeping.path.name}*")
     return b"".join(file.read_bytes() for file in files)

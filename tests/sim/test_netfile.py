@@ -347,20 +347,3 @@ def test_the_crossings_of_a_way_are_known(street: Network) -> None:
     turn = link(street, "left0A0_2", "A0bottom0_2")
     assert {x.id for x in street.crossings_on(turn)} == {":A0_c2_0", ":A0_c3_0"}
     assert street.crossings_on(replace(turn, other_foes=())) == ()
-
-
-@pytest.mark.parametrize(
-    ("place", "crossing"),
-    [
-        ((100.0, 91.0), ":A0_c2_0"),
-        ((100.0, 93.5), ":A0_c2_0"),  # two metres from its middle, and the margin
-        ((100.0, 94.0), None),
-        ((92.3, 89.5), ":A0_c2_0"),  # at its western end, before the other begins
-        ((100.0, 100.0), None),
-    ],
-)
-def test_who_is_on_a_crossing(
-    street: Network, place: tuple[float, float], crossing: str | None
-) -> None:
-    found = street.crossing_at(place)
-    assert (found and found.id) == crossing

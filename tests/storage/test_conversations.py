@@ -30,8 +30,8 @@ from xavi_dialogue.storage.database import (
     Damaged,
     Database,
     Newer,
+    NotStorable,
     StoreError,
-    Unfit,
     Unpurged,
     Unwritable,
 )
@@ -135,7 +135,7 @@ def test_exported_lines_say_what_they_are(path: Path) -> None:
 def test_all_is_kept_or_nothing(path: Path) -> None:
     big = new(turn=turn(answer="x" * MAX_TURN))
     with Store(path) as store:
-        with pytest.raises(Unfit, match="at most"):
+        with pytest.raises(NotStorable, match="at most"):
             store.keep([new(), event(), big])
         assert lines(store) == []
 
@@ -596,7 +596,7 @@ def test_an_owner_is_forgotten_with_the_session_and_is_a_digest(path: Path) -> N
     with Store(path) as store:
         store.keep([new(owner="0" * 64), new(session="bob", owner="1" * 64)])
         for owner in ("2" * 64, None):
-            with pytest.raises(Unfit, match="somebody else"):
+            with pytest.raises(NotStorable, match="somebody else"):
                 store.keep([new(owner=owner)])
         assert [store.owner(name) for name in ("ada", "bob", "cat")] == ["0" * 64, "1" * 64, None]
         store.forget("ada")

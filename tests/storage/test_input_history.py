@@ -3,17 +3,17 @@
 from datetime import datetime
 from pathlib import Path
 
-from xavi_dialogue.storage.input_history import TypedLines, erase, sessions
+from xavi_dialogue.storage.input_history import InputHistory, erase, sessions
 
 
 def lines(file: Path) -> list[str]:
-    return [*TypedLines(file, "ada").load_history_strings()][::-1]
+    return [*InputHistory(file, "ada").load_history_strings()][::-1]
 
 
 def test_what_is_typed_is_there_again_for_its_owner_alone(tmp_path: Path) -> None:
     file = tmp_path / "history"
-    TypedLines(file, "ada").append_string("Why?")
-    TypedLines(file, "ada").append_string("a\nb")
+    InputHistory(file, "ada").append_string("Why?")
+    InputHistory(file, "ada").append_string("a\nb")
     assert lines(file) == ["Why?", "a\nb"]
     assert file.stat().st_mode & 0o077 == 0
     assert sessions(file) == {"ada"}
@@ -21,12 +21,12 @@ def test_what_is_typed_is_there_again_for_its_owner_alone(tmp_path: Path) -> Non
 
 def test_forgetting_erases_what_was_typed_in_the_session_and_nothing_else(tmp_path: Path) -> None:
     file = tmp_path / "history"
-    TypedLines(file, "bob").append_string("Where are we?")
-    TypedLines(file, "ada").append_string("/save secret.txt")  # no turn came of this ...
+    InputHistory(file, "bob").append_string("Where are we?")
+    InputHistory(file, "ada").append_string("/save secret.txt")  # no turn came of this ...
     long = "long " * 1000
     for line in (long, "one\n\x1b[31mtwo", "Where are we?"):
-        TypedLines(file, "ada").append_string(line)
-    now = TypedLines(file, "ada")
+        InputHistory(file, "ada").append_string(line)
+    now = InputHistory(file, "ada")
     now.append_string("/plan")
     assert lines(file) == [
         "Where are we?",
@@ -48,7 +48,7 @@ def test_forgetting_erases_what_was_typed_in_the_session_and_nothing_else(tmp_pa
 
 def test_all_that_was_typed_can_be_erased(tmp_path: Path) -> None:
     file = tmp_path / "history"
-    TypedLines(file, "ada").append_string("Why?")
+    InputHistory(file, "ada").append_string("Why?")
     with file.open("ab") as other:
         other.write(b"no entry at all\n")
     erase(file)
@@ -98,7 +98,7 @@ def test_what_stays_keeps_the_time_at_which_it_was_typed(tmp_path: Path) -> None
     file = tmp_path / "history"
     old = "\n# 2026-01-01 10:00:00.5 bob\n+Who is that?\n+Really?\n"
     file.write_text(old)
-    typed = TypedLines(file, "ada")
+    typed = InputHistory(file, "ada")
     typed.append_string("Why?")
     typed.forget()
     assert file.read_text().strip() == old.strip()

@@ -34,17 +34,17 @@ from xavi_dialogue.storage import mcap_file, recording_format
 from xavi_dialogue.storage.mcap_file import McapWriter, read
 from xavi_dialogue.storage.recording_format import (
     RECORDED,
-    Attached,
-    Broken,
+    AttachedFile,
     Entry,
     FileThere,
     NotARecording,
     NothingToPlay,
     Piece,
     TooMuch,
+    Truncation,
     Unwritable,
+    read_ride,
     schema_to_view,
-    tape_of,
 )
 
 EGO = VehicleState((0.0, 0.0), 0.0, 10.0, 0.0, 4.5, 1.8)
@@ -113,7 +113,7 @@ def test_what_is_written_is_read_by_us_and_by_the_library(path: Path) -> None:
     pieces = list(read(path))
     assert [one for one in pieces if isinstance(one, Entry)] == written
     assert [one for one in pieces if not isinstance(one, Entry)] == [
-        Attached("car/r1.net.xml.gz", b"roads")
+        AttachedFile("car/r1.net.xml.gz", b"roads")
     ]
     with path.open("rb") as file:
         reader = make_reader(file, validate_crcs=True)
@@ -254,7 +254,7 @@ def test_what_is_whole_is_read_of_a_file_that_is_cut_off_anywhere(path: Path) ->
     for size in range(60, len(whole), 97):
         path.write_bytes(whole[:size])
         *pieces, last = read(path)
-        assert isinstance(last, Broken)
+        assert isinstance(last, Truncation)
         assert pieces == entries()[: len(pieces)]
         counts.append(len(pieces))
     assert counts == sorted(counts)
@@ -371,7 +371,7 @@ def test_other_packing_is_told(path: Path) -> None:
     foreign(path, use_chunking=False)
     assert [type(one) for one in read(path)] == [Entry]
     foreign(path, compression=CompressionType.LZ4)
-    assert list(read(path)) == [Broken("it is damaged: a chunk packed by 'lz4'")]
+    assert list(read(path)) == [Truncation("it is damaged: a chunk packed by 'lz4'")]
 
 
 @pytest.mark.parametrize("claim", [1000, 2**62])
@@ -388,29 +388,29 @@ def test_a_chunk_takes_no_more_memory_than_it_says(
     path.write_bytes(data[: start + 25] + size + data[start + 33 :])
     monkeypatch.undo()
     [broken] = read(path)
-    assert isinstance(broken, Broken)
+    assert isinstance(broken, Truncation)
     assert ("of another size" in broken.why) == (claim == 1000)
 
 
 def test_a_ride_is_read_as_a_tape(path: Path) -> None:
     write(path, [*entries("car", "old"), *entries("car", "new")], {"car/new.net.xml.gz": b"n"})
-    tape, why = tape_of(read(path))
-    assert (tape.vehicle, tape.ride, why) == ("car", "new", None)
-    assert tape.times == (0.0, 0.1, 0.2, 0.3, 0.4)
-    assert tape.scene(3) == scene(3, "new")
-    assert [tape.trace(k) for k in range(2)] == list(s1_ride().traces[:2])
-    assert (len(tape.events), tape.networks, tape.finished) == (1, (b"n",), False)
-    assert [tape.known(scene(k)) for k in range(3)] == [(0, 0), (1, 1), (2, 1)]
-    assert [tape.index_at(time) for time in (0.0, 0.1, 0.15, 99.0)] == [0, 1, 2, 4]
+    recorded, why = read_ride(read(path))
+    assert (recorded.vehicle, recorded.ride, why) == ("car", "new", None)
+    assert recorded.times == (0.0, 0.1, 0.2, 0.3, 0.4)
+    assert recorded.scene(3) == scene(3, "new")
+    assert [recorded.trace(k) for k in range(2)] == list(s1_ride().traces[:2])
+    assert (len(recorded.events), recorded.networks, recorded.finished) == (1, (b"n",), False)
+    assert [recorded.known(scene(k)) for k in range(3)] == [(0, 0), (1, 1), (2, 1)]
+    assert [recorded.index_at(time) for time in (0.0, 0.1, 0.15, 99.0)] == [0, 1, 2, 4]
 
 
 def test_of_several_cars_one_is_named(path: Path) -> None:
     write(path, [*entries("a"), *entries("b")])
     with pytest.raises(NothingToPlay, match=r"several cars.*a, b"):
-        tape_of(read(path))
+        read_ride(read(path))
     with pytest.raises(NothingToPlay, match="no car 'c'; there is: a, b"):
-        tape_of(read(path), "c")
-    assert tape_of(read(path), "b")[0].vehicle == "b"
+        read_ride(read(path), "c")
+    assert read_ride(read(path), "b")[0].vehicle == "b"
 
 
 @pytest.mark.parametrize(
@@ -424,7 +424,7 @@ def test_of_several_cars_one_is_named(path: Path) -> None:
 )
 def test_what_cannot_be_played_is_refused(what: list[Entry], why: str) -> None:
     with pytest.raises((NothingToPlay, NotARecording), match=why):
-        tape_of(what)
+        read_ride(what)
 
 
 def test_decisions_of_an_unknown_schema_are_refused() -> None:
@@ -432,13 +432,13 @@ def test_decisions_of_an_unknown_schema_are_refused() -> None:
     trace["trace"]["schema"] = "xavi.plan_trace/3"
     strange = Entry("xavi/v1/car/trace", json.dumps(trace).encode(), 0, 0, 0)
     with pytest.raises(NotARecording, match=r"unknown schema 'xavi.plan_trace/3'"):
-        tape_of([strange])
+        read_ride([strange])
 
 
 def test_a_scene_without_the_car_is_refused() -> None:
     empty = msgspec.structs.replace(scene(0), vehicles={1: OTHER})
     with pytest.raises(NotARecording, match="without the car itself"):
-        tape_of([entry("car/scene", empty)])
+        read_ride([entry("car/scene", empty)])
 
 
 def test_a_recording_too_large_to_be_held_is_refused_before_it_is(
@@ -454,23 +454,23 @@ def test_a_recording_too_large_to_be_held_is_refused_before_it_is(
             yield entry("car/scene", scene(given))
 
     with pytest.raises(TooMuch, match="--car"):
-        tape_of(endless())
+        read_ride(endless())
     assert given < 100
 
 
 def test_a_cut_off_recording_is_played_as_far_as_it_goes(path: Path) -> None:
     write(path, entries())
     path.write_bytes(path.read_bytes()[:-20])
-    tape, why = tape_of(read(path))
-    assert len(tape.scenes) == 5
+    recorded, why = read_ride(read(path))
+    assert len(recorded.scenes) == 5
     assert why == "it was cut off while it was written"
 
 
 def test_the_latest_of_several_scenes_at_one_moment_counts() -> None:
     first = scene(1)
     then = msgspec.structs.replace(first, seq=7, state="paused", traces=9)
-    tape, _ = tape_of([entry("car/scene", first), entry("car/scene", then)])
-    assert tape.scene(0) == then
+    recorded, _ = read_ride([entry("car/scene", first), entry("car/scene", then)])
+    assert recorded.scene(0) == then
 
 
 def test_the_example_in_the_docs_reads_a_recording(

@@ -17,8 +17,8 @@ from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.storage import resume
 from xavi_dialogue.storage.conversations import DAY, NewEvent, NewTurn, RideName, Store
-from xavi_dialogue.storage.input_history import TypedLines
-from xavi_dialogue.storage.turn_log import Keeping
+from xavi_dialogue.storage.input_history import InputHistory
+from xavi_dialogue.storage.turn_log import Retention
 
 SURE = "Are you sure?"
 
@@ -97,17 +97,17 @@ def test_what_was_typed_is_forgotten_as_well(path: Path) -> None:
     typed_file().parent.mkdir(parents=True, exist_ok=True)
     typed_file().unlink(missing_ok=True)
     for line in ("Why?", SURE, "/save secret.txt", "long " * 1000):
-        TypedLines(typed_file(), "ada").append_string(line)
-    TypedLines(typed_file(), "bob").append_string("Why?")
+        InputHistory(typed_file(), "ada").append_string(line)
+    InputHistory(typed_file(), "bob").append_string("Why?")
     for _ in range(2):  # a question that was cancelled is no turn
         assert xavi("forget", "ada", "--yes", "--store", str(path)).exit_code == 0
         assert typed() == ["Why?"]
-        TypedLines(typed_file(), "ada").append_string("cancelled")
+        InputHistory(typed_file(), "ada").append_string("cancelled")
     assert xavi("forget", "--older-than", "1", "--yes", "--store", str(path)).exit_code == 0
     assert typed() == ["Why?", "cancelled"]
     assert xavi("forget", "--all", "--yes", "--store", str(path)).exit_code == 0
     assert typed_file().read_bytes() == b""
-    TypedLines(typed_file(), "ada").append_string("cancelled")
+    InputHistory(typed_file(), "ada").append_string("cancelled")
     path.unlink()
     assert "Nothing" in xavi("forget", "--all", "--yes", "--store", str(path)).stdout
     assert typed_file().read_bytes() == b""
@@ -115,7 +115,7 @@ def test_what_was_typed_is_forgotten_as_well(path: Path) -> None:
 
 def typed() -> list[str]:
     """What was typed, oldest first."""
-    return [*TypedLines(typed_file(), "any").load_history_strings()][::-1]
+    return [*InputHistory(typed_file(), "any").load_history_strings()][::-1]
 
 
 def test_what_was_typed_and_cannot_be_erased_is_told(
@@ -124,7 +124,7 @@ def test_what_was_typed_and_cannot_be_erased_is_told(
     def fail(*_: object) -> None:
         raise PermissionError(13, "Permission denied")
 
-    TypedLines(typed_file(), "ada").append_string("Why?")
+    InputHistory(typed_file(), "ada").append_string("Why?")
     monkeypatch.setattr("xavi_dialogue.storage.input_history.erase", fail)
     done = xavi("forget", "ada", "--yes", "--store", str(path))
     assert (done.exit_code, done.stdout) == (1, "")
@@ -201,7 +201,7 @@ def test_a_damaged_file_is_one_clear_line(tmp_path: Path, arguments: list[str]) 
 
 
 def test_the_ride_of_before_is_gone_on_with(path: Path) -> None:
-    keeping, s1 = Keeping(path, 30), load("s1")
+    keeping, s1 = Retention(path, 30), load("s1")
     going = resume.find(keeping, "ada")
     assert (going.place(None), going.place("s2")) == ("s1", "s2")
     assert (going.seed(None, s1), going.seed(7, s1)) == (4, 7)
@@ -213,12 +213,12 @@ def test_the_ride_of_before_is_gone_on_with(path: Path) -> None:
 
 
 def test_a_conversation_that_nobody_knows_begins(path: Path) -> None:
-    going = resume.find(Keeping(path, 30), "eve")
+    going = resume.find(Retention(path, 30), "eve")
     assert (going.place(None), going.before) == ("s1", None)
     assert going.seed(None, load("s1")) == load("s1").seed
     fresh = resume.fresh(datetime(2026, 11, 21, 16, 42, 10, tzinfo=UTC), "3f9c")
     assert fresh.session == "20261121-164210-3f9c"
-    assert "--session 20261121-164210-3f9c" in fresh.note(None, Keeping(path, 30))
+    assert "--session 20261121-164210-3f9c" in fresh.note(None, Retention(path, 30))
     assert "nothing" in fresh.note(None, None)
 
 

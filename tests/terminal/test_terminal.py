@@ -16,7 +16,7 @@ from prompt_toolkit.input import PipeInput, create_pipe_input
 
 from xavi_dialogue.bus.messages import MAX_TEXT
 from xavi_dialogue.bus.sanitize import clean
-from xavi_dialogue.storage.input_history import TypedLines, UnkeptLines
+from xavi_dialogue.storage.input_history import InputHistory, UnsavedInputHistory
 from xavi_dialogue.terminal.prompt import KEPT, TerminalChat
 from xavi_dialogue.terminal.screen import SilentScreen
 from xavi_dialogue.terminal.slash_commands import CommandError
@@ -117,7 +117,7 @@ class Terminal:
     """A chat that runs, its keyboard and its screen."""
 
     chat: TerminalChat
-    cabin: FakeCabin
+    controller: FakeCabin
     keyboard: PipeInput
     screen: Screen
     paper: io.StringIO
@@ -148,12 +148,12 @@ async def terminal(
         create_pipe_input() as keyboard,
         create_app_session(keyboard, screen := Screen(paper, keyboard)),
     ):
-        cabin = FakeCabin()
-        chat = TerminalChat(cabin, typed, colours=colours)
+        controller = FakeCabin()
+        chat = TerminalChat(controller, typed, colours=colours)
         task = asyncio.create_task(chat.run())
         await asyncio.sleep(0.05)
         try:
-            yield Terminal(chat, cabin, keyboard, screen, paper, task)
+            yield Terminal(chat, controller, keyboard, screen, paper, task)
         finally:
             chat.end()
             await asyncio.wait([task], timeout=2.0)
@@ -184,7 +184,7 @@ def test_quit_ends_the_conversation() -> None:
         async with terminal() as t:
             await t.type("/quit", ENTER)
             await asyncio.wait_for(t.task, 2.0)
-            assert t.cabin.asked == []
+            assert t.controller.asked == []
 
     asyncio.run(scene())
 
@@ -196,7 +196,7 @@ def test_ctrl_c_cancels_the_answer_and_not_the_program() -> None:
             await t.sees("thinking")
             await t.type(CTRL_C)
             await t.sees("(cancelled)")
-            assert t.cabin.did == ["cancel r1"]
+            assert t.controller.did == ["cancel r1"]
             await t.type("why?", ENTER)
             await t.sees("answer to why?")
             assert "answer to slow one" not in t.shown
@@ -210,7 +210,7 @@ def test_ctrl_c_clears_what_is_typed_and_else_gives_a_hint() -> None:
             await t.type("rubbish", CTRL_C)
             await t.type("why?", ENTER)
             await t.sees("answer to why?")
-            assert t.cabin.asked == ["why?"]
+            assert t.controller.asked == ["why?"]
             await t.type(CTRL_C)
             await t.sees("Ctrl-D or /quit")
             assert not t.task.done()
@@ -227,7 +227,7 @@ def test_commands() -> None:
             await t.sees("the car ahead")
             await t.sees("I plan to go on.")
             await t.sees("/speed X")
-            assert t.cabin.did == ["pause", 2.0, "resume", "seek 2.5"]
+            assert t.controller.did == ["pause", 2.0, "resume", "seek 2.5"]
 
     asyncio.run(scene())
 
@@ -249,7 +249,7 @@ def test_unknown_commands_are_errors(line: str, problem: str) -> None:
         async with terminal() as t:
             await t.type(line, ENTER)
             await t.sees(problem)
-            assert (t.cabin.did, t.cabin.asked) == ([], [])
+            assert (t.controller.did, t.controller.asked) == ([], [])
 
     asyncio.run(scene())
 
@@ -277,7 +277,7 @@ def test_lines_of_the_car_come_in_between() -> None:
 def test_when_the_car_is_gone_the_conversation_ends_with_the_reason() -> None:
     async def scene() -> None:
         async with terminal() as t:
-            t.cabin.broken = True
+            t.controller.broken = True
             with pytest.raises(Broken, match="the car has ended"):
                 await asyncio.wait_for(t.task, 3.0)
 
@@ -288,7 +288,7 @@ def test_empty_lines_ask_nothing() -> None:
     async def scene() -> None:
         async with terminal() as t:
             await t.type(ENTER, "   ", ENTER)
-            assert t.cabin.asked == []
+            assert t.controller.asked == []
 
     asyncio.run(scene())
 
@@ -300,7 +300,7 @@ def test_why_and_more_are_asked_like_questions() -> None:
             await t.sees("answer to Why, after 0?")
             await t.type("/more", ENTER)
             await t.sees("answer to Tell me more.")
-            assert t.cabin.asked == ["Why, after 0?", "Tell me more."]
+            assert t.controller.asked == ["Why, after 0?", "Tell me more."]
 
     asyncio.run(scene())
 
@@ -310,7 +310,7 @@ def test_what_was_said_is_listed() -> None:
         async with terminal() as t:
             await t.type("who?", ENTER, "/history", ENTER)
             await t.sees("said who?")
-            assert t.cabin.asked == ["who?"]
+            assert t.controller.asked == ["who?"]
 
     asyncio.run(scene())
 
@@ -324,7 +324,7 @@ def test_what_was_said_is_saved_but_over_no_other_file() -> None:
             await t.sees("Saved to my file.txt.")
             await t.type("/save", ENTER)
             await t.sees("Saved to .")
-            assert t.cabin.did == ["save my file.txt", "save "]
+            assert t.controller.did == ["save my file.txt", "save "]
 
     asyncio.run(scene())
 
@@ -335,10 +335,10 @@ def test_what_was_said_is_erased_once_that_is_confirmed(yes: str) -> None:
         async with terminal() as t:
             await t.type("/forget", ENTER)
             await t.sees(SURE)
-            assert t.cabin.did == []
+            assert t.controller.did == []
             await t.type(yes, ENTER)
             await t.sees("Erased.")
-            assert (t.cabin.did, t.cabin.asked) == (["forget"], [])
+            assert (t.controller.did, t.controller.asked) == (["forget"], [])
 
     asyncio.run(scene())
 
@@ -353,7 +353,7 @@ def test_nothing_is_erased_without_a_yes(keys: str) -> None:
             await t.sees(KEPT)
             await t.type("y", ENTER)  # comes too late: a question
             await t.sees("answer to y")
-            assert t.cabin.did == []
+            assert t.controller.did == []
 
     asyncio.run(scene())
 
@@ -365,7 +365,7 @@ def test_ctrl_d_instead_of_a_yes_ends_the_conversation_and_erases_nothing() -> N
             await t.sees(SURE)
             await t.type(CTRL_D)
             await asyncio.wait_for(t.task, 2.0)
-            assert t.cabin.did == []
+            assert t.controller.did == []
 
     asyncio.run(scene())
 
@@ -377,7 +377,7 @@ def test_a_question_in_place_of_a_yes_is_asked() -> None:
             await t.sees(SURE)
             await t.type("why?", ENTER)
             await t.sees("answer to why?")
-            assert t.cabin.did == []
+            assert t.controller.did == []
 
     asyncio.run(scene())
 
@@ -386,10 +386,10 @@ def test_each_line_that_is_pasted_is_a_question() -> None:
     async def scene() -> None:
         async with terminal() as t:
             await t.type("\x1b[200~one?\r\ntwo?\n\n  \nthree?\x1b[201~")
-            assert t.cabin.asked == []
+            assert t.controller.asked == []
             await t.type(ENTER)
             await t.sees("answer to three?")
-            assert t.cabin.asked == ["one?", "two?", "three?"]
+            assert t.controller.asked == ["one?", "two?", "three?"]
 
     asyncio.run(scene())
 
@@ -399,7 +399,7 @@ def test_nothing_is_asked_after_a_pasted_quit() -> None:
         async with terminal() as t:
             await t.type("\x1b[200~/quit\none?\x1b[201~", ENTER)
             await asyncio.wait_for(t.task, 2.0)
-            assert t.cabin.asked == []
+            assert t.controller.asked == []
 
     asyncio.run(scene())
 
@@ -410,7 +410,7 @@ def test_no_more_is_asked_than_a_question_may_have() -> None:
             await t.type(f"\x1b[200~{'long ' * 1000}\x1b[201~", ENTER)
             await t.sees(f"(Only the first {MAX_TEXT} characters are asked.)")
             await t.sees("answer to long")
-            assert t.cabin.asked == [("long " * 1000)[:MAX_TEXT]]
+            assert t.controller.asked == [("long " * 1000)[:MAX_TEXT]]
 
     asyncio.run(scene())
 
@@ -420,7 +420,7 @@ def test_escape_sequences_that_are_pasted_stay_behind() -> None:
         async with terminal() as t:
             await t.type("\x1b[200~why \x1b[31mnot\x1b]0;evil\x07?\x1b[2J\x1b[201~", ENTER)
             await t.sees("answer to why not?")
-            assert t.cabin.asked == ["why not?"]
+            assert t.controller.asked == ["why not?"]
             assert "\x1b[2J" not in t.paper.getvalue()
 
     asyncio.run(scene())
@@ -434,8 +434,8 @@ def test_thinking_is_told_of_slow_answers_alone_and_questions_wait_for_their_tur
             assert "thinking" not in t.shown
             await t.type("slow one", ENTER, "next", ENTER)
             await t.sees("thinking")
-            assert t.cabin.asked == ["quick", "slow one"]
-            t.cabin.answered.set()
+            assert t.controller.asked == ["quick", "slow one"]
+            t.controller.answered.set()
             await t.sees("answer to next")
             assert t.shown.index("answer to slow one") < t.shown.index("answer to next")
             shown = len(t.shown)
@@ -452,7 +452,7 @@ def test_ctrl_c_drops_one_question_and_the_next_is_asked() -> None:
             await t.sees("thinking")
             await t.type(CTRL_C)
             await t.sees("answer to next")
-            assert t.cabin.did == ["cancel r1"]
+            assert t.controller.did == ["cancel r1"]
 
     asyncio.run(scene())
 
@@ -464,7 +464,7 @@ def test_answers_wrap_at_the_width_that_the_terminal_has_when_they_come() -> Non
             await t.type(f"slow {words}", ENTER)
             await t.sees("thinking")
             t.screen.columns = 40
-            t.cabin.answered.set()
+            t.controller.answered.set()
             await t.sees("answer to slow words words words words\n")
 
     asyncio.run(scene())
@@ -486,11 +486,11 @@ def test_colours_are_there_or_not(*, colours: bool) -> None:
 def test_lines_typed_before_come_back_with_the_arrow_until_they_are_erased(
     tmp_path: Path, *, kept: bool
 ) -> None:
-    typed = TypedLines(tmp_path / "history", "ada") if kept else UnkeptLines()
+    typed = InputHistory(tmp_path / "history", "ada") if kept else UnsavedInputHistory()
 
     async def scene() -> None:
         async with terminal(typed) as t:
-            t.cabin.forget_typed = typed.forget
+            t.controller.forget_typed = typed.forget
             await t.type("why?", ENTER)
             await t.sees("answer to why?")
             await t.type(UP, " now", ENTER)
@@ -499,6 +499,6 @@ def test_lines_typed_before_come_back_with_the_arrow_until_they_are_erased(
             await t.sees("Erased.")
             await t.type(UP, UP, "new", ENTER)
             await t.sees("answer to new")
-            assert t.cabin.asked == ["why?", "why? now", "new"]
+            assert t.controller.asked == ["why?", "why? now", "new"]
 
     asyncio.run(scene())

@@ -17,7 +17,7 @@ from xavi_dialogue.transcripts.replay import (
     replay_recorded,
     transcripts_in,
 )
-from xavi_dialogue.service.in_process import make_mind
+from xavi_dialogue.service.in_process import make_pipeline
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError
@@ -89,7 +89,7 @@ def test_a_transcript_about_one_decision_needs_no_road(tmp_path: Path) -> None:
     notes: list[str] = []
     assert replay_all(folder, accept=True, note=notes.append) == 2
     assert replay_all(folder, accept=False, note=notes.append) == 0
-    [reply] = replay_recorded(about[0].transcript, ride, make_mind()).replies
+    [reply] = replay_recorded(about[0].transcript, ride, make_pipeline()).replies
     assert (reply.trace_id, reply.sim_time) == (trace.trace_id, trace.sim_time)
     assert reply.text in (folder / "one.txt").read_text(encoding="utf-8")
 
@@ -125,9 +125,9 @@ def test_plans_come_from_the_recording_and_failures_too(tmp_path: Path) -> None:
     ride = s1_ride()
     recorded = RecordedRide("s1", 0, 7.0, list(ride.traces), list(ride.events))
     with pytest.raises(RideFileError, match="holds no plan for NeedRollout") as missing:
-        replay_recorded(one.transcript, recorded, make_mind())
+        replay_recorded(one.transcript, recorded, make_pipeline())
     assert "removed=1" in str(missing.value)
     wanted = (NeedRollout(trace_id=trace.trace_id, removed=1) for trace in ride.traces)
     recorded.failures.update({ride_file.key(need): "no way" for need in wanted})
-    [failed] = replay_recorded(one.transcript, recorded, make_mind()).replies
+    [failed] = replay_recorded(one.transcript, recorded, make_pipeline()).replies
     assert failed.reason == "planner-failed"

@@ -6,7 +6,7 @@ from planner.record.trace import PlanTrace
 from tests.fakes import again as same_again
 from tests.fakes import inputs_of
 from tests.traces import s1_ride
-from xavi_dialogue.service.in_process import Replan, make_mind
+from xavi_dialogue.service.in_process import Replan, make_pipeline
 from xavi_dialogue.transcripts.runner import Played, latest, play
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.transcripts.transcript import TranscriptError, read, write
@@ -17,7 +17,7 @@ NEEDS_A_PLAN = "> What if vehicle 1 hadn't been there?\n"
 
 def played(body: str, again: Replan = same_again, style: str = "passenger") -> Played:
     transcript = read(f"scenario: s1\nseed: 0\nstyle: {style}\n\n{body}")
-    return play(transcript, make_mind(), tuple(inputs_of(RIDE)), 7.0, again)
+    return play(transcript, make_pipeline(), tuple(inputs_of(RIDE)), 7.0, again)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError
 from xavi_dialogue.transcripts.transcript import (
     At,
-    Befalls,
+    Incident,
     Comment,
     Exchange,
     TranscriptError,
@@ -48,7 +48,7 @@ def test_a_transcript_is_read_step_by_step() -> None:
         Comment("# Later."),
         Comment("# On a bridge."),
         At(8.0, "@ 8.0s"),
-        Befalls("planner fails"),
+        Incident("planner fails"),
         Exchange("Which one?", "This one or that one?\n1. this\n2. that"),
         Exchange("2", ""),
     )

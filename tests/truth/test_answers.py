@@ -5,7 +5,7 @@ import pytest
 from benchmarks.truth.checker import checked
 from benchmarks.truth.ridden import Ridden, ridden
 from sim.setup import scenario
-from xavi_dialogue.service.in_process import Conversation, make_mind, planner_for
+from xavi_dialogue.service.in_process import Conversation, make_pipeline, planner_for
 from xavi_dialogue.vehicle.episode import clock, network_of, start
 
 QUESTIONS = (
@@ -46,7 +46,7 @@ def asked(request: pytest.FixtureRequest) -> tuple[Ridden, Answers]:
     network = network_of(world)
     with start(world, 1, network) as ride:
         moments = list(ride)
-    conversation = Conversation(make_mind(), planner_for(network))
+    conversation = Conversation(make_pipeline(), planner_for(network))
     answers: Answers = []
     told = 0
     for at in (time for time in MOMENTS if time < clock(moments[-1])):

@@ -72,6 +72,7 @@ def test_an_answer_that_tells_enough_passes() -> None:
     ("text", "check"),
     [
         (LEFT + "would save us 2 seconds, but not enough to be worth a lane change.", "sign"),
+        (LEFT + "would only save us 9 seconds, not enough to be worth a lane change.", "number"),
         (LEFT + "would save us 2 seconds, but not enough to be worth a lane change.", "risk"),
         ("It is close: moving to the left lane would be about as good.", "sign"),
         ("I now think that moving to the left lane would be better.", "sign"),

@@ -1,7 +1,7 @@
 import pytest
 
 from planner.record.events import Event
-from tests.dialogue.scripted import scripted_mind
+from tests.dialogue.scripted import scripted_pipeline
 from tests.fakes import FakeDriver, FakeWorld, again, s1_moments
 from xavi_dialogue.service.in_process import Conversation, drive_to
 from xavi_dialogue.vehicle.episode import halts, moments
@@ -47,7 +47,7 @@ def test_without_a_manoeuvre_a_ride_goes_to_its_end() -> None:
 
 @pytest.mark.parametrize(("until", "reached"), [(None, 7.0), (4.0, 4.0), (99.0, 7.0)])
 def test_driving_to_a_moment_records_all_up_to_it(until: float | None, reached: float) -> None:
-    conversation = Conversation(scripted_mind(), again)
+    conversation = Conversation(scripted_pipeline(), again)
     at = drive_to(s1_moments(), conversation, until)
     assert at == reached
     known = conversation.dialogue
@@ -56,7 +56,7 @@ def test_driving_to_a_moment_records_all_up_to_it(until: float | None, reached: 
 
 
 def test_planning_again_is_part_of_a_local_answer() -> None:
-    conversation = Conversation(scripted_mind(), again)
+    conversation = Conversation(scripted_pipeline(), again)
     drive_to(s1_moments(), conversation, None)
     assert conversation.ask("answer", 7.0).kind == "answer"
     assert conversation.ask("lack", 7.0).kind == "answer"
@@ -64,6 +64,6 @@ def test_planning_again_is_part_of_a_local_answer() -> None:
 
 
 def test_a_decision_that_was_never_taken_cannot_be_planned_again() -> None:
-    conversation = Conversation(scripted_mind(), again)
+    conversation = Conversation(scripted_pipeline(), again)
     refused = conversation.ask("lack", 7.0)
     assert (refused.kind, refused.reason) == ("refusal", "planner-failed")

@@ -9,7 +9,7 @@ import pytest
 from sim.setup.scenario import load
 from tests.sim.crossroads import signalled
 from xavi_dialogue.domain.traffic_lights import COLOURS, LightPassed, LightTold, Shown
-from xavi_dialogue.service.in_process import Conversation, make_mind, planner_for
+from xavi_dialogue.service.in_process import Conversation, make_pipeline, planner_for
 from xavi_dialogue.vehicle.episode import Moment, clock, network_of, start
 
 pytestmark = pytest.mark.slow
@@ -49,7 +49,7 @@ def ride(tmp_path_factory: pytest.TempPathFactory):
 def talk(ride, at: float) -> Conversation:
     """A conversation about the ride up to a moment [s]."""
     moments, network, _ = ride
-    found = Conversation(make_mind(), planner_for(network))
+    found = Conversation(make_pipeline(), planner_for(network))
     for moment in moments:
         if clock(moment) <= at + 1e-6:
             found.record(moment)

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from tests.service.desk import until
-from xavi_dialogue.bus.health import Alive
+from tests.vehicle.pool_jobs import until
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import BusFailed
 from xavi_dialogue.bus.memory_bus import MemoryBus, MemoryHub
 from xavi_dialogue.vehicle.outbox import REPORTS, SCENES, Bounds, Outbox
@@ -45,7 +45,7 @@ class Bench:
     """An outbox on a stalled bus, with the first message stuck in it."""
 
     bus: StallingBus = field(default_factory=StallingBus)
-    alive: Alive = field(default_factory=lambda: Alive("car", [SCENES, REPORTS]))
+    alive: HealthReporter = field(default_factory=lambda: HealthReporter("car", [SCENES, REPORTS]))
 
     def open(self, bounds: Bounds | None = None) -> "Bench":
         self.outbox = Outbox(self.bus, self.alive, bounds)

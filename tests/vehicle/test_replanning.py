@@ -19,8 +19,8 @@ from sim.scene import Scene
 from sim.setup.scenario import load
 from tests.fakes import s1_moments
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, roads, still
-from tests.service.desk import PATIENCE, Desk, children, command, remains, there, until
-from xavi_dialogue.bus.health import Alive
+from tests.vehicle.pool_jobs import PATIENCE, PoolClient, children, command, remains, there, until
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Keys, Outcome, Refused, call
 from xavi_dialogue.bus.memory_bus import MemoryHub
 from xavi_dialogue.bus.messages import (
@@ -31,12 +31,12 @@ from xavi_dialogue.bus.messages import (
     unpack,
 )
 from xavi_dialogue.chat.client import Client
-from xavi_dialogue.chat.local_backend import convoy, first_scene
+from xavi_dialogue.chat.local_backend import first_scene, start_local
 from xavi_dialogue.process.child_commands import Orders, Until
 from xavi_dialogue.vehicle import replan_worker
 from xavi_dialogue.vehicle.episode import Moment
-from xavi_dialogue.vehicle.node import COUNTERS, Car, Pace
-from xavi_dialogue.vehicle.replan_worker import Order, Result, obey
+from xavi_dialogue.vehicle.node import COUNTERS, Pace, VehicleNode
+from xavi_dialogue.vehicle.replan_worker import ReplanOrder, Result, obey
 from xavi_dialogue.vehicle.replanning import Replanner, durations, workers
 from xavi_dialogue.vehicle.worker_pool import Job
 
@@ -91,11 +91,11 @@ class Bench:
 ENDLESS = WhatIf(("change-left",), rollouts=1_000_000)
 
 
-def order(trace: PlanTrace, what_if: WhatIf) -> Order:
-    return Order(msgspec.Raw(encode(trace)), what_if)
+def order(trace: PlanTrace, what_if: WhatIf) -> ReplanOrder:
+    return ReplanOrder(msgspec.Raw(encode(trace)), what_if)
 
 
-def text(wanted: Order) -> str:
+def text(wanted: ReplanOrder) -> str:
     """The order as a line."""
     return msgspec.json.encode(wanted).decode()
 
@@ -108,7 +108,7 @@ def test_a_request_becomes_a_job_with_all_that_is_needed(trace: PlanTrace) -> No
     request = WhatIfRequest(request="q", trace_id=trace.trace_id, deadline_ms=5000.0, **fields)
     bench.ask(pack(msgspec.convert(msgspec.to_builtins(request), WhatIfRequest)))
     (job,) = bench.planners.jobs
-    wanted = msgspec.json.decode(job.order, type=Order)
+    wanted = msgspec.json.decode(job.order, type=ReplanOrder)
     assert bytes(wanted.trace) == encode(trace)
     assert wanted.what_if == what_if
     assert before + 5.0 <= job.deadline <= time.monotonic() + 5.0
@@ -119,7 +119,7 @@ def test_a_request_becomes_a_job_with_all_that_is_needed(trace: PlanTrace) -> No
 
 
 def test_requests_are_counted_by_what_came_of_them(trace: PlanTrace) -> None:
-    bench, alive = Bench(), Alive("car", COUNTERS)
+    bench, alive = Bench(), HealthReporter("car", COUNTERS)
     replanner = Replanner(bench.planners, alive=alive)
     replanner.record(Moment(Scene(trace.sim_time, trace.scene), (), trace))
     bench.hub.connect().serve(KEY, replanner)
@@ -191,7 +191,9 @@ def test_the_ride_goes_on_while_a_request_is_open() -> None:
 
     pace = Pace(speed=0.0, running=True)
     orders: Orders = queue.SimpleQueue()
-    car = Car(s1_moments(), 0.5, (replanner.record, ask_at_once), None, orders, pace, stays=False)
+    car = VehicleNode(
+        s1_moments(), 0.5, (replanner.record, ask_at_once), None, orders, pace, stays=False
+    )
     car.run()
     moments = list(s1_moments())
     assert times == [moment.scene.time for moment in moments]
@@ -211,7 +213,7 @@ def test_a_worker_gives_the_trace_or_the_reason(trace: PlanTrace) -> None:
         refused = obey(order(trace, what_if), NETWORK)
         assert not refused.planned
         assert msgspec.json.decode(bytes(refused.message), type=Failure).reason == reason
-    broken = Order(msgspec.Raw(b'{"schema":"xavi.plan_trace/1"}'), WhatIf())
+    broken = ReplanOrder(msgspec.Raw(b'{"schema":"xavi.plan_trace/1"}'), WhatIf())
     assert not obey(broken, NETWORK).planned
 
 
@@ -255,24 +257,24 @@ def test_workers_plan_as_this_process_does_and_end_with_the_pool(trace: PlanTrac
         "supposed": WhatIf(vehicle=1, goal="continue"),
     }
     with workers(load("s1").network) as pool:
-        desk = Desk(pool)
+        client = PoolClient(pool)
         for name, what_if in requests.items():
-            desk.ask(text(order(trace, what_if)), name=name)
+            client.ask(text(order(trace, what_if)), name=name)
         for name, what_if in requests.items():
-            assert desk.answer(name) == encode(replan(trace, NETWORK, what_if))
-        pid = desk.pid()
+            assert client.answer(name) == encode(replan(trace, NETWORK, what_if))
+        pid = client.pid()
     assert not remains(pid)
 
 
 @pytest.mark.slow
 def test_a_worker_that_is_late_is_killed(trace: PlanTrace) -> None:
     with workers(load("s1").network) as pool:
-        desk = Desk(pool)
-        desk.ask(text(order(trace, WhatIf(rollouts=1))), name="ready")
-        assert isinstance(desk.answer("ready"), bytes)
-        late = desk.pid()
-        desk.ask(text(order(trace, ENDLESS)), within=0.5, name="endless")
-        assert desk.reason("endless") == "timed-out"
+        client = PoolClient(pool)
+        client.ask(text(order(trace, WhatIf(rollouts=1))), name="ready")
+        assert isinstance(client.answer("ready"), bytes)
+        late = client.pid()
+        client.ask(text(order(trace, ENDLESS)), within=0.5, name="endless")
+        assert client.reason("endless") == "timed-out"
         assert until(lambda: not remains(late))
 
 
@@ -293,7 +295,7 @@ def test_a_worker_ends_with_its_input_in_the_middle_of_planning(trace: PlanTrace
 @pytest.mark.slow
 def test_a_car_plans_again_over_the_bus_and_its_worker_dies_with_it() -> None:
     found: queue.SimpleQueue[PlanTrace] = queue.SimpleQueue()
-    with convoy("s1", 0, 0.0) as behind:
+    with start_local("s1", 0, 0.0) as behind:
         client = Client(behind.bus, Keys(), "test")
         first_scene(behind, client)
         behind.drive(client, Until(1.0), halt=True)

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.fakes import s1_moments
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Keys
 from xavi_dialogue.bus.memory_bus import MemoryHub
 from xavi_dialogue.bus.messages import (
@@ -13,13 +13,13 @@ from xavi_dialogue.bus.messages import (
     schema_name,
     unpack,
 )
-from xavi_dialogue.vehicle.telemetry import LATELY, Reporter, Speedometer
+from xavi_dialogue.vehicle.telemetry import LATELY, RateMeter, Reporter
 
 KEYS = Keys("shuttle-3")
 
 
 def test_reports_are_numbered_without_gaps_and_counted() -> None:
-    hub, alive = MemoryHub(), Alive("car")
+    hub, alive = MemoryHub(), HealthReporter("car")
     heard: dict[str, list[bytes]] = {KEYS.of(name): [] for name in ("scene", "trace", "event")}
     for key in heard:
         hub.connect().subscribe(key, lambda key, told: heard[key].append(told))
@@ -59,7 +59,7 @@ def test_every_report_says_what_it_is() -> None:
 
 def test_the_speed_of_the_simulation_is_measured_over_the_latest_seconds() -> None:
     now = [100.0]
-    meter = Speedometer(lambda: now[0])
+    meter = RateMeter(lambda: now[0])
     assert meter.read() == 0.0
     meter.note(0.0)
     assert meter.read() == 0.0

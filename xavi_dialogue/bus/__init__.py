@@ -1,1 +1,1 @@
-"""The bus: messages, who may send them, and what carries them."""
+"""The bus: messages, access control, and transport."""

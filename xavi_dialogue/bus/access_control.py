@@ -1,7 +1,7 @@
-"""Who may do what on the bus: the roles as a table, and the access control made of it.
+"""Access control of the bus: a table of roles, and the configuration made from it.
 
-A hub tells its clients apart by the common names of their certificates: `passenger`, or
-`passenger.NAME`. What is not in the table is denied, and so is who is not in it.
+A hub recognises its clients by the common names of their certificates: `passenger`, or
+`passenger.NAME`. Everything and every client that is not in the table is denied.
 """
 
 import re
@@ -14,7 +14,7 @@ from xavi_dialogue.bus.interface import DEFAULT_VEHICLE, EVERY_CAR, VEHICLE_NAME
 
 Deed: TypeAlias = Literal[
     "publish",
-    "publish-kept",  # with what is kept for late joiners
+    "publish-kept",  # with the messages kept for late joiners
     "subscribe",
     "subscribe-kept",
     "serve",
@@ -31,12 +31,12 @@ LONGEST = 64  # characters of a common name (RFC 5280, A.1)
 
 
 class BadName(ValueError):
-    """A name that nobody on the bus can have."""
+    """A name that is not allowed on the bus."""
 
 
 @dataclass(frozen=True, slots=True)
 class Grant:
-    """One thing that a role may do."""
+    """A permission of a role."""
 
     deed: Deed
     tails: tuple[str, ...]  # ends of keys
@@ -45,7 +45,7 @@ class Grant:
 
 @dataclass(frozen=True, slots=True)
 class Role:
-    """What kind of component it is, and all that it may do."""
+    """A kind of component, with its permissions."""
 
     name: str
     grants: tuple[Grant, ...]
@@ -53,14 +53,14 @@ class Role:
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """Who has a certificate: a role, and a name where there are several of it."""
+    """The holder of a certificate: a role, and a name if the role has several members."""
 
     role: str
     name: str | None = None
 
     @property
     def common_name(self) -> str:
-        """As the certificate has it."""
+        """The common name in the certificate."""
         return self.role if self.name is None else f"{self.role}.{self.name}"
 
     @property
@@ -170,7 +170,7 @@ def member(role: str, name: str | None = None) -> Member:
     """A member of the bus.
 
     Raises:
-        BadName: there is no such role, or nobody can be called so.
+        BadName: there is no such role, or the name is not allowed.
     """
     if role not in ROLES:
         raise BadName(f"{role!r} is no role; there are {', '.join(ROLES)}")
@@ -188,7 +188,7 @@ def member(role: str, name: str | None = None) -> Member:
 
 
 def access_control(members: Iterable[Member]) -> dict[str, Json]:
-    """The part of a hub's Zenoh configuration that grants its members what the table says."""
+    """Return the part of a hub's Zenoh configuration that grants the table's permissions."""
     everybody = sorted(set(members), key=lambda one: one.common_name)
     rules: dict[str, Json] = {}
     policies: list[Json] = []

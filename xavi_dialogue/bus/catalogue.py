@@ -1,4 +1,4 @@
-"""Every message there is, by its name."""
+"""The messages of the bus, by name."""
 
 from xavi_dialogue.bus.messages import (
     AliveReport,
@@ -21,7 +21,7 @@ from xavi_dialogue.bus.messages import (
     schema_name,
 )
 
-#: Of these, the car tells the schemas; of all others, the service.
+#: Of these the car serves the schemas; of all others, the service.
 CAR_MESSAGES = ("scene", "trace", "event_report")
 #: Every message by its name under `@schema/`.
 MESSAGES: dict[str, type[AnyMessage]] = {

@@ -20,7 +20,7 @@ from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
 AUTHORITY = "xavi development CA"
-SKEW = timedelta(minutes=5)  # by which a clock elsewhere may be late
+SKEW = timedelta(minutes=5)  # by which other clocks may be late
 HOST = re.compile(r"(?!-)[A-Za-z0-9-]{1,63}(?<!-)(\.(?!-)[A-Za-z0-9-]{1,63}(?<!-))*")
 MAX_HOST = 253  # characters of a name in the DNS
 
@@ -46,8 +46,8 @@ class Identity:
 
 
 @dataclass(frozen=True, slots=True)
-class Shown:
-    """What a certificate says."""
+class CertificateInfo:
+    """The contents of a certificate."""
 
     name: str  # common name
     issuer: str  # common name
@@ -68,7 +68,7 @@ class Authority:
 
         Args:
             now: from when on it is valid; with a zone.
-            valid: how long.
+            valid: for how long.
         """
         key = ec.generate_private_key(ec.SECP256R1())
         draft = _draft(AUTHORITY, AUTHORITY, key, (now - SKEW, now + valid))
@@ -78,10 +78,10 @@ class Authority:
 
     @classmethod
     def load(cls, identity: Identity) -> Self:
-        """One that was made before.
+        """Load an authority that was made before.
 
         Raises:
-            BadCertificate: it cannot be read, or is none of ours.
+            BadCertificate: it cannot be read, or was not made by this program.
         """
         try:
             certificate = x509.load_pem_x509_certificate(identity.certificate)
@@ -106,8 +106,8 @@ class Authority:
 
         Args:
             name: common name: by it access is granted.
-            hosts: names and addresses under which it may be connected to. Without any it is a
-                client's, and nobody takes who shows it for a hub.
+            hosts: names and addresses of a hub. Without any, the certificate is for a client,
+                and no client accepts it as that of a hub.
             now: from when on it is valid; with a zone.
             valid: how long; at most, and without it, as long as the authority.
 
@@ -133,8 +133,8 @@ class Authority:
         return _identity(draft.sign(self.key, hashes.SHA256()), key)
 
 
-def read(certificate: bytes) -> Shown:
-    """What a certificate says.
+def read(certificate: bytes) -> CertificateInfo:
+    """Read the contents of a certificate.
 
     Args:
         certificate: PEM.
@@ -147,7 +147,7 @@ def read(certificate: bytes) -> Shown:
     except ValueError as error:
         raise BadCertificate(f"no certificate: {error}") from error
     name, issuer = _common_name(found.subject), _common_name(found.issuer)
-    return Shown(name, issuer, found.not_valid_before_utc, found.not_valid_after_utc)
+    return CertificateInfo(name, issuer, found.not_valid_before_utc, found.not_valid_after_utc)
 
 
 def utc_now() -> datetime:

@@ -1,4 +1,4 @@
-"""Signs of life: a component shows that it is there, and tells how it fares when asked."""
+"""Health of components: liveness on the bus, and counters on request."""
 
 import os
 import threading
@@ -11,12 +11,12 @@ from xavi_dialogue import __version__
 from xavi_dialogue.bus.interface import Bus, BusError, Call, Keys, Presence
 from xavi_dialogue.bus.messages import AliveReport, pack
 
-MEMORY = "resident_bytes"  # counter that every component has, where the system tells it
+MEMORY = "resident_bytes"  # a counter of every component, if the system reports it
 STATM = Path("/proc/self/statm")  # in pages; see proc(5)
 
 
-class Alive:
-    """Counts what a component does, and reports it; any thread may call any method."""
+class HealthReporter:
+    """Counts what a component does and reports it; thread-safe."""
 
     def __init__(
         self,
@@ -29,8 +29,8 @@ class Alive:
 
         Args:
             component: car, service, dashboard or recorder.
-            counters: that are told from the beginning, at 0.
-            clock: [s] that never goes back.
+            counters: that start at 0.
+            clock: [s], monotonic.
         """
         self._component, self._clock, self._began = component, clock, clock()
         self._counters = dict.fromkeys(counters, 0.0)
@@ -45,12 +45,12 @@ class Alive:
             self._counters[name] = self._counters.get(name, 0.0) + by
 
     def counted(self, name: str) -> float:
-        """How far a counter is; 0 where nothing was counted."""
+        """Return a counter; 0 if nothing was counted."""
         with self._lock:
             return self._counters.get(name, 0.0)
 
     def gauge(self, name: str, read: Callable[[], float]) -> None:
-        """Tell among the counters what `read` returns; it is called on a thread of the bus."""
+        """Report what `read` returns among the counters; it is called on a thread of the bus."""
         with self._lock:
             self._gauges[name] = read
 
@@ -59,7 +59,7 @@ class Alive:
         self._sim_time = max(self._sim_time, sim_time)
 
     def report(self) -> AliveReport:
-        """How the component fares now."""
+        """Return the present health report."""
         with self._lock:
             counters, gauges = dict(self._counters), dict(self._gauges)
             number, self._reports = self._reports, self._reports + 1
@@ -77,14 +77,14 @@ class Alive:
         )
 
     def serve(self, bus: Bus, keys: Keys) -> Presence:
-        """Answer at `alive/<component>`, and show there that the component is alive."""
+        """Serve `alive/<component>`, and announce there that the component is alive."""
         key = keys.of(f"alive/{self._component}")
         bus.serve(key, self.answer)
         return bus.appear(key)
 
     def answer(self, call: Call) -> None:
         """Answer one request."""
-        with suppress(BusError):  # who asked is gone
+        with suppress(BusError):  # the client has disconnected
             call.reply(pack(self.report()))
 
 
@@ -92,6 +92,6 @@ def resident_bytes() -> int:
     """The memory of this process that is in use [bytes].
 
     Raises:
-        OSError: the system does not tell.
+        OSError: the system does not report it.
     """
     return int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")

@@ -1,4 +1,4 @@
-"""The bus: what processes say to one another, independent of what carries it.
+"""The bus: messages between processes, independent of the transport.
 
 `zenoh_bus` carries it between processes, `memory_bus` within one. Handlers run on threads of
 the bus and must return at once.
@@ -9,7 +9,7 @@ the bus and must return at once.
     ├── BadLink          the configuration of the link cannot be used
     ├── BusFailed        the carrier failed otherwise
     └── NoAnswer
-        ├── NobodyThere  nobody serves the key, or who asks may not
+        ├── NobodyThere  no process serves the key, or the client has no permission
         ├── TooLate      no reply within the time given
         └── Refused      the reply is a failure
 """
@@ -28,7 +28,7 @@ VEHICLE_NAME = r"[A-Za-z0-9_.-]{1,64}"
 
 
 class BusError(Exception):
-    """The bus cannot do what is asked."""
+    """A request to the bus failed."""
 
 
 class HubUnreachable(BusError):
@@ -74,15 +74,15 @@ class Keys:
     vehicle: str = DEFAULT_VEHICLE
 
     def of(self, tail: str) -> str:
-        """The key that ends with `tail`, such as `scene` or `@rpc/ask`."""
+        """Return the key that ends with `tail`, such as `scene` or `@rpc/ask`."""
         return f"{ROOT}/{self.vehicle}/{tail}"
 
 
-EVERY_CAR = Keys("*")  # a key of it stands for that of any car
+EVERY_CAR = Keys("*")  # a pattern for the keys of every car
 
 
 def vehicle_in(key: str) -> str | None:
-    """The car that a key belongs to; None where there is no name of a car in it."""
+    """Return the car that a key belongs to; None if it names no car."""
     parts = key.split("/", 3)
     if "/".join(parts[:2]) != ROOT or len(parts) < 4 or not re.fullmatch(VEHICLE_NAME, parts[2]):
         return None
@@ -90,7 +90,7 @@ def vehicle_in(key: str) -> str | None:
 
 
 def matches(pattern: str, key: str) -> bool:
-    """Whether a key is one of those that a pattern stands for; `*` is any one part of it."""
+    """Check whether a key matches a pattern; `*` is any one part of it."""
     parts, given = pattern.split("/"), key.split("/")
     return len(parts) == len(given) and all(
         want == have or (want == "*" and not have.startswith("@"))
@@ -158,21 +158,21 @@ class Bus(Protocol):
 
     @property
     def linked(self) -> bool:
-        """Whether there is a way to others now."""
+        """Check whether there is a connection."""
 
     def publisher(self, key: str, keep: int = 0) -> Publisher:
         """Send under a key.
 
         Args:
-            key: where to.
-            keep: 0 lets messages drop; else none is lost, and so many are kept for late joiners.
+            key: of the messages.
+            keep: 0 allows messages to be dropped; else none is lost, and late joiners get so many.
         """
 
     def send(self, key: str, payload: bytes) -> None:
-        """Send one message under a key, of many keys that have few each; it may drop."""
+        """Send one message under a rarely used key; it may be dropped."""
 
     def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> None:
-        """Receive what is sent under a key; with `kept` also what is kept there."""
+        """Receive the messages of a key; with `kept` also those kept for late joiners."""
 
     def serve(self, key: str, handler: CallHandler) -> None:
         """Answer requests to a key."""
@@ -180,10 +180,10 @@ class Bus(Protocol):
     def request(
         self, key: str, payload: bytes, timeout: float, done: Callable[[Outcome], None]
     ) -> None:
-        """Send a request; `done` is called once, with the reply or with why there is none.
+        """Send a request; `done` is called once, with the reply or an error.
 
         Args:
-            key: where to.
+            key: of the service.
             payload: the request.
             timeout: [s] after which `done` gets TooLate.
             done: runs on a thread of the bus.
@@ -193,7 +193,7 @@ class Bus(Protocol):
         """Show under a key that this process is alive, until it is not, or withdraws."""
 
     def watch(self, key: str, watcher: Watcher) -> None:
-        """Learn who is alive under a key, now and from now on."""
+        """Watch which components are alive under a key, now and from now on."""
 
     def close(self) -> None: ...
 
@@ -211,7 +211,7 @@ def call(bus: Bus, key: str, payload: bytes, timeout: float) -> bytes:
     """Send a request and wait for its reply.
 
     Raises:
-        NobodyThere: nobody serves the key, or we may not ask it.
+        NobodyThere: no process serves the key, or this one has no permission.
         TooLate: no reply within `timeout` [s].
         Refused: the reply is a failure.
     """

@@ -1,4 +1,4 @@
-"""How a process is linked to the bus: as what, and over which endpoints."""
+"""The connection of a process to the bus: role and endpoints."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,20 +11,20 @@ Mode: TypeAlias = Literal["peer", "router", "client"]
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """What the configuration of a Zenoh session is made of.
+    """The parameters of a Zenoh session.
 
-    Without a file, what is not said here is the safe choice: loopback, no multicast, no gossip.
-    A file says all by itself; of endpoints and mode, those that are given here count.
+    Without a file the defaults are safe: loopback, no multicast, no gossip.
+    A file overrides all of this, except for the endpoints and the mode given here.
     """
 
-    mode: Mode | None = None  # None: as the file says; without one, client
+    mode: Mode | None = None  # None: from the file; without one, client
     listen: tuple[str, ...] = ()
     connect: tuple[str, ...] = ()
-    config: Path | None = None  # a Zenoh configuration (JSON5), such as `xavi keys` writes
+    config: Path | None = None  # a Zenoh configuration (JSON5), such as those of `xavi keys`
 
     @classmethod
     def to_hub(cls, connect: str | None = None, config: Path | None = None) -> Self:
-        """A client of the hub at an endpoint; of the default one where neither is given."""
+        """Make the link of a client to the hub at an endpoint, by default the local one."""
         if connect is None and config is None:
             connect = DEFAULT_ENDPOINT
         return cls("client", connect=() if connect is None else (connect,), config=config)
@@ -37,7 +37,7 @@ class Link:
         mode: Mode | None = None,
         config: Path | None = None,
     ) -> Self:
-        """A hub that listens at an endpoint; at the default one where neither is given.
+        """Make the link of a hub that listens on an endpoint, by default the local one.
 
         Args:
             listen: endpoint.

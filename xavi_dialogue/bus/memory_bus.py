@@ -26,7 +26,7 @@ from xavi_dialogue.bus.interface import (
 
 @dataclass
 class MemoryHub:
-    """What the buses of one process share."""
+    """The state that the buses of one process share."""
 
     subscribers: dict[str, list[tuple[object, Handler]]] = field(
         default_factory=lambda: defaultdict(list)
@@ -43,7 +43,7 @@ class MemoryHub:
         return MemoryBus(self)
 
     def tell(self, key: str, alive: bool) -> None:
-        """Tell those who watch a key."""
+        """Notify the watchers of a key."""
         for pattern, watchers in tuple(self.watchers.items()):
             for _, watcher in tuple(watchers) if matches(pattern, key) else ():
                 watcher(key, alive)
@@ -121,7 +121,7 @@ class MemoryBus:
     def request(
         self, key: str, payload: bytes, timeout: float, done: Callable[[Outcome], None]
     ) -> None:
-        """See Bus; the time is not watched."""
+        """See Bus; the timeout is ignored."""
         servers = (one for pattern, one in self._hub.servers.items() if matches(pattern, key))
         server = next(servers, None)
         if server is None:

@@ -4,7 +4,7 @@ Every message carries its schema, a sequence number of its sender, simulation ti
 time [s since 1970]; requests carry a name and a deadline instead.
 
     MessageError
-    ├── TooLarge       more bytes than the message may have
+    ├── TooLarge       more bytes than allowed for the message
     ├── WrongSchema    another message, or a version that is not known here
     └── Malformed      not JSON, or a field is missing or wrong
 """
@@ -50,7 +50,7 @@ class MessageError(ValueError):
 
 
 class TooLarge(MessageError):
-    """More bytes than the message may have."""
+    """More bytes than allowed for the message."""
 
 
 class WrongSchema(MessageError):
@@ -62,7 +62,7 @@ class Malformed(MessageError):
 
 
 class Message(msgspec.Struct, frozen=True, kw_only=True):
-    """What all messages have. `schema` has a default where they are made, never where read."""
+    """Base of all messages. `schema` has a default when made, but must be present when read."""
 
     LIMIT: ClassVar[int]  # bytes
 
@@ -70,7 +70,7 @@ class Message(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Report(Message, frozen=True, kw_only=True):
-    """What all messages of the car have."""
+    """Base of all messages of the car."""
 
     ride: Name  # changes with every start of the car
     seq: Count  # of this key, without gaps from 0
@@ -79,7 +79,7 @@ class Report(Message, frozen=True, kw_only=True):
 
 
 class SceneReport(Report, frozen=True, kw_only=True):
-    """What the car sees now, and how far its record goes."""
+    """The present scene, with the numbers of the latest reports."""
 
     LIMIT = 256 * KIB
 
@@ -93,12 +93,12 @@ class SceneReport(Report, frozen=True, kw_only=True):
     plan: tuple[Action, ...]
     traces: Count  # reports on key `trace` so far
     events: Count  # reports on key `event` so far
-    orders: Count = 0  # lines on its standard input that the car has obeyed
-    scenario: Folder | None = None  # name or folder, and seed: how to drive the ride again
+    orders: Count = 0  # commands on standard input that the car has carried out
+    scenario: Folder | None = None  # name or folder, and seed: to drive the ride again
     seed: Whole | None = None
 
     def scene(self) -> Scene:
-        """What it shows."""
+        """Return the scene."""
         return Scene(self.sim_time, self.vehicles, self.lights, self.people, self.unseen)
 
 
@@ -109,7 +109,7 @@ class TraceReport(Report, frozen=True, kw_only=True):
 
     schema: Literal["xavi.trace/1"] = "xavi.trace/1"
     trace: PlanTrace
-    first: Name | None = None  # id of the ride's first: the same ride driven again has the same
+    first: Name | None = None  # id of the ride's first trace: equal for equal rides
 
     def __post_init__(self) -> None:
         fault = fault_of(self.trace)
@@ -120,7 +120,7 @@ class TraceReport(Report, frozen=True, kw_only=True):
 
 
 class EventReport(Report, frozen=True, kw_only=True):
-    """One thing that happened to the ego."""
+    """One event of the ego."""
 
     LIMIT = 4 * KIB
 
@@ -148,7 +148,7 @@ class AskRequest(Message, frozen=True, kw_only=True):
 
 
 class AskReply(Reply, frozen=True, kw_only=True):
-    """The answer: a reply with what every message has."""
+    """The answer: a reply, with the fields of every message."""
 
     LIMIT: ClassVar[int] = 256 * KIB
 
@@ -158,16 +158,16 @@ class AskReply(Reply, frozen=True, kw_only=True):
     wall_time: float
 
     def reply(self) -> Reply:
-        """The reply alone, fit to be shown."""
+        """Return the reply alone, safe to print."""
         fields = {name: getattr(self, name) for name in Reply.__struct_fields__}
         return Reply(**{**fields, "text": clean(self.text)})
 
 
 class HistoryRequest(Message, frozen=True, kw_only=True):
-    """Asks for what was said in a session.
+    """Asks for the turns of a session.
 
-    A session belongs to whoever begins it. The token of its first question has to come with
-    everything that is asked of it from then on; begun without one, it is open to all.
+    A session belongs to the client that begins it. All later requests about it must carry the
+    token of its first question; a session that began without a token is open to all.
     """
 
     LIMIT = 4 * KIB
@@ -200,7 +200,7 @@ class HistoryReply(Message, frozen=True, kw_only=True):
 
 
 class TurnReport(Message, frozen=True, kw_only=True):
-    """A turn that the passenger lets others read."""
+    """A turn that the passenger shares with others."""
 
     LIMIT = 256 * KIB + 4 * KIB
 
@@ -213,7 +213,7 @@ class TurnReport(Message, frozen=True, kw_only=True):
 
 
 class ForgetRequest(Message, frozen=True, kw_only=True):
-    """The passenger wants a session forgotten: what was said, on disk and in memory."""
+    """Asks to erase a session, on disk and in memory."""
 
     LIMIT = 4 * KIB
 
@@ -224,7 +224,7 @@ class ForgetRequest(Message, frozen=True, kw_only=True):
 
 
 class ForgetReply(Message, frozen=True, kw_only=True):
-    """What came of it."""
+    """The result of erasing."""
 
     LIMIT = 4 * KIB
 
@@ -247,7 +247,7 @@ class CancelRequest(Message, frozen=True, kw_only=True):
 
 
 class CancelReply(Message, frozen=True, kw_only=True):
-    """Whether there was anything to cancel."""
+    """Whether there was an open question to cancel."""
 
     LIMIT = 4 * KIB
 
@@ -275,19 +275,19 @@ class WhatIfRequest(Message, frozen=True, kw_only=True):
     request: Name
     trace_id: Name
     actions: Actions = ()  # that the ego takes first
-    removed: Whole | Gone | None = None  # a vehicle that is not there, or several
+    removed: Whole | Gone | None = None  # vehicles to leave out
     vehicle: Whole | None = None  # another vehicle that acts as supposed:
-    goal: Place | None = None  # where it goes: the kind of a goal, or its edge
-    vehicle_actions: Actions = ()  # what it does first
+    goal: Place | None = None  # its goal: a kind, or an edge
+    vehicle_actions: Actions = ()  # its first action
     faster: Faster | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
-    lights: Supposed | msgspec.UnsetType = msgspec.UNSET  # what traffic lights show
-    seen_past: Gone | msgspec.UnsetType = msgspec.UNSET  # who is imagined and is not there
+    lights: Supposed | msgspec.UnsetType = msgspec.UNSET  # the states of traffic lights
+    seen_past: Gone | msgspec.UnsetType = msgspec.UNSET  # imagined road users
     rollouts: Annotated[int, msgspec.Meta(ge=1, le=1000)] = 40  # with the ego's forced actions
     deadline_ms: DeadlineMs = 10_000.0
 
 
 class AliveReport(Message, frozen=True, kw_only=True):
-    """How a component fares: what a request to its key `alive/<component>` is answered with."""
+    """The health of a component: the reply to a request to its key `alive/<component>`."""
 
     LIMIT = 16 * KIB
 
@@ -298,11 +298,11 @@ class AliveReport(Message, frozen=True, kw_only=True):
     sim_time: Seconds  # the latest that it knows of
     wall_time: float
     uptime_s: float
-    counters: dict[str, float]  # since it began; in the order of their names
+    counters: dict[str, float]  # since the start, in order of names
 
 
 class Failure(Message, frozen=True, kw_only=True):
-    """In place of a reply: why there is none."""
+    """The reply to a request that failed: the reason."""
 
     LIMIT = 4 * KIB
 
@@ -316,7 +316,7 @@ M = TypeVar("M", bound=AnyMessage)
 
 
 def schema_name(kind: type[msgspec.Struct]) -> str:
-    """What the field `schema` of a message says, such as `xavi.ask/1`."""
+    """Return the field `schema` of a message, such as `xavi.ask/1`."""
     fields = {field.name: field.default for field in msgspec.structs.fields(kind)}
     return str(fields["schema"])
 
@@ -334,7 +334,7 @@ def unpack(data: bytes, kind: type[M]) -> M:
     """Read and check a message.
 
     Raises:
-        TooLarge: it has more bytes than its kind may have.
+        TooLarge: it has more bytes than its kind allows.
         WrongSchema: it is another message, or of an unknown version.
         Malformed: it is not JSON, or a field is missing or wrong.
     """

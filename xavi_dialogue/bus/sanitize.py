@@ -1,4 +1,4 @@
-"""Text from outside, made harmless: nothing in it can steer a terminal."""
+"""Makes text from outside safe to print: without escapes and control characters."""
 
 import re
 import unicodedata
@@ -13,7 +13,7 @@ _ESCAPES = re.compile(
 
 
 def clean(text: str) -> str:
-    """The text without terminal escapes, control and invisible characters; line ends stay."""
+    """Remove terminal escapes, control and invisible characters; keep line ends."""
     text = _ESCAPES.sub("", text.replace("\r\n", "\n"))
     return "".join(c for c in text if c == "\n" or not unicodedata.category(c).startswith("C"))
 

@@ -25,10 +25,10 @@ def schema_of(message: type, name: str | None = None) -> dict[str, Any]:
 
     Args:
         message: a msgspec Struct or a dataclass.
-        name: what its field `schema` must say, such as `xavi.plan_trace/1`; None leaves it open.
+        name: the required value of `schema`, such as `xavi.plan_trace/1`; None: any.
 
     Raises:
-        ValueError: the type contains itself, which a schema without references cannot say.
+        ValueError: the type contains itself, which needs references.
     """
     document = msgspec.json.schema(message)
     inlined = _inline(document, document.pop("$defs", {}), ())
@@ -38,7 +38,7 @@ def schema_of(message: type, name: str | None = None) -> dict[str, Any]:
 
 
 def _inline(node: Any, definitions: dict[str, Any], within: tuple[str, ...]) -> Any:
-    """Replace every reference below a node by what it refers to."""
+    """Replace every reference below a node by its target."""
     if isinstance(node, list):
         return [_inline(item, definitions, within) for item in node]
     if not isinstance(node, dict):
@@ -52,7 +52,7 @@ def _inline(node: Any, definitions: dict[str, Any], within: tuple[str, ...]) -> 
 
 
 def documents() -> dict[str, str]:
-    """The texts of the files in the folder of documents, by where they lie in it."""
+    """Return the texts of the schema files by path."""
     files = {"plan_trace.schema.json": _text(schema_of(trace.PlanTrace, trace.SCHEMA))}
     for name, kind in MESSAGES.items():
         files[f"messages/{name}.schema.json"] = _text(schema_of(kind, schema_name(kind)))
@@ -64,7 +64,7 @@ def _text(schema: dict[str, Any]) -> str:
 
 
 def write(folder: Path) -> None:
-    """Write all of them; what else is in the folder of messages is of none any more, and goes."""
+    """Write all schema files; delete other files in the folder of messages."""
     files = documents()
     (folder / "messages").mkdir(parents=True, exist_ok=True)
     for path in (folder / "messages").glob("*.schema.json"):

@@ -19,7 +19,7 @@ class _Timer:
 
 
 class Timers:
-    """Calls what is to be called, each in its time."""
+    """Calls functions after their delays."""
 
     def __init__(self) -> None:
         self._timers: list[_Timer] = []  # a heap
@@ -28,14 +28,14 @@ class Timers:
         self._set = self._cancelled = 0
 
     def after(self, delay: float, ring: Callable[[], None]) -> Cancel:
-        """Have something called, on a thread of ours.
+        """Call a function after a delay, on the thread of the timers.
 
         Args:
             delay: [s] until then.
             ring: must return at once, and not fail.
 
         Returns:
-            What to call where that is no longer wanted; harmless when it is too late.
+            A function that cancels the call; it has no effect once the call was made.
         """
         with self._changed:
             self._set += 1

@@ -40,28 +40,28 @@ JSON = "application/json"
 CERTIFICATE = "transport/link/tls/connect_certificate"
 RETRY = 0.05  # [s] between attempts to reach a hub that is not up yet
 HEARTBEAT = 0.2  # [s] within which a lost last message is noticed
-MAX_MESSAGE = 4 * 1024 * 1024  # bytes; no message of ours is as large
+MAX_MESSAGE = 4 * 1024 * 1024  # bytes; all messages are smaller
 SAFE: dict[str, object] = {  # without a configuration file
     "scouting/multicast/enabled": False,
     "scouting/gossip/enabled": False,
     "transport/shared_memory/enabled": False,
     "transport/link/rx/max_message_size": MAX_MESSAGE,
     "timestamping/enabled": True,
-    "transport/unicast/open_timeout": 3000,  # [ms] for who listens there and is no hub
+    "transport/unicast/open_timeout": 3000,  # [ms] to detect a listener that is no hub
     # Who reads no more holds up all others who read the same, until its link is closed.
     "transport/link/tx/queue/congestion_control/block/wait_before_close": 1_000_000,  # [us]
 }
-GRACE = 0.5  # [s] that Zenoh may take beyond a deadline to clean up; ours has passed by then
+GRACE = 0.5  # [s] of Zenoh's clean-up after a deadline
 _TIMERS = Timers()  # of all requests of this process
 
 
 class ZenohBus:
-    """A connection of this process; see `host` and `join`."""
+    """A connection of this process to the bus; see `host` and `join`."""
 
     def __init__(self, session: zenoh.Session, places: tuple[str, ...] = ()) -> None:
         self.places = places  # endpoints that are listened at
         self._session = session
-        self._declared: list[object] = []  # kept, so that they live as long as the session
+        self._declared: list[object] = []  # referenced, so that they live as long as the session
 
     def publisher(self, key: str, keep: int = 0) -> Publisher:
         """See Bus."""
@@ -182,7 +182,7 @@ class ZenohBus:
     def close(self) -> None:
         """End the session and all that was declared on it; closing twice does nothing."""
         if not self._session.is_closed():
-            with suppress(zenoh.ZError):  # the other end hangs: nothing is left to be told to it
+            with suppress(zenoh.ZError):  # the other end hangs and gets no reply
                 self._session.close()  # type: ignore[no-untyped-call]
         self._declared.clear()
 
@@ -242,7 +242,7 @@ class _ZenohCall:
 
 @contextmanager
 def _translated(what: str) -> Iterator[None]:
-    """Zenoh's error as ours."""
+    """Translate an error of Zenoh."""
     try:
         yield
     except zenoh.ZError as error:
@@ -250,7 +250,7 @@ def _translated(what: str) -> Iterator[None]:
 
 
 def host(link: Link) -> ZenohBus:
-    """Open the hub, listening at the endpoints of a link such as `tcp/127.0.0.1:7447`.
+    """Open the hub, listening on the endpoints of a link such as `tcp/127.0.0.1:7447`.
 
     Raises:
         EndpointTaken: one is in use, or cannot be listened at.
@@ -265,7 +265,7 @@ def host(link: Link) -> ZenohBus:
 
 
 def join(link: Link, patience: float = 5.0) -> ZenohBus:
-    """Connect to the hub of a link, waiting for it to come up.
+    """Connect to the hub of a link; wait for it to start.
 
     Raises:
         HubUnreachable: there is no hub within `patience` [s].
@@ -329,7 +329,7 @@ def _config(link: Link) -> zenoh.Config:
 
 
 def _endpoints(config: zenoh.Config, direction: str) -> list[str]:
-    """Where a session listens, or connects to."""
+    """Return where a session listens or connects to."""
     found = json.loads(config.get_json(f"{direction}/endpoints"))
     if isinstance(found, dict):  # by mode
         found = found.get(json.loads(config.get_json("mode")), [])

@@ -7,7 +7,8 @@ from typing import NamedTuple, TypeAlias
 from planner.record.trace import OUTCOMES, Component, Outcome, Rollout
 
 #: The joint sample S: a choice for every predicted vehicle, as (vehicle, goal, trajectory), and
-#: for every traffic light that was drawn, as (-1 - index in the trace, course, 0).
+#: for every traffic light that was drawn, as (-1 - index in the trace, course, 0). Who might come
+#: out of what is hidden follows on the lights, as (-1 - lights - index in the trace, comes, 0).
 Joint: TypeAlias = tuple[tuple[int, int, int], ...]
 
 

@@ -130,8 +130,9 @@ class CausalModel:
     def intervene(self, do: Mapping[int, Action] | Actions) -> Intervention | None:
         """p(R, O | do(w)), with the depths that w leaves open filled by the best continuation.
 
-        The best is that of the highest expected reward among the continuations that are known
-        for at least SUPPORT of the prior mass of the best-known one.
+        They are filled as the decision did when it compared first actions. Where none of that
+        does so, the best is that of the highest expected reward among the continuations that
+        are known for at least SUPPORT of the prior mass of the best-known one.
 
         Args:
             do: depth -> action, the first action having depth 1; or the leading actions.
@@ -145,9 +146,15 @@ class CausalModel:
             for plan in self._index.ended
             if _agrees(plan, wanted) and (intervention := self._known(plan)) is not None
         ]
+        found = [one for one in found if one.plan in self._compared] or found
         most = max((intervention.coverage for intervention in found), default=0.0)
         known = [i for i in found if i.coverage >= SUPPORT * most]
         return max(known, key=lambda i: (i.value, i.coverage), default=None)
+
+    @cached_property
+    def _compared(self) -> frozenset[Actions]:
+        """The action sequences by which the decision compared its first actions."""
+        return frozenset(plan_of(r) for r in self.trace.rollouts if r.weight is not None)
 
     @cached_property
     def _index(self) -> "_Index":
@@ -185,7 +192,7 @@ class CausalModel:
         product = 1.0
         for vehicle, goal, way in joint:
             if vehicle < 0:
-                product *= self.trace.lights[-1 - vehicle].courses[goal].probability
+                product *= self._of_no_vehicle(-1 - vehicle, goal)
                 continue
             try:
                 product *= self._choices[vehicle][goal, way]
@@ -196,10 +203,20 @@ class CausalModel:
                 ) from None
         return product
 
+    def _of_no_vehicle(self, number: int, drawn: int) -> float:
+        """The probability of what was drawn of a light, or of whether somebody hidden comes."""
+        lights = self.trace.lights
+        if number < len(lights):
+            return lights[number].courses[drawn].probability
+        coming = self.trace.phantoms[number - len(lights)].probability
+        return coming if drawn else 1.0 - coming
+
     def _joint(self, rollout: Rollout) -> Joint:
-        """The joint sample of a rollout: of others and of lights."""
+        """The joint sample of a rollout: of others, of lights, and of who might come unseen."""
         drawn = [(s.vehicle, s.goal, s.trajectory) for s in rollout.samples]
         drawn += [(self._lights[s.controller], s.course, 0) for s in rollout.lights]
+        hidden = -1 - len(self.trace.lights)
+        drawn += [(hidden - s.phantom, int(s.comes), 0) for s in rollout.phantoms]
         return tuple(sorted(drawn))
 
     def _known(self, plan: Actions) -> Intervention | None:

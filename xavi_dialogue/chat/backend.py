@@ -1,4 +1,4 @@
-"""What a conversation rests on: processes of its own, or such as others have started."""
+"""The processes behind a conversation: own ones, or those that others started."""
 
 import threading
 from typing import Protocol
@@ -8,12 +8,12 @@ from xavi_dialogue.chat.client import Client
 from xavi_dialogue.process import child_commands
 
 
-class Behind(Protocol):
-    """Car and service, as far as a conversation can see to them."""
+class Backend(Protocol):
+    """Vehicle and service, as a conversation uses them."""
 
     @property
     def over(self) -> threading.Event:
-        """Set when the conversation is over: nobody waits any more."""
+        """An event that is set when the conversation is over."""
 
     def check(self) -> None:
         """Make sure that the conversation can go on.
@@ -23,7 +23,7 @@ class Behind(Protocol):
         """
 
     def recover(self, client: Client) -> bool:
-        """See to it that there is a service that answers; whether there is.
+        """Restore a service that answers; return whether there is one.
 
         Raises:
             ChildFailed: see `check`.
@@ -33,29 +33,29 @@ class Behind(Protocol):
         """Give the car an order.
 
         Raises:
-            CommandError: it takes none.
+            CommandError: it accepts no commands.
         """
 
     def set_off(self) -> None:
-        """Let the ride begin, or go on, now that there is somebody to be told of it."""
+        """Let the ride begin or continue, now that the passenger can see it."""
 
     def drive(
         self, client: Client, order: child_commands.Order, *, halt: bool = False
     ) -> SceneReport:
-        """Give the car an order, and wait until it has obeyed it.
+        """Send a command to the car, and wait until it has been carried out.
 
         Args:
             client: sees the car's scenes.
             order: to give.
-            halt: wait until the car has halted or the ride is over, too.
+            halt: also wait until the car has halted or the ride is over.
 
         Raises:
-            ChildFailed: a process has ended, or the car is not heard of any more.
-            CommandError: it takes no orders.
+            ChildFailed: a process has ended, or the car is silent.
+            CommandError: it accepts no commands.
         """
 
     def now(self, client: Client) -> float | None:
-        """The moment [s] up to which the passenger has been told of the ride; None before it."""
+        """Return the latest time [s] that the passenger has seen; None before the first scene."""
 
     def trouble(self) -> str:
-        """What the passenger should know of the car's program at all times, if anything."""
+        """Return a permanent note about the car's process, empty if all is well."""

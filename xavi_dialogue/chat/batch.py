@@ -7,10 +7,10 @@ from typing import TypeAlias
 
 from xavi_dialogue.bus.messages import MAX_TEXT, SceneReport
 from xavi_dialogue.bus.sanitize import one_line
-from xavi_dialogue.chat.backend import Behind
+from xavi_dialogue.chat.backend import Backend
 from xavi_dialogue.chat.client import Client, ServiceLost
 from xavi_dialogue.chat.controller import plan_told, vehicles_in_words
-from xavi_dialogue.chat.history import Minutes
+from xavi_dialogue.chat.history import SessionHistory
 from xavi_dialogue.dialogue.reply import Reply, encode
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.terminal import slash_commands
@@ -19,7 +19,7 @@ from xavi_dialogue.transcripts.transcript import moment
 
 Write: TypeAlias = Callable[[str], None]
 SHOWN = 40  # characters of a line that is none
-WIDTH = 100  # columns of what /help lists
+WIDTH = 100  # columns of the list of /help
 HELP = (
     "A line is a question, a moment that moves time such as @ 8.0s, or one of these commands.\n"
     "Answers go to the standard output; with --json nothing else does."
@@ -27,37 +27,36 @@ HELP = (
 
 
 def reached(scene: SceneReport, wanted: float) -> float:
-    """The moment [s] that can be asked about in a recording that has gone there.
+    """Return the time [s] that can be asked about after a recording went to `wanted`.
 
-    That is the moment that is wanted, unless the recording stops before it in mid-ride: what
-    comes then is known to nobody.
+    That is the wanted time, unless the recording stops before it: nothing is known of later times.
     """
     return min(wanted, scene.sim_time) if scene.state == "paused" else wanted
 
 
 @dataclass
-class Piped:
+class BatchChat:
     """A conversation line by line, about a ride that halts between questions unless it is live."""
 
-    behind: Behind
+    backend: Backend
     client: Client
-    minutes: Minutes
+    session_history: SessionHistory
     write: Write  # takes answers
-    note: Write  # takes what is none
+    note: Write  # takes everything else
     as_json: bool  # write replies as JSON
     scene: SceneReport  # where the ride has halted
-    at: float | None  # [s] what questions are about; None: the moment at which they are asked
-    live: bool = False  # the ride goes on by itself, whatever is asked
+    at: float | None  # [s] what questions are about; None: the time at which they are asked
+    live: bool = False  # the ride continues by itself
     seeks: bool = False  # it is a recording, which can go to any moment
 
     def take(self, raw: str) -> bool:
-        """Take a line; whether to go on.
+        """Handle a line; return whether to go on.
 
         Raises:
             ChildFailed: car or service ended.
             ServiceLost: a question was not answered.
         """
-        self.behind.check()
+        self.backend.check()
         try:
             return self._take(one_line(raw))
         except CommandError as error:
@@ -78,11 +77,11 @@ class Piped:
 
     def _move(self, at: float) -> None:
         if self.seeks:
-            self.scene = self.behind.drive(self.client, child_commands.Seek(at), halt=True)
+            self.scene = self.backend.drive(self.client, child_commands.Seek(at), halt=True)
             at = reached(self.scene, at)
         elif not self.live and self.scene.sim_time < at and self.scene.state != "ended":
-            self.scene = self.behind.drive(self.client, child_commands.Until(at), halt=True)
-        self.at = at  # not where the ride cannot go there: nothing could be said about it
+            self.scene = self.backend.drive(self.client, child_commands.Until(at), halt=True)
+        self.at = at  # only if the ride can go there: nothing is known of other times
 
     def _ask(self, text: str) -> None:
         if len(text) > MAX_TEXT:
@@ -91,11 +90,11 @@ class Piped:
         self.write(encode(reply) if self.as_json else reply.text)
 
     def _reply(self, text: str) -> Reply:
-        at = self.behind.now(self.client) if self.at is None else self.at
+        at = self.backend.now(self.client) if self.at is None else self.at
         try:
             return self.client.ask(text, at)
         except ServiceLost:
-            if not self.behind.recover(self.client):
+            if not self.backend.recover(self.client):
                 raise
         return self.client.ask(text, at)
 
@@ -106,7 +105,7 @@ class Piped:
             case "help":
                 self._tell(f"{HELP}\n{slash_commands.listed('pipe', WIDTH)}")
             case "why":
-                self._ask(self.minutes.why())
+                self._ask(self.session_history.why())
             case "more":
                 self._ask(slash_commands.MORE)
             case "vehicles":
@@ -114,20 +113,20 @@ class Piped:
             case "plan":
                 self._tell_now(plan_told)
             case "history":
-                self._tell(self.minutes.told())
+                self._tell(self.session_history.told())
             case "save":
-                self.note(self.minutes.save(command.argument, datetime.now().astimezone()))
+                self.note(self.session_history.save(command.argument, datetime.now().astimezone()))
             case "forget":
-                self.note(self.minutes.forget())
+                self.note(self.session_history.forget())
         return True
 
     def _tell_now(self, told: Callable[[SceneReport], str]) -> None:
-        """Tell what is known of the latest moment alone."""
+        """Describe the vehicles; only the latest scene is known."""
         scene = self.client.scene if self.live and self.client.scene else self.scene
         if self.at is not None and self.at < scene.sim_time:
             self.note(f"this is how it is at {scene.sim_time:.1f} s")
         self._tell(told(scene))
 
     def _tell(self, text: str) -> None:
-        """What was asked for and is no answer: JSON lines hold answers alone."""
+        """Print the result of a command; JSON output holds answers only."""
         (self.note if self.as_json else self.write)(text)

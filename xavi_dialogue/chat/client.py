@@ -37,11 +37,11 @@ from xavi_dialogue.domain.answers import Reason, Unavailable
 from xavi_dialogue.nlg.context import SpeechContext, Style
 
 DEADLINE = 10.0  # [s] for an answer
-GRACE = 0.5  # [s] that a reply may take on its way
-PATIENCE = 3.0  # [s] for what takes no thought
+GRACE = 0.5  # [s] transport of a reply
+PATIENCE = 3.0  # [s] for requests that need no planning
 NONSENSE = "the dialogue service sent nonsense"
 REFUSED = "the dialogue service refused"
-POLL = 0.1  # [s] between looks at whether waiting still makes sense
+POLL = 0.1  # [s] between checks while waiting
 
 T = TypeVar("T")
 OnEvent: TypeAlias = Callable[[EventReport], None]
@@ -70,9 +70,9 @@ class Client:
             bus: of the car and the service.
             keys: of the car.
             session: that is talked in.
-            on_event: gets what happens, on a thread of the bus.
-            token: of the session, see security.client_token; None: it is open to all.
-            share: others may read what is said.
+            on_event: gets events, on a thread of the bus.
+            token: of the session, see security.client_token; None: open to all.
+            share: whether others may read the session.
         """
         self._token, self._share = token, share
         self.scene: SceneReport | None = None  # the latest
@@ -85,7 +85,7 @@ class Client:
             bus.subscribe(keys.of("event"), self._on_report, kept=True)
 
     def now(self) -> float | None:
-        """The moment [s] up to which the passenger has been told of the ride; None before it.
+        """Return the latest time [s] that the passenger has seen; None before the first scene.
 
         An event may be told before the scene that follows it is seen. Of a halted car, no such
         scene can be waited for.
@@ -106,10 +106,10 @@ class Client:
         style: Style = "passenger",
         request: str | None = None,
     ) -> None:
-        """Ask; `done` gets the reply, or why there is none, on a thread of the bus.
+        """Ask; `done` gets the reply, or the reason why there is none, on a thread of the bus.
 
-        A service that says nothing at all within the deadline counts as one that has timed out.
-        Where it refuses the question, or says what cannot be read, that is a reply in brackets.
+        A service that does not answer within the deadline counts as timed out.
+        If it rejects the question, or its answer cannot be read, the reply is in brackets.
         """
         asked = AskRequest(
             request=request or new_request(),
@@ -147,7 +147,7 @@ class Client:
         self._bus.request(self._keys.of("@rpc/cancel"), pack(wanted), 1.0, lambda _: None)
 
     def probe(self) -> None:
-        """Make sure that the service answers, whatever it says; waits for it.
+        """Check that the service answers anything at all; wait for it.
 
         Raises:
             ServiceLost: it does not.
@@ -164,10 +164,10 @@ class Client:
         """The latest turns of the session, oldest first; waits for them.
 
         Args:
-            turns: how many at most, 1 to 100.
+            turns: at most so many, 1 to 100.
 
         Raises:
-            ServiceLost: they cannot be had.
+            ServiceLost: there is no reply.
         """
         wanted = HistoryRequest(session=self._session, token=self._token, turns=turns)
         read = partial(unpack, kind=HistoryReply)
@@ -177,13 +177,13 @@ class Client:
         """A decision of the present ride, or one planned again, by its id; waits for it.
 
         Raises:
-            ServiceLost: it cannot be had, or is not in the record any more.
+            ServiceLost: there is no reply, or the decision is no longer in the record.
         """
         wanted = EvidenceRequest(request=new_request(), trace_id=trace_id)
         return self._call("@rpc/evidence", wanted, plan_trace.decode)
 
     def forget(self) -> ForgetReply:
-        """Have the session forgotten; waits for what comes of it.
+        """Erase the session; wait for the result.
 
         Raises:
             ServiceLost: the service does not answer, or refuses.
@@ -205,8 +205,8 @@ class Client:
         """Wait for a scene.
 
         Args:
-            wanted: whether this is the one.
-            going_on: called now and then; raises where waiting makes no sense any more.
+            wanted: tests a scene.
+            going_on: called repeatedly; raises to stop waiting.
             patience: [s] without any new scene after which None is returned.
         """
         give_up = time.monotonic() + patience
@@ -228,7 +228,7 @@ class Client:
             return
         with self._changed:
             if self.scene is not None and report.sim_time < self.scene.sim_time:
-                self._latest = None  # a recording went back, to before what was told last
+                self._latest = None  # a recording went back, to before the latest scene
             self.scene = report
             self._changed.notify_all()
 
@@ -262,12 +262,12 @@ def _reply(came: Outcome, at: float | None) -> Reply | ServiceLost:
 
 
 def _bracketed(text: str, reason: Reason, at: float | None) -> Reply:
-    """What is no answer of the car's, after which the conversation goes on."""
+    """Make a reply that is not an answer of the car; the conversation continues."""
     return Reply(text=f"({clean(text)})", kind="refusal", reason=reason, sim_time=at or 0.0)
 
 
 def _late(at: float | None, style: Style) -> Reply:
-    """What the service would have said, had it kept to its deadline."""
+    """Make the reply of a service that missed its deadline."""
     # Deferred: a service that hangs is rare, and sentences take a while to load.
     from xavi_dialogue.nlg.say import say
 
@@ -282,7 +282,7 @@ def _lost(came: NoAnswer) -> ServiceLost:
 
 
 def _failure(came: Refused) -> Failure | None:
-    """What the service said on refusing; None where it cannot be read."""
+    """Decode the reason for a rejection; None if it cannot be read."""
     try:
         return unpack(came.payload, Failure)
     except MessageError:
@@ -293,6 +293,6 @@ def _refusal(failure: Failure | None) -> str:
     if failure is None:
         return REFUSED
     detail = clean(failure.detail)
-    if failure.reason == "out-of-scope" and detail:  # says all by itself
+    if failure.reason == "out-of-scope" and detail:  # self-explanatory
         return detail
     return f"{REFUSED}: {detail or failure.reason}"

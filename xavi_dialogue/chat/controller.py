@@ -1,4 +1,4 @@
-"""What a passenger at a terminal can see and do, over the bus."""
+"""The chat of a passenger at a terminal, over the bus."""
 
 import asyncio
 from contextlib import suppress
@@ -6,9 +6,9 @@ from datetime import datetime
 
 from xavi_dialogue.bus.messages import SceneReport
 from xavi_dialogue.bus.sanitize import one_line
-from xavi_dialogue.chat.backend import Behind
+from xavi_dialogue.chat.backend import Backend
 from xavi_dialogue.chat.client import DEADLINE, GRACE, Client, ServiceLost, new_request
-from xavi_dialogue.chat.history import Minutes
+from xavi_dialogue.chat.history import SessionHistory
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.explain.facts.looks import look_in
 from xavi_dialogue.nlg.narration import clock, plan_in_words
@@ -28,11 +28,11 @@ LOST = "I cannot answer now:"
 ALONE = "There is no other vehicle in view."
 
 
-class RemoteCabin:
-    """See terminal.chat_interface.Cabin."""
+class ChatController:
+    """A chat over the bus; see terminal.chat_interface.ChatInterface."""
 
-    def __init__(self, behind: Behind, client: Client, minutes: Minutes) -> None:
-        self._behind, self._client, self._minutes = behind, client, minutes
+    def __init__(self, backend: Backend, client: Client, session_history: SessionHistory) -> None:
+        self._backend, self._client, self._session_history = backend, client, session_history
 
     def status(self) -> str:
         """One line: time, speed, plan."""
@@ -42,35 +42,35 @@ class RemoteCabin:
         going = scene.state != "ended"
         speed = f"{scene.vehicles[0].speed * KMH:.0f} km/h" if going else ""
         parts = [clock(scene.sim_time), speed, plan_in_words(scene.plan) if going else ""]
-        parts.append(self._behind.trouble() or _state(scene))
+        parts.append(self._backend.trouble() or _state(scene))
         return "  ·  ".join(filter(None, parts))
 
     def vehicles(self) -> str:
-        """The vehicles in view, in words."""
+        """Describe the vehicles in view."""
         return vehicles_in_words(self._client.scene)
 
     def plan(self) -> str:
-        """The plan in words."""
+        """Describe the plan."""
         return plan_told(self._client.scene)
 
     def words(self) -> tuple[str, ...]:
-        """What can be completed to."""
+        """Return the words that Tab can complete."""
         scene = self._client.scene
         names = () if scene is None else tuple(name for name in scene.vehicles if name != 0)
         commands = (f"{form.usage.split()[0]}{' ' if form.takes else ''}" for form in COMMANDS)
         return (*commands, *(f"vehicle {name}" for name in names), *PHRASES)
 
     async def ask(self, text: str, request: str) -> str:
-        """The answer to a question; asked once more where the service had to be started anew.
+        """Return the answer to a question; ask again if the service had to be restarted.
 
-        It comes within the deadline of a question, whatever becomes of the service.
+        It comes within the deadline of a question, even if the service fails.
         """
         give_up = asyncio.get_running_loop().time() + DEADLINE + GRACE
         reply = await self._sent(text, request)
         if isinstance(reply, ServiceLost):
-            with suppress(ChildFailed, TimeoutError):  # the next check tells of a failed child
+            with suppress(ChildFailed, TimeoutError):  # the next check reports a failed child
                 async with asyncio.timeout_at(give_up):
-                    if await asyncio.to_thread(self._behind.recover, self._client):
+                    if await asyncio.to_thread(self._backend.recover, self._client):
                         reply = await self._sent(text, request)
         return f"{LOST} {reply}." if isinstance(reply, ServiceLost) else reply.text
 
@@ -86,24 +86,26 @@ class RemoteCabin:
             with suppress(RuntimeError):  # the conversation is over
                 loop.call_soon_threadsafe(settle, reply)
 
-        self._client.send(text, done, at=self._behind.now(self._client), request=request)
+        self._client.send(text, done, at=self._backend.now(self._client), request=request)
         return await answer
 
     async def why(self) -> str:
-        """The question why, as it has to be asked now."""
-        return await asyncio.to_thread(self._minutes.why)
+        """Return the question why about the latest answer or action."""
+        return await asyncio.to_thread(self._session_history.why)
 
     async def history(self) -> str:
-        """What was said in this session."""
-        return await asyncio.to_thread(self._minutes.told)
+        """Return the turns of this session as text."""
+        return await asyncio.to_thread(self._session_history.told)
 
     async def save(self, file: str) -> str:
-        """Write what was said into a file; see Minutes.save."""
-        return await asyncio.to_thread(self._minutes.save, file, datetime.now().astimezone())
+        """Write the session to a file; see SessionHistory.save."""
+        return await asyncio.to_thread(
+            self._session_history.save, file, datetime.now().astimezone()
+        )
 
     async def forget(self) -> str:
-        """Erase what was said."""
-        return await asyncio.to_thread(self._minutes.forget)
+        """Erase the session."""
+        return await asyncio.to_thread(self._session_history.forget)
 
     def cancel(self, request: str) -> None:
         """Drop a question."""
@@ -111,23 +113,23 @@ class RemoteCabin:
 
     def pause(self) -> None:
         """Halt the ride."""
-        self._behind.order(child_commands.Pause())
+        self._backend.order(child_commands.Pause())
 
     def resume(self) -> None:
         """Go on."""
-        self._behind.order(child_commands.Resume())
+        self._backend.order(child_commands.Resume())
 
     def speed(self, factor: float) -> None:
-        """Change how fast the ride goes."""
-        self._behind.order(child_commands.Speed(factor))
+        """Change the pace of the ride."""
+        self._backend.order(child_commands.Speed(factor))
 
     def seek(self, time: float) -> None:
         """Go to a moment [s] of a recorded ride."""
-        self._behind.order(child_commands.Seek(time))
+        self._backend.order(child_commands.Seek(time))
 
     def check(self) -> None:
-        """Raise where the ride cannot be talked about any more."""
-        self._behind.check()
+        """Raise an error if the ride has ended for the chat."""
+        self._backend.check()
 
     def new_request(self) -> str:
         """A name for a question."""
@@ -148,7 +150,7 @@ def vehicles_in_words(scene: SceneReport | None) -> str:
 
 
 def plan_told(scene: SceneReport | None) -> str:
-    """What the car is about to do."""
+    """Describe the next action of the car."""
     if scene is not None and scene.state == "ended":
         return "The ride is over."
     if scene is None or not scene.plan:

@@ -1,4 +1,4 @@
-"""What was said in a session: listed, kept in a file, erased."""
+"""The history of a session: list it, save it to a file, erase it."""
 
 import os
 from collections.abc import Callable, Iterable, Iterator
@@ -24,27 +24,27 @@ Forget: TypeAlias = Callable[[], None]  # raises OSError
 
 
 @dataclass(frozen=True)
-class Minutes:
+class SessionHistory:
     """The conversation of one session; its methods wait for the service.
 
-    All raise CommandError where what was said cannot be had.
+    All methods raise CommandError if the history is not available.
     """
 
     client: Client
     session: str
     header: tuple[tuple[str, str], ...]  # of transcripts
-    forget_typed: Forget | None = None  # erases what is kept on this side of what was typed
+    forget_typed: Forget | None = None  # erases the input history on this machine
 
     def why(self) -> str:
-        """The question why: of what was said last, else of what was done last."""
+        """Return the question why: about the latest answer, else about the latest action."""
         return slash_commands.WHY if self._turns() else slash_commands.WHY_DONE
 
     def told(self) -> str:
-        """What was said, as a passenger reads it."""
+        """Format the turns for a passenger."""
         return "\n\n".join(map(_written, _steps(self._turns()))) or NOTHING
 
     def save(self, name: str, now: datetime) -> str:
-        """Write what was said into a new file.
+        """Write the turns to a new file.
 
         Args:
             name: of the file; JSON lines where it ends in .jsonl, else a transcript. Empty: made
@@ -55,7 +55,7 @@ class Minutes:
             What was done, in words.
 
         Raises:
-            CommandError: nothing was said, or the file exists or cannot be written.
+            CommandError: the session is empty, or the file exists or cannot be written.
         """
         turns = self._turns()
         if not turns:
@@ -69,7 +69,7 @@ class Minutes:
         return f"Saved {_counted(len(turns))} to {clean(str(file))}."
 
     def forget(self) -> str:
-        """Erase what was said; says how much it was."""
+        """Erase the session; return a note with the number of turns."""
         try:
             erased = self.client.forget()
             if self.forget_typed is not None:

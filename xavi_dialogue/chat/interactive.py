@@ -11,31 +11,31 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from xavi_dialogue.bus.messages import EventReport
-from xavi_dialogue.chat.backend import Behind
+from xavi_dialogue.chat.backend import Backend
 from xavi_dialogue.chat.client import Client
-from xavi_dialogue.chat.controller import RemoteCabin
-from xavi_dialogue.chat.history import Minutes
+from xavi_dialogue.chat.controller import ChatController
+from xavi_dialogue.chat.history import SessionHistory
 from xavi_dialogue.nlg.narration import Teller
 
 if TYPE_CHECKING:  # a quarter of a second that only a terminal needs
-    from xavi_dialogue.storage.input_history import TypedLines, UnkeptLines
+    from xavi_dialogue.storage.input_history import InputHistory, UnsavedInputHistory
 
 Write: TypeAlias = Callable[[str], None]
 
 
-class Unasked:
-    """Lines that nobody asked for: above what is typed, and notes as long as nothing can be."""
+class Notices:
+    """Notes above the input line; before the terminal is ready, plain notes."""
 
     def __init__(self, note: Write) -> None:
         self._note, self._teller = note, Teller()
         self._tell: Write | None = None
 
     def show(self, tell: Write) -> None:
-        """From now on, tell on a terminal."""
+        """Write to a terminal from now on."""
         self._tell = tell
 
     def warn(self, text: str) -> None:
-        """Something that looks wrong."""
+        """Write a warning."""
         (self._tell or warner(self._note))(text)
 
     def tell(self, text: str) -> None:
@@ -43,15 +43,15 @@ class Unasked:
         (self._tell or self._note)(text)
 
     def on_event(self, report: EventReport) -> None:
-        """What the car does; what it did before the conversation is not told."""
+        """Write what the car does; events before the conversation are not shown."""
         line = self._teller.tell(report.seq, report.event)
         if line is not None and self._tell is not None:
             self._tell(line)
 
 
 @dataclass(frozen=True)
-class Typed:
-    """What is kept of what is typed."""
+class InputHistoryOptions:
+    """Whether and how long typed lines are stored."""
 
     file: Path
     days: int | None  # for so long; None: nothing is
@@ -63,35 +63,35 @@ def warner(note: Write) -> Write:
 
 
 def talk(
-    behind: Behind,
+    backend: Backend,
     client: Client,
-    minutes: Minutes,
-    typed: Typed,
-    unasked: Unasked,
+    session_history: SessionHistory,
+    typed: InputHistoryOptions,
+    notices: Notices,
     begin: Callable[[], None],
 ) -> None:
-    """Talk until the passenger, or what goes wrong, ends it.
+    """Talk until the passenger or an error ends the conversation.
 
     Args:
-        behind: what the conversation rests on.
+        backend: the processes behind the conversation.
         client: on its bus.
-        minutes: of the conversation.
-        typed: what is kept of what is typed.
-        unasked: lines that come in between.
-        begin: waits until all is there; called on a thread.
+        session_history: of the conversation.
+        typed: whether and how long typed lines are stored.
+        notices: notes between answers.
+        begin: waits until everything is ready; called on a thread.
 
     Raises:
         ChildFailed: a process ended.
     """
-    asyncio.run(_talk(behind, client, minutes, typed, unasked, begin))
+    asyncio.run(_talk(backend, client, session_history, typed, notices, begin))
 
 
 async def _talk(
-    behind: Behind,
+    backend: Backend,
     client: Client,
-    minutes: Minutes,
-    typed: Typed,
-    unasked: Unasked,
+    session_history: SessionHistory,
+    typed: InputHistoryOptions,
+    notices: Notices,
     begin: Callable[[], None],
 ) -> None:
     from prompt_toolkit.application import create_app_session
@@ -101,25 +101,27 @@ async def _talk(
 
     try:
         await asyncio.to_thread(begin)
-        lines = _lines(typed, minutes.session)
-        cabin = RemoteCabin(behind, client, replace(minutes, forget_typed=lines.forget))
+        lines = _lines(typed, session_history.session)
+        controller = ChatController(
+            backend, client, replace(session_history, forget_typed=lines.forget)
+        )
         with create_app_session(output=silent_screen(sys.stdout, os.environ.get("TERM"))):
-            chat = TerminalChat(cabin, lines, keyboard=Keyboard(sys.stdin))
-            unasked.show(chat.tell)
+            chat = TerminalChat(controller, lines, keyboard=Keyboard(sys.stdin))
+            notices.show(chat.tell)
             loop = asyncio.get_running_loop()
             for number in (signal.SIGTERM, signal.SIGHUP):
                 loop.add_signal_handler(number, chat.end)
-            behind.set_off()
+            backend.set_off()
             await chat.run()
     finally:
-        behind.over.set()
+        backend.over.set()
 
 
-def _lines(typed: Typed, session: str) -> "TypedLines | UnkeptLines":
-    from xavi_dialogue.storage.input_history import TypedLines, UnkeptLines, erase
+def _lines(typed: InputHistoryOptions, session: str) -> "InputHistory | UnsavedInputHistory":
+    from xavi_dialogue.storage.input_history import InputHistory, UnsavedInputHistory, erase
 
     if typed.days is None:
-        return UnkeptLines()
+        return UnsavedInputHistory()
     typed.file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     erase(typed.file, before=datetime.now() - timedelta(days=typed.days))
-    return TypedLines(typed.file, session)
+    return InputHistory(typed.file, session)

@@ -15,18 +15,18 @@ from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import SceneReport
 from xavi_dialogue.bus.zenoh_bus import ZenohBus, join
 from xavi_dialogue.chat.client import Client, ServiceLost
-from xavi_dialogue.chat.vehicle_supervisor import SteadyCar
+from xavi_dialogue.chat.vehicle_supervisor import VehicleSupervisor
 from xavi_dialogue.process import child_commands
-from xavi_dialogue.process.subprocesses import Child, ChildFailed, Expendable, Steady
-from xavi_dialogue.storage.turn_log import Keeping
+from xavi_dialogue.process.subprocesses import Child, ChildFailed, OptionalChild, RestartedChild
+from xavi_dialogue.storage.turn_log import Retention
 from xavi_dialogue.terminal.slash_commands import CommandError
 
-ATTEMPTS = 3  # to find a port that stays free until the service listens at it
-RETRY = 0.2  # [s] between looks at whether the service is still coming up
+ATTEMPTS = 3  # to find a port that stays free until the service listens on it
+RETRY = 0.2  # [s] between checks whether the service is ready
 START_PATIENCE = 90.0  # [s] for the service, and for the first scene: kernels may be compiled
-SPARE = 5  # times that a service which has died is started anew
+SPARE = 5  # times that a failed service is restarted
 BACK = 15.0  # [s] until it must answer then
-CLOSING = 1.5  # [s] that it may take to leave the bus
+CLOSING = 1.5  # [s] to leave the bus
 LIVE = "Only a recorded ride can be taken to any moment: xavi replay FILE."
 SILENCE = 20.0  # [s] without a scene after which the car counts as lost
 
@@ -34,22 +34,22 @@ Tell: TypeAlias = Callable[[str], None]
 
 
 @dataclass(frozen=True)
-class Convoy:
-    """The processes behind a chat, and its own connection to them; see Behind."""
+class LocalBackend:
+    """The processes behind a chat, with a connection to them; see Backend."""
 
-    car: SteadyCar
-    service: Steady
+    car: VehicleSupervisor
+    service: RestartedChild
     bus: ZenohBus
-    recorder: Expendable | None = None
+    recorder: OptionalChild | None = None
     over: threading.Event = field(default_factory=threading.Event)
     seeks: bool = False  # the car is a recording, which can go to any moment
     endpoint: str = ""  # of the hub: others may join
 
     def check(self) -> None:
-        """Make sure that there are processes; start the service anew if it is not there.
+        """Check the processes; restart the service if it has ended.
 
         Raises:
-            ChildFailed: the car has not come up, or the service ended once too often.
+            ChildFailed: the car did not start, or the service ended too often.
         """
         self.service.check()
         self.car.check()
@@ -57,7 +57,7 @@ class Convoy:
             self.recorder.check()
 
     def recover(self, client: Client) -> bool:
-        """See Behind."""
+        """See Backend."""
         give_up = time.monotonic() + BACK
         while time.monotonic() < give_up and not self.over.wait(RETRY):
             self.service.check()
@@ -67,20 +67,20 @@ class Convoy:
         return False
 
     def order(self, order: child_commands.Order) -> None:
-        """See Behind."""
+        """See Backend."""
         if isinstance(order, child_commands.Seek) and not self.seeks:
             raise CommandError(LIVE)
         self.car.order(order)
 
     def set_off(self) -> None:
-        """See Behind."""
-        with suppress(CommandError):  # there is no car any more, which has been told
+        """See Backend."""
+        with suppress(CommandError):  # the car has ended, which was reported
             self.car.order(child_commands.Resume())
 
     def drive(
         self, client: Client, order: child_commands.Order, *, halt: bool = False
     ) -> SceneReport:
-        """See Behind."""
+        """See Backend."""
         self.car.order(order)
 
         def done(scene: SceneReport) -> bool:
@@ -98,7 +98,7 @@ class Convoy:
 
         Raises:
             ChildFailed: see `check`; or the chat is over.
-            CommandError: there is no car any more.
+            CommandError: the car has ended.
         """
         if self.over.is_set():
             raise ChildFailed("the chat is over")
@@ -106,106 +106,106 @@ class Convoy:
         self.car.hope()
 
     def now(self, client: Client) -> float | None:
-        """See Behind."""
+        """See Backend."""
         return self.car.now(client.now())
 
     def trouble(self) -> str:
-        """See Behind."""
+        """See Backend."""
         return self.car.trouble()
 
 
 @dataclass(frozen=True)
-class Company:
-    """What else there is to a convoy besides its car."""
+class LocalOptions:
+    """Options of a local backend: recording and where notes go."""
 
     record: Path | None = None  # file that the ride is recorded in
-    overwrite: bool = False  # where that is there already
+    overwrite: bool = False  # an existing file
     warn: Tell = lambda _: None  # gets the service's warnings, on a thread
-    tell: Tell = lambda _: None  # gets what the passenger should know, on a thread
+    tell: Tell = lambda _: None  # gets notes for the passenger, on a thread
 
 
 @contextmanager
-def convoy(
+def start_local(
     scenario: str,
     seed: int,
     speed: float,
-    keeping: Keeping | None = None,
-    company: Company | None = None,
-) -> Iterator[Convoy]:
+    keeping: Retention | None = None,
+    options: LocalOptions | None = None,
+) -> Iterator[LocalBackend]:
     """Start service and car, the car waiting for the service; stop them in reverse.
 
     Args:
         scenario: name or folder.
         seed: of the ride.
         speed: simulated seconds per second; 0 is as fast as possible.
-        keeping: where and how long the service keeps what is said; None: not at all.
-        company: what else there is.
+        keeping: where and how long the service stores turns; None: not at all.
+        options: recording and notes.
 
     Raises:
-        ChildFailed: one does not come up.
+        ChildFailed: a process did not start.
     """
     ride = ["drive", "--scenario", scenario, "--seed", str(seed), "--speed", repr(speed)]
-    with convoy_of(ride, speed, keeping, company) as behind:
-        yield behind
+    with start_processes(ride, speed, keeping, options) as backend:
+        yield backend
 
 
 @contextmanager
-def convoy_of(
+def start_processes(
     car: Sequence[str],
     speed: float,
-    keeping: Keeping | None,
-    company: Company | None = None,
+    keeping: Retention | None,
+    options: LocalOptions | None = None,
     *,
     seeks: bool = False,
-) -> Iterator[Convoy]:
+) -> Iterator[LocalBackend]:
     """The same with any command that reports and obeys like a car.
 
     Args:
-        car: arguments of `xavi`; where to connect to is added.
-        speed: at which it begins.
-        keeping: see `convoy`.
-        company: see `convoy`.
+        car: arguments of `xavi`; the endpoint to connect to is added.
+        speed: the initial pace.
+        keeping: see `start_local`.
+        options: see `start_local`.
         seeks: it is a recording, which can go to any moment.
 
     Raises:
-        ChildFailed: one does not come up.
+        ChildFailed: a process did not start.
     """
     with ExitStack() as stack:
-        behind = _start(stack, car, speed, _kept(keeping), company or Company())
-        yield replace(behind, seeks=seeks)
+        backend = _start(stack, car, speed, _kept(keeping), options or LocalOptions())
+        yield replace(backend, seeks=seeks)
 
 
-def first_scene(behind: Convoy, client: Client) -> SceneReport:
-    """Wait for the car to be on the road; from then on it is started anew where it ends.
+def first_scene(backend: LocalBackend, client: Client) -> SceneReport:
+    """Wait for the first scene of the car; from then on it is restarted when it ends.
 
     Raises:
-        ChildFailed: it does not come up.
+        ChildFailed: it did not start.
     """
-    scene = client.wait_for(lambda _: True, behind.wait, START_PATIENCE)
+    scene = client.wait_for(lambda _: True, backend.wait, START_PATIENCE)
     if scene is None:
         raise ChildFailed("the car does not start")
-    behind.car.follow(client)
+    backend.car.follow(client)
     return scene
 
 
-def _kept(keeping: Keeping | None) -> list[str]:
+def _kept(keeping: Retention | None) -> list[str]:
     if keeping is None:
         return ["--keep-days", "0"]
     return ["--keep-days", str(keeping.days), "--store", str(keeping.path.absolute())]
 
 
 def _start(
-    stack: ExitStack, car: Sequence[str], speed: float, kept: list[str], company: Company
-) -> Convoy:
-    """The processes and a connection to them, on a port that another process may snatch."""
+    stack: ExitStack, car: Sequence[str], speed: float, kept: list[str], options: LocalOptions
+) -> LocalBackend:
+    """Start the processes and connect, on a port that another process may take first."""
     for attempt in range(1, ATTEMPTS + 1):
         endpoint = f"tcp/127.0.0.1:{_free_port()}"
         serve = ["serve", "--listen", endpoint, *kept]
-        begin = partial(Child, "the dialogue service", serve, company.warn)
-        service = stack.enter_context(Steady(begin))
-        recorder = _recorder(stack, company, endpoint)
-        drive = partial(Child, "the car", [*car, "--connect", endpoint], company.warn)
-        driven = stack.enter_context(SteadyCar(drive, speed, company.tell))
+        begin = partial(Child, "the dialogue service", serve, options.warn)
+        service = stack.enter_context(RestartedChild(begin))
+        recorder = _recorder(stack, options, endpoint)
+        drive = partial(Child, "the car", [*car, "--connect", endpoint], options.warn)
+        driven = stack.enter_context(VehicleSupervisor(drive, speed, options.tell))
         try:
             bus = stack.enter_context(_join(service, endpoint))
         except ChildFailed:
@@ -217,24 +217,24 @@ def _start(
             stack.callback(_let_go, bus, service)
             if recorder is not None:
                 _await(recorder.child, bus)
-            return Convoy(driven, service, bus, recorder, endpoint=endpoint)
+            return LocalBackend(driven, service, bus, recorder, endpoint=endpoint)
     raise AssertionError("the last attempt returns or raises")
 
 
-def _recorder(stack: ExitStack, company: Company, endpoint: str) -> Expendable | None:
-    if company.record is None:
+def _recorder(stack: ExitStack, options: LocalOptions, endpoint: str) -> OptionalChild | None:
+    if options.record is None:
         return None
-    record = ["record", str(company.record.absolute()), "--connect", endpoint]
-    record += ["--force"] if company.overwrite else []
-    child = stack.enter_context(Child("the recorder", record, company.warn))
-    return Expendable(child, company.tell)
+    record = ["record", str(options.record.absolute()), "--connect", endpoint]
+    record += ["--force"] if options.overwrite else []
+    child = stack.enter_context(Child("the recorder", record, options.warn))
+    return OptionalChild(child, options.tell)
 
 
 def _await(recorder: Child, bus: ZenohBus) -> None:
-    """Wait until the recorder is there, so that it misses nothing of the ride.
+    """Wait until the recorder is ready, so that it misses nothing of the ride.
 
     Raises:
-        ChildFailed: it does not come up.
+        ChildFailed: it did not start.
     """
     there = threading.Event()
     bus.watch(Keys().of("alive/recorder"), lambda _, alive: there.set() if alive else None)
@@ -245,7 +245,7 @@ def _await(recorder: Child, bus: ZenohBus) -> None:
             raise ChildFailed("the recorder does not come up")
 
 
-def _let_go(bus: ZenohBus, service: Steady) -> None:
+def _let_go(bus: ZenohBus, service: RestartedChild) -> None:
     """Close the connection; to a service that hangs that would take long, so it is killed."""
     closing = threading.Thread(target=bus.close, daemon=True)
     closing.start()
@@ -255,7 +255,7 @@ def _let_go(bus: ZenohBus, service: Steady) -> None:
         closing.join(BACK)
 
 
-def _join(service: Steady, endpoint: str) -> ZenohBus:
+def _join(service: RestartedChild, endpoint: str) -> ZenohBus:
     give_up = time.monotonic() + START_PATIENCE
     while True:
         try:

@@ -6,29 +6,35 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from xavi_dialogue.bus.interface import Bus, Keys
-from xavi_dialogue.chat.batch import Piped, Write, reached
+from xavi_dialogue.chat.batch import BatchChat, Write, reached
 from xavi_dialogue.chat.client import Client, OnEvent
-from xavi_dialogue.chat.history import Minutes
-from xavi_dialogue.chat.interactive import Typed, Unasked, talk, warner
-from xavi_dialogue.chat.local_backend import Company, Convoy, convoy, convoy_of, first_scene
+from xavi_dialogue.chat.history import SessionHistory
+from xavi_dialogue.chat.interactive import InputHistoryOptions, Notices, talk, warner
+from xavi_dialogue.chat.local_backend import (
+    LocalBackend,
+    LocalOptions,
+    first_scene,
+    start_local,
+    start_processes,
+)
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.security.client_token import Passenger
-from xavi_dialogue.storage.turn_log import Keeping
+from xavi_dialogue.storage.turn_log import Retention
 from xavi_dialogue.terminal.slash_commands import CommandError
 
 
 @dataclass(frozen=True)
-class Ride:
-    """What to drive, and as whom to talk."""
+class ChatOptions:
+    """The ride and the session of a chat."""
 
     scenario: str  # folder
     name: str  # of the scenario
     seed: int
     passenger: Passenger
-    keeping: Keeping | None = None  # of what is said; None: it is not kept
-    resume: float | None = None  # [s] how far to drive before anything is asked
+    keeping: Retention | None = None  # where turns are stored; None: nowhere
+    resume: float | None = None  # [s] how far to drive before the first question
     record: Path | None = None  # file that the ride is recorded in
-    overwrite: bool = False  # where that is there already
+    overwrite: bool = False  # an existing file
     played: tuple[str, ...] = ()  # arguments of `xavi` that play a recording of it
 
     @property
@@ -40,15 +46,21 @@ class Ride:
 
 
 def through_pipe(
-    ride: Ride, lines: Iterable[str], write: Write, note: Write, *, speed: float, as_json: bool
+    ride: ChatOptions,
+    lines: Iterable[str],
+    write: Write,
+    note: Write,
+    *,
+    speed: float,
+    as_json: bool,
 ) -> None:
     """Drive to the first moment worth asking about, then answer line by line.
 
     Args:
-        ride: what to drive.
+        ride: the ride and the session.
         lines: questions; "@ 8.0s" moves time, "/quit" ends, "/help" lists the other commands.
         write: takes answers.
-        note: takes notes on what goes on.
+        note: takes notes.
         speed: simulated seconds per second; 0 is as fast as possible.
         as_json: write replies as JSON.
 
@@ -57,60 +69,69 @@ def through_pipe(
         ServiceLost: a question was not answered.
     """
     note(f"playing {ride.name}" if ride.played else f"driving {ride.name}, seed {ride.seed}")
-    company = Company(ride.record, ride.overwrite, warner(note), note)
-    with behind_of(ride, speed, company) as behind:
-        client = client_of(ride.passenger, behind.bus, Keys())
-        scene = first_scene(behind, client)
-        with suppress(CommandError):  # there is no car any more, which has been told
-            scene = behind.drive(client, child_commands.Until(ride.resume), halt=True)
+    options = LocalOptions(ride.record, ride.overwrite, warner(note), note)
+    with start_backend(ride, speed, options) as backend:
+        client = client_of(ride.passenger, backend.bus, Keys())
+        scene = first_scene(backend, client)
+        with suppress(CommandError):  # the car has ended, which was reported
+            scene = backend.drive(client, child_commands.Until(ride.resume), halt=True)
         at = scene.sim_time if ride.resume is None else ride.resume
-        at = reached(scene, at) if behind.seeks else at
+        at = reached(scene, at) if backend.seeks else at
         note(f"asking at {at:.1f} s")
-        minutes = Minutes(client, ride.passenger.session, ride.header)
-        piped = Piped(behind, client, minutes, write, note, as_json, scene, at)
-        piped.seeks = behind.seeks
+        session_history = SessionHistory(client, ride.passenger.session, ride.header)
+        batch = BatchChat(backend, client, session_history, write, note, as_json, scene, at)
+        batch.seeks = backend.seeks
         for raw in lines:
-            if not piped.take(raw):
+            if not batch.take(raw):
                 return
 
 
-def at_terminal(ride: Ride, history: Path, note: Write, *, speed: float) -> None:
+def at_terminal(ride: ChatOptions, history: Path, note: Write, *, speed: float) -> None:
     """Talk at the process's terminal while the car drives.
 
     Args:
-        ride: what to drive.
-        history: file of what was typed.
+        ride: the ride and the session.
+        history: file of typed lines.
         note: takes notes before the conversation begins.
         speed: simulated seconds per second; 0 is as fast as possible.
 
     Raises:
         ChildFailed: a process did not start, or ended too often.
     """
-    unasked = Unasked(note)
-    company = Company(ride.record, ride.overwrite, unasked.warn, unasked.tell)
+    notices = Notices(note)
+    options = LocalOptions(ride.record, ride.overwrite, notices.warn, notices.tell)
     first = speed if ride.resume is None else 0.0
-    with behind_of(ride, first, company) as behind:
-        client = client_of(ride.passenger, behind.bus, Keys(), unasked.on_event)
-        minutes = Minutes(client, ride.passenger.session, ride.header)
-        typed = Typed(history, None if ride.keeping is None else ride.keeping.days)
-        talk(behind, client, minutes, typed, unasked, lambda: _begin(ride, behind, client, speed))
+    with start_backend(ride, first, options) as backend:
+        client = client_of(ride.passenger, backend.bus, Keys(), notices.on_event)
+        session_history = SessionHistory(client, ride.passenger.session, ride.header)
+        typed = InputHistoryOptions(history, None if ride.keeping is None else ride.keeping.days)
+        talk(
+            backend,
+            client,
+            session_history,
+            typed,
+            notices,
+            lambda: _begin(ride, backend, client, speed),
+        )
 
 
-def behind_of(ride: Ride, speed: float, company: Company) -> AbstractContextManager[Convoy]:
+def start_backend(
+    ride: ChatOptions, speed: float, options: LocalOptions
+) -> AbstractContextManager[LocalBackend]:
     """The processes behind a conversation about a ride.
 
     Args:
         ride: to drive, or to play.
-        speed: at which it begins.
-        company: what else there is.
+        speed: the initial pace.
+        options: recording and notes.
 
     Raises:
-        ChildFailed: one does not come up.
+        ChildFailed: a process did not start.
     """
     if ride.played:
         played = [*ride.played, "--speed", repr(speed)]
-        return convoy_of(played, speed, ride.keeping, company, seeks=True)
-    return convoy(ride.scenario, ride.seed, speed, ride.keeping, company)
+        return start_processes(played, speed, ride.keeping, options, seeks=True)
+    return start_local(ride.scenario, ride.seed, speed, ride.keeping, options)
 
 
 def client_of(
@@ -121,10 +142,10 @@ def client_of(
     return Client(bus, keys, passenger.session, on_event, token=token, share=share)
 
 
-def _begin(ride: Ride, behind: Convoy, client: Client, speed: float) -> None:
-    """Wait for the car, and have it drive to where the conversation goes on."""
-    first_scene(behind, client)
+def _begin(ride: ChatOptions, backend: LocalBackend, client: Client, speed: float) -> None:
+    """Wait for the car, and drive to the time at which the conversation resumes."""
+    first_scene(backend, client)
     if ride.resume is not None:
-        with suppress(CommandError):  # there is no car any more, which has been told
-            behind.drive(client, child_commands.Until(ride.resume), halt=True)
-            behind.order(child_commands.Speed(speed))
+        with suppress(CommandError):  # the car has ended, which was reported
+            backend.drive(client, child_commands.Until(ride.resume), halt=True)
+            backend.order(child_commands.Speed(speed))

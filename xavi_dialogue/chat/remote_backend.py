@@ -1,4 +1,4 @@
-"""Talking with a car and a service that others have started: nothing is started or stopped."""
+"""A chat with a car and a service that others started: starts and stops no process."""
 
 import threading
 import time
@@ -11,10 +11,10 @@ from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import MAX_TEXT, SceneReport
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.bus.zenoh_bus import ZenohBus, join
-from xavi_dialogue.chat.batch import Piped, Write
+from xavi_dialogue.chat.batch import BatchChat, Write
 from xavi_dialogue.chat.client import Client, OnEvent, ServiceLost
-from xavi_dialogue.chat.history import Minutes
-from xavi_dialogue.chat.interactive import Typed, Unasked, talk
+from xavi_dialogue.chat.history import SessionHistory
+from xavi_dialogue.chat.interactive import InputHistoryOptions, Notices, talk
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.process import child_commands
@@ -23,26 +23,26 @@ from xavi_dialogue.terminal.slash_commands import CommandError
 
 PATIENCE = 20.0  # [s] for a hub, a service and a car to talk with
 BRIEFLY = 5.0  # [s] the same for one question
-BACK = 15.0  # [s] for a service that was there to be there again
+BACK = 15.0  # [s] for a service to come back
 POLL = 0.1  # [s]
 NAMED = 10  # cars that are named at most
 DECLINED = "I only ride along here: whoever started the car sets its pace."
 GONE = "the car is not on the bus"
 
 
-class Missing(Exception):
-    """Somebody who is needed is not there."""
+class NotOnBus(Exception):
+    """A hub, service or car that is needed is not on the bus."""
 
 
 @dataclass
-class Cars:
+class NamesOnBus:
     """The cars on a bus."""
 
     names: dict[str, None] = field(default_factory=dict)
     lock: threading.Lock = field(default_factory=threading.Lock)
 
     def see(self, key: str, alive: bool) -> None:
-        """Take down that a car has come or gone."""
+        """Record that a car has come or gone."""
         name = vehicle_in(key)
         with self.lock:
             if name is not None and alive:
@@ -51,7 +51,7 @@ class Cars:
                 self.names.pop(name, None)
 
     def told(self) -> str:
-        """Who is there, in words."""
+        """List the cars in words."""
         with self.lock:
             names = sorted(self.names)
         if not names:
@@ -61,19 +61,19 @@ class Cars:
 
 
 @dataclass(frozen=True)
-class Along:
-    """Car and service of others; see Behind."""
+class RemoteBackend:
+    """Vehicle and service of others; see Backend."""
 
     bus: ZenohBus
     vehicle: str
-    cars: Cars
+    cars: NamesOnBus
     over: threading.Event = field(default_factory=threading.Event)
 
     def check(self) -> None:
-        """Nothing that is missing here ends the conversation: it may come back."""
+        """Do nothing: what is missing may come back, so the conversation goes on."""
 
     def recover(self, client: Client) -> bool:
-        """See Behind."""
+        """See Backend."""
         give_up = time.monotonic() + BACK
         while time.monotonic() < give_up and not self.over.wait(POLL):
             with suppress(ServiceLost):
@@ -82,30 +82,30 @@ class Along:
         return False
 
     def order(self, order: child_commands.Order) -> None:
-        """See Behind."""
+        """See Backend."""
         raise CommandError(DECLINED)
 
     def set_off(self) -> None:
-        """The ride is under way, or not, whoever is told of it."""
+        """Do nothing: the ride does not wait for this passenger."""
 
     def drive(
         self, client: Client, order: child_commands.Order, *, halt: bool = False
     ) -> SceneReport:
-        """See Behind."""
+        """See Backend."""
         raise CommandError(DECLINED)
 
     def now(self, client: Client) -> float | None:
-        """See Behind."""
+        """See Backend."""
         return client.now()
 
     def trouble(self) -> str:
-        """See Behind."""
+        """See Backend."""
         return "" if self.vehicle in self.cars.names else GONE
 
 
 @dataclass(frozen=True)
-class There:
-    """Whom to talk with."""
+class RemoteCar:
+    """A car on a bus."""
 
     link: Link
     vehicle: str
@@ -118,35 +118,37 @@ class There:
 
 @contextmanager
 def meet(
-    there: There, passenger: Passenger, patience: float, on_event: OnEvent | None = None
-) -> Iterator[tuple[Along, Client]]:
+    there: RemoteCar, passenger: Passenger, patience: float, on_event: OnEvent | None = None
+) -> Iterator[tuple[RemoteBackend, Client]]:
     """Join car and service, waiting for them; they go on when this is over.
 
     Args:
-        there: whom to talk with.
-        passenger: as whom.
+        there: the car.
+        passenger: whose session it is.
         patience: [s] to wait for each of hub, service and car.
-        on_event: gets what happens, on a thread.
+        on_event: gets events, on a thread.
 
     Raises:
         HubUnreachable: there is no hub.
         BadLink: the link's configuration cannot be used.
-        Missing: there is a hub, but no service, or no such car.
+        NotOnBus: there is a hub, but no service, or no such car.
     """
     with join(there.link, patience) as bus:
-        cars = Cars()
+        cars = NamesOnBus()
         bus.watch(EVERY_CAR.of("alive/car"), cars.see)
-        services = Cars()
+        services = NamesOnBus()
         bus.watch(EVERY_CAR.of("alive/service"), services.see)
         token, share = passenger.token, passenger.share
         keys = Keys(there.vehicle)
         client = Client(bus, keys, passenger.session, on_event, token=token, share=share)
         _wait_for_service(there, client, services, patience)
         _wait_for_car(there, client, cars, patience)
-        yield Along(bus, there.vehicle, cars), client
+        yield RemoteBackend(bus, there.vehicle, cars), client
 
 
-def _wait_for_service(there: There, client: Client, services: Cars, patience: float) -> None:
+def _wait_for_service(
+    there: RemoteCar, client: Client, services: NamesOnBus, patience: float
+) -> None:
     give_up = time.monotonic() + patience
     while True:
         try:
@@ -154,12 +156,12 @@ def _wait_for_service(there: There, client: Client, services: Cars, patience: fl
             return
         except ServiceLost as error:
             if time.monotonic() > give_up:
-                raise Missing(_silent(there, error, seen=bool(services.names))) from None
+                raise NotOnBus(_silent(there, error, seen=bool(services.names))) from None
         time.sleep(POLL)
 
 
-def _silent(there: There, error: ServiceLost, *, seen: bool) -> str:
-    """Why no service answers, as far as can be told: what is denied looks like nobody there."""
+def _silent(there: RemoteCar, error: ServiceLost, *, seen: bool) -> str:
+    """Explain why no service answers; a denied request looks like an absent service."""
     if not seen:
         return (
             "there is a hub, but no dialogue service that answers; start one with:"
@@ -170,18 +172,18 @@ def _silent(there: There, error: ServiceLost, *, seen: bool) -> str:
     return "the dialogue service is there, but does not answer"
 
 
-def _wait_for_car(there: There, client: Client, cars: Cars, patience: float) -> None:
+def _wait_for_car(there: RemoteCar, client: Client, cars: NamesOnBus, patience: float) -> None:
     give_up = time.monotonic() + patience
     while there.vehicle not in cars.names:
         if time.monotonic() > give_up:
-            raise Missing(f"there is no car {there.vehicle!r}; {cars.told()}")
+            raise NotOnBus(f"there is no car {there.vehicle!r}; {cars.told()}")
         time.sleep(POLL)
     if client.wait_for(lambda _: True, lambda: None, patience) is None:
-        raise Missing(f"the car {there.vehicle!r} is there, but says nothing")
+        raise NotOnBus(f"the car {there.vehicle!r} is there, but says nothing")
 
 
 def through_pipe(
-    there: There,
+    there: RemoteCar,
     passenger: Passenger,
     lines: Iterable[str],
     write: Write,
@@ -189,62 +191,66 @@ def through_pipe(
     *,
     as_json: bool,
 ) -> None:
-    """Answer line by line; a line such as "@ 8.0s" says what moment questions are about.
+    """Answer line by line; a line such as "@ 8.0s" sets the time that questions are about.
 
     Args:
-        there: whom to talk with.
-        passenger: as whom.
+        there: the car.
+        passenger: whose session it is.
         lines: questions and commands.
         write: takes answers.
-        note: takes notes on what goes on.
+        note: takes notes.
         as_json: write replies as JSON.
 
     Raises:
         BusError: see `meet`.
-        Missing: see `meet`.
+        NotOnBus: see `meet`.
         ServiceLost: a question was not answered.
     """
-    with meet(there, passenger, PATIENCE) as (along, client):
+    with meet(there, passenger, PATIENCE) as (backend, client):
         scene = client.scene
         assert scene is not None  # it was waited for
         note(f"riding along with {there.vehicle}")
-        minutes = Minutes(client, passenger.session, there.header)
-        piped = Piped(along, client, minutes, write, note, as_json, scene, None, live=True)
+        session_history = SessionHistory(client, passenger.session, there.header)
+        batch = BatchChat(
+            backend, client, session_history, write, note, as_json, scene, None, live=True
+        )
         for raw in lines:
-            if not piped.take(raw):
+            if not batch.take(raw):
                 return
 
 
-def at_terminal(there: There, passenger: Passenger, typed: Typed, note: Write) -> None:
+def at_terminal(
+    there: RemoteCar, passenger: Passenger, typed: InputHistoryOptions, note: Write
+) -> None:
     """Talk at the process's terminal while the car drives.
 
     Args:
-        there: whom to talk with.
-        passenger: as whom.
-        typed: what is kept of what is typed.
+        there: the car.
+        passenger: whose session it is.
+        typed: whether and how long typed lines are stored.
         note: takes notes before the conversation begins.
 
     Raises:
         BusError: see `meet`.
-        Missing: see `meet`.
+        NotOnBus: see `meet`.
     """
-    unasked = Unasked(note)
-    with meet(there, passenger, PATIENCE, unasked.on_event) as (along, client):
+    notices = Notices(note)
+    with meet(there, passenger, PATIENCE, notices.on_event) as (backend, client):
         note(f"riding along with {there.vehicle}")
-        minutes = Minutes(client, passenger.session, there.header)
-        talk(along, client, minutes, typed, unasked, lambda: None)
+        session_history = SessionHistory(client, passenger.session, there.header)
+        talk(backend, client, session_history, typed, notices, lambda: None)
 
 
 def ask_there(
-    there: There, passenger: Passenger, text: str, at: float | None, style: Style
+    there: RemoteCar, passenger: Passenger, text: str, at: float | None, style: Style
 ) -> Reply:
-    """The reply to one question; where nobody can answer, that the planner is not available.
+    """Reply to one question; if there is no answer, refuse: the planner is not available.
 
     Args:
-        there: whom to ask.
-        passenger: as whom.
+        there: the car.
+        passenger: whose session it is.
         text: the question.
-        at: [s] what moment it is about; None: now.
+        at: [s] the time it is about; None: now.
         style: of the answer.
 
     Raises:
@@ -253,7 +259,7 @@ def ask_there(
     try:
         with meet(there, passenger, BRIEFLY) as (_, client):
             return client.ask(one_line(text)[:MAX_TEXT], at, style)
-    except (HubUnreachable, Missing, ServiceLost) as error:
+    except (HubUnreachable, NotOnBus, ServiceLost) as error:
         return Reply(
             text=f"({error})",
             kind="refusal",

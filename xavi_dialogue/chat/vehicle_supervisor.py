@@ -1,4 +1,4 @@
-"""The car of a chat: where its program ends, the same ride is driven again to where it was.
+"""Restarts the vehicle process of a chat and drives the same ride to where it was.
 
 Scenario and seed determine a ride, so what was said of it still holds. A thread watches over the
 program, starts it anew, has it drive to the moment that was reached as fast as it can, and then
@@ -17,9 +17,9 @@ from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.subprocesses import Child, ChildFailed
 from xavi_dialogue.terminal.slash_commands import CommandError
 
-SPARE = 3  # times that it is started anew
-POLL = 0.2  # [s] between looks at whether it is there
-PATIENCE = 90.0  # [s] without a scene, after which a car that is started anew is given up
+SPARE = 3  # restarts
+POLL = 0.2  # [s] between checks of the process
+PATIENCE = 90.0  # [s] without a scene after which a restarted car is given up
 AGAIN = "The car's program ended and is started again; the ride goes on."
 NO_MORE = "The ride cannot go on, but you can still ask about it."
 STARTING = "the car's program is started again"
@@ -27,13 +27,13 @@ STANDING = "the ride cannot go on; ask on"
 
 
 @dataclass(frozen=True, slots=True)
-class _Wish:
-    """How the passenger wants the ride to go on."""
+class _WantedPace:
+    """How the passenger wants the ride to continue."""
 
     speed: float  # simulated seconds per second; 0 is as fast as possible
     motion: child_commands.Order
 
-    def after(self, order: child_commands.Order) -> "_Wish":
+    def after(self, order: child_commands.Order) -> "_WantedPace":
         match order:
             case child_commands.Speed(factor):
                 return replace(self, speed=factor)
@@ -45,8 +45,8 @@ class _Over(Exception):
     """The chat is over."""
 
 
-class SteadyCar:
-    """A car that is started anew when its program has ended; its methods may be called anywhere."""
+class VehicleSupervisor:
+    """A vehicle process that is restarted when it ends; its methods are thread-safe."""
 
     def __init__(
         self, start: Callable[[], Child], speed: float, tell: Callable[[str], None]
@@ -56,20 +56,20 @@ class SteadyCar:
         Args:
             start: starts it; it waits for orders.
             speed: at which it is started.
-            tell: gets what the passenger should know, on a thread.
+            tell: gets notes for the passenger, on a thread.
         """
         self._start, self._child, self._tell = start, start(), tell
-        self._wish = _Wish(speed, child_commands.Pause())
+        self._wish = _WantedPace(speed, child_commands.Pause())
         self._lock = threading.Lock()  # of all that follows
         self._ready = True  # orders go to the program; else they are remembered
-        self._reached: float | None = None  # [s] where the ride has to get to again
+        self._reached: float | None = None  # [s] time that the ride has to reach again
         self._before: str | None = None  # name of the ride that broke off
-        self._lost: str | None = None  # why there is no car any more
+        self._lost: str | None = None  # why the car has ended for good
         self._over = threading.Event()
         self._keeper: threading.Thread | None = None
 
     def follow(self, client: Client) -> None:
-        """From now on, start it anew when it has ended.
+        """Begin to restart the process when it ends.
 
         Args:
             client: has seen the car's first scene.
@@ -81,7 +81,7 @@ class SteadyCar:
             self._keeper.start()
 
     def check(self) -> None:
-        """Make sure that it is there, as long as nobody sees to it.
+        """Check that it runs, before `follow` was called.
 
         Raises:
             ChildFailed: it has ended.
@@ -90,20 +90,20 @@ class SteadyCar:
             self._child.check()
 
     def hope(self) -> None:
-        """Make sure that it is there, or will be.
+        """Check that it runs or is being restarted.
 
         Raises:
-            CommandError: there will be no car any more.
+            CommandError: it has ended for good.
         """
         if self._lost is not None:
             raise CommandError(self._lost)
 
     def order(self, order: child_commands.Order) -> None:
-        """Give an order: now, or as soon as the car is where it was.
+        """Send a command: now, or as soon as the car is back where it was.
 
         Raises:
-            ChildFailed: it has ended, and nobody starts it anew.
-            CommandError: there is no car any more.
+            ChildFailed: it has ended and is not restarted.
+            CommandError: it has ended for good.
         """
         self.hope()
         with self._lock:
@@ -118,13 +118,13 @@ class SteadyCar:
                     raise
 
     def obeyed(self, scene: SceneReport) -> bool:
-        """Whether all orders have been obeyed in a scene."""
+        """Check whether a scene shows that all commands were carried out."""
         with self._lock:
             known = self._ready and scene.ride != self._before
             return known and scene.orders >= self._child.ordered
 
     def now(self, told: float | None) -> float | None:
-        """The moment [s] that the passenger has in mind, who has been told up to `told` [s]."""
+        """Return the time [s] that a question is about, if scenes were seen up to `told` [s]."""
         with self._lock:
             catching_up = not self._ready and self._lost is None
             if not catching_up or self._reached is None:
@@ -133,11 +133,11 @@ class SteadyCar:
 
     @property
     def catching_up(self) -> bool:
-        """Whether it is being started anew."""
+        """Whether it is being restarted."""
         return not self._ready and self._lost is None
 
     def trouble(self) -> str:
-        """See Behind."""
+        """See Backend."""
         if self._lost is not None:
             return STANDING
         return STARTING if self.catching_up else ""
@@ -176,10 +176,10 @@ class SteadyCar:
                 self._child = child
 
     def _catch_up(self, client: Client) -> None:
-        """Have the ride driven to where it was, and then on as the passenger wishes.
+        """Drive to where the ride was, and then on as the passenger wishes.
 
         Raises:
-            ChildFailed: the car has ended again, or says nothing.
+            ChildFailed: the car has ended again, or is silent.
         """
         child = self._child
         child.order(child_commands.Speed(0.0))
@@ -221,5 +221,5 @@ class SteadyCar:
         if self._keeper is not None:
             self._keeper.join()
         if self._keeper is None or not self._ready:
-            self._child.kill()  # it is coming up, and hears nothing yet
+            self._child.kill()  # it is starting and cannot read yet
         self._child.stop()

@@ -9,7 +9,7 @@ from xavi_dialogue.bus.messages import MAX_TEXT
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.nlg.context import Style
-from xavi_dialogue.service.in_process import Conversation, drive_to, make_mind, planner_for
+from xavi_dialogue.service.in_process import Conversation, drive_to, make_pipeline, planner_for
 from xavi_dialogue.vehicle.episode import network_of, start
 
 
@@ -22,7 +22,7 @@ def ask_once(
         scenario: to drive.
         seed: of the ride.
         text: the question.
-        until: [s] when it is asked; None stands for the end of the first lane change or turn.
+        until: [s] time of the question; None stands for the end of the first lane change or turn.
         style: of the answer.
 
     Raises:
@@ -30,7 +30,7 @@ def ask_once(
         DriverError: the car cannot be driven on.
     """
     network = network_of(scenario)
-    conversation = Conversation(make_mind(), planner_for(network))
+    conversation = Conversation(make_pipeline(), planner_for(network))
     with start(scenario, seed, network) as ride:
         at = drive_to(ride, conversation, until)
     began = time.perf_counter()

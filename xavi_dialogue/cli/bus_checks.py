@@ -1,4 +1,4 @@
-"""`xavi doctor`: what is wrong with this machine or the bus, and what to do about it."""
+"""The checks of `xavi doctor` on the bus."""
 
 import threading
 import time
@@ -8,20 +8,20 @@ from pathlib import Path
 from textwrap import TextWrapper
 
 from xavi_dialogue import __version__
-from xavi_dialogue.bus.certificates import BadCertificate, Shown, read
+from xavi_dialogue.bus.certificates import BadCertificate, CertificateInfo, read
 from xavi_dialogue.bus.interface import EVERY_CAR, Bus, BusError, call, vehicle_in
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import AliveReport, MessageError, unpack
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.bus.zenoh_bus import join
-from xavi_dialogue.cli.host_checks import Finding, Patient, on_this_machine, taken
+from xavi_dialogue.cli.host_checks import CheckedSystem, Finding, on_this_machine, taken
 
-SETTLED = 0.5  # [s] within which all who are alive are heard of
+SETTLED = 0.5  # [s] to find all components
 HUB_PATIENCE = 2.0  # [s]
-PATIENCE = 2.0  # [s] for somebody's report
+PATIENCE = 2.0  # [s] for a report
 APART = 1.0  # [s] that clocks may differ
 SOON = timedelta(days=30)
-MAX_SEEN = 100  # who are asked how they fare
+MAX_SEEN = 100  # components that are asked for their health
 TROUBLE = ("rejected", "busy", "foreign", "dropped", "reports_dropped")  # counters best at 0
 WIDTH = 80  # columns
 NAMES = 28  # columns
@@ -29,12 +29,12 @@ NAMES = 28  # columns
 SIGNS = {"ok": "ok", "warning": "warning", "fault": "FAULT"}
 
 
-def examine(patient: Patient, link: Link | None, now: datetime) -> Iterator[Finding]:
+def examine(patient: CheckedSystem, link: Link | None, now: datetime) -> Iterator[Finding]:
     """Do all checks, in a fixed order.
 
     Args:
         patient: this machine.
-        link: to a hub; None: nobody on a bus is asked.
+        link: to a hub; None: check this machine only.
         now: with a zone.
     """
     yield from on_this_machine(patient)
@@ -47,7 +47,7 @@ def examine(patient: Patient, link: Link | None, now: datetime) -> Iterator[Find
 
 
 def port(endpoint: str) -> Finding:
-    """Whether `xavi serve` finds its endpoint free, or is there already."""
+    """Check whether the endpoint of `xavi serve` is free, or already served."""
     if not taken(endpoint):
         return Finding("port", "ok", f"{endpoint} is free")
     try:
@@ -63,8 +63,8 @@ def port(endpoint: str) -> Finding:
 
 
 def keys(folder: Path, now: datetime) -> Finding:
-    """The certificates in a folder such as `xavi keys` makes."""
-    shown: list[tuple[str, Shown]] = []
+    """Check the certificates in a folder of `xavi keys`."""
+    shown: list[tuple[str, CertificateInfo]] = []
     try:
         for path in sorted(folder.glob("*.pem")):
             shown.append((path.name, read(path.read_bytes())))
@@ -89,7 +89,7 @@ def keys(folder: Path, now: datetime) -> Finding:
 
 
 def on_the_bus(link: Link) -> Iterator[Finding]:
-    """Who is there, and how they fare."""
+    """Check which components are present, and their health."""
     try:
         bus = join(link, HUB_PATIENCE)
     except BusError as error:
@@ -105,7 +105,7 @@ def on_the_bus(link: Link) -> Iterator[Finding]:
 
 
 def alive(bus: Bus) -> list[str]:
-    """The keys of all who show that they are alive, sorted."""
+    """Return the keys of all components that are alive, sorted."""
     seen: dict[str, bool] = {}
     bus.watch(EVERY_CAR.of("alive/*"), seen.__setitem__)
     threading.Event().wait(SETTLED)
@@ -113,7 +113,7 @@ def alive(bus: Bus) -> list[str]:
 
 
 def roster(present: Iterable[str]) -> Finding:
-    """Which cars there are, and whether each has a service."""
+    """Check which cars there are, and whether each has a service."""
     by_car: dict[str, list[str]] = {}
     for key in present:
         by_car.setdefault(str(vehicle_in(key)), []).append(key.rpartition("/")[2])
@@ -130,7 +130,7 @@ def roster(present: Iterable[str]) -> Finding:
 
 
 def component(bus: Bus, key: str) -> Finding:
-    """How one fares: its version, its clock, and what it has counted."""
+    """Check one component: its version, its clock, and its counters."""
     name = f"{vehicle_in(key)}/{key.rpartition('/')[2]}"
     asked = time.time()
     try:

@@ -1,4 +1,4 @@
-"""What can go wrong, by whose fault: messages and exit statuses of the command line."""
+"""Errors of the command line: messages and exit statuses."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ from xavi_dialogue.bus.certificates import CertificateError
 from xavi_dialogue.bus.interface import BadLink, BusError
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.chat.client import ServiceLost
-from xavi_dialogue.chat.remote_backend import Missing
+from xavi_dialogue.chat.remote_backend import NotOnBus
 from xavi_dialogue.cli.parse import ParseUsageError
 from xavi_dialogue.cli.session_admin import SessionUsageError
 from xavi_dialogue.dashboard.web import MISSING
@@ -53,23 +53,23 @@ _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
         ),
         ExitStatus.FAILED,
     ),
-    ((Missing,), ExitStatus.PLANNER_UNAVAILABLE),
+    ((NotOnBus,), ExitStatus.PLANNER_UNAVAILABLE),
 )
 
 
 @dataclass(frozen=True)
-class Known:
+class ReportedError:
     """An error that is reported in one line."""
 
     message: str
     status: ExitStatus
 
 
-def failure(error: Exception) -> Known | None:
-    """How to tell an error; None for a fault of our own, which deserves its traceback."""
+def failure(error: Exception) -> ReportedError | None:
+    """Return how to report an error; None for an internal error, which needs its traceback."""
     if isinstance(error, ImportError) and str(error) == MISSING:
-        return Known(MISSING, ExitStatus.FAILED)
+        return ReportedError(MISSING, ExitStatus.FAILED)
     for kinds, status in _STATUSES:
         if isinstance(error, kinds):
-            return Known(one_line(str(error)), status)
+            return ReportedError(one_line(str(error)), status)
     return None

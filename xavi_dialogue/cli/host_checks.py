@@ -1,4 +1,4 @@
-"""What `xavi doctor` looks at on this machine; what is on the bus is in `doctor`."""
+"""The checks of `xavi doctor` on this machine; those on the bus are in `bus_checks`."""
 
 import importlib.metadata
 import os
@@ -26,38 +26,38 @@ Verdict: TypeAlias = Literal["ok", "warning", "fault"]
 
 OURS = "xavi-dialogue"
 PYTHON = (3, 11)
-LITTLE = 1000  # [MB] of space below which it may run out within days
+LITTLE = 1000  # [MB] of free space below which it may run out within days
 TOO_LITTLE = 50  # [MB]
 FEW_FILES = 1024  # descriptors, of which a hub needs one for every program linked to it
 TOO_FEW_FILES = 128
-PATIENCE = 0.05  # [s] at every attempt to open the store, of which there are many
+PATIENCE = 0.05  # [s] for each attempt to open the store, of which there are many
 NARROW = 40  # columns
 REQUIRED = re.compile(r"([A-Za-z0-9._-]+)\s*(?:>=\s*([0-9.]+))?")
 
 
 class Finding(msgspec.Struct, frozen=True):
-    """What came of one check."""
+    """The result of one check."""
 
     check: str
     verdict: Verdict
     found: str
-    advice: str = ""  # what to do about it
+    advice: str = ""  # how to solve the problem
 
 
 @dataclass(frozen=True)
-class Patient:
-    """What is looked at."""
+class CheckedSystem:
+    """What is checked."""
 
-    store: Path  # the file of what is kept
+    store: Path  # the file of conversations
     settings: Path  # the file of settings
     mistake: str | None = None  # in the settings
-    endpoint: str = DEFAULT_ENDPOINT  # where `xavi serve` listens
+    endpoint: str = DEFAULT_ENDPOINT  # the endpoint of `xavi serve`
 
 
-Check: TypeAlias = Callable[[Patient], Finding]
+Check: TypeAlias = Callable[[CheckedSystem], Finding]
 
 
-def python(_: Patient) -> Finding:
+def python(_: CheckedSystem) -> Finding:
     """The interpreter."""
     found = f"{sys.version.split()[0]} at {sys.executable}"
     if sys.version_info < PYTHON:
@@ -65,7 +65,7 @@ def python(_: Patient) -> Finding:
     return Finding("python", "ok", found)
 
 
-def packages(_: Patient) -> Finding:
+def packages(_: CheckedSystem) -> Finding:
     """The packages that this program requires, extras left out."""
     try:
         lines = importlib.metadata.requires(OURS) or []
@@ -80,7 +80,7 @@ def packages(_: Patient) -> Finding:
 
 
 def _lacking(requirement: str) -> str | None:
-    """What is wrong with a required package."""
+    """Check a required package."""
     match = REQUIRED.match(requirement)
     assert match is not None, requirement
     name, least = match.groups()
@@ -101,7 +101,7 @@ def _numbers(version: str) -> tuple[int, ...]:
     return tuple(numbers)
 
 
-def simulation(_: Patient) -> Finding:
+def simulation(_: CheckedSystem) -> Finding:
     """SUMO, as a library."""
     try:
         return Finding("sumo", "ok", engine.version())
@@ -110,8 +110,8 @@ def simulation(_: Patient) -> Finding:
         return Finding("sumo", "fault", found, f"run: {advice}")
 
 
-def maps(_: Patient) -> Finding:
-    """What converts maps; only those who bring some need it."""
+def maps(_: CheckedSystem) -> Finding:
+    """Check the converter of maps, which only some users need."""
     try:
         return Finding("netconvert", "ok", netconvert.program())
     except netconvert.NetconvertMissing as error:
@@ -119,7 +119,7 @@ def maps(_: Patient) -> Finding:
         return Finding("netconvert", "ok", "not installed; only maps of your own need it", advice)
 
 
-def compiled(_: Patient) -> Finding:
+def compiled(_: CheckedSystem) -> Finding:
     """The planner's compiled kernels."""
     place = kernel_cache.place()
     if place is None or place.name.startswith(kernel_cache.LENT):
@@ -133,8 +133,8 @@ def compiled(_: Patient) -> Finding:
     return Finding("kernels", "ok", f"compiled, in {place}")
 
 
-def folders(_: Patient) -> Finding:
-    """The user's folders: those that there are can be written, the others be made."""
+def folders(_: CheckedSystem) -> Finding:
+    """Check the user's folders: existing ones can be written, others created."""
     every = [find(OURS) for find in (user_data_path, user_state_path, user_cache_path)]
     shut = [str(folder) for folder in every if not kernel_cache.writable(folder)]
     if shut:
@@ -143,8 +143,8 @@ def folders(_: Patient) -> Finding:
     return Finding("folders", "ok", f"can be written: {', '.join(map(str, every))}")
 
 
-def store(patient: Patient) -> Finding:
-    """The file of what is kept."""
+def store(patient: CheckedSystem) -> Finding:
+    """Check the file of conversations."""
     path = patient.store
     if not path.exists():
         if kernel_cache.writable(path.parent):
@@ -161,8 +161,8 @@ def store(patient: Patient) -> Finding:
     return Finding("store", "ok", f"{path}: version {VERSION}, conversations: {sessions}")
 
 
-def space(patient: Patient) -> Finding:
-    """What is left on the disk with what is kept."""
+def space(patient: CheckedSystem) -> Finding:
+    """Check the free space on the disk of conversations."""
     folder = next(one for one in patient.store.absolute().parents if one.exists())
     try:
         free = shutil.disk_usage(folder).free // 10**6
@@ -175,8 +175,8 @@ def space(patient: Patient) -> Finding:
     return Finding("space", "fault" if free < TOO_LITTLE else "warning", found, advice)
 
 
-def files(_: Patient) -> Finding:
-    """How many files and connections a process may have."""
+def files(_: CheckedSystem) -> Finding:
+    """Check how many files and connections a process may open."""
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     found = f"{_count(soft)} may be open at once, {_count(hard)} if asked for"
     if soft == resource.RLIM_INFINITY or soft >= FEW_FILES:
@@ -189,8 +189,8 @@ def _count(limit: int) -> str:
     return "any number" if limit == resource.RLIM_INFINITY else str(limit)
 
 
-def terminal(_: Patient) -> Finding:
-    """Where the conversation would be shown."""
+def terminal(_: CheckedSystem) -> Finding:
+    """Check the terminal."""
     encoding = (sys.stdout.encoding or "none").lower()
     if encoding.replace("-", "") != "utf8":
         return Finding("terminal", "warning", f"encoding {encoding}", "run: export LC_ALL=C.UTF-8")
@@ -203,7 +203,7 @@ def terminal(_: Patient) -> Finding:
     return Finding("terminal", "ok", found)
 
 
-def settings(patient: Patient) -> Finding:
+def settings(patient: CheckedSystem) -> Finding:
     """The file of settings."""
     if patient.mistake is not None:
         return Finding("settings", "fault", patient.mistake, f"mend or remove {patient.settings}")
@@ -214,10 +214,10 @@ def settings(patient: Patient) -> Finding:
 
 
 def taken(endpoint: str) -> bool:
-    """Whether somebody listens at an endpoint of this machine such as tcp/127.0.0.1:7447."""
+    """Check whether a process listens on an endpoint of this machine such as tcp/127.0.0.1:7447."""
     host, _, port = endpoint.partition("/")[2].rpartition(":")
     with socket.socket() as trial:
-        trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # as those who listen do
+        trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # as other listeners do
         try:
             trial.bind((host, int(port)))
             trial.listen()
@@ -232,10 +232,10 @@ CHECKS: tuple[Check, ...] = (
 )
 
 
-def on_this_machine(patient: Patient) -> Iterator[Finding]:
+def on_this_machine(patient: CheckedSystem) -> Iterator[Finding]:
     """Do all checks of this machine, in their order; one that breaks off is itself a fault."""
     for check in CHECKS:
         try:
             yield check(patient)
-        except Exception as error:  # the others are still to be done
+        except Exception as error:  # other checks are still to be done
             yield Finding(check.__name__, "fault", f"cannot be checked: {error!r}")

@@ -12,7 +12,7 @@ def write(scenario: Scenario, folder: Path) -> Path:
 
     Args:
         scenario: as it was loaded from a configuration.
-        folder: is made where there is none.
+        folder: is created if missing.
 
     Returns:
         The file written.
@@ -60,5 +60,5 @@ def _text(scenario: Scenario, source: FromConfiguration, folder: Path) -> str:
 
 
 def _quoted(text: str) -> str:
-    """A text as a basic string of TOML, whose escapes are those of JSON."""
+    """Format a text as a basic string of TOML, whose escapes are those of JSON."""
     return json.dumps(text, ensure_ascii=False)

@@ -1,4 +1,4 @@
-"""`xavi parse`: what a question means."""
+"""`xavi parse`: shows what a question means."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
@@ -37,20 +37,20 @@ def vehicle_names(text: str) -> frozenset[int]:
 
 
 class Meaning(msgspec.Struct, frozen=True, omit_defaults=True):
-    """What a question means, as `xavi parse --json` prints it."""
+    """The meaning of a question, as `xavi parse --json` prints it."""
 
     text: str
     query: QueryFields  # of the first act
     acts: tuple[Act, ...]
     unknown: tuple[str, ...]  # words without a part in it
-    strangers: tuple[int, ...]  # vehicles that there are not
-    readings: tuple[Reading, ...] = ()  # likeliest first, with what each word contributes
+    strangers: tuple[int, ...]  # unknown vehicles
+    readings: tuple[Reading, ...] = ()  # likeliest first, with the share of each word
 
 
 def parse_text(
     text: str, vehicles: frozenset[int], *, explain: bool, as_json: bool
 ) -> tuple[str, bool]:
-    """Return what a question means, for people or as JSON, and whether it was understood."""
+    """Return the meaning of a question as text or JSON, and whether it was understood."""
     typed = one_line(text)
     readings = interpret(typed)
     best = readings[0]
@@ -82,12 +82,12 @@ def parse_lines(
     A line that is none is noted, and the others are answered all the same.
 
     Args:
-        lines: the question lines, with the earlier turns in `context` where there are any.
-        vehicles: names of the vehicles there are; a question about another is noted.
+        lines: the question lines, with the earlier turns in `context` if there are any.
+        vehicles: names of the vehicles; a question about another is noted.
         note: takes notes.
 
     Raises:
-        ParseUsageError: at the end, where some lines were none.
+        ParseUsageError: at the end, if some lines were invalid.
     """
     parser = Parser()
     broken = count = 0
@@ -122,7 +122,7 @@ def _strangers(acts: tuple[Act, ...], vehicles: frozenset[int]) -> tuple[int, ..
 
 
 def _lines(meaning: Meaning) -> str:
-    """Write what a question means, then its fields that say something, a line each."""
+    """Format the meaning of a question, then its fields, a line each."""
     lines = [_shares(reading.shares) for reading in meaning.readings[:1]]
     lines += [f"{'reading':20} {reading_line(reading)}" for reading in meaning.readings]
     lines.append(f"{'meaning':20} {acts_line(meaning.acts) if meaning.acts else 'not understood'}")
@@ -137,7 +137,7 @@ def _word(value: object) -> str:
 
 
 def _shares(shares: tuple[TokenShare, ...]) -> str:
-    """Write what each word contributes, a line each."""
+    """Format the share of each word, a line each."""
     return "\n".join(
         f"{share.text:20} {share.share:10} {share.read:20} {share.part}".rstrip()
         for share in shares

@@ -1,4 +1,4 @@
-"""The commands `xavi sessions` and `xavi forget`: what is kept of conversations, and erasing it."""
+"""The commands `xavi sessions` and `xavi forget`: list, export and erase conversations."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import nullcontext
@@ -19,29 +19,29 @@ HEAD = ("session", "turns", "last spoken in", "ride", "the last question")
 
 
 class SessionUsageError(ValueError):
-    """What is asked of the kept conversations makes no sense."""
+    """The options do not fit together, or name no session."""
 
 
-class Typed(Protocol):
-    """What was typed at the terminal."""
+class InputHistoryFile(Protocol):
+    """The lines typed at the terminal."""
 
     def sessions(self) -> frozenset[str]:
         """In which something was typed."""
 
     def erase(self, session: str | None, before: float | None) -> None:
-        """Erase what was typed in a session, or all, before a wall time [s], or ever."""
+        """Erase typed lines of a session, or of all, before a wall time [s], or all."""
 
 
 @dataclass(frozen=True)
-class Wanted:
-    """What is to be forgotten."""
+class ForgetOptions:
+    """Which sessions to erase."""
 
     session: str | None
     everything: bool = False
     older_than: float | None = None  # [days]
 
     def check(self) -> None:
-        """Make sure that it is clear what goes.
+        """Check that it is clear what to erase.
 
         Raises:
             SessionUsageError: it is not.
@@ -52,7 +52,7 @@ class Wanted:
             raise SessionUsageError("name a session, or give --all, or --older-than DAYS")
 
     def words(self) -> str:
-        """What goes, in words."""
+        """Describe what will be erased."""
         whose = "all conversations" if self.session is None else f"conversation {self.session}"
         if self.older_than is None:
             return whose
@@ -60,11 +60,11 @@ class Wanted:
 
 
 def kept(path: Path, name: str | None) -> tuple[Summary, ...]:
-    """The session of that name, or all; none where there is no file.
+    """List the session of that name, or all; none without a file.
 
     Raises:
         StoreError: the file cannot be read.
-        SessionUsageError: there is none of that name; with the list of those there are.
+        SessionUsageError: there is no such session; the message lists those there are.
     """
     if path.exists():
         with Store(path) as store:
@@ -80,7 +80,7 @@ def export(path: Path, name: str | None) -> Iterator[str]:
 
     Raises:
         StoreError: the file cannot be read.
-        SessionUsageError: there is none of that name.
+        SessionUsageError: there is no such session.
     """
     if path.exists():
         with Store(path) as store:
@@ -107,23 +107,23 @@ def table(sessions: Sequence[Summary], zone: Callable[[float], datetime]) -> str
 
 def forget(
     path: Path,
-    wanted: Wanted,
+    wanted: ForgetOptions,
     now: float,
     agreed: Callable[[str], bool],
-    typed: Typed,
+    typed: InputHistoryFile,
 ) -> str:
-    """Erase, and say how much; nothing where that is not agreed to.
+    """Erase sessions, and say how many; nothing without the user's consent.
 
     Args:
         path: the file.
-        wanted: what goes.
+        wanted: what to erase.
         now: wall time [s].
-        agreed: asks whether to erase what is described in words.
-        typed: what was typed, of which the same goes.
+        agreed: asks the user whether to erase.
+        typed: the typed lines, of which the same are erased.
 
     Raises:
         StoreError: it cannot be erased.
-        SessionUsageError: it is not clear what goes, or there is no such session.
+        SessionUsageError: it is not clear what to erase, or there is no such session.
     """
     wanted.check()
     with Store(path) if path.exists() else nullcontext() as store:
@@ -139,12 +139,12 @@ def forget(
     return f"{erased} turn{' was' if erased == 1 else 's were'} erased."
 
 
-def _know(session: str, store: Store | None, typed: Typed) -> None:
-    """Make sure that there is something of a session, or that nothing of it is left.
+def _know(session: str, store: Store | None, typed: InputHistoryFile) -> None:
+    """Check that a session is stored, or that nothing of it is left.
 
     Raises:
-        SessionUsageError: there is nothing; with the list of those there are.
-        StoreError: the file cannot be read, or what was erased is still in it.
+        SessionUsageError: it is not stored; the message lists those that are.
+        StoreError: the file cannot be read, or erased data is still in it.
     """
     if session in typed.sessions():
         return
@@ -156,17 +156,17 @@ def _know(session: str, store: Store | None, typed: Typed) -> None:
 
 
 def _check(name: str | None, store: Store) -> None:
-    """Make sure that there is a session of that name, if any.
+    """Check that there is a session of that name, if any.
 
     Raises:
-        SessionUsageError: there is none; with the list of those there are.
+        SessionUsageError: there is none; the message lists those there are.
         StoreError: the file cannot be read.
     """
     if name is not None and not store.holds(name):
         raise _unknown(name, store.names())
 
 
-def _erase(typed: Typed, session: str | None, before: float | None) -> None:
+def _erase(typed: InputHistoryFile, session: str | None, before: float | None) -> None:
     try:
         typed.erase(session, before)
     except OSError as error:

@@ -1,4 +1,4 @@
-"""What a dashboard asks others on the bus for, awaited on its event loop."""
+"""Requests of a dashboard over the bus, awaited on its event loop."""
 
 import asyncio
 from dataclasses import dataclass
@@ -15,28 +15,28 @@ from xavi_dialogue.bus.messages import (
     unpack,
 )
 from xavi_dialogue.chat.client import PATIENCE, new_request
-from xavi_dialogue.dashboard.web.interfaces import Audience
+from xavi_dialogue.dashboard.web.interfaces import Browsers
 from xavi_dialogue.security.client_token import Passenger
 
 
 class Unanswered(Exception):
-    """There is no answer, or none that can be read."""
+    """There is no answer, or it cannot be read."""
 
 
 @dataclass(frozen=True)
-class Asking:
+class BusClient:
     """Requests about one car, as one passenger."""
 
     bus: Bus
     keys: Keys
-    audience: Audience  # on whose event loop is waited
+    clients: Browsers  # with the event loop on which requests are awaited
     passenger: Passenger
 
     async def history(self, turns: int) -> HistoryReply:
         """The latest so many turns.
 
         Raises:
-            Unanswered: they cannot be had.
+            Unanswered: there is no answer.
         """
         session, token = self.passenger.session, self.passenger.token
         wanted = HistoryRequest(session=session, token=token, turns=turns)
@@ -49,7 +49,7 @@ class Asking:
         """A decision of the present ride, or one planned again.
 
         Raises:
-            Unanswered: it cannot be had, or is not known any more.
+            Unanswered: there is no answer, or the decision is no longer known.
         """
         wanted = EvidenceRequest(request=new_request(), trace_id=trace_id)
         try:
@@ -58,7 +58,7 @@ class Asking:
             raise Unanswered(str(error)) from error
 
     async def request(self, tail: str, payload: bytes, patience: float = PATIENCE) -> bytes:
-        """What is replied to a request to a key of the car, within `patience` [s].
+        """Return the reply to a request to a key of the car, within `patience` [s].
 
         Raises:
             Unanswered: nothing is.
@@ -66,10 +66,10 @@ class Asking:
         waiting: asyncio.Future[Outcome] = asyncio.get_running_loop().create_future()
 
         def settle(outcome: Outcome) -> None:
-            if not waiting.done():  # nobody waits any more
+            if not waiting.done():  # the request was abandoned
                 waiting.set_result(outcome)
 
-        done = lambda outcome: self.audience.soon(settle, outcome)  # noqa: E731
+        done = lambda outcome: self.clients.soon(settle, outcome)  # noqa: E731
         self.bus.request(self.keys.of(tail), payload, patience, done)
         outcome = await waiting
         if isinstance(outcome, NoAnswer):

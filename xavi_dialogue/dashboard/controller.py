@@ -1,6 +1,6 @@
-"""The board of a dashboard: what browsers are told, and what becomes of what they ask.
+"""The controller of a dashboard: sends updates to browsers and handles their requests.
 
-Everything here runs on the event loop. What takes long, or waits for the bus, runs on threads.
+Everything here runs on the event loop. Slow work and waiting for the bus run on threads.
 """
 
 import asyncio
@@ -12,19 +12,19 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from xavi_dialogue import __version__
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Bus, Keys
 from xavi_dialogue.bus.messages import MAX_TURNS
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.chat.client import Client, ServiceLost
-from xavi_dialogue.dashboard.bus_client import Asking, Unanswered
+from xavi_dialogue.dashboard.bus_client import BusClient, Unanswered
 from xavi_dialogue.dashboard.conversation import GLANCE, Conversation
-from xavi_dialogue.dashboard.document_cache import Archive
-from xavi_dialogue.dashboard.ride_state import Record
-from xavi_dialogue.dashboard.subscriber import Ear
+from xavi_dialogue.dashboard.document_cache import DocumentCache
+from xavi_dialogue.dashboard.ride_state import RideState
+from xavi_dialogue.dashboard.subscriber import Subscriber
 from xavi_dialogue.dashboard.suggestions import suggestions
-from xavi_dialogue.dashboard.web.client_session import Viewer
-from xavi_dialogue.dashboard.web.interfaces import Audience
+from xavi_dialogue.dashboard.web.client_session import ClientSession
+from xavi_dialogue.dashboard.web.interfaces import Browsers
 from xavi_dialogue.dashboard.web.websocket_messages import (
     AnsweredHere,
     Ask,
@@ -40,57 +40,57 @@ from xavi_dialogue.dashboard.web.websocket_messages import (
 )
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.security.client_token import Passenger
-from xavi_dialogue.service.reorder_buffer import Heard
+from xavi_dialogue.service.reorder_buffer import ReportOfRide
 
 _LOG = logging.getLogger(__name__)
-LOOK = 1.0  # [s] between looks at whether others have asked, and at what is amiss
+LOOK = 1.0  # [s] between checks for turns of others, and for problems
 COUNTERS = ("scenes", "questions", "dropped", "rejected")
 ALONE = "There is no dialogue service to ask yet."
 
 
 @dataclass
-class Board:
-    """Shows one car, and one conversation about it; see dashboard.web.interfaces."""
+class Controller:
+    """Shows one car and one conversation; see dashboard.web.interfaces."""
 
     keys: Keys
     passenger: Passenger
     recording: bool = False  # a recorded ride is played
-    alive: Alive = field(default_factory=lambda: Alive("dashboard", COUNTERS))
-    record: Record = field(default_factory=Record)
+    alive: HealthReporter = field(default_factory=lambda: HealthReporter("dashboard", COUNTERS))
+    record: RideState = field(default_factory=RideState)
     conversation: Conversation = field(default_factory=Conversation)
-    first_seen: Callable[[], None] = lambda: None  # called when the first browser has come
-    coming: Callable[[], bool] = lambda: False  # the car is started (again), and not yet there
-    moment: Callable[[Client], float | None] = Client.now  # [s] that is meant where none is named
+    first_seen: Callable[[], None] = lambda: None  # called when the first browser connects
+    coming: Callable[[], bool] = lambda: False  # the car is starting or restarting
+    moment: Callable[[Client], float | None] = Client.now  # [s] default time of a question
     _there: dict[str, Presence] = field(default_factory=dict)
     _suggested: Suggestions = field(default_factory=lambda: Suggestions(t=0.0, questions=()))
     _stale: bool = False  # something has happened since these were made
-    _came: bool = False  # whether the car was coming when that was told last
-    _held: bool = False  # what was heard while the car was coming has not been told
+    _came: bool = False  # whether the car was starting at the last status
+    _held: bool = False  # reports while the car was starting are not sent yet
     _bus: Bus | None = None
-    _asking: Asking | None = None
+    _bus_client: BusClient | None = None
     _client: Client | None = None
     _tasks: set[asyncio.Task[None]] = field(default_factory=set)
 
-    def attach(self, audience: Audience) -> None:
-        """Know whom to tell; to be called first."""
-        self.audience = audience
-        self._ear = Ear(audience, self.alive, self._hear)
-        self.archive = Archive(self.record, self.conversation, self._roads_known)
+    def attach(self, clients: Browsers) -> None:
+        """Set the receivers of updates; call this first."""
+        self.clients = clients
+        self._subscriber = Subscriber(clients, self.alive, self._hear)
+        self.archive = DocumentCache(self.record, self.conversation, self._roads_known)
         self._refreshing = asyncio.Lock()
 
     def join(self, bus: Bus) -> None:
-        """Begin to hear and to ask, now that there is a bus."""
+        """Subscribe and begin to send requests, once there is a bus."""
         self._bus = bus
-        self._asking = Asking(bus, self.keys, self.audience, self.passenger)
+        self._bus_client = BusClient(bus, self.keys, self.clients, self.passenger)
         token, share = self.passenger.token, self.passenger.share
         self._client = Client(bus, self.keys, self.passenger.session, token=token, share=share)
-        self.archive.join(self._asking)
-        self._ear.open(bus, self.keys, self._see)
-        self.alive.gauge("browsers", lambda: self.audience.browsers)
+        self.archive.join(self._bus_client)
+        self._subscriber.open(bus, self.keys, self._see)
+        self.alive.gauge("browsers", lambda: self.clients.browsers)
         self.alive.serve(bus, self.keys)
 
     async def watch(self) -> None:
-        """See again and again whether others have asked, and what is amiss; until cancelled."""
+        """Check repeatedly for turns of others and for problems, until cancelled."""
         while True:
             await asyncio.sleep(LOOK)
             try:
@@ -101,20 +101,20 @@ class Board:
     async def _look(self) -> None:
         for message in self.record.wait(time.monotonic()):
             if not self._held:
-                self.audience.tell(message)
+                self.clients.tell(message)
         self._see("hub", self._bus is not None and self._bus.linked)
         if self.coming() != self._came:
             self._came = not self._came
             self._tell_status()
         self.archive.look()
-        if self.audience.browsers:
+        if self.clients.browsers:
             self._suggest_anew()
             await self.refresh()
 
     # What the server calls:
 
-    def greet(self, viewer: Viewer) -> tuple[Outgoing, ...]:
-        """All that a browser is told that has just come."""
+    def greet(self, viewer: ClientSession) -> tuple[Outgoing, ...]:
+        """Return all messages for a browser that has just connected."""
         self.first_seen()
         welcome = Welcome(
             version=__version__,
@@ -128,17 +128,17 @@ class Board:
         return welcome, self.status(), *shown
 
     def status(self) -> Status:
-        """Who is there; the server fills in what each browser is told besides."""
+        """Return the status; the server adds what differs between browsers."""
         return Status(
             hub=self._there.get("hub", "awaited"),
             car="coming" if self.coming() else self._there.get("car", "awaited"),
             service=self._there.get("service", "awaited"),
             dropped=0,
-            browsers=self.audience.browsers,
+            browsers=self.clients.browsers,
         )
 
-    def ask(self, viewer: Viewer, message: Ask) -> None:
-        """Ask the service; the browser is told what comes of it."""
+    def ask(self, viewer: ClientSession, message: Ask) -> None:
+        """Send a question to the service; the browser gets the result."""
         self.alive.count("questions")
         client, request = self._client, message.request
         if client is None:
@@ -148,26 +148,26 @@ class Board:
         viewer.tell(Thinking(request=request))
 
         def done(came: Reply | ServiceLost) -> None:
-            self.audience.soon(self._answered, viewer, message, came)
+            self.clients.soon(self._answered, viewer, message, came)
 
         at = self.moment(client) if message.at is None else message.at
         client.send(message.text, done, at=at, request=request)
 
-    def cancel(self, viewer: Viewer, message: Cancel) -> None:
+    def cancel(self, viewer: ClientSession, message: Cancel) -> None:
         """Tell the service that an answer is no longer wanted."""
         if self._client is not None:
             self._client.cancel(message.request)
 
-    def suggest(self, viewer: Viewer, message: Suggest) -> None:
-        """Tell a browser what could be asked at an earlier moment."""
+    def suggest(self, viewer: ClientSession, message: Suggest) -> None:
+        """Send a browser suggestions for an earlier time."""
         viewer.tell(self._suggestions(message.at))
 
-    def left(self, viewer: Viewer) -> None:
-        """A browser is gone."""
+    def left(self, viewer: ClientSession) -> None:
+        """Handle that a browser has disconnected."""
         self._tell_status()
 
     def roads(self, name: str) -> bytes | None:
-        """See Archive."""
+        """See DocumentCache."""
         return self.archive.roads(name)
 
     def past(self) -> bytes:
@@ -175,16 +175,16 @@ class Board:
         return self.record.past()
 
     def decision(self, name: str) -> bytes | None:
-        """See Archive."""
+        """See DocumentCache."""
         return self.archive.decision(name)
 
     async def evidence(self, n: int) -> bytes | None:
-        """See Archive."""
+        """See DocumentCache."""
         return await self.archive.evidence(n)
 
     # Within:
 
-    def _hear(self, report: Heard) -> None:
+    def _hear(self, report: ReportOfRide) -> None:
         begun, told = self.record.hear(report)
         if begun:
             self.archive.begin_anew()
@@ -195,7 +195,7 @@ class Board:
             self._tell_status()
             told = self.record.all()
         for message in () if self._held else told:
-            self.audience.tell(message)
+            self.clients.tell(message)
             if isinstance(message, SceneShown):
                 self.alive.count("scenes")
                 self.alive.at(message.t)
@@ -210,18 +210,18 @@ class Board:
             self._tell_status()
 
     def _tell_status(self) -> None:
-        self.audience.tell(self.status())
+        self.clients.tell(self.status())
 
     def _roads_known(self) -> None:
         ride = self.record.ride
         if ride is not None and not self._held:
-            self.audience.tell(ride)
+            self.clients.tell(ride)
 
     def _suggestions(self, at: float) -> Suggestions:
         try:
             said = self.conversation.suggestions
             found = suggestions(self.record.up_to(at), self.record.events, at, said)
-        except Exception:  # a fault of ours must not keep anybody from asking
+        except Exception:  # an internal error must not block questions
             _LOG.exception("nothing could be suggested", extra={"vehicle": self.keys.vehicle})
             found = ()
         return Suggestions(t=at, questions=found)
@@ -232,12 +232,12 @@ class Board:
             self._stale = False
             fresh = self._suggestions(scene.sim_time)
             if fresh.questions != self._suggested.questions:
-                self.audience.tell(fresh)
+                self.clients.tell(fresh)
             self._suggested = fresh
 
     async def refresh(self) -> None:
-        """Learn what was said, here and elsewhere, and tell what is new."""
-        asking = self._asking
+        """Fetch the turns of the session, and send the new ones."""
+        asking = self._bus_client
         if asking is None:
             return
         async with self._refreshing:
@@ -247,12 +247,14 @@ class Board:
                     news = self.conversation.learn(await asking.history(MAX_TURNS), whole=True)
                 if news is not None and (news.turns or news.reset):
                     self._stale = True
-                    self.audience.tell(news)
+                    self.clients.tell(news)
 
-    def _answered(self, viewer: Viewer, asked: Ask, came: Reply | ServiceLost) -> None:
+    def _answered(self, viewer: ClientSession, asked: Ask, came: Reply | ServiceLost) -> None:
         self._spawn(self._tell_answer(viewer, asked, came))
 
-    async def _tell_answer(self, viewer: Viewer, asked: Ask, came: Reply | ServiceLost) -> None:
+    async def _tell_answer(
+        self, viewer: ClientSession, asked: Ask, came: Reply | ServiceLost
+    ) -> None:
         if isinstance(came, ServiceLost):
             text = f"({came})"
             came = Reply(text=text, kind="refusal", reason="planner-unavailable", sim_time=0.0)

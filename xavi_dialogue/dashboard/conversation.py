@@ -1,7 +1,7 @@
-"""The conversation as a dashboard knows it: whoever asked, here or at a terminal.
+"""The conversation as shown on a dashboard, with turns from a terminal too.
 
-The service keeps what is said; here it is compared with what is known, so that what is new can
-be told. A turn has no name of its own: how many there are in all tells which of them are new.
+The service stores the turns; here they are compared with the known ones to find the new ones.
+Turns have no ids: their total number shows which of them are new.
 """
 
 from dataclasses import dataclass, field
@@ -30,18 +30,18 @@ class Conversation:
 
         Args:
             said: the turns.
-            whole: there are no others to be had.
+            whole: there are no others.
 
         Returns:
-            What is new of it; None where these do not join on to what is known, so that all
-            has to be looked at.
+            The new turns; None if they do not continue the known ones, so that all must be
+            fetched.
         """
         overlap = self._overlap(said)
         apart = overlap is None or (overlap == 0 and bool(self.turns))
         if apart and not whole:
             return None
         reset = overlap is None and bool(self.turns)
-        if reset:  # it was forgotten, and perhaps begun anew
+        if reset:  # it was erased, and perhaps begun again
             self.first += len(self.turns)
             self.turns.clear()
         self._total = said.total
@@ -60,7 +60,7 @@ class Conversation:
 
     @property
     def suggestions(self) -> tuple[str, ...]:
-        """What the latest reply says could be asked; a refusal tells that itself."""
+        """Return the suggestions in the latest reply; a refusal contains them itself."""
         last = self.turns[-1].reply if self.turns else None
         return last.suggestions if last is not None and last.kind == "answer" else ()
 
@@ -70,7 +70,7 @@ class Conversation:
         return self.turns[k] if 0 <= k < len(self.turns) else None
 
     def find(self, text: str, reply: Reply) -> int | None:
-        """The number of the latest turn with this question and reply; None: there is none."""
+        """Return the number of the latest turn with this question and reply; None without one."""
         for k in range(len(self.turns) - 1, -1, -1):
             turn = self.turns[k]
             if (turn.text, turn.reply.text, turn.reply.sim_time) == (
@@ -82,7 +82,7 @@ class Conversation:
         return None
 
     def _overlap(self, said: HistoryReply) -> int | None:
-        """How many of the first of these turns are the last of those that are known.
+        """Count how many of the first of these turns are the last of the known ones.
 
         That follows from how many there are in all; beyond what is counted, it is the most that
         it can be. None where they are not the same.

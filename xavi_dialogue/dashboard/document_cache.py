@@ -1,4 +1,4 @@
-"""What browsers fetch: roads, decisions and evidence, made when wanted, and kept a while."""
+"""Documents for browsers: roads, decisions and evidence, made on request and cached."""
 
 import asyncio
 import logging
@@ -13,26 +13,26 @@ import msgspec
 from planner.record.trace import PlanTrace
 from sim.roads.netfile import NetworkError
 from sim.roads.network import Network
-from xavi_dialogue.dashboard.bus_client import Asking, Unanswered
+from xavi_dialogue.dashboard.bus_client import BusClient, Unanswered
 from xavi_dialogue.dashboard.conversation import Conversation
-from xavi_dialogue.dashboard.ride_state import Record
+from xavi_dialogue.dashboard.ride_state import RideState
 from xavi_dialogue.dashboard.views import map as roads
 from xavi_dialogue.dashboard.views.decision import whole
 from xavi_dialogue.dashboard.views.evidence import has_evidence, of_turn, traces_of
 from xavi_dialogue.vehicle.map_server import NETWORK
 
 _LOG = logging.getLogger(__name__)
-PATIENCE = 10.0  # [s] for a car to tell its roads
+PATIENCE = 10.0  # [s] for a car to send its roads
 AGAIN = 5.0  # [s] after which it is asked again
 MAX_KEPT = 64  # documents
 
 
-class Archive:
+class DocumentCache:
     """Documents about the present ride."""
 
     def __init__(
         self,
-        record: Record,
+        record: RideState,
         conversation: Conversation,
         roads_known: Callable[[], None],
     ) -> None:
@@ -41,20 +41,20 @@ class Archive:
         Args:
             record: of the ride.
             conversation: whose turns have evidence.
-            roads_known: called when the roads have been told.
+            roads_known: called when the roads have arrived.
         """
         self._record, self._conversation = record, conversation
         self._roads_known = roads_known
-        self._asking: Asking | None = None
+        self._bus_client: BusClient | None = None
         self._network: Network | None = None
         self._roads: dict[str, bytes] = {}
         self._made: OrderedDict[tuple[str, str | int], bytes] = OrderedDict()
         self._asked: float | None = None  # [s] on the monotonic clock, for the roads
         self._reading: asyncio.Task[None] | None = None  # of the roads
 
-    def join(self, asking: Asking) -> None:
+    def join(self, asking: BusClient) -> None:
         """Ask others from now on."""
-        self._asking = asking
+        self._bus_client = asking
 
     def begin_anew(self) -> None:
         """Another ride."""
@@ -63,10 +63,10 @@ class Archive:
         self._network = self._asked = None
 
     def look(self) -> None:
-        """Ask for the roads of the ride, as long as they are not known."""
+        """Request the roads of the ride until they are known."""
         ride, now = self._record.ride, time.monotonic()
         due = self._asked is None or now > self._asked + AGAIN
-        if self._asking is None or ride is None or self._network is not None or not due:
+        if self._bus_client is None or ride is None or self._network is not None or not due:
             return
         self._asked = now
         self._reading = asyncio.get_running_loop().create_task(self._learn(ride.ride))
@@ -76,14 +76,14 @@ class Archive:
         return self._roads.get(name)
 
     def decision(self, name: str) -> bytes | None:
-        """A decision, whole; None where it is not in the record."""
-        trace = self._record.shelf.get(name)
+        """Return a decision as a document; None if it is not in the record."""
+        trace = self._record.trace_cache.get(name)
         if trace is None:
             return None
         return self._kept(("decision", name), lambda: whole(trace, self._network))
 
     async def evidence(self, n: int) -> bytes | None:
-        """What a turn rests on; None where there is no such turn, or nothing behind it."""
+        """Return the evidence of a turn; None if there is no such turn, or no evidence."""
         turn = self._conversation.turn(n)
         if turn is None or not has_evidence(turn.reply):
             return None
@@ -94,22 +94,22 @@ class Archive:
         make = partial(of_turn, n, turn.reply, decided | known)
         if len(known) == len(found):
             return self._kept(("evidence", n), make)
-        shown = make()  # what is missing may still come
+        shown = make()  # missing parts may still arrive
         return None if shown is None else msgspec.json.encode(shown)
 
     async def _trace(self, name: str) -> PlanTrace | None:
-        """A decision of the record, or a plan made again, which the service knows."""
-        trace = self._record.shelf.get(name)
-        if trace is not None or self._asking is None:
+        """Return a decision of the record, or a replanned one from the service."""
+        trace = self._record.trace_cache.get(name)
+        if trace is not None or self._bus_client is None:
             return trace
         with suppress(Unanswered):
-            return await self._asking.evidence(name)
+            return await self._bus_client.evidence(name)
         return None
 
     async def _learn(self, ride: str) -> None:
-        assert self._asking is not None
+        assert self._bus_client is not None
         try:
-            packed = await self._asking.request(NETWORK, b"", PATIENCE)
+            packed = await self._bus_client.request(NETWORK, b"", PATIENCE)
         except Unanswered:
             return
         found = await asyncio.to_thread(_read, packed)
@@ -120,7 +120,7 @@ class Archive:
         self._network = network
         self._roads[network.hash] = document
         self._record.roads = network.hash
-        self._made.clear()  # what was made without knowing the roads
+        self._made.clear()  # documents made without the roads
         self._roads_known()
 
     def _kept(self, key: tuple[str, str | int], make: Callable[[], object | None]) -> bytes | None:
@@ -136,7 +136,7 @@ class Archive:
 
 
 def _read(packed: bytes) -> tuple[Network, bytes] | None:
-    """The roads that a car tells, and as browsers get them; None where they cannot be read."""
+    """Fetch and convert the roads of a car; None if they cannot be read."""
     try:
         network, outlines = roads.read(packed)
     except NetworkError as error:

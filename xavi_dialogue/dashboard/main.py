@@ -1,7 +1,7 @@
 """`xavi dashboard`: a car and its conversation in a web page; a client of the bus like any other.
 
-The page is there at once. What it shows is joined behind it: a bus of others, or a car and a
-service of one's own, which set off when somebody looks.
+The page is available at once. A thread behind it joins the bus of others, or starts a car and a
+service, which begin when the first browser connects.
 """
 
 import asyncio
@@ -21,61 +21,67 @@ from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.zenoh_bus import join
 from xavi_dialogue.chat.client import Client
 from xavi_dialogue.chat.interactive import warner
-from xavi_dialogue.chat.local_backend import Company, Convoy, first_scene
-from xavi_dialogue.chat.main import Ride, behind_of
-from xavi_dialogue.dashboard.controller import Board
-from xavi_dialogue.dashboard.web.address import Listen
+from xavi_dialogue.chat.local_backend import LocalBackend, LocalOptions, first_scene
+from xavi_dialogue.chat.main import ChatOptions, start_backend
+from xavi_dialogue.dashboard.controller import Controller
+from xavi_dialogue.dashboard.web.address import ListenOptions
 from xavi_dialogue.dashboard.web.server import Server
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.subprocesses import ChildFailed
 from xavi_dialogue.security.client_token import Passenger
 from xavi_dialogue.terminal.slash_commands import CommandError
 
-GLANCE = 0.5  # [s] between looks at whether there is a hub, or all is over
-CLOSING = 15.0  # [s] that ending car and service may take, which are killed where they do not end
+GLANCE = 0.5  # [s] between checks for a hub, and for the end
+CLOSING = 15.0  # [s] for car and service to end; then they are killed
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-SCREENS = ("DISPLAY", "WAYLAND_DISPLAY")  # variables that tell of one
+SCREENS = ("DISPLAY", "WAYLAND_DISPLAY")  # environment variables that show one
 
 Note: TypeAlias = Callable[[str], None]
 
 
 @dataclass(frozen=True)
-class Task:
+class DashboardOptions:
     """What to show, and where."""
 
-    listen: Listen
+    listen: ListenOptions
     vehicle: str
     passenger: Passenger
-    source: Link | Ride  # the bus of others; or what to drive, or to play, oneself
+    source: Link | ChatOptions  # the bus of others; or a ride to drive or play
     speed: float = 1.0  # of a ride of one's own
-    opens: bool = True  # a browser, where there is one
+    opens: bool = True  # a browser, if there is one
 
 
-class Background:
-    """What runs behind the page, on a thread: joins the bus, and sees to it until all is over."""
+class BusThread:
+    """A thread behind the page: joins the bus and checks the connection until the end."""
 
     def __init__(
-        self, task: Task, note: Note, joined: Callable[[Bus], None], failed: Callable[[], None]
+        self,
+        task: DashboardOptions,
+        note: Note,
+        joined: Callable[[Bus], None],
+        failed: Callable[[], None],
     ) -> None:
         """Begin.
 
         Args:
             task: what to join.
-            note: takes notes on what goes on.
+            note: takes notes.
             joined: gets the bus, on this thread.
             failed: called on this thread when it cannot go on, for `failure`.
         """
         self._task, self._note, self._joined, self._failed = task, note, joined, failed
         self.over = threading.Event()
-        self.seen = threading.Event()  # somebody has looked
-        self._behind: Convoy | None = None  # of a ride of one's own, once it is where it is to be
+        self.seen = threading.Event()  # a browser has connected
+        self._backend: LocalBackend | None = (
+            None  # of an own ride, once it has reached its starting time
+        )
         self.failure: Exception | None = None
         self._thread = threading.Thread(target=self._run, name="background", daemon=True)
         self._thread.start()
 
     def end(self) -> None:
-        """End what was begun."""
+        """Stop the thread and the processes."""
         self.over.set()
         self._thread.join(CLOSING)
 
@@ -105,70 +111,70 @@ class Background:
                 waiting = True
 
     def coming(self) -> bool:
-        """Whether the car is being started, or driven to where it is to be; any thread may ask."""
+        """Check whether the car is starting or driving to its starting time; thread-safe."""
         if isinstance(self._task.source, Link):
             return False
-        return self._behind is None or self._behind.car.catching_up
+        return self._backend is None or self._backend.car.catching_up
 
     def now(self, client: Client) -> float | None:
-        """The moment [s] that a passenger has in mind who is told what `client` is."""
-        return client.now() if self._behind is None else self._behind.now(client)
+        """Return the default time [s] of a question, by the scenes of this client."""
+        return client.now() if self._backend is None else self._backend.now(client)
 
-    def _be_alone(self, ride: Ride) -> None:
-        company = Company(ride.record, ride.overwrite, warner(self._note), self._note)
+    def _be_alone(self, ride: ChatOptions) -> None:
+        options = LocalOptions(ride.record, ride.overwrite, warner(self._note), self._note)
         first = self._task.speed if ride.resume is None else 0.0
-        with behind_of(ride, first, company) as behind:
+        with start_backend(ride, first, options) as backend:
             session = ride.passenger.session
-            talk = f"xavi chat --connect {behind.endpoint} --session {session}"
+            talk = f"xavi chat --connect {backend.endpoint} --session {session}"
             self._note(f"to talk at a terminal as well: {talk}")
-            client = Client(behind.bus, Keys(), session)
-            self._joined(behind.bus)
-            first_scene(behind, client)
+            client = Client(backend.bus, Keys(), session)
+            self._joined(backend.bus)
+            first_scene(backend, client)
             if ride.resume is not None:
-                with suppress(CommandError):  # there is no car any more, which has been told
-                    behind.drive(client, child_commands.Until(ride.resume), halt=True)
-                    behind.order(child_commands.Speed(self._task.speed))
-            self._behind = behind
-            self._set_off(behind)
+                with suppress(CommandError):  # the car has ended, which was reported
+                    backend.drive(client, child_commands.Until(ride.resume), halt=True)
+                    backend.order(child_commands.Speed(self._task.speed))
+            self._backend = backend
+            self._set_off(backend)
             while not self.over.wait(GLANCE):
-                behind.check()
-            behind.over.set()
+                backend.check()
+            backend.over.set()
 
-    def _set_off(self, behind: Convoy) -> None:
-        """Let the ride begin, once there is somebody to see it."""
+    def _set_off(self, backend: LocalBackend) -> None:
+        """Let the ride begin once a browser has connected."""
         while not self.over.is_set():
             if self.seen.wait(GLANCE):
-                behind.set_off()
+                backend.set_off()
                 return
-            behind.check()
+            backend.check()
 
 
-def run(task: Task, note: Note) -> None:
-    """Show a car until told to stop.
+def run(task: DashboardOptions, note: Note) -> None:
+    """Show a car until asked to stop.
 
     Args:
         task: what to show, and where.
-        note: takes notes on what goes on.
+        note: takes notes.
 
     Raises:
-        ListenError: it cannot be listened there.
+        ListenError: the address cannot be used.
         BadLink: the link's configuration cannot be used.
-        ChildFailed: the car or the service does not come up, or ended too often.
+        ChildFailed: the car or the service did not start, or ended too often.
     """
-    recording = isinstance(task.source, Ride) and bool(task.source.played)
-    board = Board(Keys(task.vehicle), task.passenger, recording=recording)
-    server = Server(board, task.listen)
+    recording = isinstance(task.source, ChatOptions) and bool(task.source.played)
+    controller = Controller(Keys(task.vehicle), task.passenger, recording=recording)
+    server = Server(controller, task.listen)
     try:
-        board.attach(server)
-        asyncio.run(_run(task, note, board, server))
+        controller.attach(server)
+        asyncio.run(_run(task, note, controller, server))
     finally:
         server.close()
 
 
-async def _run(task: Task, note: Note, board: Board, server: Server) -> None:
+async def _run(task: DashboardOptions, note: Note, controller: Controller, server: Server) -> None:
     loop, stopped = asyncio.get_running_loop(), asyncio.Event()
-    joined, failed = partial(server.soon, board.join), partial(server.soon, stopped.set)
-    background = Background(task, note, joined, failed)
+    joined, failed = partial(server.soon, controller.join), partial(server.soon, stopped.set)
+    background = BusThread(task, note, joined, failed)
 
     def stop() -> None:
         background.over.set()  # all ends at the same time
@@ -176,12 +182,12 @@ async def _run(task: Task, note: Note, board: Board, server: Server) -> None:
 
     for number in SIGNALS:
         loop.add_signal_handler(number, stop)
-    board.first_seen = background.seen.set
-    board.coming, board.moment = background.coming, background.now
+    controller.first_seen = background.seen.set
+    controller.coming, controller.moment = background.coming, background.now
     note(f"dashboard at {server.link}")
     if task.opens:
         _open(server.link)
-    watching = loop.create_task(board.watch())
+    watching = loop.create_task(controller.watch())
     try:
         await server.serve(stopped)
     finally:
@@ -192,6 +198,6 @@ async def _run(task: Task, note: Note, board: Board, server: Server) -> None:
 
 
 def _open(link: str) -> None:
-    """Open the page, where there is a screen to show it on and somebody before it."""
+    """Open the page if there is a display and a user."""
     if sys.stderr.isatty() and any(os.environ.get(name) for name in SCREENS):
         threading.Thread(target=webbrowser.open, args=(link,), daemon=True).start()

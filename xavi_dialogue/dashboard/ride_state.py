@@ -1,6 +1,6 @@
-"""What a dashboard has heard of a car's ride, put in order, as browsers get it.
+"""The state of a car's ride as a dashboard shows it, from reports in order.
 
-No bus and no clock: reports are given, messages for browsers are returned.
+No bus and no clock: reports are arguments, messages for browsers are returned.
 """
 
 from bisect import bisect_right
@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from planner.record.events import Event
 from planner.record.trace import PlanTrace
 from xavi_dialogue.bus.messages import SceneReport
-from xavi_dialogue.dashboard.scene_history import Moments
-from xavi_dialogue.dashboard.trace_cache import Shelf
+from xavi_dialogue.dashboard.scene_history import SceneHistory
+from xavi_dialogue.dashboard.trace_cache import TraceCache
 from xavi_dialogue.dashboard.views.decision import in_short
 from xavi_dialogue.dashboard.views.labels import event_words
 from xavi_dialogue.dashboard.views.map import scene
@@ -25,20 +25,20 @@ from xavi_dialogue.dashboard.web.websocket_messages import (
 )
 from xavi_dialogue.dialogue.state.events import EventRecorded, Input, TraceRecorded
 from xavi_dialogue.dialogue.state.state import EPSILON
-from xavi_dialogue.service.reorder_buffer import Heard
-from xavi_dialogue.service.ride_tracker import Rides
+from xavi_dialogue.service.reorder_buffer import ReportOfRide
+from xavi_dialogue.service.ride_tracker import RideTracker
 
-MAX_DECISIONS = 10_000  # that are told of in short
+MAX_DECISIONS = 10_000  # that are sent in short form
 MAX_EVENTS = 10_000
 
 
 @dataclass
-class Record:
+class RideState:
     """The present ride of one car."""
 
-    rides: Rides = field(default_factory=Rides)
-    shelf: Shelf = field(default_factory=Shelf)
-    moments: Moments = field(default_factory=Moments)
+    rides: RideTracker = field(default_factory=RideTracker)
+    trace_cache: TraceCache = field(default_factory=TraceCache)
+    moments: SceneHistory = field(default_factory=SceneHistory)
     decisions: list[Decision] = field(default_factory=list)
     happened: list[Happened] = field(default_factory=list)
     events: list[Event] = field(default_factory=list)
@@ -48,25 +48,25 @@ class Record:
     @property
     def scene(self) -> SceneReport | None:
         """The latest scene."""
-        return None if self.rides.ledger is None else self.rides.ledger.scene
+        return None if self.rides.reports is None else self.rides.reports.scene
 
     @property
     def ride(self) -> Ride | None:
         """The ride; None before one was seen."""
-        ledger = self.rides.ledger
-        if ledger is None or ledger.scene is None:
+        reports = self.rides.reports
+        if reports is None or reports.scene is None:
             return None
         return Ride(
-            ride=ledger.ride,
-            scenario=ledger.scene.scenario,
-            seed=ledger.scene.seed,
+            ride=reports.ride,
+            scenario=reports.scene.scenario,
+            seed=reports.scene.seed,
             roads=self.roads,
         )
 
-    def hear(self, report: Heard) -> tuple[bool, list[Outgoing]]:
-        """Take down a report; whether another ride begins, and what there is to tell.
+    def hear(self, report: ReportOfRide) -> tuple[bool, list[Outgoing]]:
+        """Record a report; return whether another ride begins, and the messages to send.
 
-        Nothing is told of a ride before a scene of it has come.
+        Nothing is sent about a ride before its first scene.
         """
         known = self.ride
         begun, inputs = self.rides.hear(report)
@@ -81,16 +81,16 @@ class Record:
         return begun, self.all() if begun or known is None else told
 
     def wait(self, now: float) -> list[Outgoing]:
-        """Give up what has been missing for too long; what there is to tell then.
+        """Give up what has been missing for too long; return the messages to send.
 
         Args:
             now: [s] on the shell's clock.
         """
-        ledger = self.rides.ledger
-        return [] if ledger is None else self._take(ledger.wait(now))
+        reports = self.rides.reports
+        return [] if reports is None else self._take(reports.wait(now))
 
     def all(self) -> list[Outgoing]:
-        """All that a browser is told that has just come."""
+        """Return all messages for a browser that has just connected."""
         ride, latest = self.ride, self.scene
         if ride is None:
             return []
@@ -99,14 +99,14 @@ class Record:
         return told if latest is None else [*told, scene(latest)]
 
     def up_to(self, time: float) -> PlanTrace | None:
-        """The decision in force at a time [s]; None: there is none."""
+        """Return the decision in force at a time [s]; None without one."""
         index = bisect_right(self.decisions, time + EPSILON, key=lambda one: one.t) - 1
-        return None if index < 0 else self.shelf.get(self.decisions[index].id)
+        return None if index < 0 else self.trace_cache.get(self.decisions[index].id)
 
     def past(self) -> bytes:
         """All moments so far: `documents.Past` as JSON."""
-        ledger = self.rides.ledger
-        return self.moments.document("" if ledger is None else ledger.ride)
+        reports = self.rides.reports
+        return self.moments.document("" if reports is None else reports.ride)
 
     def _take(self, inputs: Iterable[Input]) -> list[Outgoing]:
         decisions: list[Decision] = []
@@ -130,14 +130,14 @@ class Record:
         return told
 
     def _decide(self, trace: PlanTrace) -> Decision:
-        self.shelf.put(trace)
+        self.trace_cache.put(trace)
         self.moments.learn(trace)
         decision = in_short(trace, self.last)
         self.last = trace
         return decision
 
     def _begin_anew(self) -> None:
-        self.shelf, self.moments = Shelf(), Moments()
+        self.trace_cache, self.moments = TraceCache(), SceneHistory()
         self.decisions, self.happened, self.events = [], [], []
         self.last = self.roads = None
 

@@ -1,6 +1,6 @@
-"""What a car has seen on this ride, moment by moment, as browsers draw it.
+"""The scenes of a ride, as browsers draw them.
 
-What was missed because one joined late is filled in from the histories in the plan traces.
+Scenes that were missed by joining late are filled in from the histories in plan traces.
 """
 
 from bisect import bisect_right
@@ -20,22 +20,22 @@ SPACING = 0.95 * SAMPLE_PERIOD  # [s] at least, between moments that are kept
 
 
 @dataclass
-class Moments:
-    """The moments of one ride, in order of time; as JSON, which takes a tenth of the memory."""
+class SceneHistory:
+    """The scenes of one ride, in order of time; as JSON, which takes a tenth of the memory."""
 
     times: list[float] = field(default_factory=list)  # [s]
-    _packed: list[bytes] = field(default_factory=list)  # of each: its time, and what was seen
+    _packed: list[bytes] = field(default_factory=list)  # the time of each, and its JSON
     _taken: int = 0  # bytes
 
     def see(self, scene: Scene) -> None:
-        """Keep what is seen, unless so late a moment is known already."""
+        """Add a scene, unless one of its time or later is known."""
         if not self.times or scene.time >= self.times[-1] + SPACING:
             who = seen({**scene.vehicles, **scene.people})
             row = (scene.time, who, lights(scene.lights), hidden(scene.unseen))
             self._keep(len(self.times), scene.time, msgspec.json.encode(row))
 
     def learn(self, trace: PlanTrace) -> None:
-        """Fill in, from the history of a decision, what was not seen."""
+        """Add missing scenes from the history of a decision."""
         for time in sorted({time for track in trace.history.values() for time in _times(track)}):
             index = bisect_right(self.times, time)
             after = self.times[index] if index < len(self.times) else float("inf")
@@ -63,7 +63,7 @@ def _times(track: Track) -> list[float]:
 
 
 def _shown(trace: PlanTrace, time: float) -> Iterator[Light]:
-    """What the lights that the decision reckoned with showed at a time, where they were in view."""
+    """Return the states of lights at a time, as the decision used them, if in view."""
     for one in trace.lights:
         known = [showing for showing in one.seen if showing.time <= time]
         for place, letter in zip(one.places, known[-1].states if known else "", strict=False):
@@ -73,7 +73,7 @@ def _shown(trace: PlanTrace, time: float) -> Iterator[Light]:
 
 
 def _as_of(trace: PlanTrace, time: float) -> dict[int, VehicleState]:
-    """The vehicles at a time of a history; what does not change is as in the trace's scene."""
+    """Return the vehicles at a time of a history; constant values are from the trace's scene."""
     found = {}
     for vehicle, track in trace.history.items():
         k = round((time - track.start) / SAMPLE_PERIOD)

@@ -1,6 +1,6 @@
-"""What could well be asked now: questions that come from what has just happened.
+"""Suggestions: questions about what has just happened.
 
-The phrases are those of `grammars/dashboard.toml`, with what was done and who is seen in them.
+The phrases are those of `grammars/dashboard.toml`, filled with actions and vehicles.
 """
 
 from collections.abc import Iterator, Sequence
@@ -14,8 +14,8 @@ from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.explain.history.joining import joined
 
 MOST = 5  # questions
-RECENT = 12.0  # [s] up to which something has just happened
-FALLEN = 2.0  # [m/s] that a vehicle has lost within its history, to be slowing down
+RECENT = 12.0  # [s] for which an event is recent
+FALLEN = 2.0  # [m/s] lost within its history by a vehicle that slows down
 STANDING = 0.5  # [m/s] slower than this counts as standing
 ROUNDING = 1e-6  # [s]
 
@@ -26,10 +26,10 @@ def suggestions(
     """Return questions that suggest themselves at a moment, the most interesting first.
 
     Args:
-        trace: the decision in force then; None: there is none.
+        trace: the decision in force then; None: none.
         events: of the ride, in order of time; those after the moment do not count.
         at: the moment [s].
-        said: what the car said last could be asked.
+        said: suggestions of the latest reply.
     """
     if trace is None:
         return ()
@@ -47,7 +47,7 @@ def _crash(events: Sequence[Event]) -> Iterator[str]:
 
 
 def _deeds(events: Sequence[Event], at: float) -> Iterator[str]:
-    """About what was done last, if that was not long ago."""
+    """Suggest questions about the latest action, if it is recent."""
     begun = [event for event in events if event.kind == "action-committed"]
     moves = [*begun, *carried_out(events)]
     last = max(moves, key=lambda event: event.sim_time, default=None)
@@ -60,14 +60,14 @@ def _deeds(events: Sequence[Event], at: float) -> Iterator[str]:
 
 
 def _pace(trace: PlanTrace) -> Iterator[str]:
-    """Why we have stopped, or slowed down."""
+    """Suggest why we have stopped or slowed down."""
     track = trace.history.get(EGO)
     if track is not None and max(track.speed) - track.speed[-1] >= FALLEN:
         yield _ask("why").format(deed("stop" if track.speed[-1] < STANDING else "slow-down"))
 
 
 def _others(trace: PlanTrace) -> Iterator[str]:
-    """About those who slow down, then about whoever holds us up, then about anybody."""
+    """Suggest questions about slowing vehicles, then hold-ups, then any vehicle."""
     known = [one.vehicle for one in trace.predictions if one.vehicle in trace.history]
     seen = joined((trace,)).seen
     for vehicle in known:
@@ -81,7 +81,7 @@ def _others(trace: PlanTrace) -> Iterator[str]:
 
 
 def _in_the_way(trace: PlanTrace) -> list[int]:
-    """Who holds us up in most of the rollouts that begin as planned, if anybody."""
+    """Return the vehicle that holds us up in most rollouts of the plan, if any."""
     first = trace.plan[0].action if trace.plan else None
     rollouts = [r for r in trace.rollouts if r.actions and r.actions[0].action == first]
     met = [vehicle for r in rollouts for vehicle in {stretch.vehicle for stretch in r.held_up}]
@@ -91,7 +91,7 @@ def _in_the_way(trace: PlanTrace) -> list[int]:
 
 
 def _calm(trace: PlanTrace) -> Iterator[str]:
-    """What can be asked at any time."""
+    """Suggest questions that fit at any time."""
     yield _ask("doing")
     if any(planned.action != "continue" for planned in trace.plan):
         yield _ask("next")

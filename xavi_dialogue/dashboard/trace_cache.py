@@ -10,11 +10,11 @@ AT_HAND = 12  # that are held unpacked as well
 LEVEL = 1  # of compression: quick
 
 
-class Shelf:
+class TraceCache:
     """Keeps plan traces by their id."""
 
     def __init__(self, room: int = MAX_BYTES) -> None:
-        """An empty shelf.
+        """Make an empty cache.
 
         Args:
             room: [bytes] of packed traces.

@@ -40,7 +40,7 @@ OURS = (ChoiceReason, MotionReason, SupposedOfUs, SupposedOfOther, Compared, Piv
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class TypedAnswer:
     """What a reply explains."""
 
     answer: Result
@@ -59,7 +59,7 @@ class Told:
         return next((one.decided for one in parts(self.answer, Contrast)), None)
 
 
-def told_of(reply: Reply) -> Told | None:
+def told_of(reply: Reply) -> TypedAnswer | None:
     """Return what a reply explains: its first causal answer, else the first that names evidence."""
     if reply.kind != "answer":
         return None
@@ -67,15 +67,15 @@ def told_of(reply: Reply) -> Told | None:
     for result in results:
         found = contrastive(result)
         if found is not None:
-            return Told(result, found)
+            return TypedAnswer(result, found)
     for result in results:
         evidence = next((e for e in parts(result, Evidence) if e.traces), None)
         if evidence is not None:
-            return Told(result, Contrastive(kind=kind_of(result), evidence=evidence))
+            return TypedAnswer(result, Contrastive(kind=kind_of(result), evidence=evidence))
     return None
 
 
-def title_of(told: Told, reply: Reply) -> str:
+def title_of(told: TypedAnswer, reply: Reply) -> str:
     """Return as what the counterfactual came into it: asked about, or thought of beside that."""
     match told.answer:
         case SupposedOfOther():

@@ -1,17 +1,18 @@
 """Acts: what is replied to each act of a turn, and to all of them together. Pure."""
 
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import Final, Literal, TypeAlias
 
 from msgspec.structs import replace as changed
 
 from xavi_dialogue.dialogue.chain import BOTTOM
 from xavi_dialogue.dialogue.claims import NOTED, is_ground, kept, told
-from xavi_dialogue.dialogue.mind import Said, Situation, speak
 from xavi_dialogue.dialogue.objections import foreseen_then
+from xavi_dialogue.dialogue.pipeline import Said, Situation, speak
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.severally import severally
 from xavi_dialogue.dialogue.soundness import says_something
+from xavi_dialogue.dialogue.state.discourse import event_of
 from xavi_dialogue.dialogue.state.state import Understood
 from xavi_dialogue.dialogue.state.turn import Part, Turn
 from xavi_dialogue.domain.answers import (
@@ -20,6 +21,7 @@ from xavi_dialogue.domain.answers import (
     Answer,
     CannotSay,
     Comforting,
+    Happenings,
     Helpful,
     Judged,
     NeedRollout,
@@ -28,7 +30,8 @@ from xavi_dialogue.domain.answers import (
     Sociable,
     Unfamiliar,
 )
-from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.discourse import GroundedAct, Span
+from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import (
     Ask,
     AskHelp,
@@ -36,11 +39,14 @@ from xavi_dialogue.domain.meaning import (
     Claim,
     Elliptic,
     Feel,
+    Listing,
     Quizzing,
     Repair,
     Request,
     Social,
+    Why,
 )
+from xavi_dialogue.domain.terms import Event, Happens
 
 Result: TypeAlias = Answer | Refusal
 Results: TypeAlias = tuple[Result, ...]
@@ -53,6 +59,7 @@ _POLITE = frozenset(
 #: Social moves that say less than any other.
 _FAINT = (Social("acknowledge"), Social("agree"), Social("address"))
 _MENDING = frozenset(("meant", "correct", "pick"))
+MOST: Final = 4  # occasions of which each has its reason told
 _REWORDINGS = frozenset(("longer", "shorter", "simpler"))
 
 
@@ -107,7 +114,7 @@ def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRol
         case Social(kind=kind, about=None):
             return (Sociable(kind),)
         case Social():
-            found = now.mind.explain(act, now.record)
+            found = now.pipeline.explain(act, now.record)
             return found if isinstance(found, NeedRollout) else (found,)
         case AskHelp():
             return (Helpful(),)
@@ -122,12 +129,30 @@ def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRol
 def _explained(now: Situation, act: GroundedAct) -> Results | NeedRollout:
     """Answer an act, of each of several vehicles that it is asked of."""
     found: list[Answer | Refusal] = []
-    for one in severally(act):
-        result = now.mind.explain(one, now.record)
+    for one in (each for single in severally(act) for each in _occasions(now, single)):
+        result = now.pipeline.explain(one, now.record)
         if isinstance(result, NeedRollout):
             return result
         found.append(result)
     return tuple(found)
+
+
+def _occasions(now: Situation, act: GroundedAct) -> tuple[GroundedAct, ...]:
+    """Give the questions why of each occasion of a deed whose reasons are asked for."""
+    match act.act:
+        case Ask(question=Listing(of="reasons", event=Event()) as asked):
+            events = Ask(changed(asked, of="events"))
+            told = now.pipeline.explain(changed(act, act=events), now.record)
+            deeds = told.episodes[-MOST:] if isinstance(told, Happenings) else ()
+            whys = tuple(_why(act, deed, now.record.now) for deed in deeds)
+            return whys or (changed(act, act=events),)
+    return (act,)
+
+
+def _why(act: GroundedAct, deed: Episode, now: float) -> GroundedAct:
+    """Give the question why a deed was done, at its time."""
+    span = Span(begin=deed.begin, end=now if deed.end is None else deed.end, said=True)
+    return changed(act, act=Ask(Why(Happens(event_of(deed)))), span=span)
 
 
 def pertinent(acts: tuple[GroundedAct, ...]) -> tuple[GroundedAct, ...]:
@@ -155,7 +180,7 @@ def _comfort(now: Situation, act: GroundedAct, feel: Feel, beside: bool) -> Resu
     """Reply to a feeling; beside another act, the reply to that one is the fact."""
     if beside:
         return (Comforting(feel),)
-    found = now.mind.explain(act, now.record)
+    found = now.pipeline.explain(act, now.record)
     if isinstance(found, NeedRollout):
         return found
     return (found if isinstance(found, Comforting) else Comforting(feel),)

@@ -12,7 +12,7 @@ from typing import TypeAlias
 import msgspec
 
 from planner.record.trace import PlanTrace, WhatIf
-from xavi_dialogue.dialogue.mind import Mind, Said, Situation, turn_away
+from xavi_dialogue.dialogue.pipeline import Pipeline, Said, Situation, turn_away
 from xavi_dialogue.dialogue.quizzes.quizzing import reply_to
 from xavi_dialogue.dialogue.standing import failed
 from xavi_dialogue.dialogue.state.events import (
@@ -60,7 +60,7 @@ MAX_TURNS = 400  # of a session
 Step: TypeAlias = tuple[Dialogue, tuple[Output, ...]]
 
 
-def advance(mind: Mind, dialogue: Dialogue, event: Input) -> Step:
+def advance(pipeline: Pipeline, dialogue: Dialogue, event: Input) -> Step:
     """Return the state after one input, and what is handed out.
 
     Raises:
@@ -70,13 +70,13 @@ def advance(mind: Mind, dialogue: Dialogue, event: Input) -> Step:
         case TraceRecorded() | EventRecorded() | SceneSeen() | RecordMissing() | RideEnded():
             return _record(dialogue, event), ()
         case Asked():
-            return _ask(mind, dialogue, event)
+            return _ask(pipeline, dialogue, event)
         case TurnedAway():
-            return _turn_away(mind, dialogue, event)
+            return _turn_away(pipeline, dialogue, event)
         case RolloutsArrived():
-            return _go_on(mind, dialogue, event)
+            return _go_on(pipeline, dialogue, event)
         case RolloutsFailed():
-            return _give_up(mind, dialogue, event)
+            return _give_up(pipeline, dialogue, event)
         case PlannedAhead(need, trace):
             return _planned(dialogue, need, trace), ()
         case Cancelled(request, name):
@@ -89,11 +89,11 @@ def advance(mind: Mind, dialogue: Dialogue, event: Input) -> Step:
             return _with(dialogue, name, Session(phase)), ()
 
 
-def fold(mind: Mind, events: Iterable[Input], dialogue: Dialogue | None = None) -> Dialogue:
+def fold(pipeline: Pipeline, events: Iterable[Input], dialogue: Dialogue | None = None) -> Dialogue:
     """Return the state after a row of inputs."""
     state = Dialogue() if dialogue is None else dialogue
     for event in events:
-        state, _ = advance(mind, state, event)
+        state, _ = advance(pipeline, state, event)
     return state
 
 
@@ -120,22 +120,22 @@ def _record(
             return replace(dialogue, ride=phase, ended_at=at)
 
 
-def _ask(mind: Mind, dialogue: Dialogue, asked: Asked) -> Step:
+def _ask(pipeline: Pipeline, dialogue: Dialogue, asked: Asked) -> Step:
     session = dialogue.session(asked.session)
     phase = after(PHASES, session.phase, Move.ASKED)
-    now = _situation(mind, dialogue, session, Pending(asked))
+    now = _situation(pipeline, dialogue, session, Pending(asked))
     if phase is Phase.PLANNING:
         return _tell(dialogue, session, asked, turn_away(now, "busy"))
     understood = understand(now, _open_turn(session))
     session = replace(session, phase=phase)
-    return _think(mind, dialogue, session, Pending(asked, understood))
+    return _think(pipeline, dialogue, session, Pending(asked, understood))
 
 
-def _think(mind: Mind, dialogue: Dialogue, session: Session, question: Pending) -> Step:
+def _think(pipeline: Pipeline, dialogue: Dialogue, session: Session, question: Pending) -> Step:
     """Answer act by act; what was planned again before need not be planned anew."""
     while True:
         assert question.understood is not None
-        now = _situation(mind, dialogue, session, question)
+        now = _situation(pipeline, dialogue, session, question)
         found = reply_to(now, question.understood, question.done)
         if isinstance(found, Said):
             return _speak(dialogue, session, question.asked, found)
@@ -162,9 +162,11 @@ def _evidence(dialogue: Dialogue, question: Pending, need: NeedRollout) -> Pendi
     return None if known is None else replace(question, extra=(*extra, known))
 
 
-def _situation(mind: Mind, dialogue: Dialogue, session: Session, question: Pending) -> Situation:
+def _situation(
+    pipeline: Pipeline, dialogue: Dialogue, session: Session, question: Pending
+) -> Situation:
     record = dialogue.record(question.asked.at, question.extra, question.refused)
-    return Situation(mind, remember(session.turns, dialogue.ride_id), question.asked, record)
+    return Situation(pipeline, remember(session.turns, dialogue.ride_id), question.asked, record)
 
 
 def _want(dialogue: Dialogue, session: Session, pending: Pending) -> Step:
@@ -190,12 +192,12 @@ def _waiting(dialogue: Dialogue, request: str, name: str, move: Move) -> tuple[S
     return replace(session, phase=phase, pending=None), pending
 
 
-def _go_on(mind: Mind, dialogue: Dialogue, event: RolloutsArrived) -> Step:
+def _go_on(pipeline: Pipeline, dialogue: Dialogue, event: RolloutsArrived) -> Step:
     session, pending = _waiting(dialogue, event.request, event.session, Move.PLANNED)
     assert pending.need is not None
     dialogue = _planned(dialogue, pending.need, event.trace)
     pending = replace(pending, extra=(*pending.extra, event.trace))
-    return _think(mind, dialogue, session, pending)
+    return _think(pipeline, dialogue, session, pending)
 
 
 def _planned(dialogue: Dialogue, need: NeedRollout, trace: PlanTrace) -> Dialogue:
@@ -219,19 +221,19 @@ def _is_wanted(dialogue: Dialogue, need: NeedRollout, trace: PlanTrace) -> bool:
     return any(t.trace_id == need.trace_id for t in known)
 
 
-def _give_up(mind: Mind, dialogue: Dialogue, event: RolloutsFailed) -> Step:
+def _give_up(pipeline: Pipeline, dialogue: Dialogue, event: RolloutsFailed) -> Step:
     """Answer without the rollouts where they were only to make sure; else say why not."""
     session, pending = _waiting(dialogue, event.request, event.session, Move.PLANNING_FAILED)
     assert pending.need is not None
     refused = (*pending.refused, pending.need)
-    return _think(mind, dialogue, session, replace(pending, refused=refused, why=event.reason))
+    return _think(pipeline, dialogue, session, replace(pending, refused=refused, why=event.reason))
 
 
-def _turn_away(mind: Mind, dialogue: Dialogue, event: TurnedAway) -> Step:
+def _turn_away(pipeline: Pipeline, dialogue: Dialogue, event: TurnedAway) -> Step:
     asked = event.asked
     session = dialogue.session(asked.session)
     session = replace(session, phase=after(PHASES, session.phase, Move.TURNED_AWAY))
-    said = turn_away(_situation(mind, dialogue, session, Pending(asked)), event.reason)
+    said = turn_away(_situation(pipeline, dialogue, session, Pending(asked)), event.reason)
     return _tell(dialogue, session, asked, said)
 
 

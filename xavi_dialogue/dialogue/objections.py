@@ -5,7 +5,7 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.dialogue.mind import Situation
+from xavi_dialogue.dialogue.pipeline import Situation
 from xavi_dialogue.domain.answers import Beliefs, MotionReason, NeedRollout
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.meaning import Ask, Claim, HowSure
@@ -40,7 +40,7 @@ def foreseen_then(
         return None
     to_come = Event(event.action, vehicle, event.object, tense="future", time=Next())
     asked = Ask(HowSure(Happens(to_come), time=At(reason.deed.begin)))
-    found = now.mind.explain(GroundedAct(asked), now.record)
+    found = now.pipeline.explain(GroundedAct(asked), now.record)
     if isinstance(found, NeedRollout) or not isinstance(found, Beliefs):
         return None
     known = found.probability is not None and found.probability < SURE

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from xavi_dialogue.dialogue.acts import pertinent
 from xavi_dialogue.dialogue.chain import recast
 from xavi_dialogue.dialogue.claims import in_order
-from xavi_dialogue.dialogue.mind import Situation
+from xavi_dialogue.dialogue.pipeline import Situation
 from xavi_dialogue.dialogue.quizzes.quiz_replies import signs
 from xavi_dialogue.dialogue.quizzes.quizzing import judgement_of, put_again
 from xavi_dialogue.dialogue.state.state import Understood
@@ -24,7 +24,7 @@ def understand(now: Situation, before: Turn | None) -> Understood:
         before: the turn before, where it ended with a question of ours.
     """
     chosen = _chosen(now.asked.text, before)
-    readings = now.mind.read(now.asked.text) if chosen is None else (chosen,)
+    readings = now.pipeline.read(now.asked.text) if chosen is None else (chosen,)
     quiz = None if before is None else before.quiz
     if quiz is not None:
         judged = judgement_of(now, quiz, readings)
@@ -36,7 +36,7 @@ def understand(now: Situation, before: Turn | None) -> Understood:
     if any(isinstance(act, Quizzing) and not act.stop for act in wants):
         return Understood(aim="quiz")
     asked = tuple(recast(reading, now.memory.turns) for reading in readings)
-    grounding = now.mind.ground(asked, now.record, now.memory.discourse)
+    grounding = now.pipeline.ground(asked, now.record, now.memory.discourse)
     understood = grounded(grounding)
     if quiz is not None and (not understood.acts or _is_fragment(now, readings)):
         return put_again(quiz)

@@ -41,6 +41,7 @@ from xavi_dialogue.domain.findings import (
     PlanAhead,
     Priority,
     PullingUp,
+    Slowing,
     Staying,
     Unblocking,
     Verdict,
@@ -77,9 +78,9 @@ __all__ = [
     "MotionReason", "NeedRollout", "NoSuchVehicle", "NobodyElse", "NotApplicable", "NotRecorded",
     "NotUnderstood", "NothingToAsk", "Options", "OtherReason", "OutcomeEstimate", "OwnSignal",
     "Pivot", "PlaceReason", "PlanAhead", "Posed", "Priority", "PullingUp", "Reaction", "Reason",
-    "Refusal", "Share", "SignalReason", "Sociable", "Staying", "Summit", "SupposedOfOther",
-    "SupposedOfUs", "TakenAs", "Term", "TooLittle", "Unavailable", "Unblocking", "Unfamiliar",
-    "Unslowed", "Verdict", "Wavered", "Weighing", "WhichOne",
+    "Refusal", "Share", "SignalReason", "Slowing", "Sociable", "Staying", "Summit",
+    "SupposedOfOther", "SupposedOfUs", "TakenAs", "Term", "TooLittle", "Unavailable", "Unblocking",
+    "Unfamiliar", "Unslowed", "Verdict", "Wavered", "Weighing", "WhichOne",
 ]  # fmt: skip
 
 # --- talk ---------------------------------------------------------------------------------------
@@ -310,6 +311,7 @@ Answer: TypeAlias = (
     | Comfort
     | Closeness
     | PullingUp
+    | Slowing
     | Unblocking
     | Course
     | Summit

@@ -136,6 +136,8 @@ class Bound(Value, frozen=True):
     went: Episode | None = None  # where it has gone in fact
     look: Look | None = None  # where it is by now, or was seen last
     measures: tuple[Measure, ...] = ()  # of ours: destination, turns
+    unconsidered: Event | None = None  # what was asked about, and the belief leaves out of account
+    signal: Episode | None = None  # what it indicates meanwhile
 
 
 class Beliefs(Value, frozen=True):
@@ -240,6 +242,7 @@ class Closeness(Value, frozen=True):
     overall: bool = True  # it was never closer so far
     foreseen: bool = False  # it is how close it comes if all goes as planned and expected
     grounds: "Assurance | None" = None  # why no collision is expected, where that is asked
+    giving: tuple[int, ...] = ()  # whom we are about to let go first, where it is asked of now
 
 
 class Assurance(Value, frozen=True):
@@ -251,6 +254,18 @@ class Assurance(Value, frozen=True):
     stands: bool = False
     yields: Literal["we", "they"] | None = None  # who has to let the other one go first
     behind: bool = False  # it drives behind us
+
+
+class Slowing(Value, frozen=True):
+    """Whether we stop or slow down for somebody, as foreseen."""
+
+    others: tuple[int, ...]  # whom it is asked for; of those, who holds us up where anybody does
+    stops: bool  # we come to a standstill
+    held: float  # share of the drives foreseen in which they hold us up
+    slows: bool = False  # it is asked whether we slow down, not whether we stop
+    slow: float | None = None  # [m/s] down to which we slow; None: we do not
+    time: float | None = None  # [s] when we stand
+    order: Literal["we", "they", "nobody"] | None = None  # who comes first where our ways meet
 
 
 class PullingUp(Value, frozen=True):

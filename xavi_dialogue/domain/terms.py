@@ -5,7 +5,7 @@ of things, only `Ego`, `Vehicle`, `Vehicles`, `Nobody` and the places remain; of
 `Between`, `Now`, `Next` and `WholeRide`, and `Unsaid` where the explainer is to decide.
 """
 
-from typing import Literal, TypeAlias
+from typing import Final, Literal, TypeAlias
 
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.times import (
@@ -36,15 +36,13 @@ from xavi_dialogue.domain.vocabulary import (
 )
 
 __all__ = [
-    "Ago", "At", "AtDecision", "Back", "Believed", "Between", "Both", "Caused", "Compares",
-    "Described", "Destination", "Ego", "Event", "Everyone", "Exists", "Exit", "Extremes", "Feature",
-    "Happens", "Has", "Is", "Junction", "Lane", "Measured", "Next", "Nobody", "Not", "Now",
-    "Passenger", "Pronoun", "Proposition", "Quantity", "Rank", "Record", "Related", "Relative",
-    "Road", "Start", "Tense", "That", "Thing", "Time", "Together", "Unknown", "Unsaid", "Vehicle",
-    "Vehicles", "Wanted", "WholeRide", "Within",
+    "SOMEBODY_ELSE", "Ago", "At", "AtDecision", "Back", "Believed", "Between", "Both", "Caused",
+    "Compares", "Described", "Destination", "Ego", "Event", "Everyone", "Exists", "Exit",
+    "Extremes", "Feature", "Happens", "Has", "Is", "Junction", "Lane", "Measured", "Next",
+    "Nobody", "Not", "Now", "Passenger", "Pronoun", "Proposition", "Quantity", "Rank", "Record",
+    "Related", "Relative", "Road", "Start", "Tense", "That", "Thing", "Time", "Together",
+    "Unknown", "Unsaid", "Vehicle", "Vehicles", "Wanted", "WholeRide", "Within",
 ]  # fmt: skip
-
-# --- things -------------------------------------------------------------------------------------
 
 
 class Ego(Value, frozen=True):
@@ -92,6 +90,9 @@ class Described(Value, frozen=True):
     extreme: Literal["nearest", "farthest", "fastest", "slowest", "biggest"] | None = None
     other: bool = False  # "the other one", "another car": not the one spoken of
     definite: bool = True  # False: "a car", "any car", "somebody"
+
+
+SOMEBODY_ELSE: Final = Described(other=True, definite=False)  # "anybody else", "another one"
 
 
 class Pronoun(Value, frozen=True):
@@ -192,8 +193,6 @@ Thing: TypeAlias = (
     | Unknown
 )
 
-# --- times --------------------------------------------------------------------------------------
-
 
 class Relative(Value, frozen=True):
     """While, before or after an event or thing: "when we turned", "before the roundabout"."""
@@ -219,8 +218,6 @@ Time: TypeAlias = (
     | Next
 )
 Tense: TypeAlias = Literal["past", "present", "future", "perfect"]
-
-# --- events and propositions --------------------------------------------------------------------
 
 
 class Event(Value, frozen=True):

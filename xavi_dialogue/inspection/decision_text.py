@@ -1,6 +1,6 @@
-"""A decision as text for people: what was expected, what was tried, what was chosen.
+"""A decision as text: predictions, the search, and the choice.
 
-Everything that comes from the trace is cleaned of what could steer a terminal.
+Text from the trace is cleaned, so that it cannot control a terminal.
 """
 
 from collections.abc import Iterator, Sequence
@@ -10,16 +10,22 @@ from typing import TypeAlias
 from planner.record.trace import PlanTrace, VehiclePrediction
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.bus.sanitize import one_line
+from xavi_dialogue.inspection.comparison import Compared, comparison
 from xavi_dialogue.inspection.search_tree import Branch, Hindrance, grow
 
 KMH = 3.6
 PLAIN = 1e6  # numbers from here on are written with an exponent
-FOREMOST = 3  # of those who held the ego up that are shown
-LIKELY = 0.005  # probability below which a goal shows only where all is wanted
+FOREMOST = 3  # number of road users shown as hold-ups
+LIKELY = 0.005  # probability below which a goal is shown only on request
 
 Row: TypeAlias = tuple[str, ...]
 
 HEADINGS: Row = ("", "visits", "forced", "value", "alike", "time", "outcomes", "held up by")
+COMPARED: Row = ("", "reward", "time", "outcomes", "told", "collision")
+OF_COMPARED = """\
+reward   mean, as outcomes and time are, by the weights of the samples: what the decision went by
+told     mean reward by all rollouts of a plan, and collision: its probability, as answers tell it
+"""
 LEGEND = """\
 visits   rollouts of the search; forced: rollouts added for comparison and evidence
 value    of the action in the search; alike: mean reward over samples tried with every first action
@@ -32,7 +38,7 @@ held up  vehicle, how, share of the rollouts, mean seconds of those
 class Extent:
     """How much of the tree is shown."""
 
-    depth: int = 2  # macro actions in a row, beside the chosen plan
+    depth: int = 2  # macro actions in a row, besides the chosen plan
     all: bool = False  # every branch, every goal, every refusal
 
 
@@ -43,8 +49,12 @@ def show(trace: PlanTrace, extent: Extent) -> str:
         TreeError: the rollouts are no search.
     """
     root = grow(trace)
-    parts = (_head(trace), _expectations(trace, extent), _search(root, extent), _plan(trace))
-    return "\n\n".join("\n".join(part) for part in parts) + "\n\n" + LEGEND
+    compared = comparison(trace)
+    parts = [_head(trace), _expectations(trace, extent), _search(root, extent), _plan(trace)]
+    if compared:
+        parts.insert(3, _compared(compared))
+    legend = (OF_COMPARED if compared else "") + LEGEND
+    return "\n\n".join("\n".join(part) for part in parts) + "\n\n" + legend
 
 
 def listing(traces: Sequence[PlanTrace]) -> str:
@@ -137,7 +147,7 @@ def _search(root: Branch, extent: Extent) -> Iterator[str]:
 
 
 def _below(branch: Branch, indent: str, extent: Extent) -> Iterator[Row]:
-    """The rows beneath a branch: what was tried from there, and what could not be done."""
+    """Format the rows below a branch: options that were tried, and inapplicable ones."""
     children = branch.children if _opens(branch, extent) else ()
     children = tuple(c for c in children if _shown(c, extent))
     barred = branch.refused if _explains(branch, extent) else ()
@@ -161,7 +171,7 @@ def _shown(branch: Branch, extent: Extent) -> bool:
 
 
 def _explains(branch: Branch, extent: Extent) -> bool:
-    """Why the rest could not be done: at the root, and where everything is wanted."""
+    """Format why other options were inapplicable: at the root, or everywhere on request."""
     return extent.all or not branch.actions
 
 
@@ -184,6 +194,23 @@ def _hindrances(held_up: Sequence[Hindrance]) -> str:
         for one in held_up[:FOREMOST]
     ]
     return " · ".join(told) + (" · …" if len(held_up) > FOREMOST else "")
+
+
+def _compared(rows: Sequence[Compared]) -> Iterator[str]:
+    """The first actions by the weights of the samples that all were tried with."""
+    yield f"What was compared: {rows[0].samples} joint samples by their weights"
+    table = [
+        (
+            f"{one.action}{' ◀' if one.chosen else ''}",
+            _number(one.reward),
+            _number(one.time),
+            ", ".join(f"{outcome} {share:.1%}" for outcome, share in one.outcomes.items()),
+            _number(one.told),
+            "" if one.collision is None else f"{one.collision:.1%}",
+        )
+        for one in rows
+    ]
+    yield from _columns([COMPARED, *table], right=(1, 2, 4, 5))
 
 
 def _plan(trace: PlanTrace) -> Iterator[str]:
@@ -218,7 +245,7 @@ def _speed(state: VehicleState) -> str:
 
 
 def _number(value: float | None, digits: int = 1) -> str:
-    """A number, short even where it is absurd; nothing where there is none."""
+    """Format a number, short even if it is extreme; empty for None."""
     if value is None:
         return ""
     return f"{value:.{digits}f}" if abs(value) < PLAIN else f"{value:.1e}"

@@ -1,4 +1,4 @@
-"""The search tree of a decision, built anew from its recorded rollouts.
+"""The search tree of a decision, rebuilt from its recorded rollouts.
 
 Rewards are recorded as the search learned them, so replaying its back-ups gives its very values.
 """
@@ -29,14 +29,14 @@ class Hindrance:
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """A node of the search tree, and what came of the rollouts through it."""
+    """A node of the search tree, with the results of the rollouts through it."""
 
     actions: Node  # that lead to it; () is the root
     visits: int  # rollouts of the search
     forced: int  # rollouts that were added
-    value: float | None  # in the search; None at the root, and where only forced ones came
+    value: float | None  # in the search; None at the root, and if all were forced
     alike: float | None  # mean reward over the samples tried with all; of first actions alone
-    mean: float | None  # reward, forced rollouts included; None where no rollout came
+    mean: float | None  # reward, forced rollouts included; None without rollouts
     outcomes: Mapping[Outcome, int]
     time: float | None  # [s] mean time to the goal of those that reach it
     held_up: tuple[Hindrance, ...]  # the most frequent first
@@ -161,7 +161,7 @@ def _outcomes(rollouts: Sequence[Rollout]) -> dict[Outcome, int]:
 
 
 def hindrances(rollouts: Sequence[Rollout]) -> tuple[Hindrance, ...]:
-    """Who held the ego up in some rollouts, and how: the most frequent first."""
+    """Count who held the ego up in some rollouts, and how: the most frequent first."""
     seconds: dict[tuple[int, HoldUp], list[float]] = {}
     for rollout in rollouts:
         each: dict[tuple[int, HoldUp], float] = {}

@@ -22,7 +22,7 @@ class TraceFileError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Traces:
-    """What a file holds."""
+    """The contents of a file."""
 
     traces: tuple[PlanTrace, ...]
     ride: bool  # a recorded ride: one of its decisions is to be chosen
@@ -64,10 +64,10 @@ def read(data: bytes) -> Traces:
 
 
 def choose(held: Traces, decision: int | None, at: float | None) -> PlanTrace | None:
-    """The decision asked for; None where one of several is still to be chosen.
+    """Return the wanted decision; None if one of several is still to be chosen.
 
     Args:
-        held: what the file holds.
+        held: the contents of the file.
         decision: running number of the decision.
         at: [s] the latest decision up to then.
 

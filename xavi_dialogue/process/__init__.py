@@ -1,1 +1,1 @@
-"""What processes share: settings, logging, child processes, exit statuses."""
+"""Shared by all processes: settings, logging, child processes, exit statuses."""

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import IO, TypeAlias
 
 SHOWN = 40  # characters of a line that is no order
-PATIENCE = 5.0  # [s] that a process told to end may take before it is ended
+PATIENCE = 5.0  # [s] that a process may take to end before it is killed
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class Speed:
 
 @dataclass(frozen=True, slots=True)
 class Until:
-    """Go on up to a moment [s] and halt; None stands for the end of the first manoeuvre."""
+    """Go on up to a time [s] and halt; None stands for the end of the first manoeuvre."""
 
     time: float | None
 
@@ -57,7 +57,7 @@ Order: TypeAlias = Pause | Resume | Speed | Until | Seek | Quit
 Orders: TypeAlias = "queue.SimpleQueue[Order]"
 
 
-class OrderError(ValueError):
+class ChildCommandError(ValueError):
     """A line that is no order."""
 
 
@@ -78,7 +78,7 @@ def read(line: str) -> Order:
     """The order in a line.
 
     Raises:
-        OrderError: the line is no order.
+        ChildCommandError: the line is no order.
     """
     match line.split():
         case ["pause"]:
@@ -95,17 +95,19 @@ def read(line: str) -> Order:
             return Until(_number(time))
         case ["seek", time]:
             return Seek(_number(time))
-    raise OrderError(f"{line.strip()[:SHOWN]!r} is no order, such as pause, resume or speed 2.0")
+    raise ChildCommandError(
+        f"{line.strip()[:SHOWN]!r} is no order, such as pause, resume or speed 2.0"
+    )
 
 
 def listen(stream: IO[str], orders: Orders, refuse: Callable[[str], None] | None = None) -> None:
-    """Put the orders that come in into a queue, from a thread; at the end of the stream, Quit.
+    """Read commands into a queue, on a thread; at the end of the stream, Quit.
 
-    The process ends by force if it is still there some seconds after that.
+    The process is killed if it still runs some seconds after that.
 
     Args:
         stream: of lines.
-        orders: where they go.
+        orders: the queue.
         refuse: gets what is wrong with a line that is none; a newer parent may know more
             orders, so that what it says is left at that.
     """
@@ -114,7 +116,7 @@ def listen(stream: IO[str], orders: Orders, refuse: Callable[[str], None] | None
         for line in stream:
             try:
                 orders.put(read(line))
-            except OrderError as error:
+            except ChildCommandError as error:
                 if refuse is not None and line.strip():
                     refuse(str(error))
         orders.put(Quit())
@@ -125,7 +127,7 @@ def listen(stream: IO[str], orders: Orders, refuse: Callable[[str], None] | None
 
 
 class Signals:
-    """SIGTERM and SIGINT, once they are listened to; see `quit_on_signals`."""
+    """SIGTERM and SIGINT, once `quit_on_signals` listens to them."""
 
     def __init__(self) -> None:
         self._number = 0
@@ -133,7 +135,7 @@ class Signals:
 
     @property
     def told(self) -> bool:
-        """Whether one came."""
+        """Whether a signal arrived."""
         return self._number != 0
 
     @property
@@ -150,7 +152,7 @@ class Signals:
         """
 
         def come(number: int, _: object) -> None:
-            # Nothing here takes a lock: it may interrupt any line, itself too.
+            # This takes no lock: it may interrupt any line, even itself.
             self._number = self._number or number
             orders.put(Quit())
             self._came.put(number)
@@ -177,5 +179,5 @@ def _number(text: str) -> float:
     except ValueError:
         number = math.nan
     if not 0.0 <= number < math.inf:
-        raise OrderError(f"{text[:SHOWN]!r} is no number from 0 on")
+        raise ChildCommandError(f"{text[:SHOWN]!r} is no number from 0 on")
     return number

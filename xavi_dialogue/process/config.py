@@ -1,4 +1,4 @@
-"""The settings of a user: what options are taken from a file.
+"""User settings: a file that sets options of commands.
 
 An option counts in this order: as it stands on the command line; as an environment variable says;
 as the file says; as it is by default. The file is TOML. An option at its top is for every command
@@ -31,14 +31,14 @@ def default_path() -> Path:
 
 
 def read(path: Path, options: Options) -> dict[str, dict[str, Any]]:
-    """What a file sets, by command and parameter.
+    """The options that a file sets, by command and parameter.
 
     Args:
         path: of the file.
-        options: that there are: of every command, the name of each with that of its parameter.
+        options: all options: of every command, the name of each with its parameter.
 
     Raises:
-        SettingsError: it cannot be read, or sets what there is not.
+        SettingsError: it cannot be read, or sets an unknown option.
     """
     try:
         said = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -61,7 +61,7 @@ def read(path: Path, options: Options) -> dict[str, dict[str, Any]]:
 
 
 def place_in(path: Path, name: str, command: str) -> str:
-    """Where a file sets an option of a command, in words."""
+    """Describe where a file sets an option of a command."""
     said = tomllib.loads(path.read_text(encoding="utf-8"))
     return f"{path}, [{command}]" if name in said.get(command, {}) else str(path)
 

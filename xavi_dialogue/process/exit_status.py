@@ -1,4 +1,4 @@
-"""How a command that asks one question ends."""
+"""Exit statuses of commands, and the errors that commands report."""
 
 from enum import IntEnum
 from typing import TYPE_CHECKING
@@ -8,18 +8,18 @@ if TYPE_CHECKING:  # the command line needs the numbers at once, and replies lat
 
 
 class UsageFault(ValueError):
-    """A user gave something that cannot be used; the message says how to mend it."""
+    """Invalid input of the user; the message says how to correct it."""
 
 
 class RunFault(RuntimeError):
-    """A command could not do its work; the message says why."""
+    """A command failed; the message says why."""
 
 
 class ExitStatus(IntEnum):
     """Exit statuses of `xavi`."""
 
     ANSWERED = 0  # small talk and help too
-    FAILED = 1  # an error of ours or of the installation
+    FAILED = 1  # an internal error, or a broken installation
     USAGE = 2
     DECLINED = 3  # or asked back
     NOT_UNDERSTOOD = 4

@@ -1,4 +1,4 @@
-"""Keeping what stays for long out of the garbage collector's way."""
+"""Keeps long-lived objects out of garbage collections."""
 
 import gc
 from collections.abc import Iterator
@@ -7,10 +7,10 @@ from contextlib import contextmanager
 
 @contextmanager
 def settled() -> Iterator[None]:
-    """Spare what is loaded by now from collections, until the block ends.
+    """Exclude all present objects from collections, until the block ends.
 
-    A collection of the oldest generation goes through modules, road network and grammars, which
-    takes 75 ms and more in the midst of a decision; what is made since is little.
+    A collection of the oldest generation visits modules, road network and grammars, which takes
+    75 ms and more in the middle of a decision; few objects are made after loading.
     """
     gc.collect()
     gc.freeze()

@@ -1,7 +1,7 @@
-"""Where the planner's compiled kernels are kept.
+"""The cache folder of the planner's compiled kernels.
 
-numba keeps them beside their source, else in the user's cache, and refuses where neither can be
-written, as in a container without a home. There they are compiled anew for every command.
+numba caches them beside their source, else in the user's cache, and fails if neither can be
+written, as in a container without a home. Then every command compiles them again.
 """
 
 import atexit
@@ -14,11 +14,11 @@ from pathlib import Path
 PLACE = "NUMBA_CACHE_DIR"  # environment variable, inherited by the processes that we start
 SOURCES = Path(__file__).parents[2] / "planner" / "kernels"
 BESIDE = SOURCES / "__pycache__"
-LENT = "xavi-kernels-"  # how the name of a place begins that goes with the process
+LENT = "xavi-kernels-"  # prefix of a temporary folder that is deleted with the process
 
 
 def find_place() -> None:
-    """Where numba would find no place for compiled kernels, lend it one until this process ends."""
+    """Give numba a temporary cache folder if it would find none."""
     if place() is not None:
         return
     with contextlib.suppress(OSError):  # without any place; commands that need none work on
@@ -27,7 +27,7 @@ def find_place() -> None:
 
 
 def place() -> Path | None:
-    """The folder in which compiled kernels are kept, or below which; None: there is none."""
+    """Return the folder of compiled kernels, or its parent; None if there is none."""
     if PLACE in os.environ:
         return Path(os.environ[PLACE])
     return next((folder for folder in (BESIDE, _users_cache()) if writable(folder)), None)
@@ -51,6 +51,6 @@ def _users_cache() -> Path:
 
 
 def writable(folder: Path) -> bool:
-    """Whether files can be written into a folder, which may have to be made."""
+    """Check whether files can be written to a folder, which may not exist yet."""
     there = next(place for place in (folder, *folder.parents) if place.exists())
     return there.is_dir() and os.access(there, os.W_OK | os.X_OK)

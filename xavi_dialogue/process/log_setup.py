@@ -1,4 +1,4 @@
-"""What processes tell their operators: one line a record on standard error.
+"""Logging of processes: one line per record on standard error.
 
 Code logs with `logging.getLogger(__name__)`, a short constant message, and values in `extra`. What
 a passenger said is in neither: values named like it are left out unless that is asked for, and of
@@ -26,13 +26,13 @@ Level: TypeAlias = Literal["debug", "info", "warning", "error"]
 
 OURS = ("xavi_dialogue", "planner", "sim")
 SPOKEN = frozenset({"text", "question", "detail", "answer", "reply", "utterance"})
-FIRST = ("vehicle", "session", "request", "trace_id")  # the order in which these are told
+FIRST = ("vehicle", "session", "request", "trace_id")  # the order of fields
 MAX_LINE = 4096  # bytes
 MAX_VALUE = 256  # characters
 MAX_FIELDS = 32
 MAX_FRAMES = 6  # of an exception, the innermost
-WAITING = 1000  # lines that nobody has read yet
-FLUSHED = 1.0  # [s] that the end of a process waits for its last lines to be read
+WAITING = 1000  # lines that wait for the reader
+FLUSHED = 1.0  # [s] to write the last lines when a process ends
 
 _PLAIN = re.compile(r"[A-Za-z0-9_.:/+@<>*-]+")
 _LINE = re.compile(r"\{\"time\": |\d{4}-\d\d-\d\dT[0-9:.]+Z ")
@@ -41,20 +41,20 @@ _Value: TypeAlias = str | int | float | bool | None
 
 
 @dataclass(frozen=True, slots=True)
-class Telling:
-    """What is told, and how."""
+class LogOptions:
+    """Options of logging."""
 
     form: Form = "text"
     level: Level = "warning"
     component: str = "xavi"  # car, service, recorder, ...
-    vehicle: str | None = None  # where the process is about one car
-    dialogue: bool = False  # what passengers say as well
+    vehicle: str | None = None  # if the process is about one car
+    dialogue: bool = False  # log what passengers say
 
 
-class Lines(logging.Formatter):
+class LineFormatter(logging.Formatter):
     """Records as lines of at most MAX_LINE bytes, of printable ASCII; it never raises."""
 
-    def __init__(self, telling: Telling) -> None:
+    def __init__(self, telling: LogOptions) -> None:
         super().__init__()
         self._telling = telling
 
@@ -62,7 +62,7 @@ class Lines(logging.Formatter):
         """One line, without its end."""
         try:
             fields = self._fields(record)
-        except Exception:  # words that do not fit their arguments must not stop the ride
+        except Exception:  # a wrong format string must not stop the ride
             event = "unprintable log record"
             fields = {"time": _moment(record.created), "level": "error", "event": event}
         return _line(fields, self._telling.form)
@@ -75,7 +75,7 @@ class Lines(logging.Formatter):
             if name not in _STANDARD and (telling.dialogue or name not in SPOKEN)
         }
         given.setdefault("vehicle", telling.vehicle)
-        # The words of other libraries may be made of anything; ours are constant.
+        # Messages of other libraries may contain anything; ours are constant.
         event = record.getMessage() if telling.dialogue else str(record.msg)
         head = {
             "time": _moment(record.created),
@@ -94,12 +94,12 @@ class Lines(logging.Formatter):
         return found
 
 
-class Outlet(logging.Handler):
-    """Writes lines to a stream from a thread; whoever logs never waits, and never fails."""
+class ThreadedHandler(logging.Handler):
+    """Writes lines to a stream on a thread; logging never waits and never fails."""
 
-    def __init__(self, stream: TextIO, telling: Telling) -> None:
+    def __init__(self, stream: TextIO, telling: LogOptions) -> None:
         super().__init__()
-        self.setFormatter(Lines(telling))
+        self.setFormatter(LineFormatter(telling))
         self._stream = stream
         self._lines: queue.Queue[str | None] = queue.Queue(WAITING)
         self._lost = 0  # lines that did not fit into the queue
@@ -121,7 +121,7 @@ class Outlet(logging.Handler):
             self._lost += 1
 
     def close(self) -> None:
-        """Write what waits, as far as somebody reads it."""
+        """Write the queued lines, as far as the reader takes them."""
         with contextlib.suppress(queue.Full):
             self._lines.put_nowait(None)
             self._writer.join(FLUSHED)
@@ -129,21 +129,21 @@ class Outlet(logging.Handler):
 
     def _write(self) -> None:
         while (line := self._lines.get()) is not None:
-            # A reader that is gone is no reason to stop driving.
+            # A reader that has gone must not stop the drive.
             with contextlib.suppress(OSError, ValueError):
                 self._stream.write(line + "\n")
                 self._stream.flush()
 
 
-def begin(stream: TextIO, telling: Telling) -> logging.Handler:
-    """Have records of this process written to a stream, in place of what was before.
+def begin(stream: TextIO, telling: LogOptions) -> logging.Handler:
+    """Log the records of this process to a stream, in place of earlier handlers.
 
-    Records of other libraries are told from level warning on.
+    Records of other libraries are logged from level warning on.
     """
-    handler = logging.NullHandler() if telling.form == "off" else Outlet(stream, telling)
+    handler = logging.NullHandler() if telling.form == "off" else ThreadedHandler(stream, telling)
     root = logging.getLogger()
     for earlier in list(root.handlers):
-        if isinstance(earlier, (Outlet, logging.NullHandler)):
+        if isinstance(earlier, (ThreadedHandler, logging.NullHandler)):
             root.removeHandler(earlier)
             earlier.close()
     root.addHandler(handler)
@@ -153,12 +153,12 @@ def begin(stream: TextIO, telling: Telling) -> logging.Handler:
 
 
 def is_log(line: str) -> bool:
-    """Whether a line of standard error is one of these, and not for the passenger."""
+    """Check whether a line of standard error is a log line, and not for the passenger."""
     return _LINE.match(line) is not None
 
 
 def _line(fields: Mapping[str, _Value], form: Form) -> str:
-    """The fields as one line; the last of them are left out where it would be too long."""
+    """Format fields as one line; drop the last ones if it is too long."""
     kept = dict(fields)
     while True:
         line = json.dumps(kept, allow_nan=False) if form == "json" else _text(kept)
@@ -182,7 +182,7 @@ def _shown(value: _Value) -> str:
 
 
 def _value(value: Any) -> _Value:
-    """A value as JSON can hold it, cut where it is long."""
+    """Convert a value for JSON, and shorten it if it is long."""
     if value is None or isinstance(value, bool):
         return value
     if isinstance(value, int):
@@ -198,7 +198,7 @@ def _value(value: Any) -> _Value:
 
 
 def _error(error: BaseException, *, told: bool) -> dict[str, _Value]:
-    """The kind of an exception and where it came from, innermost first."""
+    """Return the type of an exception and where it was raised, innermost first."""
     frames = traceback.extract_tb(error.__traceback__)[-MAX_FRAMES:]
     places = [f"{Path(one.filename).name}:{one.lineno}:{one.name}" for one in reversed(frames)]
     found: dict[str, _Value] = {"error": type(error).__name__, "where": _value(places)}

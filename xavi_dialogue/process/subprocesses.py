@@ -18,11 +18,11 @@ from typing import Self
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.log_setup import is_log
 
-TOP = Path(__file__).parents[2]  # where our packages lie, in a checkout or installed
+TOP = Path(__file__).parents[2]  # the root of the packages, in a checkout or installed
 REMEMBERED = 20  # lines of a child's standard error
 ORDERLY = 3.0  # [s] that a child may take to end by itself
 FORCED = 1.0  # [s] and after SIGTERM
-WARNING = "xavi: warning: "  # how lines begin that concern the passenger
+WARNING = "xavi: warning: "  # the prefix of lines for the passenger
 
 
 class ChildFailed(Exception):
@@ -30,7 +30,7 @@ class ChildFailed(Exception):
 
 
 class Child:
-    """One process of ours, started with a command of `xavi`."""
+    """A child process that runs a command of `xavi`."""
 
     def __init__(
         self, name: str, arguments: Sequence[str], warn: Callable[[str], None] | None = None
@@ -43,7 +43,7 @@ class Child:
             warn: gets its warnings, on a thread.
         """
         self.name = name
-        self.ordered = 0  # orders given
+        self.ordered = 0  # commands sent
         # -P keeps the working directory off the path: it may hold packages of our names.
         command = [sys.executable, "-P", "-m", "xavi_dialogue", *arguments, "--control"]
         path = os.pathsep.join(filter(None, (str(TOP), os.environ.get("PYTHONPATH"))))
@@ -71,10 +71,10 @@ class Child:
         """Give an order.
 
         Returns:
-            The number of orders given so far.
+            The number of commands sent so far.
 
         Raises:
-            ChildFailed: the process is gone.
+            ChildFailed: the process has ended.
         """
         assert self._process.stdin is not None
         try:
@@ -87,10 +87,10 @@ class Child:
         return self.ordered
 
     def check(self) -> None:
-        """Make sure that the process is there.
+        """Check that the process runs.
 
         Raises:
-            ChildFailed: it has ended; with its last words.
+            ChildFailed: it has ended; the message has its last lines.
         """
         code = self._process.poll()
         if code is not None:
@@ -140,8 +140,8 @@ class Child:
         self.stop()
 
 
-class Steady:
-    """A child that is started anew when it has ended by itself."""
+class RestartedChild:
+    """A child that is restarted when it ends by itself."""
 
     def __init__(self, start: Callable[[], Child]) -> None:
         """Start it.
@@ -149,7 +149,7 @@ class Steady:
         Args:
             start: starts it.
         """
-        self.spare = 0  # times that it may still be started anew
+        self.spare = 0  # restarts left
         self._start, self._child = start, start()
         self._lock = threading.Lock()
 
@@ -159,7 +159,7 @@ class Steady:
         return self._child.pid
 
     def check(self) -> None:
-        """Make sure that there is a process.
+        """Check that the process runs; restart it if necessary.
 
         Raises:
             ChildFailed: it has ended too often.
@@ -192,21 +192,21 @@ class Steady:
         self._child.stop()
 
 
-class Expendable:
-    """A child without which one can go on: that it has ended is told once."""
+class OptionalChild:
+    """A child that is not essential: its end is reported once."""
 
     def __init__(self, child: Child, tell: Callable[[str], None]) -> None:
         """Watch it.
 
         Args:
             child: that is watched.
-            tell: gets its end, with its last words.
+            tell: gets its end, with its last lines.
         """
         self.child = child
         self._tell: Callable[[str], None] | None = tell
 
     def check(self) -> None:
-        """Tell if it has ended."""
+        """Report if it has ended."""
         try:
             self.child.check()
         except ChildFailed as error:
@@ -221,7 +221,7 @@ def last_words(said: Sequence[str]) -> str:
 
 
 def _ours() -> dict[str, str]:
-    """Our environment without what would lead a child to another bus."""
+    """Return the environment without variables that lead a child to another bus."""
     return {name: value for name, value in os.environ.items() if not name.startswith("XAVI_")}
 
 

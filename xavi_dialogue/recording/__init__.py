@@ -1,1 +1,1 @@
-"""Recording what the bus carries, and playing it back."""
+"""Recording messages of the bus, and replaying them."""

@@ -20,7 +20,7 @@ import msgspec
 
 from planner.record.events import Event
 from sim.roads.netfile import NetworkError, read_network
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Bus, Call, CallHandler, Keys
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import (
@@ -34,8 +34,19 @@ from xavi_dialogue.bus.messages import (
 from xavi_dialogue.nlg.narration import clock
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.storage.mcap_file import read
-from xavi_dialogue.storage.recording_format import RecordingError, Tape, tape_of, unpacked
-from xavi_dialogue.vehicle.bus_session import CHILD_PATIENCE, HUB_PATIENCE, Dismissed, claim, joined
+from xavi_dialogue.storage.recording_format import (
+    RecordedMessages,
+    RecordingError,
+    read_ride,
+    unpacked,
+)
+from xavi_dialogue.vehicle.bus_session import (
+    CHILD_PATIENCE,
+    HUB_PATIENCE,
+    QuitBeforeRide,
+    claim,
+    joined,
+)
 from xavi_dialogue.vehicle.episode import Moment
 from xavi_dialogue.vehicle.map_server import serve_roads
 from xavi_dialogue.vehicle.node import COUNTERS, SHOWN_EVERY, Pace, serve
@@ -49,41 +60,41 @@ Note: TypeAlias = Callable[[str], None]
 
 @dataclass
 class Player:
-    """Reports a recorded ride like a car, and obeys the same orders, and Seek besides."""
+    """Reports a recorded ride like a car; accepts the same commands, and Seek."""
 
-    tape: Tape
+    recorded: RecordedMessages
     bus: Bus
     keys: Keys
     pace: Pace
     record: Callable[[Moment], None] = lambda _: None  # gets every decision that is published
-    note: Note = lambda _: None  # takes what whoever gives orders should know
-    alive: Alive = field(default_factory=lambda: Alive("car", COUNTERS))
+    note: Note = lambda _: None  # takes notes for the sender of commands
+    alive: HealthReporter = field(default_factory=lambda: HealthReporter("car", COUNTERS))
     ride: str = field(default_factory=lambda: token_hex(4))
     index: int = 0  # of the scene that is shown
     traces: int = 0  # published
     events: list[Event] = field(default_factory=list)  # published
     scenes: int = 0  # published
     told: tuple[int, int] = (0, 0)  # traces and events that the car had reported so far
-    due: float = 0.0  # [s] on the monotonic clock: when the next scene may come
+    due: float = 0.0  # [s] on the monotonic clock: when the next scene is due
     shown: float = 0.0  # [s] on the monotonic clock: when the last one came
 
     def __post_init__(self) -> None:
         self._scene = self.bus.publisher(self.keys.of("scene"))
         self._trace = self.bus.publisher(self.keys.of("trace"), keep=KEPT_TRACES)
         self._event = self.bus.publisher(self.keys.of("event"), keep=KEPT_EVENTS)
-        self._first = self.tape.first
+        self._first = self.recorded.first
 
     @property
     def at_end(self) -> bool:
-        """Whether no scene follows."""
-        return self.index == len(self.tape.scenes) - 1
+        """Whether this is the last scene."""
+        return self.index == len(self.recorded.scenes) - 1
 
     def play(self, orders: child_commands.Orders, *, stays: bool) -> None:
-        """Play to the end, or until told to quit.
+        """Play to the end, or until asked to quit.
 
         Args:
             orders: about the pace.
-            stays: after the end, until told to quit.
+            stays: after the end, until asked to quit.
         """
         self.go_to(self.index)
         while not self.pace.quit and (stays or not self.at_end):
@@ -109,11 +120,11 @@ class Player:
             return SHOWN_EVERY
         if self.pace.speed == 0.0:
             return 0.0
-        ahead = self.tape.times[self.index + 1] - self.tape.times[self.index]
+        ahead = self.recorded.times[self.index + 1] - self.recorded.times[self.index]
         return self.due + ahead / self.pace.speed - time.monotonic()
 
     def _advance(self) -> None:
-        times = self.tape.times
+        times = self.recorded.times
         if self.pace.speed > 0.0:
             self.due += (times[self.index + 1] - times[self.index]) / self.pace.speed
         self.index += 1
@@ -131,27 +142,27 @@ class Player:
         match order:
             case child_commands.Seek(time):
                 self.tell_end(time)
-                index = self.tape.index_at(time)
+                index = self.recorded.index_at(time)
             case child_commands.Until(float(time)):
                 self.tell_end(time)
         self.go_to(index)
 
     def tell_end(self, wanted: float) -> None:
-        """Tell where the recording ends, if a moment [s] lies beyond."""
-        if self.tape.ends_before(wanted):
-            self.note(f"the recording ends at {clock(self.tape.times[-1])}")
+        """Note where the recording ends, if a time [s] is later."""
+        if self.recorded.ends_before(wanted):
+            self.note(f"the recording ends at {clock(self.recorded.times[-1])}")
 
     def _publish_record(self) -> SceneReport:
         """Publish the decisions and events that were known when the scene was seen."""
-        scene = self.tape.scene(self.index)
-        traces, events = self.tape.known(scene)
+        scene = self.recorded.scene(self.index)
+        traces, events = self.recorded.known(scene)
         while self.traces < traces:
             self._publish_trace(scene)
-        numbers = self.tape.event_numbers
-        for event in self.tape.events[len(self.events) : events]:
+        numbers = self.recorded.event_numbers
+        for event in self.recorded.events[len(self.events) : events]:
             report = EventReport(
                 ride=self.ride,
-                seq=numbers[len(self.events)],  # what is missing remains so
+                seq=numbers[len(self.events)],  # missing reports stay missing
                 sim_time=event.sim_time,
                 wall_time=time.time(),
                 event=event,
@@ -162,10 +173,10 @@ class Player:
         return scene
 
     def _publish_trace(self, scene: SceneReport) -> None:
-        trace = self.tape.trace(self.traces)
+        trace = self.recorded.trace(self.traces)
         report = TraceReport(
             ride=self.ride,
-            seq=self.tape.trace_numbers[self.traces],
+            seq=self.recorded.trace_numbers[self.traces],
             sim_time=trace.sim_time,
             wall_time=time.time(),
             trace=trace,
@@ -179,7 +190,7 @@ class Player:
     def _show(self, *, always: bool = False) -> None:
         if not always and time.monotonic() - self.shown < 0.9 * SHOWN_EVERY:
             return
-        scene = self.tape.scene(self.index)
+        scene = self.recorded.scene(self.index)
         # What is known is not unlearnt where the ride goes back; and what is missing, is.
         self.told = (
             max(self.told[0], scene.traces),
@@ -204,13 +215,13 @@ class Player:
 
     def _state(self) -> CarState:
         if self.at_end:
-            return "ended" if self.tape.finished else "paused"
+            return "ended" if self.recorded.finished else "paused"
         return "driving" if self.pace.running else "paused"
 
 
 @dataclass(frozen=True)
-class Show:
-    """What to play, and how."""
+class ReplayOptions:
+    """Options of replaying."""
 
     path: Path
     link: Link
@@ -218,27 +229,27 @@ class Show:
     start: float = 0.0  # [s] of the ride
     car: str | None = None  # which one of the recording; None: the only one
     vehicle: str | None = None  # name under which it is played; None: its own
-    controlled: bool = False  # by a parent: halts at first, and stays
+    controlled: bool = False  # by a parent process: halts at first, and stays
 
 
-def load(path: Path, car: str | None, note: Note) -> Tape:
-    """The ride to be played.
+def load(path: Path, car: str | None, note: Note) -> RecordedMessages:
+    """Read the ride to play.
 
     Raises:
         RecordingError: there is none, or it cannot be read.
     """
     try:
-        tape, why = tape_of(read(path), car)
+        recorded, why = read_ride(read(path), car)
     except RecordingError as error:
         told = str(error)
         raise type(error)(told if str(path) in told else f"{path}: {told}") from error
     if why is not None:
         note(f"warning: {path}: {why}; what is whole of it is played")
-    return tape
+    return recorded
 
 
-def replay(show: Show, note: Note) -> None:
-    """Play a recording on a bus; orders come on standard input.
+def replay(show: ReplayOptions, note: Note) -> None:
+    """Play a recording on a bus; commands come on standard input.
 
     Raises:
         HubUnreachable: there is no hub at the endpoint.
@@ -248,51 +259,51 @@ def replay(show: Show, note: Note) -> None:
     orders: child_commands.Orders = queue.SimpleQueue()
     signals = child_commands.Signals()
     signals.listen(orders)
-    tape = load(show.path, show.car, note)
-    keys = Keys(show.vehicle or tape.vehicle)
+    recorded = load(show.path, show.car, note)
+    keys = Keys(show.vehicle or recorded.vehicle)
     patience = CHILD_PATIENCE if show.controlled else HUB_PATIENCE
-    alive = Alive("car", COUNTERS)
-    with suppress(Dismissed), joined(show.link, signals, patience) as bus:
+    alive = HealthReporter("car", COUNTERS)
+    with suppress(QuitBeforeRide), joined(show.link, signals, patience) as bus:
         claim(bus, keys, signals)
         child_commands.listen(sys.stdin, orders, None if show.controlled else note)
-        with planning_for(tape, bus, keys, alive, note) as (planning, record):
+        with planning_for(recorded, bus, keys, alive, note) as (planning, record):
             serve(bus, keys, planning, alive)
             if not show.controlled:
-                note(f"playing {tape.times[-1]:.1f} s of {tape.vehicle} as {keys.vehicle}")
+                note(f"playing {recorded.times[-1]:.1f} s of {recorded.vehicle} as {keys.vehicle}")
             pace = Pace(show.speed, running=not show.controlled)
             tell = partial(_warn, note) if show.controlled else note
-            player = Player(tape, bus, keys, pace, record, tell, alive)
+            player = Player(recorded, bus, keys, pace, record, tell, alive)
             player.tell_end(show.start)
-            player.index = tape.index_at(show.start)
+            player.index = recorded.index_at(show.start)
             player.play(orders, stays=True)
 
 
 def _warn(note: Note, text: str) -> None:
-    """Tell whoever talks about a recording, over the process that plays it."""
+    """Write notes for the passenger, through the process that plays the recording."""
     note(f"warning: {text}")
 
 
 @contextmanager
 def planning_for(
-    tape: Tape, bus: Bus, keys: Keys, alive: Alive, note: Note
+    recorded: RecordedMessages, bus: Bus, keys: Keys, alive: HealthReporter, note: Note
 ) -> Iterator[tuple[CallHandler, Callable[[Moment], None]]]:
-    """Who plans again from recorded decisions, and what is to be told of them."""
+    """Start planning again from recorded decisions; yield it with the recorder of moments."""
     with tempfile.TemporaryDirectory(prefix="xavi-") as folder:
         path = Path(folder) / "network.net.xml"
-        if not _find_network(tape, path):
+        if not _find_network(recorded, path):
             note(f"warning: {NO_ROADS}; what would have been cannot be asked")
             yield _refuse, lambda _: None
             return
         serve_roads(bus, keys, path)
         with workers(path) as pool:
-            planning = Replanner(pool, max(len(tape.traces), 1), alive)
+            planning = Replanner(pool, max(len(recorded.traces), 1), alive)
             yield planning, planning.record
 
 
-def _find_network(tape: Tape, path: Path) -> bool:
-    """Write the roads that the decisions were taken on to a file; whether there are any."""
-    wanted = tape.trace(0).network if tape.traces else None
-    for packed in tape.networks:
+def _find_network(recorded: RecordedMessages, path: Path) -> bool:
+    """Write the road network of the decisions to a file; return whether there is one."""
+    wanted = recorded.trace(0).network if recorded.traces else None
+    for packed in recorded.networks:
         text = unpacked(packed)
         if text is None:
             continue

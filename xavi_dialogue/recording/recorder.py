@@ -1,4 +1,4 @@
-"""`xavi record`: what is said on the bus about a car, or about every car, into a file.
+"""`xavi record`: writes the messages about one car or all cars to a file.
 
 Handlers on threads of the bus only put messages into a row; one thread checks and writes them.
 """
@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from xavi_dialogue import __version__
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import DEFAULT_VEHICLE, EVERY_CAR, Bus, Keys, Outcome, vehicle_in
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import MessageError, Report, SceneReport, TurnReport, unpack
@@ -31,16 +31,16 @@ from xavi_dialogue.storage.recording_format import (
     network_name,
     unpacked,
 )
-from xavi_dialogue.vehicle.bus_session import CHILD_PATIENCE, HUB_PATIENCE, Dismissed, joined
+from xavi_dialogue.vehicle.bus_session import CHILD_PATIENCE, HUB_PATIENCE, QuitBeforeRide, joined
 from xavi_dialogue.vehicle.map_server import NETWORK
 
 _LOG = logging.getLogger(__name__)
-EVERY = "all"  # stands for the name of a car: all of them
-NETWORK_PATIENCE = 10.0  # [s] for a car to tell its roads
+EVERY = "all"  # stands for all cars
+NETWORK_PATIENCE = 10.0  # [s] for a car to send its roads
 FLUSHED_EVERY = 1.0  # [s]
-LOOK = 0.2  # [s] between looks at whether to stop
+LOOK = 0.2  # [s] between checks for a request to stop
 MAX_WAITING = 64 * MIB  # bytes that wait to be written; beyond them messages are left out
-AT_ONCE = 500  # messages that are written before one looks whether to flush or to stop
+AT_ONCE = 500  # messages written between checks for flushing and stopping
 MAX_RIDES = 200  # that the file describes
 MAX_APART = 10_000  # numbers that are remembered of a ride because some before them are missing
 COUNTERS = ("messages", "bytes", "dropped", "rejected")
@@ -50,14 +50,14 @@ _Job: TypeAlias = Callable[[], None]
 
 
 @dataclass
-class Numbers:
-    """Which numbers of a row have been there."""
+class SeenNumbers:
+    """The sequence numbers that were seen."""
 
     below: int = 0  # all before this one
     apart: set[int] = field(default_factory=set)
 
     def new(self, number: int) -> bool:
-        """Take a number in; whether it had not been there."""
+        """Add a number; return whether it is new."""
         if number < self.below or number in self.apart:
             return False
         self.apart.add(number)
@@ -70,7 +70,7 @@ class Numbers:
 
 
 class Recorder:
-    """Takes down what is said about a car."""
+    """Records the messages about a car."""
 
     def __init__(self, bus: Bus, keys: Keys, file: McapWriter, note: Note) -> None:
         """Begin to record, once opened.
@@ -78,22 +78,22 @@ class Recorder:
         Args:
             bus: of the car.
             keys: of the car, or of every car.
-            file: gets what is said.
-            note: takes notes on what is amiss.
+            file: gets the messages.
+            note: takes notes on problems.
         """
-        self.alive = Alive("recorder", COUNTERS)
+        self.alive = HealthReporter("recorder", COUNTERS)
         self._bus, self._keys, self._file, self._note = bus, keys, file, note
         self._inbox: queue.SimpleQueue[_Job] = queue.SimpleQueue()
         self._waiting = 0  # bytes
         self._over = False
         self._lock = threading.Lock()
-        self._numbers: dict[tuple[str, str], Numbers] = {}  # of a key and a ride
+        self._numbers: dict[tuple[str, str], SeenNumbers] = {}  # of a key and a ride
         self._rides: set[tuple[str, str]] = set()
         self._shown: set[str] = set()
         self._flushed = time.monotonic()
 
     def open(self) -> None:
-        """Declare what is heard."""
+        """Declare subscriptions."""
         bus, key = self._bus, self._keys.of
         bus.subscribe(key("trace"), self._hear, kept=True)
         bus.subscribe(key("event"), self._hear, kept=True)
@@ -104,7 +104,7 @@ class Recorder:
         _LOG.info("recording", extra={"vehicle": self._keys.vehicle})
 
     def work(self, patience: float = 0.0) -> None:
-        """Write some of what came in, waiting up to `patience` [s] for it.
+        """Write some messages, waiting up to `patience` [s] for them.
 
         Raises:
             Unwritable: the file cannot be written any further.
@@ -162,10 +162,10 @@ class Recorder:
                 self._know(vehicle, report)
 
     def _is_new(self, key: str, report: Report | TurnReport) -> bool:
-        """Whether it is there for the first time; what is kept comes more than once."""
+        """Check whether a message is new; those kept for late joiners come more than once."""
         if isinstance(report, (TurnReport, SceneReport)):
             return True
-        numbers = self._numbers.setdefault((key, report.ride), Numbers())
+        numbers = self._numbers.setdefault((key, report.ride), SeenNumbers())
         while len(self._numbers) > 2 * MAX_RIDES:
             del self._numbers[next(iter(self._numbers))]
         return numbers.new(report.seq)
@@ -200,7 +200,7 @@ class Recorder:
 
 
 @dataclass(frozen=True)
-class Task:
+class RecordOptions:
     """What to record, and where."""
 
     path: Path
@@ -210,16 +210,16 @@ class Task:
     controlled: bool = False  # by orders on standard input
 
 
-def record(task: Task, note: Note) -> None:
-    """Record until told to stop.
+def record(task: RecordOptions, note: Note) -> None:
+    """Record until asked to stop.
 
     Args:
         task: what and where.
-        note: takes notes on what goes on.
+        note: takes notes.
 
     Raises:
         HubUnreachable: there is no hub at the endpoint.
-        RecordingError: the file cannot be written, or is there already.
+        RecordingError: the file exists, or cannot be written.
     """
     orders: child_commands.Orders = queue.SimpleQueue()
     signals = child_commands.Signals()
@@ -230,7 +230,7 @@ def record(task: Task, note: Note) -> None:
     try:
         patience = CHILD_PATIENCE if task.controlled else HUB_PATIENCE
         connection = joined(task.link, signals, patience)
-    except Dismissed:
+    except QuitBeforeRide:
         return
     with (
         connection as bus,

@@ -1,1 +1,1 @@
-"""Keys, certificates and tokens: who may do what."""
+"""Keys, certificates and tokens."""

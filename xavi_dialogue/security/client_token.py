@@ -1,9 +1,9 @@
-"""Who a passenger is to a service: a secret of this user, and from it a token a conversation.
+"""Identity of a passenger: a secret of the user, and a token per conversation made from it.
 
-A conversation belongs to whoever begins it: its first question's token has to come with all that
-is asked of it later. The secret never leaves the machine, and no token tells anything of another.
+A conversation belongs to the client that begins it: later requests must carry the token of its
+first question. The secret never leaves the machine, and a token reveals no other.
 
-    IdentityError   the secret cannot be read or made
+    IdentityError   the secret cannot be read or created
 """
 
 import base64
@@ -19,12 +19,12 @@ SECRET_BYTES = 32
 
 
 class IdentityError(Exception):
-    """The user's secret cannot be read or made."""
+    """The user's secret cannot be read or created."""
 
 
 @dataclass(frozen=True)
 class Passenger:
-    """As whom to talk."""
+    """The identity of a passenger: session and token."""
 
     session: str
     token: str | None = None  # None: the conversation is open to all
@@ -46,14 +46,14 @@ def token_of(secret: bytes, session: str) -> str:
 
 
 def own_secret(file: Path, *, make: bool = True) -> bytes:
-    """The secret in a file that only its owner can read; made where there is none.
+    """Read the secret from a file that only its owner can read; create it if missing.
 
     Args:
         file: of the secret.
-        make: write a file where there is none; else that secret lasts as long as this process.
+        make: write the file if it is missing; else a new secret lasts as long as this process.
 
     Raises:
-        IdentityError: the file cannot be read or made, or holds something else.
+        IdentityError: the file cannot be read or written, or holds something else.
     """
     try:
         if make and not file.exists():

@@ -1,6 +1,6 @@
-"""Whether a key fits what it is used for: a hub denies silently, so that it is said here at once.
+"""Checks that a key fits its use before connecting, because a hub denies silently.
 
-Only certificates by `xavi keys` are looked at. What those of others are for is known to their hub.
+Only certificates made by `xavi keys` are checked. A hub knows what others permit.
 
 BadLink
 └── WrongKey   the key is for something else
@@ -16,7 +16,7 @@ from xavi_dialogue.bus.zenoh_bus import certificate_of
 
 Doing: TypeAlias = Literal["report a ride", "answer passengers", "ask", "record", "show a car"]
 
-#: By what one can tell in the table of roles who may do it.
+#: A permission that only this role has in the table.
 SHOWN_BY: Mapping[Doing, tuple[Deed, str]] = {
     "report a ride": ("publish", "scene"),
     "answer passengers": ("serve", "@rpc/ask"),
@@ -31,7 +31,7 @@ class WrongKey(BadLink):
 
 
 def holder(link: Link) -> Member | None:
-    """Whose key a link shows; None where it shows none, or one that is not by `xavi keys`.
+    """Return whose key a link uses; None if it has none, or one not made by `xavi keys`.
 
     Raises:
         BadLink: the configuration, or the certificate that it names, cannot be used.
@@ -59,13 +59,13 @@ def holder(link: Link) -> Member | None:
 
 
 def may(role: str, doing: Doing) -> bool:
-    """Whether a role may do something."""
+    """Check whether a role has a permission."""
     deed, tail = SHOWN_BY[doing]
     return any(grant.deed == deed and tail in grant.tails for grant in ROLES[role].grants)
 
 
 def check(link: Link, doing: Doing) -> Member | None:
-    """Make sure that the key of a link, if it shows one, is for what is to be done.
+    """Check that the key of a link, if it has one, permits an action.
 
     Returns:
         See `holder`.
@@ -90,10 +90,10 @@ def own_name(link: Link, named: str | None) -> str | None:
 
     Args:
         link: to the hub.
-        named: how the car shall be called; None: as its key says.
+        named: the wanted name of the car; None: as in its key.
 
     Returns:
-        The name; None where nobody says one.
+        The name; None if neither gives one.
 
     Raises:
         WrongKey: the key is not for a car of this name.

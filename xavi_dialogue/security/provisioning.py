@@ -1,8 +1,8 @@
-"""`xavi keys`: certificates and Zenoh configurations for a bus that asks everybody who they are.
+"""`xavi keys`: makes certificates and Zenoh configurations for a bus with access control.
 
 KeysError
-├── KeysExist     there are keys in the folder, which are not overwritten
-├── NotOnlyKeys   the folder holds other things, which are not deleted
+├── KeysExist     the folder has keys, which are not overwritten
+├── NotOnlyKeys   the folder has other files, which are not deleted
 ├── BadEndpoint   nothing to listen at or to connect to with certificates
 └── KeysNotKept   the folder cannot be written
 """
@@ -21,10 +21,10 @@ from xavi_dialogue.bus.access_control import ROLES, Json, Member, access_control
 from xavi_dialogue.bus.certificates import Authority, Identity
 from xavi_dialogue.bus.zenoh_bus import SAFE
 
-HUB = "service"  # the role whose process is the hub
+HUB = "service"  # the role of the hub's process
 LISTEN = "tls/127.0.0.1:7447"
 LOOPBACK = ("localhost", "127.0.0.1", "::1")
-ANYWHERE = ("0.0.0.0", "::")  # to listen at; nobody can connect to it
+ANYWHERE = ("0.0.0.0", "::")  # an address to listen on, but not to connect to
 PROTOCOLS = ("tls", "quic")  # those that carry certificates
 ENDPOINT = re.compile(rf"({'|'.join(PROTOCOLS)})/(\[[0-9a-fA-F:.]+\]|[A-Za-z0-9.-]+):(\d{{1,5}})")
 AUTHORITY = "ca"
@@ -36,11 +36,11 @@ class KeysError(Exception):
 
 
 class KeysExist(KeysError):
-    """There are keys in the folder, which are not overwritten."""
+    """The folder has keys, which are not overwritten."""
 
 
 class NotOnlyKeys(KeysError):
-    """The folder holds other things, which are not deleted."""
+    """The folder has other files, which are not deleted."""
 
 
 class BadEndpoint(KeysError):
@@ -52,13 +52,13 @@ class KeysNotKept(KeysError):
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
-    """What keys are made for."""
+class KeyOptions:
+    """Options of making keys."""
 
     members: tuple[Member, ...]
     hosts: tuple[str, ...]  # under which the hub is connected to
     listen: str  # endpoint of the hub
-    connect: str  # the same, as the others see it
+    connect: str  # the same, as seen by clients
     valid: timedelta
 
 
@@ -69,11 +69,11 @@ def wanted(
     passengers: Iterable[str] = (),
     vehicles: Iterable[str] = (),
     days: int = 365,
-) -> Wanted:
-    """What keys are made for: every role once, and the named ones.
+) -> KeyOptions:
+    """Return the members to make keys for: every role once, and the named ones.
 
     Raises:
-        BadName: nobody can be called so.
+        BadName: a name is not allowed.
         BadEndpoint: one cannot be used.
     """
     hosts, listen = tuple(hosts), listen or LISTEN
@@ -94,7 +94,7 @@ def wanted(
         *(member("car", name) for name in vehicles),
     )
     members = tuple(dict.fromkeys((*(member(role) for role in ROLES), *named)))
-    return Wanted(members, tuple(dict.fromkeys(known)), listen, connect, timedelta(days=days))
+    return KeyOptions(members, tuple(dict.fromkeys(known)), listen, connect, timedelta(days=days))
 
 
 def _host(endpoint: str) -> str:
@@ -106,11 +106,11 @@ def _host(endpoint: str) -> str:
     return found[2].strip("[]")
 
 
-def material(order: Wanted, folder: Path, now: datetime) -> dict[str, bytes]:
+def material(order: KeyOptions, folder: Path, now: datetime) -> dict[str, bytes]:
     """The files of a folder of keys, by their names.
 
     Args:
-        order: what they are for.
+        order: the options.
         folder: where they will be; absolute.
         now: from when on they are valid; with a zone.
 
@@ -133,7 +133,7 @@ def _files(name: str, identity: Identity) -> dict[str, bytes]:
     return {f"{name}.pem": identity.certificate, f"{name}.key": identity.key}
 
 
-def configuration(one: Member, order: Wanted, folder: Path) -> dict[str, Json]:
+def configuration(one: Member, order: KeyOptions, folder: Path) -> dict[str, Json]:
     """The Zenoh configuration of a member: of the hub, or of one of its clients."""
     name, hub = one.common_name, one.role == HUB
     link: dict[str, object] = {
@@ -178,12 +178,12 @@ def keep(files: Mapping[str, bytes], folder: Path, *, force: bool = False) -> No
 
     Args:
         files: by their names; those that end in `.key` are secret.
-        folder: where to; absolute.
-        force: replaces keys that are there.
+        folder: target; absolute.
+        force: replace existing keys.
 
     Raises:
         KeysExist: there are some, and `force` is not set.
-        NotOnlyKeys: the folder holds other things, so that it is not replaced.
+        NotOnlyKeys: the folder has other files, so it is not replaced.
         KeysNotKept: it cannot be written.
     """
     try:
@@ -226,7 +226,7 @@ def _is_ours(name: str) -> bool:
 
 
 def _swap(place: Path, folder: Path) -> None:
-    """Put a folder in place of another; `place` then holds what was there."""
+    """Replace a folder by another; `place` then holds the old one."""
     if not folder.exists() or not any(folder.iterdir()):
         place.replace(folder)  # an empty folder may be replaced
         return

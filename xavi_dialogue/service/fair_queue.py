@@ -1,4 +1,4 @@
-"""A queue that is fair: those who wait take turns, however much one of them wants."""
+"""A fair queue: clients take turns, however many items each of them adds."""
 
 from collections import deque
 from dataclasses import dataclass, field
@@ -9,7 +9,7 @@ Item = TypeVar("Item")
 
 @dataclass
 class FairQueue(Generic[Item]):
-    """Items by who brought them: one of each in turn, and of the same in their order.
+    """Items by client: clients take turns, and the items of one client keep their order.
 
     >>> queue = FairQueue[str]()
     >>> for who, item in (("ann", "a1"), ("ann", "a2"), ("bob", "b1")):
@@ -18,7 +18,7 @@ class FairQueue(Generic[Item]):
     ['a1', 'b1', 'a2']
     """
 
-    _waiting: dict[str, deque[Item]] = field(default_factory=dict)  # whose turn it is comes first
+    _waiting: dict[str, deque[Item]] = field(default_factory=dict)  # next turn first
     _size: int = 0
 
     def put(self, who: str, item: Item) -> None:
@@ -30,7 +30,7 @@ class FairQueue(Generic[Item]):
         """Take the next one out.
 
         Raises:
-            LookupError: there is none.
+            LookupError: the queue is empty.
         """
         if not self._waiting:
             raise LookupError("nobody waits")
@@ -43,7 +43,7 @@ class FairQueue(Generic[Item]):
         return item
 
     def clear(self) -> None:
-        """Let nobody wait."""
+        """Empty the queue."""
         self._waiting.clear()
         self._size = 0
 

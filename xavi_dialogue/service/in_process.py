@@ -10,7 +10,7 @@ from planner.counterfactuals.whatif import WhatIfError, replan
 from planner.record.trace import PlanTrace, WhatIf
 from sim.roads.network import Network
 from xavi_dialogue.dialogue.manager import advance
-from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.dialogue.recollection import Recollection
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.events import (
@@ -40,17 +40,19 @@ Replan: TypeAlias = Callable[[PlanTrace, NeedRollout], PlanTrace]
 
 
 class NoPlan(Exception):
-    """A plan cannot be had; the reason is the one the passenger is given."""
+    """A plan is not available; the reason is the one that the passenger gets."""
 
     def __init__(self, reason: Reason) -> None:
         super().__init__(reason)
         self.reason = reason
 
 
-def make_mind() -> Mind:
-    """Make the mind of our parser, our explanations and our words."""
+def make_pipeline() -> Pipeline:
+    """Make the pipeline of parser, explanations and wording."""
     known = Recollection()
-    return Mind(read=interpret, ground=known.ground, explain=known.explain, say=say, see=known.see)
+    return Pipeline(
+        read=interpret, ground=known.ground, explain=known.explain, say=say, see=known.see
+    )
 
 
 def planner_for(network: Network) -> Replan:
@@ -66,7 +68,7 @@ def planner_for(network: Network) -> Replan:
 class Conversation:
     """One passenger's conversation about a ride that is recorded as far as is asked about."""
 
-    mind: Mind
+    pipeline: Pipeline
     again: Replan
     dialogue: Dialogue = field(default_factory=Dialogue)
     asked: int = 0
@@ -102,7 +104,7 @@ class Conversation:
             return RolloutsFailed(request, SESSION, none.reason)
 
     def _tell(self, event: Input) -> Output | None:
-        self.dialogue, outputs = advance(self.mind, self.dialogue, event)
+        self.dialogue, outputs = advance(self.pipeline, self.dialogue, event)
         return outputs[0] if outputs else None
 
 
@@ -110,8 +112,8 @@ def drive_to(ride: Iterable[Moment], conversation: Conversation, until: float | 
     """Drive and record up to a moment.
 
     Args:
-        ride: the moments to come.
-        conversation: takes down the record.
+        ride: the moments that follow.
+        conversation: records them.
         until: [s]; None stands for the end of the first lane change or turn.
 
     Returns:

@@ -9,23 +9,23 @@ from functools import partial
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.zenoh_bus import host
 from xavi_dialogue.dialogue.manager import advance
-from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.dialogue.state.events import Asked
 from xavi_dialogue.dialogue.state.state import Dialogue
 from xavi_dialogue.nlg.surface.realiser import grammar
 from xavi_dialogue.process import child_commands
-from xavi_dialogue.service.in_process import make_mind
+from xavi_dialogue.service.in_process import make_pipeline
 from xavi_dialogue.service.server import Service
-from xavi_dialogue.storage.turn_log import Memory
+from xavi_dialogue.storage.turn_log import TurnLog
 
 
-def serve(link: Link, memory: Memory, note: Callable[[str], None], *, controlled: bool) -> None:
-    """Serve until told to stop.
+def serve(link: Link, memory: TurnLog, note: Callable[[str], None], *, controlled: bool) -> None:
+    """Serve until asked to stop.
 
     Args:
         link: of the hub.
-        memory: keeps what is said.
-        note: takes notes on what goes on.
+        memory: stores turns.
+        note: takes notes for the operator.
         controlled: by orders on standard input.
 
     Raises:
@@ -36,10 +36,10 @@ def serve(link: Link, memory: Memory, note: Callable[[str], None], *, controlled
     child_commands.quit_on_signals(orders)
     if controlled:
         child_commands.listen(sys.stdin, orders)
-    mind = make_mind()
-    _warm(mind)
+    pipeline = make_pipeline()
+    _warm(pipeline)
     with host(link) as bus:
-        service = Service(bus, mind, memory)
+        service = Service(bus, pipeline, memory)
         service.open()
         note(f"serving at {' and '.join(bus.places) or 'no endpoint'}")
         service.run(partial(_told_to_quit, orders))
@@ -47,7 +47,7 @@ def serve(link: Link, memory: Memory, note: Callable[[str], None], *, controlled
 
 
 def _told_to_quit(orders: child_commands.Orders) -> bool:
-    """Whether it was; and then it remains so."""
+    """Check a flag; once true, it stays true."""
     while not orders.empty():
         if isinstance(orders.get(), child_commands.Quit):
             orders.put(child_commands.Quit())
@@ -55,12 +55,12 @@ def _told_to_quit(orders: child_commands.Orders) -> bool:
     return False
 
 
-def _warm(mind: Mind) -> None:
+def _warm(pipeline: Pipeline) -> None:
     """Have parser and sentences read their grammars, so that the first passenger need not wait.
 
     What is loaded then stays, and need not be gone through whenever memory is tidied up.
     """
     grammar()
-    advance(mind, Dialogue(), Asked("warm", "warm", "Hello!", 0.0))
+    advance(pipeline, Dialogue(), Asked("warm", "warm", "Hello!", 0.0))
     gc.collect()
     gc.freeze()

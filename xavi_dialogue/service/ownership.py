@@ -1,4 +1,4 @@
-"""Whose a session is: it belongs to whoever begins it, and shows the same token from then on.
+"""Ownership of sessions: a session belongs to the client that begins it, by its token.
 
 Of a token only a digest is kept, in memory and on disk.
 """
@@ -11,23 +11,23 @@ from dataclasses import dataclass, field
 from xavi_dialogue.storage.database import StoreError
 
 UNKNOWN = "unknown"  # in place of a digest: no token has it
-MAX_OWNERS = 200_000  # that are known; more than there are sessions in memory, see reception.py
+MAX_OWNERS = 200_000  # more than there are sessions in memory, see request_handler.py
 
 
 @dataclass
-class Owners:
-    """The owners of sessions: what is on disk counts; where that cannot be read, what is known."""
+class SessionOwners:
+    """The owners of sessions; the stored owner counts, or the known one if it cannot be read."""
 
-    recall: Callable[[str], str | None]  # the digest that is kept on disk; may raise StoreError
-    changed: Callable[[str], object]  # is told whose owner turned out to be somebody else
+    recall: Callable[[str], str | None]  # returns the stored digest; may raise StoreError
+    changed: Callable[[str], object]  # called with a session that has another owner
     known: dict[str, str | None] = field(default_factory=dict)  # digest by session; None: open
 
     def admits(self, session: str, token: str | None, *, begun: bool) -> bool:
-        """Whether a token may ask for this session; an open session is open to all.
+        """Check whether a token may use this session; an open session may be used by all.
 
         Args:
             session: its name.
-            token: of whoever asks.
+            token: of the client.
             begun: something of it is in memory, or at stake on disk: then, as long as its owner
                 cannot be read, nobody may.
         """
@@ -39,12 +39,12 @@ class Owners:
         return token is not None and hmac.compare_digest(owner, digest(token))
 
     def claim(self, session: str, token: str | None, held: Callable[[], Set[str]]) -> None:
-        """Let a session that is begun belong to whoever has this token.
+        """Assign a session that begins to the client with this token.
 
         Args:
             session: its name.
-            token: of who begins it; None leaves it open.
-            held: the sessions of which anything is remembered; the owners of others may go.
+            token: of the client; None leaves the session open.
+            held: the sessions that are in memory; owners of others may be dropped.
         """
         owner = self.of(session)
         if owner not in (None, UNKNOWN) or (owner is None and token is None):
@@ -55,7 +55,7 @@ class Owners:
         self.known[session] = None if token is None else digest(token)
 
     def release(self, session: str) -> None:
-        """A session that is forgotten belongs to nobody."""
+        """Remove the owner of a session that was erased."""
         self.known.pop(session, None)
 
     def of(self, session: str) -> str | None:
@@ -66,7 +66,7 @@ class Owners:
             return self.known.get(session, UNKNOWN)
         if kept is None:
             return self.known.get(session)
-        if self.known.get(session, kept) != kept:  # begun anew while the disk could not be read
+        if self.known.get(session, kept) != kept:  # begun again while the disk could not be read
             self.changed(session)
         if len(self.known) < MAX_OWNERS or session in self.known:
             self.known[session] = kept
@@ -74,5 +74,5 @@ class Owners:
 
 
 def digest(token: str) -> str:
-    """What is kept of a token: 32 bytes in hexadecimal."""
+    """Return the stored form of a token: 32 bytes in hexadecimal."""
     return hashlib.sha256(token.encode()).hexdigest()

@@ -1,8 +1,8 @@
-"""What the next passenger who asks why will need: planned while nobody asks.
+"""Prefetching of plans: what the next "why?" is likely to need is planned while idle.
 
-To blame a vehicle, the decision is planned again without it, which takes longer than anything
-else in an answer. A manoeuvre that has just begun is what is asked about most; so in a ride at
-the pace of life, what an answer about it needs is planned at once.
+To name a vehicle as a cause, the decision is planned again without it. This takes longer than
+anything else in an answer. Passengers ask most about a manoeuvre that has just begun, so in a
+ride at about real time the plans for an answer about it are made at once.
 """
 
 from dataclasses import dataclass
@@ -10,28 +10,30 @@ from dataclasses import dataclass
 from planner.record.trace import PlanTrace
 from xavi_dialogue.bus.messages import SceneReport
 from xavi_dialogue.dialogue.manager import MAX_ROUNDS
-from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.dialogue.state.state import Dialogue
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.meaning import Ask, Reading, Why
 from xavi_dialogue.domain.terms import Event, Happens
 
-AHEAD = 5.0  # [s] that such a plan may take
+AHEAD = 5.0  # [s] deadline of such a plan
 FASTEST = 2.0  # simulated seconds per second; beyond it decisions come faster than plans
 #: "Why did you do that?", of what was done last.
 WHY = Reading(acts=(Ask(Why(Happens(Event("do")))),), shares=())
 
 
 @dataclass
-class Foreseen:
-    """How far has been looked ahead in a ride."""
+class Prefetch:
+    """How many plans were prefetched for the latest event of a ride."""
 
     events: int = -1  # of the ride, when that was
     rounds: int = 0  # of planning since then
 
-    def need(self, mind: Mind, dialogue: Dialogue, scene: SceneReport) -> NeedRollout | None:
-        """What is to be planned next; None where nothing is, or the ride is too fast."""
+    def need(
+        self, pipeline: Pipeline, dialogue: Dialogue, scene: SceneReport
+    ) -> NeedRollout | None:
+        """Return what to plan next; None if nothing is needed or the ride is too fast."""
         lively = scene.state == "driving" and 0.0 < scene.speed_factor <= FASTEST
         if not lively or not dialogue.traces or not dialogue.events:
             return None
@@ -40,20 +42,20 @@ class Foreseen:
         if self.rounds >= MAX_ROUNDS:
             return None
         self.rounds += 1
-        found = _wanted(mind, dialogue, scene.sim_time)
+        found = _wanted(pipeline, dialogue, scene.sim_time)
         if found is None:
             self.rounds = MAX_ROUNDS
         return found
 
 
-def _wanted(mind: Mind, dialogue: Dialogue, at: float) -> NeedRollout | None:
-    """What an answer lacks beyond all that was planned before."""
-    grounding = mind.ground((WHY,), dialogue.record(at), Discourse())
+def _wanted(pipeline: Pipeline, dialogue: Dialogue, at: float) -> NeedRollout | None:
+    """Return what an answer to "why?" lacks beyond all earlier plans."""
+    grounding = pipeline.ground((WHY,), dialogue.record(at), Discourse())
     if not grounding.acts:
         return None
     extra: tuple[PlanTrace, ...] = ()
     for _ in range(MAX_ROUNDS):
-        found = mind.explain(grounding.acts[0], dialogue.record(at, extra))
+        found = pipeline.explain(grounding.acts[0], dialogue.record(at, extra))
         if not isinstance(found, NeedRollout):
             return None
         known = dialogue.planned.get(found)

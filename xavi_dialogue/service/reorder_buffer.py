@@ -1,4 +1,4 @@
-"""What the service has heard of one ride, put in order: the record may arrive in any order."""
+"""Reports of one ride, put in order: they may arrive in any order."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -17,32 +17,32 @@ from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.vehicle.telemetry import KEPT_EVENTS, KEPT_TRACES
 
 Item = TypeVar("Item")
-Heard: TypeAlias = SceneReport | TraceReport | EventReport
+ReportOfRide: TypeAlias = SceneReport | TraceReport | EventReport
 
-PATIENCE = 1.0  # [s] for what is missing; the bus makes up for what it loses within half of it
+PATIENCE = 1.0  # [s] to wait for missing reports; the bus repairs its losses within half of it
 
 
 @dataclass
-class InOrder(Generic[Item]):
+class ReorderBuffer(Generic[Item]):
     """Hands numbered items on in the order of their numbers, each once."""
 
     limit: int  # items that may wait for an earlier one
     time_of: Callable[[Item], float]  # [s]
-    next: int = 0  # number of the first item that has not been handed on
+    next: int = 0  # number of the first item that has not been passed on
     held: dict[int, Item] = field(default_factory=dict)
-    lost: int = 0  # that were given up
+    lost: int = 0  # items that were given up
     known: float | None = None  # [s] up to when all was handed on; None: nothing was
-    gaps: list[tuple[float, float]] = field(default_factory=list)  # [s] not yet told, see `told`
+    gaps: list[tuple[float, float]] = field(default_factory=list)  # [s] not yet returned by `told`
     _open: float | None = None  # [s] since when items are given up, until the next comes
 
     def add(self, number: int, item: Item) -> list[Item]:
-        """Take an item in; what can be handed on now."""
+        """Add an item; return the items that are now in order."""
         if number >= self.next and len(self.held) < self.limit:
             self.held.setdefault(number, item)
         return self._ready()
 
     def begin(self, oldest: int) -> list[Item]:
-        """Give up what nobody has any more; what can be handed on now.
+        """Give up items that no sender keeps any more; return those that are now in order.
 
         Args:
             oldest: number of the oldest item that may still come.
@@ -52,7 +52,7 @@ class InOrder(Generic[Item]):
         return self._ready()
 
     def give_up(self, end: int) -> list[Item]:
-        """Give up all that is missing before a number; what can be handed on now."""
+        """Give up all that is missing before a number; return the items that are now in order."""
         ready: list[Item] = []
         while self.next < end:
             after = min([end, *self.held])
@@ -62,7 +62,7 @@ class InOrder(Generic[Item]):
         return ready
 
     def told(self, now: float) -> list[tuple[float, float]]:
-        """The gaps that were not told of before; one may still be open at a time [s]."""
+        """Return the gaps that were not returned before; one may be open at a time [s]."""
         if self._open is not None:
             self.gaps.append((self._open, max(self._open, now)))
             self._open = None
@@ -89,23 +89,23 @@ class InOrder(Generic[Item]):
 
 
 @dataclass
-class Ledger:
+class RideReports:
     """The reports of one ride."""
 
     ride: str
-    traces: InOrder[TraceRecorded] = field(
-        default_factory=lambda: InOrder(KEPT_TRACES, lambda one: one.trace.sim_time)
+    traces: ReorderBuffer[TraceRecorded] = field(
+        default_factory=lambda: ReorderBuffer(KEPT_TRACES, lambda one: one.trace.sim_time)
     )
-    events: InOrder[EventRecorded] = field(
-        default_factory=lambda: InOrder(KEPT_EVENTS, lambda one: one.event.sim_time)
+    events: ReorderBuffer[EventRecorded] = field(
+        default_factory=lambda: ReorderBuffer(KEPT_EVENTS, lambda one: one.event.sim_time)
     )
     scene: SceneReport | None = None  # the latest
-    reached: float = 0.0  # [s] the latest moment of which a scene told
+    reached: float = 0.0  # [s] latest time of a scene
     over: bool = False
-    missing: tuple[float, int, int] | None = None  # since when [s] something is, and what is next
+    missing: tuple[float, int, int] | None = None  # since when [s], and the next numbers
 
-    def hear(self, report: Heard) -> list[Input]:
-        """What there is to tell the manager after a report of this ride."""
+    def hear(self, report: ReportOfRide) -> list[Input]:
+        """Return the inputs for the dialogue after a report of this ride."""
         match report:
             case SceneReport():
                 return self.see(report)
@@ -115,21 +115,21 @@ class Ledger:
                 return self.event(report)
 
     def trace(self, report: TraceReport) -> list[Input]:
-        """What there is to tell the manager after a trace report."""
+        """Return the inputs for the dialogue after a trace report."""
         recorded = TraceRecorded(report.trace, report.first)
         ready = [] if self.over else self.traces.add(report.seq, recorded)
         return [*self._gaps(), *ready, *self._end()]
 
     def event(self, report: EventReport) -> list[Input]:
-        """What there is to tell the manager after an event report."""
+        """Return the inputs for the dialogue after an event report."""
         recorded = EventRecorded(report.event)
         ready = [] if self.over else self.events.add(report.seq, recorded)
         return [*self._gaps(), *ready, *self._end()]
 
     def see(self, report: SceneReport) -> list[Input]:
-        """What there is to tell the manager after a scene report.
+        """Return the inputs for the dialogue after a scene report.
 
-        Its time may be earlier than that of the one before: a recording may be played again.
+        Its time may be earlier than that of the scene before: a recording may be played again.
         """
         if self.scene is not None and report.seq <= self.scene.seq:
             return self._end()
@@ -137,14 +137,14 @@ class Ledger:
         self.reached = max(self.reached, report.sim_time)
         if self.over:
             return []
-        # Who joins late is sent no more than what is kept for that.
+        # A service that joins late gets no more than what senders keep.
         traces = self.traces.begin(report.traces - KEPT_TRACES)
         events = self.events.begin(report.events - KEPT_EVENTS)
         seen = SceneSeen(report.scene())
         return [*self._gaps(), *traces, *events, seen, *self._end()]
 
     def complete(self, at: float) -> bool:
-        """Whether all that was recorded up to a moment [s] has arrived."""
+        """Check whether all that was recorded up to a time [s] has arrived."""
         scene = self.scene
         if self.over:
             return True
@@ -153,7 +153,7 @@ class Ledger:
         return self.reached >= at - EPSILON
 
     def wait(self, now: float) -> list[Input]:
-        """Give up what has been missing for too long; what there is to tell the manager then.
+        """Give up what has been missing for too long; return the inputs for the dialogue.
 
         Args:
             now: [s] on the shell's clock.
@@ -174,13 +174,13 @@ class Ledger:
         return [*self._gaps(), *traces, *events, *self._end()]
 
     def _gaps(self) -> list[Input]:
-        """What is to be told of that was given up."""
+        """Return an input for each gap of reports that were given up."""
         gaps = (*self.traces.told(self.reached), *self.events.told(self.reached))
         return [RecordMissing(since, until) for since, until in gaps]
 
     @property
     def lost(self) -> int:
-        """Reports that were given up."""
+        """The number of reports that were given up."""
         return self.traces.lost + self.events.lost
 
     def _arrived(self, scene: SceneReport) -> bool:

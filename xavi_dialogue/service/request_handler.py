@@ -1,4 +1,4 @@
-"""Requests of passengers: checked, admitted, and laid on the desk of the car they are about."""
+"""Requests of passengers: checked, admitted, and passed to the session of their vehicle."""
 
 import logging
 import time
@@ -9,7 +9,7 @@ from typing import TypeVar
 import msgspec
 
 from planner.record import trace as plan_trace
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Call, vehicle_in
 from xavi_dialogue.bus.messages import (
     KIB,
@@ -27,19 +27,19 @@ from xavi_dialogue.bus.messages import (
     pack,
     unpack,
 )
-from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.domain.answers import Reason
-from xavi_dialogue.service.ownership import UNKNOWN, Owners
+from xavi_dialogue.service.ownership import UNKNOWN, SessionOwners
 from xavi_dialogue.service.requests import Question
-from xavi_dialogue.service.vehicle_session import Desk
-from xavi_dialogue.storage.turn_log import Memory
+from xavi_dialogue.service.vehicle_session import VehicleSession
+from xavi_dialogue.storage.turn_log import TurnLog
 
 _LOG = logging.getLogger(__name__)
-MAX_CARS = 64  # that are known of; of those that are gone, the one heard of first is dropped first
-MAX_AGAIN = 8  # times that a request may come again while it is open
+MAX_CARS = 64  # of the cars that have left the bus, the oldest is dropped first
+MAX_AGAIN = 8  # times that a request may be repeated while it is open
 MAX_OPEN = 4  # questions of a session
 MAX_EARLY = 500  # questions about one car that wait for the record: others need not wait for these
-HOPE = 0.7  # share of its deadline that a question may have to wait for its turn; see Reception.ask
+HOPE = 0.7  # share of its deadline that a question may wait for its turn; see RequestHandler.ask
 LEARNT = 0.1  # weight of the latest question in the pace
 UNREADABLE = "whose conversation this is cannot be read at the moment; ask again soon"
 UNHEARD = "no decision of this ride that is still remembered has this id"
@@ -49,7 +49,7 @@ Told = TypeVar("Told", AskRequest, HistoryRequest, ForgetRequest, CancelRequest,
 Wanted = TypeVar("Wanted", AskRequest, HistoryRequest, ForgetRequest, CancelRequest)
 
 
-class Refusal(Exception):
+class Rejection(Exception):
     """A request is not taken up."""
 
     def __init__(self, reason: Reason, detail: str) -> None:
@@ -58,54 +58,56 @@ class Refusal(Exception):
 
 
 @dataclass
-class Reception:
+class RequestHandler:
     """Takes requests, one at a time."""
 
-    mind: Mind
-    memory: Memory
-    owners: Owners
-    alive: Alive
-    repeat: Callable[[str, AskRequest], bytes | None]  # what was replied not long ago
-    forgotten: Callable[[str], None]  # is told of a session that is no more
-    desks: dict[str, Desk] = field(default_factory=dict)  # by car
-    pace: float = 0.0  # [s] that a question takes, on a running average
+    pipeline: Pipeline
+    memory: TurnLog
+    owners: SessionOwners
+    alive: HealthReporter
+    repeat: Callable[[str, AskRequest], bytes | None]  # the reply that was sent recently
+    forgotten: Callable[[str], None]  # called with a session that was erased
+    vehicles: dict[str, VehicleSession] = field(default_factory=dict)  # by car
+    pace: float = 0.0  # [s] running average of the time per question
 
     def __post_init__(self) -> None:
-        self.nowhere = Desk("nowhere", self.mind)  # of all cars that were never heard of
+        self.nowhere = VehicleSession(
+            "nowhere", self.pipeline
+        )  # of all cars that were never heard of
 
-    def desk(self, vehicle: str) -> Desk:
-        """The desk of a car.
+    def vehicle_session(self, vehicle: str) -> VehicleSession:
+        """Return the session of a vehicle.
 
         Raises:
-            Refusal: there are too many cars.
+            Rejection: there are too many cars.
         """
-        if vehicle not in self.desks:
-            if len(self.desks) >= MAX_CARS:
+        if vehicle not in self.vehicles:
+            if len(self.vehicles) >= MAX_CARS:
                 self._make_room()
-            self.desks[vehicle] = Desk(vehicle, self.mind)
-        return self.desks[vehicle]
+            self.vehicles[vehicle] = VehicleSession(vehicle, self.pipeline)
+        return self.vehicles[vehicle]
 
-    def all_desks(self) -> list[Desk]:
+    def all_vehicles(self) -> list[VehicleSession]:
         """Those of cars, and that of all others."""
-        return [*self.desks.values(), self.nowhere]
+        return [*self.vehicles.values(), self.nowhere]
 
     def waiting(self) -> int:
-        """How many questions are open."""
-        return sum(len(desk.waiting.open) for desk in self.all_desks())
+        """Count the open questions."""
+        return sum(len(one.scheduler.open) for one in self.all_vehicles())
 
     def ready(self) -> int:
-        """How many questions wait for nothing but their turn."""
-        return sum(desk.waiting.ready for desk in self.all_desks())
+        """Count the questions that only wait for their turn."""
+        return sum(one.scheduler.ready for one in self.all_vehicles())
 
     def learn(self, taken: float) -> None:
-        """Learn how long [s] a question took."""
+        """Update the average time [s] of a question."""
         self.pace += LEARNT * (taken - self.pace)
 
     def ask(self, call: Call, came: float) -> None:
-        """Lay a question on the desk, if its turn can be hoped to come in time.
+        """Accept a question if it can probably be answered in time.
 
-        Else it is told so at once: when more is asked than can be answered, a queue that grows
-        makes everybody late.
+        Otherwise reject it at once: if more is asked than can be answered, a queue that grows would
+        delay all passengers.
 
         Args:
             call: the question.
@@ -114,23 +116,26 @@ class Reception:
         Raises:
             Refusal: it is not taken up.
         """
-        desk, asked = self._admitted(call, AskRequest)
-        if (known := desk.waiting.open.get((asked.session, asked.request))) is not None:
+        vehicle_session, asked = self._admitted(call, AskRequest)
+        known = vehicle_session.scheduler.open.get((asked.session, asked.request))
+        if known is not None:
             if known.asked == asked and len(known.again) < MAX_AGAIN:
                 known.again.append(call)  # it came twice, and is answered once
                 return
-            raise Refusal("busy", "a request of this name is open in this session")
-        if (said := self.repeat(desk.vehicle, asked)) is not None:
+            raise Rejection("busy", "a request of this name is open in this session")
+        if (said := self.repeat(vehicle_session.vehicle, asked)) is not None:
             call.reply(said)
             return
         wait = self.pace * self.ready()
-        early = len(desk.waiting.open) - desk.waiting.ready >= MAX_EARLY and desk.is_early(asked)
+        early = len(
+            vehicle_session.scheduler.open
+        ) - vehicle_session.scheduler.ready >= MAX_EARLY and vehicle_session.is_early(asked)
         late = wait > HOPE * asked.deadline_ms / 1000.0
-        if early or late or len(desk.waiting.of(asked.session)) >= MAX_OPEN:
-            raise Refusal("busy", "too many questions are waiting; ask again in a moment")
-        self._know(desk, asked.session)
+        if early or late or len(vehicle_session.scheduler.of(asked.session)) >= MAX_OPEN:
+            raise Rejection("busy", "too many questions are waiting; ask again in a moment")
+        self._know(vehicle_session, asked.session)
         self._claim(asked)
-        desk.take(Question(call, asked, came))
+        vehicle_session.take(Question(call, asked, came))
 
     def cancel(self, call: Call) -> None:
         """Drop a question.
@@ -138,8 +143,8 @@ class Reception:
         Raises:
             Refusal: the request is not taken up.
         """
-        desk, wanted = self._admitted(call, CancelRequest)
-        dropped = desk.cancel(wanted)
+        vehicle_session, wanted = self._admitted(call, CancelRequest)
+        dropped = vehicle_session.cancel(wanted)
         if dropped is not None:
             dropped.drop()
         call.reply(pack(CancelReply(request=wanted.request, cancelled=dropped is not None)))
@@ -163,10 +168,10 @@ class Reception:
         call.reply(pack(reply))
 
     def put_away(self, session: str) -> int:
-        """Forget what is in memory of a session; how many turns of it were known."""
+        """Erase a session from memory; return the number of its turns."""
         known = 0
-        for desk in self.all_desks():  # it may have been about several cars
-            turns, dropped = desk.forget(session)
+        for vehicle_session in self.all_vehicles():  # it may have been about several cars
+            turns, dropped = vehicle_session.forget(session)
             known += turns
             for question in dropped:
                 question.drop()
@@ -174,16 +179,16 @@ class Reception:
         return known
 
     def history(self, call: Call, seq: int) -> None:
-        """Tell what was said in a session.
+        """Return the turns of a session.
 
         Raises:
             Refusal: the request is not taken up.
         """
-        desk, wanted = self._admitted(call, HistoryRequest)
-        past = desk.past.get(wanted.session)
+        vehicle_session, wanted = self._admitted(call, HistoryRequest)
+        past = vehicle_session.past.get(wanted.session)
         turns = self.memory.recall(wanted.session) if past is None else past
         shown = (PastTurn(turn.text, turn.reply) for turn in turns[-wanted.turns :])
-        scene = None if desk.ledger is None else desk.ledger.scene
+        scene = None if vehicle_session.reports is None else vehicle_session.reports.scene
         reply = HistoryReply(
             session=wanted.session,
             seq=seq,
@@ -195,34 +200,34 @@ class Reception:
         call.reply(pack(reply))
 
     def evidence(self, call: Call) -> None:
-        """Tell a decision of the present ride, or what was planned from one again.
+        """Return a decision of the present ride, or one that was planned again from it.
 
         Raises:
-            Refusal: the request is not taken up, or there is no such decision.
+            Rejection: the request is not accepted, or there is no such decision.
         """
         vehicle, wanted = self._read(call, EvidenceRequest)
-        found = self.desks.get(vehicle, self.nowhere).decision(wanted.trace_id)
+        found = self.vehicles.get(vehicle, self.nowhere).decision(wanted.trace_id)
         if found is None:
-            raise Refusal("outside-record", UNHEARD)
+            raise Rejection("outside-record", UNHEARD)
         call.reply(plan_trace.encode(found))
 
     def _admitted(
         self, call: Call, kind: type[Wanted], *, erasing: bool = False
-    ) -> tuple[Desk, Wanted]:
-        """The desk and the request, of somebody who may make it.
+    ) -> tuple[VehicleSession, Wanted]:
+        """Decode and check a request; return the session of its vehicle and the request.
 
         Raises:
-            Refusal: it cannot be read, or the session belongs to somebody else.
+            Rejection: it cannot be read, or the session belongs to another client.
         """
         vehicle, wanted = self._read(call, kind)
         begun = erasing or self._is_begun(wanted.session)
         if not self.owners.admits(wanted.session, wanted.token, begun=begun):
             if self.owners.of(wanted.session) == UNKNOWN:
-                raise Refusal("busy", UNREADABLE)
+                raise Rejection("busy", UNREADABLE)
             self.alive.count("foreign")
             _LOG.warning("a wrong token", extra={"vehicle": vehicle, "session": wanted.session})
-            raise Refusal("out-of-scope", FOREIGN)
-        return self.desks.get(vehicle, self.nowhere), wanted
+            raise Rejection("out-of-scope", FOREIGN)
+        return self.vehicles.get(vehicle, self.nowhere), wanted
 
     def _read(self, call: Call, kind: type[Told]) -> tuple[str, Told]:
         """The car that a request is about, and the request.
@@ -232,40 +237,43 @@ class Reception:
         """
         vehicle = vehicle_in(call.key)
         if vehicle is None:
-            raise Refusal("not-understood", "name one car in the key")
+            raise Rejection("not-understood", "name one car in the key")
         try:
             return vehicle, unpack(call.payload, kind)
         except MessageError as error:
             self.alive.count("rejected")
-            raise Refusal("not-understood", str(error)) from error
+            raise Rejection("not-understood", str(error)) from error
 
     def _claim(self, asked: AskRequest) -> None:
-        """Let a session belong to whoever begins it; one that was begun as open remains so."""
+        """Assign a new session to the client that begins it; one that began as open stays open."""
         if not self._is_begun(asked.session):
-            desks = self.all_desks()
-            held = lambda: {session for desk in desks for session in desk.past}  # noqa: E731
+            vehicles = self.all_vehicles()
+            held = lambda: {name for one in vehicles for name in one.past}  # noqa: E731
             self.owners.claim(asked.session, asked.token, held)
 
     def _is_begun(self, session: str) -> bool:
-        """Whether anything of a session is in memory."""
-        desks = self.all_desks()
-        return any(desk.past.get(session) or desk.waiting.of(session) for desk in desks)
+        """Check whether anything of a session is in memory."""
+        vehicles = self.all_vehicles()
+        return any(
+            vehicle_session.past.get(session) or vehicle_session.scheduler.of(session)
+            for vehicle_session in vehicles
+        )
 
-    def _know(self, desk: Desk, session: str) -> None:
-        """Make sure that the desk knows what was said in a session before."""
-        if session not in desk.past:
-            desk.resume(session, self.memory.recall(session))
+    def _know(self, vehicle_session: VehicleSession, session: str) -> None:
+        """Load the earlier turns of a session."""
+        if session not in vehicle_session.past:
+            vehicle_session.resume(session, self.memory.recall(session))
 
     def _make_room(self) -> None:
-        for vehicle, desk in self.desks.items():
-            if not desk.car_alive and not desk.waiting.open:
-                del self.desks[vehicle]
+        for vehicle, vehicle_session in self.vehicles.items():
+            if not vehicle_session.car_alive and not vehicle_session.scheduler.open:
+                del self.vehicles[vehicle]
                 return
-        raise Refusal("busy", f"this service talks about {MAX_CARS} cars already")
+        raise Rejection("busy", f"this service talks about {MAX_CARS} cars already")
 
 
 def latest(turns: Iterable[PastTurn], limit: int) -> tuple[PastTurn, ...]:
-    """As many of the latest turns as have so many bytes."""
+    """Return the latest turns that fit into a number of bytes."""
     kept: list[PastTurn] = []
     taken = 0
     for turn in reversed([*turns]):

@@ -1,4 +1,4 @@
-"""Questions on a desk, and what a desk wants done: values, handed out and carried out elsewhere."""
+"""Questions to the service and what it does with them: values without input or output."""
 
 from dataclasses import dataclass, field
 from typing import TypeAlias
@@ -11,7 +11,7 @@ from xavi_dialogue.domain.answers import NeedRollout
 
 Name: TypeAlias = tuple[str, str]  # session, request
 
-MARGIN = 0.05  # [s] before its deadline at which a question is given up, so no reply is late
+MARGIN = 0.05  # [s] before its deadline at which a question is given up, so that no reply is late
 
 
 @dataclass(eq=False)
@@ -21,13 +21,13 @@ class Question:
     call: Call
     asked: AskRequest
     came: float  # [s] on the shell's clock
-    again: list[Call] = field(default_factory=list)  # the same request, come once more
+    again: list[Call] = field(default_factory=list)  # repeated calls of the same request
     begun: bool = False  # the manager has it
     ready: bool = False  # it waits for its turn alone
 
     @property
     def name(self) -> Name:
-        """What it is known by: others may give their requests the same names."""
+        """Its name; other sessions may use the same request names."""
         return self.asked.session, self.asked.request
 
     @property
@@ -49,7 +49,7 @@ class Question:
 
 @dataclass(frozen=True)
 class Answer:
-    """A reply to be sent, after its turn has been kept."""
+    """A reply to send, after its turn has been stored."""
 
     question: Question
     reply: Reply
@@ -58,7 +58,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class PlanAgain:
-    """A request to be sent to the car."""
+    """A request to send to the car."""
 
     need: NeedRollout
     deadline: float  # [s] on the shell's clock, of the first question that needs it
@@ -66,4 +66,4 @@ class PlanAgain:
     session: str | None = None
 
 
-Errand: TypeAlias = Answer | PlanAgain
+Task: TypeAlias = Answer | PlanAgain

@@ -1,4 +1,4 @@
-"""What leaves the service: replies, shared turns, and requests to cars; none is waited for."""
+"""What the service sends: replies, shared turns and requests to cars; sending never waits."""
 
 import logging
 import time
@@ -10,7 +10,7 @@ import msgspec
 
 from planner.record import trace as plan_trace
 from planner.record.trace import PlanTrace, TraceError
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import (
     DEFAULT_VEHICLE,
     Bus,
@@ -36,30 +36,30 @@ from xavi_dialogue.bus.messages import (
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.domain.answers import Reason
-from xavi_dialogue.service.ownership import Owners
+from xavi_dialogue.service.ownership import SessionOwners
 from xavi_dialogue.service.requests import Answer, PlanAgain
-from xavi_dialogue.service.vehicle_session import Desk
+from xavi_dialogue.service.vehicle_session import VehicleSession
 from xavi_dialogue.storage.conversations import RideName
-from xavi_dialogue.storage.turn_log import Memory
+from xavi_dialogue.storage.turn_log import TurnLog
 
 _LOG = logging.getLogger(__name__)
 MAX_SENT = 500  # replies that can be repeated
-AGAIN = 30.0  # [s] for which a request that comes again is the same one
-#: Reasons that may be gone when the same is asked again.
+AGAIN = 30.0  # [s] for which a repeated request gets the same reply
+#: Reasons that may no longer hold when the question is repeated.
 PASSING = frozenset[Reason | None](("busy", "planner-failed", "planner-unavailable", "timed-out"))
 
 
 @dataclass
-class Dispatch:
-    """Sends what the desks want sent."""
+class Responder:
+    """Sends replies and requests for plans."""
 
     bus: Bus
-    owners: Owners
-    memory: Memory
-    alive: Alive
+    owners: SessionOwners
+    memory: TurnLog
+    alive: HealthReporter
     replies: int = 0  # so far
     shared: int = 0  # turns
-    #: What was answered with what, and when [s], by session and request.
+    #: The reply to each request and its time [s], by session and request.
     sent: dict[tuple[str, str], tuple[AskRequest, bytes, float]] = field(default_factory=dict)
 
     def next(self) -> int:
@@ -67,31 +67,33 @@ class Dispatch:
         self.replies += 1
         return self.replies - 1
 
-    def answer(self, desk: Desk, answer: Answer) -> None:
-        """Keep the turn, then send the reply, and share it where the passenger allows."""
+    def answer(self, vehicle_session: VehicleSession, answer: Answer) -> None:
+        """Store the turn, then send the reply, and publish it if the passenger shares it."""
         question, asked = answer.question, answer.question.asked
         if answer.turn is not None:
             owner = self.owners.known.get(asked.session)
-            name = named(desk.vehicle, asked.request)
-            self.memory.keep(asked.session, ride_of(desk), time.time(), answer.turn, owner, name)
+            name = named(vehicle_session.vehicle, asked.request)
+            self.memory.keep(
+                asked.session, ride_of(vehicle_session), time.time(), answer.turn, owner, name
+            )
         taken = round((time.monotonic() - question.came) * 1000.0, 3)
         payload = self._packed(asked, answer.reply, taken)
         if answer.reply.reason not in PASSING:
-            key = (asked.session, named(desk.vehicle, asked.request))
+            key = (asked.session, named(vehicle_session.vehicle, asked.request))
             self.sent[key] = (asked, payload, time.monotonic())
         while len(self.sent) > MAX_SENT:
             del self.sent[next(iter(self.sent))]
         for call in question.calls:
-            with suppress(BusError):  # who asked is gone
+            with suppress(BusError):  # the client has disconnected
                 call.reply(payload)
         self._count(answer, taken)
         if asked.share:
             self._share(answer)
 
     def repeat(self, vehicle: str, asked: AskRequest) -> bytes | None:
-        """The reply to a request that was answered not long ago; None where it was not.
+        """Return the reply to a request that was answered recently, else None.
 
-        Messages may come twice, and who missed a reply asks again under the same name.
+        Messages may arrive twice, and a client that missed a reply repeats its request.
         """
         name = named(vehicle, asked.request)
         before = self.sent.get((asked.session, name))
@@ -147,42 +149,42 @@ class Dispatch:
         )
         self.shared += 1
         key = Keys(vehicle).of(f"dialogue/{asked.session}/turn")
-        with suppress(BusError):  # nobody reads it
+        with suppress(BusError):  # it has no reader
             self.bus.send(key, pack(report))
 
-    def plan_again(self, vehicle: str, errand: PlanAgain, done: Callable[[Outcome], None]) -> None:
-        """Have a car plan again; `done` gets what comes of it, on a thread of the bus."""
-        remaining = max(errand.deadline - time.monotonic(), 0.001)
-        fields = msgspec.structs.asdict(errand.need)
+    def plan_again(self, vehicle: str, task: PlanAgain, done: Callable[[Outcome], None]) -> None:
+        """Ask a car to plan again; `done` gets the result, on a thread of the bus."""
+        remaining = max(task.deadline - time.monotonic(), 0.001)
+        fields = msgspec.structs.asdict(task.need)
         wanted = WhatIfRequest(
             **{name: value for name, value in fields.items() if value is not msgspec.UNSET},
-            request=errand.request,
+            request=task.request,
             deadline_ms=remaining * 1000.0,
         )
         self.alive.count("what_ifs")
-        known = {"vehicle": vehicle, "session": errand.session, "request": errand.request}
-        _LOG.info("a what-if is asked for", extra={**known, "trace_id": errand.need.trace_id})
+        known = {"vehicle": vehicle, "session": task.session, "request": task.request}
+        _LOG.info("a what-if is asked for", extra={**known, "trace_id": task.need.trace_id})
         self.bus.request(Keys(vehicle).of("@rpc/whatif"), pack(wanted), remaining, done)
 
 
 def named(vehicle: str, name: str) -> str:
-    """A name that is a car's own: others may use the same."""
+    """Make a name unique among cars."""
     return name if vehicle == DEFAULT_VEHICLE else f"{vehicle}/{name}"
 
 
-def ride_of(desk: Desk) -> RideName | None:
-    """The ride that is heard of."""
-    ledger = desk.ledger
-    if ledger is None:
+def ride_of(vehicle_session: VehicleSession) -> RideName | None:
+    """Return the present ride of a vehicle."""
+    reports = vehicle_session.reports
+    if reports is None:
         return None
-    scene, name = ledger.scene, named(desk.vehicle, ledger.ride)
+    scene, name = reports.scene, named(vehicle_session.vehicle, reports.ride)
     if scene is None:
         return RideName(name)
     return RideName(name, scene.scenario, scene.seed)
 
 
 def planned(outcome: Outcome) -> PlanTrace | Reason:
-    """What the car sent back, or why there is nothing."""
+    """Decode what the car sent back: a plan, or the reason why there is none."""
     match outcome:
         case bytes():
             try:

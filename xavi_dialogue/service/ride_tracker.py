@@ -1,57 +1,57 @@
-"""The ride that a car is on, told from those that are past and those that nobody has seen."""
+"""Tracks which ride a car is on: tells it from earlier rides and from those not seen yet."""
 
 from dataclasses import dataclass, field
 
 from xavi_dialogue.bus.messages import SceneReport
 from xavi_dialogue.dialogue.state.events import Input
-from xavi_dialogue.service.reorder_buffer import Heard, Ledger
+from xavi_dialogue.service.reorder_buffer import ReportOfRide, RideReports
 
-MAX_RIDES = 100  # whose names are known, so that what is late of them is
-MAX_COMING = 2000  # reports of a ride that has not been seen yet
+MAX_RIDES = 100  # whose names are kept, to recognise their late reports
+MAX_COMING = 2000  # reports of a ride without a scene yet
 
 
 @dataclass
-class Coming:
-    """What was heard of a ride before it is seen."""
+class UnseenRide:
+    """Reports of a ride that arrived before its first scene."""
 
-    ledger: Ledger
+    reports: RideReports
     inputs: list[Input] = field(default_factory=list)
 
 
 @dataclass
-class Rides:
+class RideTracker:
     """The rides of one car."""
 
-    ledger: Ledger | None = None  # of the present one
-    _names: dict[str, None] = field(default_factory=dict)  # of those that were begun, in order
-    _coming: Coming = field(default_factory=lambda: Coming(Ledger("")))
+    reports: RideReports | None = None  # of the present one
+    _names: dict[str, None] = field(default_factory=dict)  # of those that have begun, in order
+    _coming: UnseenRide = field(default_factory=lambda: UnseenRide(RideReports("")))
 
-    def hear(self, report: Heard) -> tuple[bool, list[Input]]:
-        """Take down a report; whether another ride begins, and what there is to tell then.
+    def hear(self, report: ReportOfRide) -> tuple[bool, list[Input]]:
+        """Record a report; return whether another ride begins, and the inputs for the dialogue.
 
-        A ride's first decision may be heard of before it is seen, and is kept until then. What is
-        late of an earlier ride, or comes from who knows whom, ends no record.
+        A ride's first decision may arrive before its first scene and is kept until then. Late
+        reports of an earlier ride, or of an unknown sender, do not end the present ride.
         """
-        if self.ledger is None:
-            first = Ledger(report.ride)
+        if self.reports is None:
+            first = RideReports(report.ride)
             self._begin(first)
             return True, first.hear(report)
-        if self.ledger.ride == report.ride:
-            return False, self.ledger.hear(report)
+        if self.reports.ride == report.ride:
+            return False, self.reports.hear(report)
         if report.ride in self._names:
             return False, []
-        if self._coming.ledger.ride != report.ride:
-            self._coming = Coming(Ledger(report.ride))
+        if self._coming.reports.ride != report.ride:
+            self._coming = UnseenRide(RideReports(report.ride))
         coming = self._coming
-        coming.inputs += coming.ledger.hear(report)
+        coming.inputs += coming.reports.hear(report)
         del coming.inputs[:-MAX_COMING]
         if not isinstance(report, SceneReport):
             return False, []
-        self._begin(coming.ledger)
+        self._begin(coming.reports)
         return True, coming.inputs
 
-    def _begin(self, ledger: Ledger) -> None:
-        self.ledger = ledger
-        self._names[ledger.ride] = None
+    def _begin(self, reports: RideReports) -> None:
+        self.reports = reports
+        self._names[reports.ride] = None
         if len(self._names) > MAX_RIDES:
             del self._names[next(iter(self._names))]

@@ -1,4 +1,4 @@
-"""The questions that are open at a desk: in which order they have their turn, and until when."""
+"""The open questions about one vehicle: their order and their deadlines."""
 
 import heapq
 from dataclasses import dataclass, field
@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from xavi_dialogue.service.fair_queue import FairQueue
 from xavi_dialogue.service.requests import Name, Question
 
-SPENT = 200  # questions that are over and still in the heap, before it is made anew
+SPENT = 200  # finished questions in the heap, before it is rebuilt
 
 
 @dataclass
-class Waiting:
+class Scheduler:
     """Open questions, by the sessions and names of their requests."""
 
     open: dict[Name, Question] = field(default_factory=dict)  # in the order in which they came
@@ -28,7 +28,7 @@ class Waiting:
         heapq.heappush(self._deadlines, (question.deadline, self._taken, question))
 
     def has(self, question: Question) -> bool:
-        """Whether it is still open."""
+        """Check whether it is still open."""
         return self.open.get(question.name) is question
 
     def of(self, session: str) -> list[Question]:
@@ -41,7 +41,7 @@ class Waiting:
         self._turns.put(question.asked.session, question)
 
     def next_turn(self) -> Question | None:
-        """The question whose turn it is; it waits no longer. None: nobody waits for a turn."""
+        """Return the question whose turn is next and remove it; None if none is ready."""
         while self._turns:
             question = self._turns.pop()
             if self.has(question) and question.ready and not question.begun:
@@ -50,11 +50,11 @@ class Waiting:
 
     @property
     def ready(self) -> int:
-        """How many questions wait for nothing but their turn."""
+        """The number of questions that only wait for their turn."""
         return len(self._turns)
 
     def overdue(self, now: float) -> Question | None:
-        """A question whose time is up, each once; None where there is none.
+        """Return a question whose deadline has passed, each once; None if there is none.
 
         Args:
             now: [s] on the shell's clock.
@@ -65,7 +65,7 @@ class Waiting:
         return heapq.heappop(self._deadlines)[2]
 
     def next_deadline(self) -> float | None:
-        """When the next question is given up [s] on the shell's clock."""
+        """Return when the next question is given up [s], on the shell's clock."""
         while self._deadlines and not self.has(self._deadlines[0][2]):
             heapq.heappop(self._deadlines)
         return self._deadlines[0][0] if self._deadlines else None

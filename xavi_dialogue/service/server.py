@@ -1,4 +1,4 @@
-"""The dialogue service: hears the rides on the bus, and answers questions within their deadlines.
+"""The dialogue service: follows the rides on the bus and answers questions in time.
 
 One service serves any number of cars. Everything that comes in is put into one inbox and handled
 by one thread, so that each manager sees one row of inputs. Cars are asked to plan again, and
@@ -17,7 +17,7 @@ from typing import TypeAlias
 import msgspec
 
 from xavi_dialogue.bus.catalogue import CAR_MESSAGES, MESSAGES
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import (
     DEFAULT_VEHICLE,
     EVERY_CAR,
@@ -41,18 +41,18 @@ from xavi_dialogue.bus.messages import (
     unpack,
 )
 from xavi_dialogue.bus.schema import schema_of
-from xavi_dialogue.dialogue.mind import Mind
-from xavi_dialogue.service.ownership import Owners
-from xavi_dialogue.service.request_handler import Reception, Refusal
-from xavi_dialogue.service.requests import Answer, Errand, PlanAgain
-from xavi_dialogue.service.responder import Dispatch, named, planned, ride_of
-from xavi_dialogue.service.vehicle_session import Desk
+from xavi_dialogue.dialogue.pipeline import Pipeline
+from xavi_dialogue.service.ownership import SessionOwners
+from xavi_dialogue.service.request_handler import Rejection, RequestHandler
+from xavi_dialogue.service.requests import Answer, PlanAgain, Task
+from xavi_dialogue.service.responder import Responder, named, planned, ride_of
+from xavi_dialogue.service.vehicle_session import VehicleSession
 from xavi_dialogue.storage.conversations import RideName
-from xavi_dialogue.storage.turn_log import Memory
+from xavi_dialogue.storage.turn_log import TurnLog
 
 _LOG = logging.getLogger(__name__)
-IDLE = 0.5  # [s] between looks at whether to stop
-HURRY = 0.05  # [s] between looks at whether what is missing still comes
+IDLE = 0.5  # [s] between checks for a request to stop
+HURRY = 0.05  # [s] between checks for missing reports
 MAX_INBOX = 20_000  # messages; beyond them reports are left out, and requests refused
 MAX_BYTES = 128 * 1024 * 1024  # of reports
 COUNTERS = (
@@ -67,41 +67,46 @@ _Heard: TypeAlias = type[TraceReport | EventReport | SceneReport]
 class Service:
     """Answers questions about every car on the bus."""
 
-    def __init__(self, bus: Bus, mind: Mind, memory: Memory | None = None) -> None:
+    def __init__(self, bus: Bus, pipeline: Pipeline, memory: TurnLog | None = None) -> None:
         """Begin to serve, once opened.
 
         Args:
             bus: of the cars and the passengers.
-            mind: answers.
-            memory: keeps what is said; none: it is forgotten when this process ends.
+            pipeline: answers.
+            memory: stores turns; None: they are lost when this process ends.
         """
-        self.alive = Alive("service", COUNTERS)
-        self._memory = Memory() if memory is None else memory
-        owners = Owners(self._memory.owner, lambda session: self.reception.put_away(session))
-        self._dispatch = Dispatch(bus, owners, self._memory, self.alive)
-        self.reception = Reception(
-            mind, self._memory, owners, self.alive, self._dispatch.repeat, self._dispatch.forget
+        self.alive = HealthReporter("service", COUNTERS)
+        self._memory = TurnLog() if memory is None else memory
+        owners = SessionOwners(self._memory.owner, lambda session: self.handler.put_away(session))
+        self._responder = Responder(bus, owners, self._memory, self.alive)
+        self.handler = RequestHandler(
+            pipeline,
+            self._memory,
+            owners,
+            self.alive,
+            self._responder.repeat,
+            self._responder.forget,
         )
         self._bus = bus
         self._inbox: queue.SimpleQueue[_Job] = queue.SimpleQueue()
         self._held, self._room = 0, threading.Lock()  # bytes of the reports in it
         self._seen: dict[str, Presence] = {}  # our signs of life, by car
 
-    def desk(self, vehicle: str = DEFAULT_VEHICLE) -> Desk:
-        """The desk of a car."""
-        return self.reception.desk(vehicle)
+    def vehicle_session(self, vehicle: str = DEFAULT_VEHICLE) -> VehicleSession:
+        """Return the session of a vehicle."""
+        return self.handler.vehicle_session(vehicle)
 
     def open(self) -> None:
-        """Declare what is heard and what is answered."""
-        bus, key, reception = self._bus, EVERY_CAR.of, self.reception
+        """Declare subscriptions and services on the bus."""
+        bus, key, handler = self._bus, EVERY_CAR.of, self.handler
         bus.watch(key("alive/car"), lambda key, alive: self._post(self._on_car, key, alive))
         bus.subscribe(key("trace"), self._hearer(TraceReport), kept=True)
         bus.subscribe(key("event"), self._hearer(EventReport), kept=True)
         bus.subscribe(key("scene"), self._hearer(SceneReport))
         requests = {
-            "cancel": reception.cancel,
-            "evidence": reception.evidence,
-            "forget": reception.forget,
+            "cancel": handler.cancel,
+            "evidence": handler.evidence,
+            "forget": handler.forget,
             "history": self._history,
         }
         for name, handle in requests.items():
@@ -110,68 +115,68 @@ class Service:
         for name, message in MESSAGES.items():
             if name not in CAR_MESSAGES:
                 bus.serve(key(f"@schema/{name}"), partial(_tell_schema, message))
-        self.alive.gauge("cars", lambda: sum(d.car_alive for d in reception.all_desks()))
-        self.alive.gauge("sessions", lambda: sum(len(d.past) for d in reception.all_desks()))
-        self.alive.gauge("waiting", reception.waiting)
+        self.alive.gauge("cars", lambda: sum(d.car_alive for d in handler.all_vehicles()))
+        self.alive.gauge("sessions", lambda: sum(len(d.past) for d in handler.all_vehicles()))
+        self.alive.gauge("waiting", handler.waiting)
         bus.serve(key("alive/service"), self.alive.answer)
         self._show(DEFAULT_VEHICLE)
 
     def run(self, stopped: Callable[[], bool]) -> None:
-        """Serve until told to stop."""
+        """Serve until asked to stop."""
         _LOG.info("serving")
         while not stopped():
             self.work(IDLE, stopped)
         _LOG.info("no longer serving")
 
     def work(self, patience: float = 0.0, stopped: Callable[[], bool] = lambda: False) -> None:
-        """Handle what came in, waiting up to `patience` [s] for it, and keep deadlines.
+        """Handle what came in, waiting up to `patience` [s] for it, and enforce deadlines.
 
-        Questions are answered one at a time; what comes in meanwhile is taken down in between.
-        Told to stop, it leaves the others for what they are.
+        Questions are answered one at a time; reports that arrive meanwhile are recorded in between.
+        When asked to stop, it leaves the remaining questions unanswered.
         """
         with contextlib.suppress(queue.Empty):
             wait = self._patience(patience)
             self._do(self._inbox.get(wait > 0.0, wait))
         while not stopped():
             self._empty_inbox()
-            for desk in self.reception.all_desks():
-                self._settle(desk)
-            if self._inbox.empty() and not self.reception.ready():
+            for vehicle_session in self.handler.all_vehicles():
+                self._settle(vehicle_session)
+            if self._inbox.empty() and not self.handler.ready():
                 break
-        idle = not self.reception.waiting()
+        idle = not self.handler.waiting()
         self._memory.tidy(time.time(), idle=idle)
-        for desk in self.reception.all_desks() if idle else ():
-            self._run(desk, desk.foresee(time.monotonic()))
+        for vehicle_session in self.handler.all_vehicles() if idle else ():
+            self._run(vehicle_session, vehicle_session.foresee(time.monotonic()))
 
     def _do(self, job: _Job) -> None:
-        """Do one thing; should it fail through a fault of ours, all others are served on."""
+        """Run one action; an internal error in it does not stop the service."""
         try:
             job()
         except BusError:
-            pass  # who asked is gone
+            pass  # the client has disconnected
         except Exception:
             self.alive.count("faults")
             _LOG.exception("a fault of ours")
 
-    def _settle(self, desk: Desk) -> None:
-        """Have a desk answer one question, and learn how long that takes."""
-        ready, began = desk.waiting.ready, time.monotonic()
-        self._do(lambda: self._run(desk, desk.settle(began)))
+    def _settle(self, vehicle_session: VehicleSession) -> None:
+        """Answer one question of a vehicle's session, and update the average time."""
+        ready, began = vehicle_session.scheduler.ready, time.monotonic()
+        self._do(lambda: self._run(vehicle_session, vehicle_session.settle(began)))
         if ready:
-            self.reception.learn(time.monotonic() - began)
+            self.handler.learn(time.monotonic() - began)
 
     def _empty_inbox(self) -> None:
         with contextlib.suppress(queue.Empty):
-            for _ in range(MAX_INBOX):  # else a flood would keep anybody from being answered
+            for _ in range(MAX_INBOX):  # else a flood of reports would block all answers
                 self._do(self._inbox.get_nowait())
 
     def _patience(self, patience: float) -> float:
-        """How long [s] nothing has to be done unless something comes in."""
-        for desk in self.reception.all_desks():
-            deadline = desk.waiting.next_deadline()
+        """Return for how long [s] nothing needs to be done unless a message arrives."""
+        for vehicle_session in self.handler.all_vehicles():
+            deadline = vehicle_session.scheduler.next_deadline()
             if deadline is not None:
                 patience = min(patience, max(deadline - time.monotonic(), 0.0))
-            if desk.ledger is not None and desk.ledger.missing is not None:
+            if vehicle_session.reports is not None and vehicle_session.reports.missing is not None:
                 patience = min(patience, HURRY)
         return patience
 
@@ -181,19 +186,19 @@ class Service:
     def _take(self, handle: Callable[[Call], None], call: Call) -> None:
         """Have a request handled; on a thread of the bus."""
         if self._inbox.qsize() > MAX_INBOX:
-            with contextlib.suppress(BusError):  # who asked is gone
+            with contextlib.suppress(BusError):  # the client has disconnected
                 call.refuse(pack(Failure(reason="busy", detail="too much comes in")))
         else:
             self._post(self._handle, handle, call)
 
     def _take_question(self, call: Call) -> None:
         """Have a question taken up; its time runs from now on, wherever it waits."""
-        self._take(partial(self.reception.ask, came=time.monotonic()), call)
+        self._take(partial(self.handler.ask, came=time.monotonic()), call)
 
     def _handle(self, handle: Callable[[Call], None], call: Call) -> None:
         try:
             handle(call)
-        except Refusal as refusal:
+        except Rejection as refusal:
             self.alive.count("busy", refusal.failure.reason == "busy")
             known = {"vehicle": vehicle_in(call.key), "reason": refusal.failure.reason}
             _LOG.info("a request was refused", extra=known)
@@ -205,7 +210,7 @@ class Service:
             raise
 
     def _history(self, call: Call) -> None:
-        self.reception.history(call, self._dispatch.next())
+        self.handler.history(call, self._responder.next())
 
     def _hearer(self, kind: _Heard) -> Callable[[str, bytes], None]:
         def hear(key: str, payload: bytes) -> None:
@@ -225,65 +230,69 @@ class Service:
         try:
             report = unpack(payload, kind)
             vehicle = vehicle_in(key)
-            desk = None if vehicle is None else self.desk(vehicle)
-        except (MessageError, Refusal) as error:
+            vehicle_session = None if vehicle is None else self.vehicle_session(vehicle)
+        except (MessageError, Rejection) as error:
             self.alive.count("rejected")
             known = {"vehicle": vehicle_in(key), "report": schema_name(kind)}
             _LOG.info("a report was rejected", extra={**known, "problem": type(error).__name__})
             return
-        if desk is None:
+        if vehicle_session is None:
             self.alive.count("rejected")
             return
-        desk.hear(report)
+        vehicle_session.hear(report)
         self.alive.at(report.sim_time)
         if isinstance(report, EventReport):
-            ride = ride_of(desk)
-            if desk.ledger is None or desk.ledger.ride != report.ride:  # it is not seen yet
+            ride = ride_of(vehicle_session)
+            if (
+                vehicle_session.reports is None or vehicle_session.reports.ride != report.ride
+            ):  # it is not seen yet
                 ride = None
-            ride = ride or RideName(named(desk.vehicle, report.ride))
+            ride = ride or RideName(named(vehicle_session.vehicle, report.ride))
             self._memory.hear(ride, report.seq, time.time(), report.event)
 
     def _on_car(self, key: str, alive: bool) -> None:
         vehicle = vehicle_in(key)
         if vehicle is None:
             return
-        with contextlib.suppress(Refusal):
-            desk = self.desk(vehicle)
-            desk.car_alive = alive
-            desk.look()
+        with contextlib.suppress(Rejection):
+            vehicle_session = self.vehicle_session(vehicle)
+            vehicle_session.car_alive = alive
+            vehicle_session.look()
             _LOG.info("a car appears" if alive else "a car is gone", extra={"vehicle": vehicle})
             if alive:
                 self._show(vehicle)
 
     def _show(self, vehicle: str) -> None:
-        """Show those who look for this car's service that it is there."""
-        for gone in self._seen.keys() - self.reception.desks.keys() - {DEFAULT_VEHICLE}:
+        """Announce the service under the key of this car."""
+        for gone in self._seen.keys() - self.handler.vehicles.keys() - {DEFAULT_VEHICLE}:
             self._seen.pop(gone).withdraw()
         if vehicle not in self._seen:
             self._seen[vehicle] = self._bus.appear(Keys(vehicle).of("alive/service"))
 
-    def _run(self, desk: Desk, errands: list[Errand]) -> None:
-        for errand in errands:
-            match errand:
+    def _run(self, vehicle_session: VehicleSession, tasks: list[Task]) -> None:
+        for task in tasks:
+            match task:
                 case Answer():
-                    self._dispatch.answer(desk, errand)
+                    self._responder.answer(vehicle_session, task)
                 case PlanAgain():
-                    done = partial(self._post, self._on_planned, desk, errand)
-                    self._dispatch.plan_again(desk.vehicle, errand, done)
+                    done = partial(self._post, self._on_planned, vehicle_session, task)
+                    self._responder.plan_again(vehicle_session.vehicle, task, done)
 
-    def _on_planned(self, desk: Desk, errand: PlanAgain, outcome: Outcome) -> None:
+    def _on_planned(
+        self, vehicle_session: VehicleSession, task: PlanAgain, outcome: Outcome
+    ) -> None:
         result = planned(outcome)
         known = {
-            "vehicle": desk.vehicle,
-            "session": errand.session,
-            "request": errand.request,
-            "trace_id": errand.need.trace_id,
+            "vehicle": vehicle_session.vehicle,
+            "session": task.session,
+            "request": task.request,
+            "trace_id": task.need.trace_id,
         }
         reason = result if isinstance(result, str) else None
         _LOG.info("a decision was planned again", extra={**known, "reason": reason})
-        self._run(desk, desk.deliver(errand, result))
+        self._run(vehicle_session, vehicle_session.deliver(task, result))
 
 
 def _tell_schema(message: type[AnyMessage], call: Call) -> None:
-    with contextlib.suppress(BusError):  # who asked is gone
+    with contextlib.suppress(BusError):  # the client has disconnected
         call.reply(msgspec.json.encode(schema_of(message, schema_name(message))))

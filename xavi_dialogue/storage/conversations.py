@@ -1,6 +1,6 @@
-"""What is kept of conversations on disk: every turn, and what happened on the rides.
+"""Conversations on disk: every turn, and the events of the rides.
 
-Nothing here knows a clock; wall times are given, in seconds since 1970.
+This module reads no clock; wall times are arguments, in seconds since 1970.
 """
 
 from collections.abc import Iterable, Iterator
@@ -13,12 +13,12 @@ import msgspec
 
 from planner.record.events import Event
 from xavi_dialogue.dialogue.state.turn import Turn
-from xavi_dialogue.storage.database import Database, Unfit, Writing
+from xavi_dialogue.storage.database import Database, NotStorable, Writing
 from xavi_dialogue.storage.rows import Line, Summary, checked, decoded, decoded_owner, known
 
 VERSION = 3
 SCHEMA = "xavi.memory/2"  # of exported lines
-RECENT = 10  # turns among which a request that comes again is looked for
+RECENT = 10  # latest turns that are searched for a repeated request
 MAX_TURN = 256 * 1024  # bytes
 PATIENCE = 5.0  # [s] to wait for others that write
 DAY = 86400.0  # [s]
@@ -40,7 +40,7 @@ CREATE TABLE events (
 CREATE INDEX turns_by_ride ON turns (ride);
 CREATE TABLE owners (session TEXT PRIMARY KEY, digest TEXT NOT NULL)
 """
-# What brings tables of a version to the next.
+# Migrations of the tables from each version to the next.
 _MIGRATIONS = {
     1: "CREATE TABLE owners (session TEXT PRIMARY KEY, digest TEXT NOT NULL);"
     " ALTER TABLE turns ADD COLUMN request TEXT",
@@ -55,7 +55,7 @@ _MIGRATIONS = {
 
 @dataclass(frozen=True, slots=True)
 class RideName:
-    """A ride, and how to drive it again."""
+    """A ride, with scenario and seed to drive it again."""
 
     id: str  # changes with every start of the car
     scenario: str | None = None  # name or folder; None: not known yet
@@ -64,19 +64,19 @@ class RideName:
 
 @dataclass(frozen=True, slots=True)
 class NewTurn:
-    """A turn to be kept."""
+    """A turn to store."""
 
     session: str
-    ride: RideName | None  # None: no car had been heard of
+    ride: RideName | None  # None: before the first car
     wall_time: float  # [s]
     turn: Turn
-    owner: str | None = None  # digest of whom the session belongs to; None: it is open to all
+    owner: str | None = None  # digest of the owner's token; None: open to all
     request: str | None = None  # that it answered
 
 
 @dataclass(frozen=True, slots=True)
 class NewEvent:
-    """Something that happened on a ride, to be kept."""
+    """An event of a ride, to store."""
 
     ride: RideName
     seq: int  # of the ride's events, from 0
@@ -106,10 +106,10 @@ class Store:
         self._file = Database(path, _TABLES, VERSION, _MIGRATIONS, patience=patience)
 
     def keep(self, news: Iterable[New]) -> None:
-        """Keep all of these, or none; an event that is there already stays as it is.
+        """Store all of these, or none; an event that is already stored stays as it is.
 
         Raises:
-            Unfit: a turn has more than 256 KiB, or something is no text or number for a file.
+            NotStorable: a turn has more than 256 KiB, or a text or number cannot be stored.
         """
         with self._file.writing() as file:
             for new in news:
@@ -129,7 +129,7 @@ class Store:
         return tuple(decoded(self.path, session, turn, Turn) for (turn,) in reversed(rows))
 
     def owner(self, session: str) -> str | None:
-        """The digest of whom a session belongs to; None where it is open to all."""
+        """Return the digest of a session's owner; None if it is open to all."""
         rows = self._file.rows("SELECT digest FROM owners WHERE session = ?", (session,))
         return decoded_owner(self.path, session, rows[0][0]) if rows else None
 
@@ -150,7 +150,7 @@ class Store:
         return next(found, None)
 
     def holds(self, session: str) -> bool:
-        """Whether there is anything of a session; whatever became of the names of others."""
+        """Check whether anything of a session is stored, even if its owner cannot be read."""
         return bool(self._file.rows("SELECT 1 FROM turns WHERE session = ? LIMIT 1", (session,)))
 
     def names(self) -> tuple[str, ...]:
@@ -177,7 +177,7 @@ class Store:
         """Erase turns, and the rides that nobody speaks of any more.
 
         Args:
-            session: whose; None: everybody's.
+            session: only of this one; None: of all.
             before: [s] wall time; None: all.
 
         Returns:
@@ -213,7 +213,7 @@ class Store:
         return erased
 
     def purge(self) -> None:
-        """Let nothing be left in the files of what was erased, by whomever, if anything is.
+        """Purge erased data from the files, whichever process erased it.
 
         Raises:
             Unpurged: something is left.
@@ -221,7 +221,7 @@ class Store:
         self._file.purge()
 
     def expire(self, days: float, now: float) -> int:
-        """Erase what is older than so many days; how many turns that were."""
+        """Erase turns that are older than some days; return how many there were."""
         return self.forget(before=now - days * DAY)
 
     def export(self, session: str | None = None) -> Iterator[str]:
@@ -248,11 +248,11 @@ class Store:
         return _json(checked(self.path, session, {"schema": SCHEMA, **fields, kind: held}, Line))
 
     def sync(self) -> None:
-        """Wait until what is kept outlives a power cut, too; a process that dies it does anyway."""
+        """Flush to disk, so that data survives a power cut; it survives a crash anyway."""
         self._file.sync()
 
     def cap(self, size: int) -> None:
-        """Let the file grow to no more than `size` bytes, or than it has."""
+        """Limit the size of the file to `size` bytes, or to its present size."""
         self._file.cap(size)
 
     def close(self) -> None:
@@ -274,11 +274,13 @@ class Store:
         text = _json(new.turn)
         size = len(text.encode())
         if size > MAX_TURN:
-            raise Unfit(f"a turn of {size} bytes is not kept in {self.path}: at most {MAX_TURN}")
+            raise NotStorable(
+                f"a turn of {size} bytes is not kept in {self.path}: at most {MAX_TURN}"
+            )
         ride = None if new.ride is None else new.ride.id
         found = file.execute("SELECT digest FROM owners WHERE session = ?", (new.session,))
         if (owner := found.fetchone()) is not None and owner[0] != new.owner:
-            raise Unfit(f"a turn of session {new.session} that belongs to somebody else")
+            raise NotStorable(f"a turn of session {new.session} that belongs to somebody else")
         if new.owner is not None:
             claim = "INSERT OR IGNORE INTO owners VALUES (?, ?)"
             file.execute(claim, (new.session, new.owner))
@@ -292,7 +294,7 @@ class Store:
 
 
 def fits(turn: Turn) -> bool:
-    """Whether a turn is small enough to be kept."""
+    """Check whether a turn is small enough to store."""
     return len(_json(turn).encode()) <= MAX_TURN
 
 

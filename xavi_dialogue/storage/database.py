@@ -1,13 +1,13 @@
-"""One SQLite file of ours: opened with care, written all or nothing, emptied for good.
+"""One SQLite file: checked when opened, written in transactions, erased for good.
 
     StoreError
-    ├── Damaged      not a database, not ours, or broken
+    ├── Damaged      not a database, not of this program, or broken
     ├── Newer        written by a later version of this program
     ├── Unwritable   no such place, no permission, disk full, locked: may work again later
-    │   └── Unpurged what was erased is still in the files
-    └── Unfit        too large to be kept, or a number or text that no file can hold
+    │   └── Unpurged erased data is still in the files
+    └── NotStorable  too large, or a number or text that cannot be stored
 
-Every message names the file and says how to mend it.
+Every message names the file and says how to repair it.
 """
 
 import contextlib
@@ -20,7 +20,7 @@ from types import MappingProxyType
 from typing import Any, TypeAlias
 
 APPLICATION = 0x58415649  # "XAVI", in the file's header
-PAUSE = 0.05  # [s] between attempts to open what another process is just making
+PAUSE = 0.05  # [s] between attempts to open a file that another process is creating
 PAGE = 4096  # bytes
 
 Row: TypeAlias = tuple[Any, ...]
@@ -35,7 +35,7 @@ class StoreError(Exception):
 
 
 class Damaged(StoreError):
-    """Not a database, not ours, or broken."""
+    """Not a database, not of this program, or broken."""
 
 
 class Newer(StoreError):
@@ -43,19 +43,19 @@ class Newer(StoreError):
 
 
 class Unwritable(StoreError):
-    """It cannot be opened or written now; that may work again later."""
+    """It cannot be opened or written now; that may work later."""
 
 
 class Unpurged(Unwritable):
-    """What was erased is still in the files, until they are used again with nobody reading."""
+    """Erased data is still in the files, until they are next written without readers."""
 
 
-class Unfit(StoreError):
-    """Too large to be kept, or a number or text that no file can hold."""
+class NotStorable(StoreError):
+    """Too large, or a number or text that cannot be stored."""
 
 
 class Database:
-    """A connection to one file; of use in the thread that made it."""
+    """A connection to one file, for the thread that made it."""
 
     def __init__(
         self,
@@ -66,7 +66,7 @@ class Database:
         *,
         patience: float,
     ) -> None:
-        """Open the file; make it, for its owner alone, where there is none.
+        """Open the file; create it, readable by its owner only, if it does not exist.
 
         Args:
             path: the file.
@@ -76,9 +76,9 @@ class Database:
             patience: [s] to wait for others that write.
 
         Raises:
-            Damaged: it is no database, not ours, or broken.
+            Damaged: it is no database, not of this program, or broken.
             Newer: its tables have a later version.
-            Unwritable: it cannot be opened or made.
+            Unwritable: it cannot be opened or created.
         """
         self.path, self._patience = path, patience
         self._make()
@@ -89,7 +89,7 @@ class Database:
         try:
             self._open({0: tables} | dict(migrations), version)
         except BaseException:
-            self._connection.close()  # and no more: it may not be ours
+            self._connection.close()  # and no more: it may belong to another program
             raise
 
     @contextlib.contextmanager
@@ -110,7 +110,7 @@ class Database:
                 raise
 
     def rows(self, sql: str, arguments: Sequence[object] = ()) -> list[Row]:
-        """What a query finds.
+        """Yield the rows of a query.
 
         Raises:
             StoreError: it cannot be read.
@@ -119,7 +119,7 @@ class Database:
             return self._connection.execute(sql, arguments).fetchall()
 
     def sync(self) -> None:
-        """Wait until all that was written is on the disk itself, where it outlives a power cut.
+        """Flush all writes to disk, so that they survive a power cut.
 
         Raises:
             Unwritable: it cannot be written there.
@@ -137,13 +137,13 @@ class Database:
             os.close(log)
 
     def owe(self, file: Writing) -> None:
-        """Note in the file itself, with what is deleted, that the files are to be purged of it."""
+        """Mark in the file, within a deletion, that the files must be purged."""
         file.execute("CREATE TABLE IF NOT EXISTS owed (erased INTEGER, compacted INTEGER)")
         file.execute("INSERT INTO owed SELECT 0, 0 WHERE NOT EXISTS (SELECT 1 FROM owed)")
         file.execute("UPDATE owed SET erased = erased + 1")
 
     def purge(self) -> None:
-        """Let nothing be left in the files of what was deleted, by whomever, if anything is.
+        """Purge deleted data from the files, whichever process deleted it.
 
         Raises:
             Unpurged: something is left as long as somebody else reads, or the disk is full. The
@@ -166,11 +166,11 @@ class Database:
                 " end that program and erase again"
             )
         with self.writing() as file:
-            if self._owed() == (erased, erased):  # nobody has deleted more meanwhile
+            if self._owed() == (erased, erased):  # nothing was deleted meanwhile
                 file.execute("DROP TABLE owed")
 
     def _purge_in_passing(self) -> None:
-        """Purge the files if that is owed and nobody has to be waited for."""
+        """Purge the files if necessary and if no other process has to be waited for."""
         with contextlib.suppress(StoreError):
             self.rows("PRAGMA busy_timeout = 0")
             self.purge()
@@ -182,14 +182,14 @@ class Database:
             file.execute("UPDATE owed SET compacted = max(compacted, ?)", (erased,))
 
     def _owed(self) -> tuple[int, int] | None:
-        """How often was deleted, and up to which time compacted; None: nothing is owed."""
+        """Return the number of deletions and of the latest purge; None: nothing to purge."""
         if not self.rows("SELECT 1 FROM sqlite_master WHERE name = 'owed'"):
             return None
         rows = self.rows("SELECT erased, compacted FROM owed")
         return rows[0] if rows else None
 
     def cap(self, size: int) -> None:
-        """Let the file grow to no more than `size` bytes, or than it has."""
+        """Limit the size of the file to `size` bytes, or to its present size."""
         self.rows(f"PRAGMA max_page_count = {max(size // PAGE, 1)}")
 
     def close(self) -> None:
@@ -213,15 +213,15 @@ class Database:
         give_up = time.monotonic() + 2.0 * self._patience
         while True:
             try:
-                self._version(version)  # before anything is changed in what may not be ours
+                self._version(version)  # before anything is changed in a file of another program
                 self._set_up()
                 break
             except Unwritable as error:
-                # Whoever makes the file locks it in a way that waits for nobody.
+                # The process that creates the file takes its lock without waiting.
                 if time.monotonic() > give_up or "locked" not in str(error):
                     raise
                 time.sleep(PAUSE)
-        with contextlib.suppress(OSError):  # the file of another user, who lets us write
+        with contextlib.suppress(OSError):  # the file of another user, with write permission
             self.path.chmod(0o600)
         with self.writing() as file:
             held = self._version(version)
@@ -263,7 +263,7 @@ class Database:
         try:
             yield
         except _UNFIT as error:
-            raise Unfit(f"this cannot be kept in {self.path}: {_plain(error)}") from error
+            raise NotStorable(f"this cannot be kept in {self.path}: {_plain(error)}") from error
         except sqlite3.Error as error:
             code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_MISUSE)
             if code & 0xFF in _BROKEN:

@@ -30,7 +30,7 @@ class _Entry:
         return before is None or (self.time is not None and self.time < before)
 
 
-class TypedLines(FileHistory):
+class InputHistory(FileHistory):
     """Lines in a file that only its owner can read."""
 
     def __init__(self, file: Path, session: str) -> None:
@@ -55,7 +55,7 @@ class TypedLines(FileHistory):
         self._loaded_strings = [*self.load_history_strings()]
 
 
-class UnkeptLines(InMemoryHistory):
+class UnsavedInputHistory(InMemoryHistory):
     """Lines that are in no file."""
 
     def forget(self) -> None:

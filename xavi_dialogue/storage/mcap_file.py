@@ -30,12 +30,12 @@ from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.storage.recording_format import (
     MIB,
     PROFILE,
-    Attached,
-    Broken,
+    AttachedFile,
     Entry,
     FileThere,
     NotARecording,
     Piece,
+    Truncation,
     Unwritable,
     kind_of,
     schema_to_view,
@@ -45,7 +45,7 @@ CHUNK = MIB  # bytes of messages that are compressed together, at most
 MAX_RECORD = 64 * MIB  # bytes of any part that is read, also when unpacked
 MAX_CHANNELS = 1000
 MAX_KEY = 512  # characters
-MAX_TIME = 2**63 - 1  # [ns] that every reader takes
+MAX_TIME = 2**63 - 1  # [ns] that every reader accepts
 MAX_SEQUENCE = 2**32 - 1
 GZIP = "application/gzip"
 
@@ -62,7 +62,7 @@ ENDING = _ending()
 
 
 class _Spool(BytesIO):
-    """What the writer wrote and the file has not got yet; places count from the file's start."""
+    """Written bytes that are not in the file yet; offsets count from the start of the file."""
 
     taken = 0
 
@@ -70,7 +70,7 @@ class _Spool(BytesIO):
         return self.taken + super().tell()
 
     def take(self) -> bytes:
-        """All of it; it is gone from here."""
+        """Return and remove all bytes."""
         data = self.getvalue()
         self.taken += len(data)
         self.seek(0)
@@ -87,10 +87,10 @@ class McapWriter:
         Args:
             path: of the file.
             version: of the program.
-            overwrite: a file that is there.
+            overwrite: replace an existing file.
 
         Raises:
-            FileThere: there is a file, and it shall not be overwritten.
+            FileThere: there is a file, and it must not be overwritten.
             Unwritable: the file cannot be created.
         """
         self.size = 0  # bytes of the file, its end aside
@@ -111,7 +111,7 @@ class McapWriter:
         self.flush()
 
     def add(self, entry: Entry) -> bool:
-        """Take a message; whether there was room for another key.
+        """Write a message; return whether there was room for another key.
 
         Raises:
             ValueError: messages of this key are not recorded.
@@ -140,7 +140,7 @@ class McapWriter:
         self._writer.add_metadata(name, dict(facts))
 
     def flush(self) -> None:
-        """Write what there is; the file can be read then.
+        """Write the buffered messages; after that the file can be read.
 
         Raises:
             Unwritable: the disk is full, or fails; what was written before can be read.
@@ -210,7 +210,7 @@ def _made(path: Path, overwrite: bool) -> int:
     """An empty file, readable by its owner alone.
 
     Raises:
-        OSError: there is one already, or it cannot be made.
+        OSError: there is one already, or it cannot be created.
     """
     # What is no file would have to be waited for, for a reader.
     flags = os.O_CREAT | os.O_WRONLY | os.O_NONBLOCK | (0 if overwrite else os.O_EXCL)
@@ -234,7 +234,7 @@ def _write_at(file: int, place: int, data: bytes) -> None:
 
 
 class _Capped:
-    """A file of which no more is read at once than a record may have."""
+    """A file that never reads more at once than a record may have."""
 
     def __init__(self, file: IO[bytes]) -> None:
         self._file = file
@@ -249,10 +249,10 @@ class _Capped:
 
 
 def read(path: Path) -> Iterator[Piece]:
-    """What a recording holds, in the order in which it was written; whatever is whole of it.
+    """Yield the contents of a recording in order, as far as it is intact.
 
     Raises:
-        NotARecording: it cannot be opened, or is none of ours.
+        NotARecording: it cannot be opened, or was not made by this program.
     """
     try:
         with path.open("rb") as file:
@@ -289,7 +289,7 @@ def _pieces(records: Iterator[McapRecord]) -> Iterator[Piece]:
         for outer in records:
             ended = ended or isinstance(outer, DataEnd)
             if ended:
-                continue  # what comes now are copies, for those who jump
+                continue  # what follows are copies, for readers that seek
             for record in _inner(outer):
                 match record:
                     case Channel(id=number, topic=topic):
@@ -297,11 +297,11 @@ def _pieces(records: Iterator[McapRecord]) -> Iterator[Piece]:
                     case Message():
                         yield _entry(record, keys)
                     case Attachment(name=name, data=data):
-                        yield Attached(name, data)
+                        yield AttachedFile(name, data)
     except EndOfFile:
-        yield Broken("it was cut off while it was written")
+        yield Truncation("it was cut off while it was written")
     except _DAMAGE as error:
-        yield Broken(f"it is damaged: {one_line(str(error)) or type(error).__name__}")
+        yield Truncation(f"it is damaged: {one_line(str(error)) or type(error).__name__}")
 
 
 def _inner(record: McapRecord) -> list[McapRecord]:
@@ -316,10 +316,10 @@ def _entry(message: Message, keys: Mapping[int, str]) -> Entry:
 
 
 def _unpacked(chunk: Chunk) -> list[McapRecord]:
-    """The records in a chunk; it takes no more memory than it says, and that is capped.
+    """Return the records of a chunk; its size in memory is declared and limited.
 
     Raises:
-        McapError: it is too large, packed otherwise, or not what it says.
+        McapError: it is too large, or not as declared.
     """
     size = chunk.uncompressed_size
     if size > MAX_RECORD:

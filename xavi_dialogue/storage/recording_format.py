@@ -1,10 +1,10 @@
-"""What a recording holds: which messages, under which schemas, and the ride that they make up.
+"""The format of recordings: messages, their schemas, and the ride that they form.
 
 RecordingError
-├── NotARecording   no MCAP file, or not one of ours
+├── NotARecording   no MCAP file, or not of this program
 ├── NothingToPlay   no ride in it that can be played
 ├── TooMuch         more than can be held while it is played
-├── FileThere       a file of this name is there already
+├── FileThere       the file exists already
 └── Unwritable      the file cannot be written, or not any further
 """
 
@@ -39,10 +39,10 @@ MIB = 1024 * 1024
 MAX_NETWORK = 64 * MIB  # bytes of a road network, unpacked
 MAX_PACKED = 8 * MIB  # and packed
 MAX_TAPE = 512 * MIB  # bytes of one car's messages that are held while they are played
-OVERHEAD = 512  # bytes that holding a message takes besides
+OVERHEAD = 512  # overhead in bytes of a message in memory
 EPSILON = 1e-6  # [s]
 
-#: What is recorded, by the end of its key.
+#: The messages that are recorded, by the end of their key.
 RECORDED: Mapping[str, type[Report | TurnReport]] = {
     "scene": SceneReport,
     "trace": TraceReport,
@@ -56,7 +56,7 @@ class RecordingError(Exception):
 
 
 class NotARecording(RecordingError):
-    """No MCAP file, or not one of ours."""
+    """No MCAP file, or not of this program."""
 
 
 class NothingToPlay(RecordingError):
@@ -68,7 +68,7 @@ class TooMuch(RecordingError):
 
 
 class FileThere(RecordingError):
-    """A file of this name is there already."""
+    """The file exists already."""
 
 
 class Unwritable(RecordingError):
@@ -77,17 +77,17 @@ class Unwritable(RecordingError):
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One message as it was heard."""
+    """One message as received."""
 
     key: str
     payload: bytes
     seq: int
-    published: int  # [ns since 1970] by the clock of who sent it
+    published: int  # [ns since 1970] by the sender's clock
     logged: int  # [ns since 1970] when it came
 
 
 @dataclass(frozen=True, slots=True)
-class Attached:
+class AttachedFile:
     """A file within the recording."""
 
     name: str
@@ -95,13 +95,13 @@ class Attached:
 
 
 @dataclass(frozen=True, slots=True)
-class Broken:
+class Truncation:
     """The recording ends here, before its proper end; everything before this is whole."""
 
     why: str
 
 
-Piece: TypeAlias = Entry | Attached | Broken
+Piece: TypeAlias = Entry | AttachedFile | Truncation
 
 
 def kind_of(key: str) -> type[Report | TurnReport] | None:
@@ -116,7 +116,7 @@ def network_name(vehicle: str, ride: str) -> str:
 
 
 def unpacked(data: bytes) -> bytes | None:
-    """The road network in a packed file; None where there is none, or it is too large."""
+    """Unpack the road network; None if there is none, or it is too large."""
     inflater = zlib.decompressobj(31)
     try:
         text = inflater.decompress(data, MAX_NETWORK)
@@ -137,7 +137,7 @@ def schema_to_view(kind: type[msgspec.Struct]) -> dict[str, Any]:
 
 
 def _viewable(node: Mapping[str, Any]) -> dict[str, Any] | None:
-    """A schema with one type, and with `properties` where that is `object`; None: it has not."""
+    """Simplify a schema to one type, with `properties` for `object`; None if impossible."""
     if "const" in node or "enum" in node:
         values = [node["const"]] if "const" in node else node["enum"]
         texts = all(isinstance(value, str) for value in values)
@@ -167,7 +167,7 @@ def _viewable_array(node: Mapping[str, Any]) -> dict[str, Any] | None:
 
 
 @dataclass(frozen=True, slots=True)
-class Tape:
+class RecordedMessages:
     """One ride of one car as it was recorded, in order of time."""
 
     vehicle: str
@@ -176,7 +176,7 @@ class Tape:
     scenes: tuple[bytes, ...]  # SceneReports
     traces: tuple[bytes, ...]  # TraceReports
     events: tuple[Event, ...]
-    trace_numbers: tuple[int, ...]  # under which the car had sent them; rising
+    trace_numbers: tuple[int, ...]  # the car's sequence numbers; rising
     event_numbers: tuple[int, ...]
     networks: tuple[bytes, ...] = ()  # packed; see `unpacked`
 
@@ -190,30 +190,30 @@ class Tape:
 
     @property
     def first(self) -> str | None:
-        """The id of the ride's first decision; None where there is none at all."""
+        """The id of the ride's first decision; None if there is none."""
         if not self.traces:
             return None
         report = unpack(self.traces[0], TraceReport)
         return report.first or report.trace.trace_id
 
     def known(self, scene: SceneReport) -> tuple[int, int]:
-        """How many of the traces and events had been sent by the time of a scene."""
+        """Count the traces and events that were sent before a scene."""
         return (
             bisect_left(self.trace_numbers, scene.traces),
             bisect_left(self.event_numbers, scene.events),
         )
 
     def index_at(self, time: float) -> int:
-        """The first scene from a moment [s] on; the last one where there is none."""
+        """Return the index of the first scene from a time [s] on, else of the last one."""
         return min(bisect_left(self.times, time - EPSILON), len(self.times) - 1)
 
     def ends_before(self, time: float) -> bool:
-        """Whether a moment [s] lies beyond the last scene."""
+        """Check whether a time [s] is after the last scene."""
         return self.times[-1] < time - EPSILON
 
     @property
     def finished(self) -> bool:
-        """Whether the ride was over when the recording ended."""
+        """Whether the ride had ended when the recording did."""
         return self.scene(len(self.scenes) - 1).state == "ended"
 
 
@@ -228,7 +228,7 @@ class _Track:
 
 @dataclass
 class _Reading:
-    """Cars and their rides, in the order in which they were first heard of."""
+    """Cars and their rides, in order of their first messages."""
 
     tracks: dict[str, dict[str, _Track]] = field(default_factory=dict)
     networks: dict[str, list[bytes]] = field(default_factory=dict)
@@ -250,12 +250,14 @@ class _Reading:
                     if only in (None, vehicle):
                         self._count(len(piece.payload))
                         _add(tracks, piece, kind)
-            case Attached(name, data) if name.endswith(NETWORK_ENDING) and len(data) <= MAX_PACKED:
+            case AttachedFile(name, data) if (
+                name.endswith(NETWORK_ENDING) and len(data) <= MAX_PACKED
+            ):
                 vehicle = name.partition("/")[0]
                 if only in (None, vehicle):
                     self._count(len(data))
                     self.networks.setdefault(vehicle, []).append(data)
-            case Broken(why):
+            case Truncation(why):
                 self.why = why
 
     def _count(self, size: int) -> None:
@@ -287,12 +289,14 @@ def _add(tracks: dict[str, _Track], entry: Entry, kind: Any) -> None:
             track.events[report.seq] = report.event
 
 
-def tape_of(pieces: Iterable[Piece], vehicle: str | None = None) -> tuple[Tape, str | None]:
+def read_ride(
+    pieces: Iterable[Piece], vehicle: str | None = None
+) -> tuple[RecordedMessages, str | None]:
     """The latest ride of a car in a recording.
 
     Args:
         pieces: of the recording.
-        vehicle: name of the car; None: the only one there is.
+        vehicle: name of the car; None: the only one.
 
     Returns:
         The ride, and why the recording ends too early, if it does.
@@ -325,9 +329,9 @@ def _chosen(reading: _Reading, vehicle: str | None) -> str:
     return vehicle or names[0]
 
 
-def _tape(vehicle: str, ride: str, track: _Track, networks: Sequence[bytes]) -> Tape:
+def _tape(vehicle: str, ride: str, track: _Track, networks: Sequence[bytes]) -> RecordedMessages:
     times, traces, events = sorted(track.scenes), sorted(track.traces), sorted(track.events)
-    return Tape(
+    return RecordedMessages(
         vehicle,
         ride,
         tuple(times),

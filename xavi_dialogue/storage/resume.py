@@ -1,4 +1,4 @@
-"""Going on with a conversation of before: which ride it was about, and how far that had got."""
+"""Resuming a stored conversation: finds its ride, and how far it had got."""
 
 from dataclasses import dataclass
 from datetime import datetime
@@ -9,17 +9,17 @@ from sim.setup.scenario import Scenario
 from xavi_dialogue.nlg.narration import clock
 from xavi_dialogue.storage.conversations import Store
 from xavi_dialogue.storage.rows import Summary
-from xavi_dialogue.storage.turn_log import Keeping
+from xavi_dialogue.storage.turn_log import Retention
 
 DEFAULT_SCENARIO = "s1"
 
 
 @dataclass(frozen=True)
-class Going:
-    """A conversation, and what is known of it from before."""
+class ResumePoint:
+    """A conversation, with what was stored of it."""
 
     session: str
-    before: Summary | None = None  # None: it begins
+    before: Summary | None = None  # None: it is new
 
     def place(self, asked: str | None) -> str:
         """The scenario to drive: as asked, else that of before."""
@@ -36,17 +36,17 @@ class Going:
         return before.seed
 
     def moment(self, scenario: Scenario, seed: int) -> float | None:
-        """How far [s] the ride was when the last question was asked; None of another ride."""
+        """Return the time [s] of the last question; None if it was about another ride."""
         before = self.before
         same = before is not None and (before.scenario, before.seed) == (place_of(scenario), seed)
         return before.sim_time if before is not None and same else None
 
-    def note(self, at: float | None, keeping: Keeping | None) -> str:
-        """What to tell the passenger.
+    def note(self, at: float | None, keeping: Retention | None) -> str:
+        """Describe for the passenger how the conversation goes on.
 
         Args:
             at: see `moment`.
-            keeping: what is said.
+            keeping: where turns are stored.
         """
         if keeping is None:
             return "nothing of this conversation is kept"
@@ -57,33 +57,33 @@ class Going:
         return f"going on with {self.session}: {turns}, {when}"
 
 
-def find(keeping: Keeping | None, session: str) -> Going:
-    """What is known of a conversation.
+def find(keeping: Retention | None, session: str) -> ResumePoint:
+    """Read what is stored of a conversation.
 
     Raises:
         StoreError: the file cannot be read.
     """
     if keeping is None or not keeping.path.exists():
-        return Going(session)
+        return ResumePoint(session)
     with Store(keeping.path) as store:
-        return Going(session, next(iter(store.sessions(session)), None))
+        return ResumePoint(session, next(iter(store.sessions(session)), None))
 
 
-def fresh(now: datetime, salt: str) -> Going:
-    """A conversation that nobody named, under a name such as 20261121-164210-3f9c.
+def fresh(now: datetime, salt: str) -> ResumePoint:
+    """Make a name for a conversation, such as 20261121-164210-3f9c.
 
     Args:
         now: the time.
-        salt: tells two apart that begin in the same second.
+        salt: tells apart two that begin in the same second.
     """
-    return Going(f"{now:%Y%m%d-%H%M%S}-{salt}")
+    return ResumePoint(f"{now:%Y%m%d-%H%M%S}-{salt}")
 
 
 def place_of(scenario: Scenario) -> str | None:
-    """By what a scenario is loaded another time: its name if it is ours, else its place."""
+    """Return how to load a scenario later: its name if it is built in, else its path."""
     ours = Path(str(files("sim"))) / "scenarios" / scenario.name
     if ours.resolve() == scenario.folder.resolve():
         return scenario.name
     place = scenario.place
-    # The name of a folder may be bytes that are no text, which cannot be told to others.
+    # The name of a folder may be no valid text, which cannot be sent.
     return place if place.encode(errors="replace").decode() == place else None

@@ -1,4 +1,4 @@
-"""Recorded rides: traces, events and what was planned again, as gzipped JSON lines."""
+"""Recorded rides: traces, events and replanned decisions, as gzipped JSON lines."""
 
 import gzip
 import hashlib
@@ -18,7 +18,7 @@ class RideFileError(ValueError):
 
 
 class _Line(msgspec.Struct, omit_defaults=True):
-    """One line; one of its fields is there, but `whatif` comes with `trace` or `failure`."""
+    """One line: one of its fields is set, but `whatif` comes with `trace` or `failure`."""
 
     scenario: str | None = None
     seed: int | None = None
@@ -45,9 +45,9 @@ class RecordedRide:
 
 
 def key(need: NeedRollout) -> str:
-    """Return the name under which what was planned for a request is kept.
+    """Return the key under which the plan for a request is stored.
 
-    It is the hash of what the planner is asked: the decision, and what is changed in it.
+    It is the hash of the request: the decision, and its changes.
     """
     what_if = msgspec.convert(msgspec.to_builtins(need), WhatIf)
     return hashlib.sha256(msgspec.json.encode((need.trace_id, what_if))).hexdigest()[:16]

@@ -1,4 +1,4 @@
-"""What is read back from the file of conversations, checked: its bytes may be damaged.
+"""Rows of the file of conversations, checked when read: the file may be damaged.
 
 A row that is not as it was written raises Damaged, with the session that it belongs to and how to
 forget that; forgetting needs nothing of it to be read.
@@ -15,7 +15,7 @@ import msgspec
 from xavi_dialogue.bus.messages import Count, Name, Seconds, Whole
 from xavi_dialogue.storage.database import Damaged, Row
 
-LATEST = 2.5e11  # [s] wall time, in the year 9892: soon after it, there are no dates any more
+LATEST = 2.5e11  # [s] wall time in the year 9892: dates end soon after
 
 WallTime = Annotated[float, msgspec.Meta(ge=0.0, le=LATEST)]
 T = TypeVar("T")
@@ -79,7 +79,7 @@ def known(path: Path, name: object) -> str:
 
 
 def decoded(path: Path, session: str, text: object, kind: type[T]) -> T:
-    """What a session's JSON holds.
+    """Decode the JSON of a session.
 
     Raises:
         Damaged: it cannot be read.
@@ -93,7 +93,7 @@ def decoded(path: Path, session: str, text: object, kind: type[T]) -> T:
 
 
 def checked(path: Path, session: str, fields: Mapping[str, object], kind: type[T]) -> T:
-    """A session's fields as what they are to be, fit to be written anywhere.
+    """Check the fields of a session, so that they are safe to write.
 
     Raises:
         Damaged: they are something else.

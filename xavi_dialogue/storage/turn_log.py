@@ -1,7 +1,7 @@
-"""What a service keeps on disk of what is said and what happens, and gets back.
+"""The service's store of turns and events on disk.
 
-A turn is kept before its reply is sent. Where that fails the passenger is answered all the
-same, and warned once; what was missed is made up for as soon as the file can be written again.
+A turn is stored before its reply is sent. If that fails, the passenger still gets the answer
+and one warning; the missing turns are stored as soon as the file can be written again.
 """
 
 import logging
@@ -14,21 +14,21 @@ from pathlib import Path
 from planner.record.events import Event
 from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.storage.conversations import New, NewEvent, NewTurn, RideName, Store, fits
-from xavi_dialogue.storage.database import Damaged, StoreError, Unfit, Unpurged, Unwritable
+from xavi_dialogue.storage.database import Damaged, NotStorable, StoreError, Unpurged, Unwritable
 
 MAX_PAST = 200  # turns of a session that are known of
 _LOG = logging.getLogger(__name__)
-NOBODY = "nobody"  # in place of the digest of an owner that cannot be read: no token has it
-REST = 10.0  # times as long as an attempt took to fail, there is no other
-PATIENCE = 0.25  # [s] for others that write: an answer has its deadline
-MAX_MISSED = 5000  # turns and events that wait to be written; the oldest are lost first
+NOBODY = "nobody"  # stands for the digest of an owner that cannot be read: no token has it
+REST = 10.0  # pause after a failed attempt, as a multiple of its time
+PATIENCE = 0.25  # [s] to wait for other writers: an answer has its deadline
+MAX_MISSED = 5000  # turns and events that wait to be written; the oldest are dropped first
 EXPIRED_EVERY = 3600.0  # [s]
-PURGED_EVERY = 10.0  # [s] as long as what was erased is still in the files
+PURGED_EVERY = 10.0  # [s] while erased data is still in the files
 
 
 @dataclass(frozen=True)
-class Keeping:
-    """Where and how long what is said is kept."""
+class Retention:
+    """Where and how long turns are stored."""
 
     path: Path
     days: int
@@ -36,7 +36,7 @@ class Keeping:
 
 def default_path() -> Path:
     """The file of this user's conversations."""
-    # Deferred: it is needed by few of those who import this module.
+    # Deferred: few importers of this module need it.
     from platformdirs import user_data_path
 
     return user_data_path("xavi-dialogue") / "dialogue.sqlite3"
@@ -47,23 +47,23 @@ def _nobody(_: str) -> None:
 
 
 @dataclass
-class Memory:
-    """The file, as long as it can be used; without one, nothing is kept."""
+class TurnLog:
+    """The stored turns, while the file works; without a file, nothing is stored."""
 
-    keeping: Keeping | None = None
+    keeping: Retention | None = None
     warn: Callable[[str], None] = _nobody
     _store: Store | None = None
     _missed: list[New] = field(default_factory=list)  # not yet written
     _unforgotten: set[str] = field(default_factory=set)  # sessions that are still to be erased
     _unpurged: bool = False  # something is erased, and still in the files
-    _purged: float = 0.0  # [s] wall time when that was last tried to be mended
+    _purged: float = 0.0  # [s] wall time of the latest attempt to do so
     _failing: bool = False
     _again: float = 0.0  # [s] on the monotonic clock: when the file is tried again
     _unsynced: bool = False  # written, but not yet on the disk itself
-    _expired: float = 0.0  # [s] wall time when what is too old was last erased
+    _expired: float = 0.0  # [s] wall time when old turns were last erased
 
     def recall(self, session: str) -> tuple[Turn, ...]:
-        """What was said in a session, oldest first; nothing where that cannot be read."""
+        """Return the turns of a session, oldest first; none if they cannot be read."""
         if self.keeping is None or session in self._unforgotten:
             return ()
         try:
@@ -76,7 +76,7 @@ class Memory:
         return ()
 
     def owner(self, session: str) -> str | None:
-        """The digest of whom a session belongs to; None where it is open to all.
+        """Return the digest of a session's owner; None if it is open to all.
 
         Raises:
             StoreError: that cannot be read.
@@ -102,7 +102,7 @@ class Memory:
         for new in self._missed:
             if isinstance(new, NewTurn) and (new.session, new.request) == (session, request):
                 return new.turn
-        with suppress(StoreError), self._reading(self.keeping) as store:  # else answered anew
+        with suppress(StoreError), self._reading(self.keeping) as store:  # else answered again
             return store.answered(session, request, since)
         return None
 
@@ -131,11 +131,11 @@ class Memory:
             del self._missed[:-MAX_MISSED]
 
     def tidy(self, now: float, *, idle: bool) -> None:
-        """Write what was heard; now and then erase what is too old.
+        """Write pending turns and events; sometimes erase old ones.
 
         Args:
             now: wall time [s].
-            idle: nobody waits for an answer, so that there is time for the disk.
+            idle: no passenger waits for an answer, so there is time for the disk.
         """
         # A file that fails may take a while each time, for which nobody is to wait.
         if self.keeping is None or (self._failing and not idle):
@@ -151,7 +151,7 @@ class Memory:
             self._fail(error)
 
     def forget(self, session: str) -> int | None:
-        """Erase a session; how many turns, None where some of it is left for the time being."""
+        """Erase a session; return the number of turns, or None if some are left for now."""
         self._missed = [
             new for new in self._missed if isinstance(new, NewEvent) or new.session != session
         ]
@@ -190,8 +190,8 @@ class Memory:
             self._unpurged = False
 
     @contextmanager
-    def _reading(self, keeping: Keeping) -> Iterator[Store]:
-        """The file, to be read: others that write do not stop that, once it is open.
+    def _reading(self, keeping: Retention) -> Iterator[Store]:
+        """Open the file for reading: other writers do not block that once it is open.
 
         Raises:
             Unwritable: it cannot be opened, or is not tried yet.
@@ -203,8 +203,8 @@ class Memory:
                 yield store
 
     @contextmanager
-    def _using(self, keeping: Keeping) -> Iterator[Store]:
-        """The file; after an attempt that took long to fail, none for ten times as long.
+    def _using(self, keeping: Retention) -> Iterator[Store]:
+        """Open the file; after an attempt that took long to fail, wait ten times as long.
 
         Raises:
             Unwritable: it cannot be used, or is not tried yet.
@@ -224,14 +224,14 @@ class Memory:
             raise
 
     def _regret(self, what: str, error: Damaged) -> bool:
-        """Tell of damage; whether it is to one session, while others may be spoken with as ever."""
+        """Report damage; return whether it is limited to one session."""
         if self._store is None:
             self._fail(error)
             return False
         self.warn(f"{what} is not known any more: {error}")
         return True
 
-    def _write(self, keeping: Keeping) -> None:
+    def _write(self, keeping: Retention) -> None:
         del self._missed[:-MAX_MISSED]
         try:
             with self._using(keeping) as store:
@@ -250,11 +250,11 @@ class Memory:
     def _keep(self, store: Store) -> None:
         try:
             store.keep(self._missed)
-        except Unfit:  # one of them, for which the others need not be lost
+        except NotStorable:  # one of them, for which the others need not be lost
             for new in self._missed:
                 try:
                     store.keep([new])
-                except Unfit as error:
+                except NotStorable as error:
                     self.warn(str(error))
 
     def _erase(self, store: Store) -> int:
@@ -262,7 +262,7 @@ class Memory:
         for session in sorted(self._unforgotten):
             try:
                 erased += store.forget(session)
-            except Unpurged:  # it is erased; what is still in the files must not hold up answers
+            except Unpurged:  # it is erased; purging the files must not delay answers
                 self._unpurged = True
             self._unforgotten.discard(session)
         return erased

@@ -1,42 +1,42 @@
-"""What a chat at a terminal talks to."""
+"""What the terminal needs of a chat."""
 
 from collections.abc import Awaitable
 from typing import Protocol
 
 
-class Cabin(Protocol):
-    """What the terminal talks to."""
+class ChatInterface(Protocol):
+    """A chat as the terminal uses it."""
 
     def status(self) -> str:
         """One line: time, speed, plan."""
 
     def vehicles(self) -> str:
-        """The vehicles in view, in words."""
+        """Describe the vehicles in view."""
 
     def plan(self) -> str:
-        """The plan in words."""
+        """Describe the plan."""
 
     def words(self) -> tuple[str, ...]:
-        """What can be completed to."""
+        """Return the words that Tab can complete."""
 
     def ask(self, text: str, request: str) -> Awaitable[str]:
         """The answer to a question."""
 
     def why(self) -> Awaitable[str]:
-        """The question why, as it has to be asked now."""
+        """Return the question why about the latest answer or action."""
 
     def history(self) -> Awaitable[str]:
-        """What was said in this session."""
+        """Return the turns of this session as text."""
 
     def save(self, file: str) -> Awaitable[str]:
-        """Write what was said into a file, a new one if it has no name; say which.
+        """Write the session to a file, a new one if it has no name; return a note about it.
 
         Raises:
-            CommandError: nothing was said, there is such a file, or it cannot be written.
+            CommandError: the session is empty, or the file exists or cannot be written.
         """
 
     def forget(self) -> Awaitable[str]:
-        """Erase what was said; say how much it was."""
+        """Erase the session; return a note about it."""
 
     def cancel(self, request: str) -> None: ...
 
@@ -54,6 +54,6 @@ class Cabin(Protocol):
         """
 
     def check(self) -> None:
-        """Raise where the ride cannot be talked about any more."""
+        """Raise an error if the ride has ended for the chat."""
 
     def new_request(self) -> str: ...

@@ -1,4 +1,4 @@
-"""What the Tab key completes to."""
+"""Completion of words with the Tab key."""
 
 from collections.abc import Callable, Iterable, Iterator
 
@@ -7,7 +7,7 @@ from prompt_toolkit.document import Document
 
 
 class Words(Completer):
-    """Completes the last words of the line to what the live scene offers."""
+    """Completes the last words of the line to words of the live scene."""
 
     def __init__(self, words: Callable[[], tuple[str, ...]]) -> None:
         self._words = words
@@ -23,7 +23,7 @@ class Words(Completer):
 
 
 def _tails(line: str) -> Iterator[str]:
-    """The last words of the line, from all of them to one."""
+    """Yield the last words of the line, from all of them to one."""
     words = line.split(" ")
     for first in range(len(words)):
         tail = " ".join(words[first:])

@@ -19,7 +19,7 @@ from prompt_toolkit.patch_stdout import patch_stdout
 from xavi_dialogue.bus.messages import MAX_TEXT
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.terminal import slash_commands
-from xavi_dialogue.terminal.chat_interface import Cabin
+from xavi_dialogue.terminal.chat_interface import ChatInterface
 from xavi_dialogue.terminal.completion import Words
 from xavi_dialogue.terminal.screen import Screen, cut, has_colours
 from xavi_dialogue.terminal.slash_commands import CommandError
@@ -29,15 +29,15 @@ THINKING = "thinking ... (Ctrl-C gives it up)"
 SURE = "Erase all that was said in this session? [y/N] "
 KEPT = "(nothing is erased)"
 REFRESH = 0.25  # [s] of the status line
-WATCH = 0.5  # [s] between looks at whether all is well
-NOTICED = 0.2  # [s] after which a passenger who waits is told that there is something to wait for
+WATCH = 0.5  # [s] between checks of the processes
+NOTICED = 0.2  # [s] after which a passenger who waits gets a note
 WELCOME = "Ask about the ride at any time. /help lists what else there is."
 HINT = "Ctrl-C cancels an answer; Ctrl-D or /quit ends the ride."
 HELP = "Ask anything about the ride, such as: Why did you change lanes?"
 KEYS = "Tab completes. Ctrl-C cancels the answer that you wait for, Ctrl-D ends the ride."
 
 
-_Job: TypeAlias = Callable[[str], Awaitable[str]]  # a request's name; what is to be said
+_Job: TypeAlias = Callable[[str], Awaitable[str]]  # a request's name; the text to print
 
 
 @dataclass(frozen=True)
@@ -51,13 +51,13 @@ class TerminalChat:
 
     def __init__(
         self,
-        cabin: Cabin,
+        controller: ChatInterface,
         history: History | None = None,
         *,
         keyboard: Input | None = None,
         colours: bool | None = None,
     ) -> None:
-        self._cabin = cabin
+        self._interface = controller
         self._screen = Screen(colours=has_colours(os.environ) if colours is None else colours)
         self._jobs: asyncio.Queue[_Job] = asyncio.Queue()  # one after another, as typed
         self._waiting: _Waiting | None = None
@@ -71,9 +71,9 @@ class TerminalChat:
             self._prompt,
             input=keyboard,
             history=history or InMemoryHistory(),
-            completer=Words(cabin.words),
+            completer=Words(controller.words),
             complete_while_typing=False,
-            bottom_toolbar=lambda: cut(f" {cabin.status()}", self._screen.columns),
+            bottom_toolbar=lambda: cut(f" {controller.status()}", self._screen.columns),
             key_bindings=self._bindings(),
             refresh_interval=REFRESH,
             color_depth=self._screen.depth,
@@ -94,10 +94,10 @@ class TerminalChat:
             app.exit(exception=EOFError)
 
     async def run(self) -> None:
-        """Talk until the passenger, or something that went wrong, ends it.
+        """Run until the passenger ends the chat, or an error does.
 
         Raises:
-            Exception: what `Cabin.check` raised.
+            Exception: raised by `ChatInterface.check`.
         """
         self._loop = asyncio.get_running_loop()
         behind = [asyncio.create_task(self._ending(one())) for one in (self._work, self._watch)]
@@ -120,7 +120,7 @@ class TerminalChat:
                 text = await self._session.prompt_async()
             except EOFError:
                 return
-            for line in text.splitlines() or ("",):  # several where they were pasted
+            for line in text.splitlines() or ("",):  # several if they were pasted
                 if not self._over:
                     self._take(line)
 
@@ -146,10 +146,10 @@ class TerminalChat:
     def _ask(self, text: str) -> None:
         if len(text) > MAX_TEXT:
             self._screen.dim(f"(Only the first {MAX_TEXT} characters are asked.)")
-        self._jobs.put_nowait(lambda request: self._cabin.ask(text[:MAX_TEXT], request))
+        self._jobs.put_nowait(lambda request: self._interface.ask(text[:MAX_TEXT], request))
 
     def _command(self, command: slash_commands.Command) -> None:
-        cabin, screen, put = self._cabin, self._screen, self._jobs.put_nowait
+        controller, screen, put = self._interface, self._screen, self._jobs.put_nowait
         match command.name:
             case "quit":
                 self._over = True
@@ -158,33 +158,33 @@ class TerminalChat:
                 screen.lay_out(slash_commands.listed("terminal", screen.width))
                 screen.tell(KEYS)
             case "vehicles":
-                screen.tell(cabin.vehicles())
+                screen.tell(controller.vehicles())
             case "plan":
-                screen.tell(cabin.plan())
+                screen.tell(controller.plan())
             case "pause":
-                cabin.pause()
+                controller.pause()
             case "resume":
-                cabin.resume()
+                controller.resume()
             case "speed":
-                cabin.speed(slash_commands.factor(command.argument))
+                controller.speed(slash_commands.factor(command.argument))
             case "seek":
-                cabin.seek(slash_commands.moment(command.argument))
+                controller.seek(slash_commands.moment(command.argument))
             case "why":
                 put(self._why)
             case "more":
-                put(lambda request: cabin.ask(slash_commands.MORE, request))
+                put(lambda request: controller.ask(slash_commands.MORE, request))
             case "history":
-                put(lambda _: cabin.history())
+                put(lambda _: controller.history())
             case "save":
-                put(lambda _: cabin.save(command.argument))
+                put(lambda _: controller.save(command.argument))
             case "forget":
                 self._confirming = True
 
     async def _why(self, request: str) -> str:
-        return await self._cabin.ask(await self._cabin.why(), request)
+        return await self._interface.ask(await self._interface.why(), request)
 
     async def _forget(self) -> str:
-        told = await self._cabin.forget()
+        told = await self._interface.forget()
         buffer = self._session.default_buffer
         buffer.reset(buffer.document)  # the lines typed before are read again
         return told
@@ -193,7 +193,7 @@ class TerminalChat:
         """Do one job after another."""
         while True:
             job = await self._jobs.get()
-            request = self._cabin.new_request()
+            request = self._interface.new_request()
             task = asyncio.ensure_future(job(request))
             self._waiting = _Waiting(request, task)
             notice = asyncio.get_running_loop().call_later(NOTICED, self._notice)
@@ -215,13 +215,13 @@ class TerminalChat:
         self._session.app.invalidate()
 
     async def _watch(self) -> None:
-        """Make sure that what the conversation rests on is there."""
+        """Check the processes behind the conversation."""
         while True:
             await asyncio.sleep(WATCH)
-            self._cabin.check()
+            self._interface.check()
 
     async def _ending(self, work: Coroutine[None, None, None]) -> None:
-        """End the conversation when something goes wrong."""
+        """End the conversation after an error."""
         try:
             await work
         except Exception:
@@ -229,13 +229,13 @@ class TerminalChat:
             raise
 
     def _interrupt(self) -> None:
-        """Ctrl-C: the answer that is waited for, else what is typed, else a hint."""
+        """Handle Ctrl-C: cancel the pending answer, else clear the input, else show a hint."""
         waiting, buffer = self._waiting, self._session.default_buffer
         if self._confirming:
             self._confirming = False
             self._screen.dim(KEPT)
         elif waiting is not None:
-            self._cabin.cancel(waiting.request)
+            self._interface.cancel(waiting.request)
             waiting.task.cancel()
             self._screen.dim("(cancelled)")
         elif buffer.text:
@@ -254,7 +254,7 @@ class TerminalChat:
         return bindings
 
     def _prompt(self) -> FormattedText:
-        """What stands before what is typed; above it, for as long as it lasts, what goes on."""
+        """Return the prompt, with the state of pending requests above it."""
         prompt = SURE if self._confirming else PROMPT
         if self._thinking and not self._session.app.is_done:
             return FormattedText([(self._screen.faint, f"{THINKING}\n"), ("", prompt)])

@@ -1,4 +1,4 @@
-"""What the chat writes on a terminal: wrapped at words, in colours where there are any."""
+"""Terminal output of the chat: wrapped at words, with colours if the terminal has them."""
 
 import curses
 from collections.abc import Callable, Iterator, Mapping
@@ -22,7 +22,7 @@ PLAIN = Style([("bottom-toolbar", "noreverse")])
 
 
 def known_colours(terminal: str) -> int:
-    """How many colours the description of this process's terminal lists; 0 without one.
+    """Return how many colours the description of this process's terminal lists; 0 without one.
 
     Args:
         terminal: its name. Descriptions are read once: only the first name counts.
@@ -37,12 +37,12 @@ def known_colours(terminal: str) -> int:
 def has_colours(
     environment: Mapping[str, str], count: Callable[[str], int] = known_colours
 ) -> bool:
-    """Whether to write in colours.
+    """Decide whether to write in colours.
 
     Args:
         environment: NO_COLOR forbids them unless it is empty (no-color.org); TERM names the
             terminal.
-        count: how many colours a terminal has.
+        count: number of colours of the terminal.
     """
     terminal = environment.get("TERM", "")
     if environment.get("NO_COLOR") or not terminal or is_dumb_terminal(terminal):
@@ -51,7 +51,7 @@ def has_colours(
 
 
 class SilentScreen(Vt100_Output):
-    """A terminal that is never asked where its cursor is.
+    """A terminal that is never asked for its cursor position.
 
     The answer comes in among the keys, and while lines are printed above the prompt either may
     get lost.
@@ -63,7 +63,7 @@ class SilentScreen(Vt100_Output):
         return False
 
     def get_rows_below_cursor_position(self) -> int:
-        """The fewest that there can be; without a number no status line would be shown."""
+        """Return the least number: without a number no status line would be shown."""
         return 1
 
 
@@ -126,7 +126,7 @@ class Screen:
     """Writes above the line that is being typed, if any."""
 
     def __init__(self, *, colours: bool) -> None:
-        self.depth = None if colours else ColorDepth.DEPTH_1_BIT  # None: as the terminal has
+        self.depth = None if colours else ColorDepth.DEPTH_1_BIT  # None: as for the terminal
         self.style: BaseStyle | None = None if colours else PLAIN
         self.faint = "fg:ansibrightblack" if colours else ""
 
@@ -161,7 +161,7 @@ class Screen:
 
 
 def cut(text: str, width: int) -> str:
-    """As much of one line as fits into `width` columns, with a sign where something is left out."""
+    """Cut a line to `width` columns, with a sign if something is left out."""
     if get_cwidth(text) <= width:
         return text
     return next(_pieces(text, max(width - 1, 1))) + "…"

@@ -1,4 +1,4 @@
-"""Slash commands: what a passenger may write besides questions, read and listed."""
+"""Slash commands: commands of the chat besides questions."""
 
 import difflib
 import math
@@ -11,11 +11,11 @@ from importlib.resources import files
 from typing import Literal, TypeAlias
 
 Place: TypeAlias = Literal["terminal", "pipe"]
-MIN_TWO_COLUMNS = 60  # columns of a terminal on which usage and meaning stand side by side
+MIN_TWO_COLUMNS = 60  # columns from which usage and meaning fit side by side
 MAX_SPEED = 1000.0  # simulated seconds per second
 
-WHY = "Why?"  # of what was said last
-WHY_DONE = "Why did you do that?"  # of what was done last
+WHY = "Why?"  # of the latest answer
+WHY_DONE = "Why did you do that?"  # of the latest action
 MORE = "Tell me more."
 
 
@@ -25,11 +25,11 @@ class CommandError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Form:
-    """How a command is written."""
+    """The syntax of a command."""
 
     name: str
     does: str
-    takes: str = ""  # "X"; "[FILE]" where it may be left out; empty: nothing
+    takes: str = ""  # "X"; "[FILE]" if optional; empty: none
     terminal: bool = False  # needs one
 
     @property
@@ -40,7 +40,7 @@ class Form:
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """One command as given."""
+    """One command as typed."""
 
     name: str
     argument: str = ""
@@ -52,10 +52,10 @@ def forms(place: Place) -> tuple[Form, ...]:
 
 
 def read(line: str, place: Place) -> Command:
-    """The command in a line that begins with a slash.
+    """Parse a line that begins with a slash.
 
     Raises:
-        CommandError: there is no such command, not in this place, or not with this argument.
+        CommandError: the command does not exist, or not here, or not with this argument.
     """
     word, _, argument = line.strip().removeprefix("/").partition(" ")
     name, argument = word.lower(), argument.strip()
@@ -75,7 +75,7 @@ def read(line: str, place: Place) -> Command:
 
 
 def factor(argument: str) -> float:
-    """What /speed takes: simulated seconds per second.
+    """Parse the argument of /speed: simulated seconds per second.
 
     Raises:
         CommandError: it is no number from 0 to 1000.
@@ -90,7 +90,7 @@ def factor(argument: str) -> float:
 
 
 def moment(argument: str) -> float:
-    """What /seek takes: a moment [s] of the ride.
+    """Parse the argument of /seek: a time [s] of the ride.
 
     Raises:
         CommandError: it is no number from 0 on.
@@ -120,14 +120,14 @@ def listed(place: Place, width: int) -> str:
 
 
 def wrapper(width: int, first: str = "", hanging: str = "") -> textwrap.TextWrapper:
-    """Breaks lines of at most `width` columns at spaces alone: `--session` stays in one piece."""
+    """Breaks lines of at most `width` columns at spaces only: `--session` stays whole."""
     return textwrap.TextWrapper(
         width, first, hanging, break_on_hyphens=False, break_long_words=False
     )
 
 
 def _nearest(name: str, among: Iterable[Form]) -> str:
-    """The command that begins alike, else the one that is written most alike."""
+    """Return the command with the same beginning, else the most similar one."""
     names = [form.name for form in among]
     alike = difflib.get_close_matches(name, names, n=1, cutoff=0.0)
     begun = [known for known in names if name and known.startswith(name)]

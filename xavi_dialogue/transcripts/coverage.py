@@ -17,8 +17,8 @@ from typing import TypeAlias, get_args
 
 from xavi_dialogue.process.caches import forget
 from xavi_dialogue.transcripts.replay import Written, by_ride, recording, replay_recorded
-from xavi_dialogue.service.in_process import make_mind
-from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.service.in_process import make_pipeline
+from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Answer, Reason, Refusal
 from xavi_dialogue.domain.discourse import Discourse
@@ -46,7 +46,7 @@ Placed: TypeAlias = tuple[str, int, str, Alternative]
 
 @dataclass(frozen=True, slots=True, order=True)
 class Item:
-    """Something that a conversation may exercise."""
+    """Something that a conversation can exercise."""
 
     group: str  # what it is one of
     name: str  # with the place in its file, where it stands in one
@@ -61,7 +61,7 @@ class Coverage:
 
     @property
     def missing(self) -> tuple[Item, ...]:
-        """What no conversation exercises, and one should."""
+        """Items that no conversation exercises, although one should."""
         return tuple(i for i, count in self.counts.items() if count == 0 and not i.fine)
 
     @property
@@ -70,12 +70,12 @@ class Coverage:
         return tuple(i for i, count in self.counts.items() if count == 0 and i.fine)
 
     def share(self, groups: str) -> float:
-        """Return which share is exercised of all items in groups whose names begin so."""
+        """Return the exercised share of all items in groups with this prefix."""
         counts = [n for item, n in self.counts.items() if item.group.startswith(groups)]
         return sum(map(bool, counts)) / len(counts)
 
     def table(self) -> str:
-        """The figures of each group, then what is missing by name, the finer list last."""
+        """Format the figures of each group, then the missing items by name, the finer list last."""
         lines = []
         for group in dict.fromkeys(item.group for item in self.counts):
             counts = [count for item, count in self.counts.items() if item.group == group]
@@ -109,11 +109,11 @@ def measure(written: Sequence[Written]) -> Coverage:
     for path, about in by_ride(written).items():
         ride = recording(path)
         for one in about:
-            ear = _Ear()
+            readings = _ReadingRecorder()
             forget()
-            with _watched(ear) as mouth:
-                played = replay_recorded(one.transcript, ride, ear.mind())
-            for item in _exercised(played.replies, ear, mouth, (rules, alternatives)):
+            with _watched(readings) as texts:
+                played = replay_recorded(one.transcript, ride, readings.pipeline())
+            for item in _exercised(played.replies, readings, texts, (rules, alternatives)):
                 counts[item] = counts.get(item, 0) + 1
     return Coverage(counts)
 
@@ -123,21 +123,21 @@ def _types(group: str, union: object) -> Iterator[Item]:
 
 
 def _exercised(
-    replies: Iterable[Reply], ear: "_Ear", mouth: "_Mouth", answers: Sequence[dict[int, Item]]
+    replies: Iterable[Reply], readings: "_ReadingRecorder", texts: "_TextRecorder", answers: Sequence[dict[int, Item]]
 ) -> Iterator[Item]:
-    """Yield what one conversation exercises; each as often as it does."""
+    """Yield each item that one conversation exercises, as often as it does."""
     said = tuple(reply.text.casefold() for reply in replies)
     for reply in replies:
         yield from _typed(reply)
         if reply.reason is not None:
             yield Item("reasons", reply.reason)
-    for text, chosen in mouth.spoken:
+    for text, chosen in texts.spoken:
         if any(text.casefold().rstrip(".?!") in one for one in said):
             yield from (items[id(one)] for items in answers for one in chosen if id(one) in items)
     rules = _question_rules()
-    for names in ear.read_by:
+    for names in readings.read_by:
         yield from (rules[name] for name in sorted(names & rules.keys()))
-    for reading in ear.chosen:
+    for reading in readings.chosen:
         yield from (Item(ACTS, type(act).__name__) for act in reading.acts)
 
 
@@ -155,34 +155,34 @@ def _typed(reply: Reply) -> Iterator[Item]:
 
 
 @dataclass
-class _Ear:
-    """Of which rules the readings that were chosen are made."""
+class _ReadingRecorder:
+    """Records which rules the chosen readings are made of."""
 
     composed: list[tuple[Node, tuple[tuple[Act, ...], ...]]] = field(default_factory=list)
     read_by: list[frozenset[str]] = field(default_factory=list)  # names of rules, of each text
     chosen: list[Reading] = field(default_factory=list)
     _readings: tuple[Reading, ...] = ()
 
-    def mind(self) -> Mind:
-        """Return our mind, hearing with this ear."""
-        mind = make_mind()
+    def pipeline(self) -> Pipeline:
+        """Return the usual pipeline, with its readings recorded here."""
+        pipeline = make_pipeline()
 
         def read(text: str) -> tuple[Reading, ...]:
-            self._readings = mind.read(text)
-            first = self._readings[:1]  # a wish to be quizzed needs no grounding
+            self._readings = pipeline.read(text)
+            first = self._readings[:1]  # a wish for a quiz needs no grounding
             self.chosen += (r for r in first if any(isinstance(a, Quizzing) for a in r.acts))
             return self._readings
 
         def ground(
             readings: tuple[Reading, ...], record: Record, discourse: Discourse
         ) -> Grounding:
-            found = mind.ground(readings, record, discourse)
+            found = pipeline.ground(readings, record, discourse)
             if found.reading in readings:
                 self._note(self._readings[readings.index(found.reading)])
             self.composed.clear()
             return found
 
-        return replace(mind, read=read, ground=ground)
+        return replace(pipeline, read=read, ground=ground)
 
     def _note(self, chosen: Reading) -> None:
         """Take note of the rules of the units that a reading is composed of."""
@@ -202,15 +202,15 @@ def _names(node: Node) -> Iterator[str]:
 
 
 @dataclass
-class _Mouth:
+class _TextRecorder:
     """All texts that were finished, each with the alternatives chosen since the one before."""
 
-    ear: _Ear
+    readings: _ReadingRecorder
     spoken: list[tuple[str, tuple[Alternative, ...]]] = field(default_factory=list)
     chosen: list[Alternative] = field(default_factory=list)
 
     def see(self, frame: FrameType, event: str, value: object) -> None:
-        """Take note of a call that returns; to be called by the interpreter."""
+        """Record a call that returns; the interpreter calls this."""
         if event != "return":
             return
         if frame.f_code is filled.__code__ and value is not None:  # None: a slot had no value
@@ -220,17 +220,17 @@ class _Mouth:
             self.chosen.clear()
         elif frame.f_code is Composer.compose.__code__ and isinstance(value, list):
             ways = tuple(acts for acts, _ in value)
-            self.ear.composed.append((frame.f_locals["unit"], ways))
+            self.readings.composed.append((frame.f_locals["unit"], ways))
 
 
 @contextmanager
-def _watched(ear: _Ear) -> Iterator[_Mouth]:
-    """Watch what parser and realiser do. A profiler that is at work has to wait."""
-    mouth = _Mouth(ear)
+def _watched(readings: _ReadingRecorder) -> Iterator[_TextRecorder]:
+    """Watch parser and realiser; an active profiler is suspended meanwhile."""
+    texts = _TextRecorder(readings)
     before: Callable[..., object] | None = sys.getprofile()
-    sys.setprofile(mouth.see)
+    sys.setprofile(texts.see)
     try:
-        yield mouth
+        yield texts
     finally:
         sys.setprofile(before)
 
@@ -282,7 +282,7 @@ def _lines(file: str) -> list[str]:
 
 
 def _question_rules() -> dict[str, Item]:
-    """Return the rules of the question grammar that show in what is read, by name."""
+    """Return the rules of the question grammar that can appear in readings, by name."""
     made = {
         name
         for phrase in question_grammar().phrases

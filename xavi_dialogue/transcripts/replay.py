@@ -16,20 +16,20 @@ from pathlib import Path
 from planner.record.trace import PlanTrace, TraceError, decode
 from planner.counterfactuals.whatif import WhatIfError
 from sim.setup.scenario import load as load_scenario
-from xavi_dialogue.service.in_process import Conversation, Replan, drive_to, make_mind, planner_for
+from xavi_dialogue.service.in_process import Conversation, Replan, drive_to, make_pipeline, planner_for
 from xavi_dialogue.transcripts.runner import Played, latest, play
 from xavi_dialogue.vehicle.episode import clock, network_of, start
 from xavi_dialogue.dialogue.state.events import EventRecorded, Input, RideEnded, TraceRecorded
-from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError, key
 from xavi_dialogue.transcripts.transcript import Transcript, TranscriptError, read, write
 
 RIDES = "rides"  # the folder of the recordings, in that of the transcripts
-TRACES = "traces"  # the folder of what is not driven
+TRACES = "traces"  # the folder of transcripts that are not driven
 ENDING = ".ride.jsonl.gz"
-BESIDE = "whatif-{}.json.gz"  # a plan made again from a decision, by the key of the request
+BESIDE = "whatif-{}.json.gz"  # a plan made from a decision, by the key of the request
 
 Note = Callable[[str], None]
 
@@ -44,12 +44,12 @@ class Written:
 
     @property
     def driven(self) -> bool:
-        """Whether SUMO can drive what it is about."""
+        """Whether SUMO can drive its ride."""
         return self.transcript.get("trace") is None
 
     @property
     def ride(self) -> Path:
-        """Where the recording of its ride lies."""
+        """The path of the recording of its ride."""
         if not self.driven:
             return self.path.parent / _header(self, "trace")
         name = f"{Path(self.scenario).name}-{self.seed}{ENDING}"
@@ -90,7 +90,7 @@ def transcripts_in(folder: Path) -> tuple[Written, ...]:
 
 
 def by_ride(written: Sequence[Written]) -> Mapping[Path, tuple[Written, ...]]:
-    """The transcripts about every ride, by where its recording lies."""
+    """Group transcripts by the recording of their ride."""
     rides = sorted({one.ride for one in written})
     return {ride: tuple(one for one in written if one.ride == ride) for ride in rides}
 
@@ -109,8 +109,8 @@ def recording(path: Path) -> RecordedRide:
         raise RideFileError(f"cannot read {path}: {error.strerror}") from error
 
 
-def replay_recorded(transcript: Transcript, ride: RecordedRide, mind: Mind) -> Played:
-    """The transcript as it comes out of a recorded ride, without SUMO and planner.
+def replay_recorded(transcript: Transcript, ride: RecordedRide, pipeline: Pipeline) -> Played:
+    """Replay a transcript from a recorded ride, without SUMO and planner.
 
     Raises:
         RideFileError: a plan is wanted that the recording does not hold.
@@ -124,15 +124,15 @@ def replay_recorded(transcript: Transcript, ride: RecordedRide, mind: Mind) -> P
             raise RideFileError(_missing(need))
         return ride.whatifs[name]
 
-    return play(transcript, mind, inputs_of(ride), ride.halt, again)
+    return play(transcript, pipeline, inputs_of(ride), ride.halt, again)
 
 
 def replay_driven(written: Sequence[Written]) -> Replayed:
-    """Transcripts about one ride as they come out of driving it again."""
+    """Replay the transcripts of one ride by driving it again."""
     scenario, seed = load_scenario(written[0].scenario), written[0].seed
     network = network_of(scenario)
-    mind = make_mind()
-    known = Conversation(mind, planner_for(network))
+    pipeline = make_pipeline()
+    known = Conversation(pipeline, planner_for(network))
     last = max(latest(one.transcript) for one in written)
     with start(scenario, seed, network) as ride:
         halt = drive_to(ride, known, None)
@@ -150,12 +150,12 @@ def replay_driven(written: Sequence[Written]) -> Replayed:
     )
     again = _keeping(known.again, recorded)
     inputs = inputs_of(recorded)
-    played = (play(one.transcript, mind, inputs, halt, again) for one in written)
+    played = (play(one.transcript, pipeline, inputs, halt, again) for one in written)
     return Replayed(tuple(write(one.transcript) for one in played), recorded)
 
 
 def replay_all(folder: Path, *, accept: bool, note: Note) -> int:
-    """Replay every transcript of a folder in SUMO; how many differ from what is written there.
+    """Replay every transcript of a folder in SUMO; return how many differ from their files.
 
     A transcript differs where its text or its recording does. What is about a file of decisions
     is replayed from that file.
@@ -181,13 +181,13 @@ def replay_all(folder: Path, *, accept: bool, note: Note) -> int:
 
 
 def inputs_of(ride: RecordedRide) -> tuple[Input, ...]:
-    """What the dialogue is told of a recorded ride."""
+    """Convert a recorded ride to inputs of the dialogue."""
     over = () if ride.ended is None else (RideEnded(ride.ended),)
     return (*map(TraceRecorded, ride.traces), *map(EventRecorded, ride.events), *over)
 
 
 def _as_recorded(path: Path, ride: RecordedRide) -> bool:
-    """Whether a recording holds just this ride."""
+    """Check whether a recording holds exactly this ride."""
     try:
         return recording(path) == ride
     except RideFileError:
@@ -195,14 +195,14 @@ def _as_recorded(path: Path, ride: RecordedRide) -> bool:
 
 
 def _replay_held(path: Path, written: Sequence[Written]) -> Replayed:
-    """Transcripts about what a file holds as they come out of it."""
-    ride, mind = recording(path), make_mind()
-    played = (replay_recorded(one.transcript, ride, mind) for one in written)
+    """Replay transcripts about the contents of a file."""
+    ride, pipeline = recording(path), make_pipeline()
+    played = (replay_recorded(one.transcript, ride, pipeline) for one in written)
     return Replayed(tuple(write(one.transcript) for one in played), ride)
 
 
 def _alone(path: Path) -> RecordedRide:
-    """A ride of which one decision is known, and what was planned from it again."""
+    """Make a ride of one decision and the plans made from it."""
     trace = _trace(path)
     ride = RecordedRide("", trace.seed, trace.sim_time, [trace])
     start, _, end = BESIDE.partition("{}")
@@ -219,7 +219,7 @@ def _trace(path: Path) -> PlanTrace:
 
 
 def _missing(need: NeedRollout) -> str:
-    """What to do where a recording does not hold a plan."""
+    """Raise an error for a plan that a recording lacks."""
     return (
         f"the recording holds no plan for {need}. "
         "Where a scenario was driven, accept it anew. Where a file of decisions is asked about, "
@@ -237,7 +237,7 @@ def _open(path: Path) -> Written:
 
 
 def _keeping(again: Replan, ride: RecordedRide) -> Replan:
-    """Plan again, and keep in the ride what comes of it."""
+    """Plan again, and store the result in the ride."""
 
     def planned(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
         name = key(need)

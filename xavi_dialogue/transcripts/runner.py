@@ -1,7 +1,7 @@
 """Playing a transcript: its questions are put to a conversation one after the other.
 
-What befalls the car comes to the conversation as it does on the road: as a plan that cannot be
-had, as a record without traces, or as turns that were kept. No reply is made here.
+Incidents reach the conversation as they do on the road: as a failed plan, as a record without
+traces, or as stored turns. No reply is made here.
 """
 
 from collections.abc import Sequence
@@ -12,21 +12,21 @@ from planner.record.trace import PlanTrace
 from xavi_dialogue.service.in_process import SESSION, Conversation, NoPlan, Replan
 from xavi_dialogue.dialogue.state.events import Input, Resumed
 from xavi_dialogue.dialogue.manager import fold
-from xavi_dialogue.dialogue.mind import Mind
+from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import NeedRollout, Reason
 from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.transcripts.transcript import (
     At,
     Befallen,
-    Befalls,
+    Incident,
     Exchange,
     Step,
     Transcript,
     TranscriptError,
 )
 
-#: Why there is no plan, by what has befallen the planner.
+#: Why there is no plan, by incident.
 FAILING: dict[Befallen, Reason] = {
     "planner fails": "planner-failed",
     "planner late": "timed-out",
@@ -36,50 +36,50 @@ FAILING: dict[Befallen, Reason] = {
 
 @dataclass(frozen=True, slots=True)
 class Played:
-    """A transcript with the replies given now."""
+    """A transcript with its present replies."""
 
     transcript: Transcript
     replies: tuple[Reply, ...]  # in the order of its questions
 
 
 def play(
-    transcript: Transcript, mind: Mind, record: Sequence[Input], halt: float, again: Replan
+    transcript: Transcript, pipeline: Pipeline, record: Sequence[Input], halt: float, again: Replan
 ) -> Played:
-    """Ask all questions of a transcript anew.
+    """Ask all questions of a transcript again.
 
     Args:
         transcript: the questions; its replies are not looked at.
-        mind: answers them.
+        pipeline: answers them.
         record: of the ride, in order.
         halt: [s] the moment of questions before which none is written.
         again: plans again.
 
     Raises:
-        TranscriptError: a question is to be asked while the planner works, and it does not.
+        TranscriptError: a question is to be asked while the planner works, but it does not work.
     """
-    player = _Player(mind, record, again, halt, _style(transcript))
+    player = _Player(pipeline, record, again, halt, _style(transcript))
     return player.play(transcript)
 
 
 def latest(transcript: Transcript) -> float:
-    """The last moment [s] that is written in a transcript, 0 where there is none."""
+    """Return the latest time [s] in a transcript, 0 if there is none."""
     return max((step.time for step in transcript.steps if isinstance(step, At)), default=0.0)
 
 
 @dataclass
 class _Player:
-    mind: Mind
+    pipeline: Pipeline
     record: Sequence[Input]
     again: Replan
     at: float  # [s]
     style: Style
-    failing: Reason | None = None  # why there are no plans now
-    interruption: str | None = None  # a question to be asked as soon as the planner works
+    failing: Reason | None = None  # why plans fail now
+    interruption: str | None = None  # a question to ask as soon as the planner works
     interrupted: Reply | None = None  # the reply to it
     conversation: Conversation = field(init=False)
 
     def __post_init__(self) -> None:
-        self.conversation = Conversation(self.mind, self._plan, fold(self.mind, self.record))
+        self.conversation = Conversation(self.pipeline, self._plan, fold(self.pipeline, self.record))
 
     def play(self, transcript: Transcript) -> Played:
         steps: list[Step] = []
@@ -88,7 +88,7 @@ class _Player:
             match step:
                 case At(time):
                     self.at = time
-                case Befalls(what):
+                case Incident(what):
                     self._befall(what)
                 case Exchange(question):
                     self.interruption = _meanwhile(transcript.steps[index + 1 :])
@@ -121,23 +121,23 @@ class _Player:
             case "no record":
                 self.conversation.dialogue = replace(self.conversation.dialogue, traces=())
             case "record":
-                traces = fold(self.mind, self.record).traces
+                traces = fold(self.pipeline, self.record).traces
                 self.conversation.dialogue = replace(self.conversation.dialogue, traces=traces)
             case "restart":
                 turns = self.conversation.dialogue.session(SESSION).turns
                 inputs = (*self.record, Resumed(SESSION, turns))
-                self.conversation.dialogue = fold(self.mind, inputs)
-            case "meanwhile":  # has been looked for from the question before
+                self.conversation.dialogue = fold(self.pipeline, inputs)
+            case "meanwhile":  # has been looked up for the question before
                 pass
 
 
 def _meanwhile(steps: Sequence[Step]) -> str | None:
-    """The question that is to be asked before the one before it is answered."""
+    """Return the question to ask before the previous one is answered."""
     following = iter(steps)
     for step in following:
         if isinstance(step, Exchange):
             return None
-        if step == Befalls("meanwhile"):
+        if step == Incident("meanwhile"):
             return next((s.question for s in following if isinstance(s, Exchange)), None)
     return None
 

@@ -15,7 +15,7 @@ def drawn(document: str) -> str:
     """The document with the diagram as it is now between its marks.
 
     Raises:
-        ValueError: the marks are not there.
+        ValueError: the marks are missing.
     """
     head, begin, rest = document.partition(BEGIN)
     _, end, tail = rest.partition(END)

@@ -10,7 +10,7 @@
 A header, then moments that move time, questions, and replies of one or more lines. Before the
 first moment, the time is the end of the first lane change or turn. Lines with # are comments.
 
-What befalls the car stands in lines of its own, and holds until a line says otherwise:
+Incidents have lines of their own; each holds until a line says otherwise:
 
     ! planner fails
     > What if vehicle 1 had not been there?
@@ -33,12 +33,12 @@ KEYS = ("scenario", "seed", "style", "trace")
 
 Befallen: TypeAlias = Literal[
     "planner answers",  # as it does from the beginning
-    "planner fails",  # nothing comes of planning again
-    "planner late",  # planning again takes longer than the passenger is kept waiting
-    "planner gone",  # nobody is there to plan again
-    "no record",  # of the decisions: their traces have been lost
-    "record",  # all of them are there, as from the beginning
-    "restart",  # the program ends, and goes on later with the turns it has kept
+    "planner fails",  # planning again fails
+    "planner late",  # planning again takes longer than the passenger waits
+    "planner gone",  # no process plans again
+    "no record",  # the traces of decisions are missing
+    "record",  # all traces are available, as at the beginning
+    "restart",  # the program ends, and continues later with the stored turns
     "meanwhile",  # the next question is asked while the planner works on the one before
 ]
 BEFALLEN: tuple[Befallen, ...] = get_args(Befallen)
@@ -72,13 +72,13 @@ class Comment:
 
 
 @dataclass(frozen=True, slots=True)
-class Befalls:
+class Incident:
     """Something befalls the car."""
 
     what: Befallen
 
 
-Step: TypeAlias = At | Exchange | Comment | Befalls
+Step: TypeAlias = At | Exchange | Comment | Incident
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +94,7 @@ class Transcript:
 
 
 def moment(line: str) -> float | None:
-    """The time [s] in a line such as "@ 8.0s"; None for any other line."""
+    """Parse the time [s] of a line such as "@ 8.0s"; None for any other line."""
     match = _MOMENT.fullmatch(line.strip())
     return float(match[1]) if match else None
 
@@ -140,7 +140,7 @@ def _steps(lines: Iterable[tuple[int, str]]) -> Iterator[Step]:
         elif line.startswith("#"):
             yield Comment(line)
         elif line.startswith("!"):
-            yield Befalls(_befallen(number, line))
+            yield Incident(_befallen(number, line))
         elif line.startswith(">"):
             question = line[1:].strip()
         elif question is not None:
@@ -169,7 +169,7 @@ def write(transcript: Transcript) -> str:
                 blocks[-1] += "\n" + text
             case At(_, text) | Comment(text):
                 blocks.append(text)
-            case Befalls(what):
+            case Incident(what):
                 blocks.append(f"! {what}")
             case Exchange(question, reply):
                 blocks.append(f"> {question}".rstrip() + f"\n{reply}")

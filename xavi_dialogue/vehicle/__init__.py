@@ -1,1 +1,1 @@
-"""The vehicle process: the ride, its reports, and planning again beside the driving."""
+"""The vehicle process: runs the ride, publishes reports and plans again on request."""

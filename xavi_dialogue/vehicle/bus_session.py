@@ -1,7 +1,7 @@
 """The car among others: joined to the bus, alone under its name, and off the bus in time.
 
 NameTaken   another car of this name is on the bus
-Dismissed   told to quit before the ride began
+QuitBeforeRide told to quit before the ride began
 """
 
 import logging
@@ -12,7 +12,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import (
     Bus,
     BusError,
@@ -33,9 +33,9 @@ from xavi_dialogue.vehicle.replanning import Replanner, workers
 from xavi_dialogue.vehicle.worker_pool import WAITING
 
 HUB_PATIENCE = 10.0  # [s] for the hub to come up
-CHILD_PATIENCE = 90.0  # [s] the same where a parent has started both, and sees to it
+CHILD_PATIENCE = 90.0  # [s] the same where a parent process has started both
 GLANCE = 0.5  # [s] between looks at whether to quit
-ANSWERED = 1.0  # [s] within which a car that is there says so
+ANSWERED = 1.0  # [s] within which a car that is on the bus answers
 # [s] A car whose machine has gone is on the bus until its lease of 10 s ends.
 VACATED = 12.0
 CLOSING = 1.0  # [s] that leaving the bus may take
@@ -47,78 +47,78 @@ class NameTaken(BusError):
     """Another car of this name is on the bus."""
 
 
-class Dismissed(Exception):
-    """Told to quit before the ride began."""
+class QuitBeforeRide(Exception):
+    """The process was asked to quit before the ride began."""
 
 
 @dataclass(frozen=True, slots=True)
-class Staff:
-    """Who plans again beside the driving."""
+class ReplanningOptions:
+    """How decisions are planned again: with how many workers, and how many requests may wait."""
 
     workers: int = 1
     waiting: int = WAITING  # requests that may wait for one of them
 
 
 @dataclass(frozen=True, slots=True)
-class Company:
-    """What a car has that is on the bus."""
+class BusSession:
+    """What a car on the bus uses: its connection, reports and replanning."""
 
     outbox: Outbox
     planning: Replanner
-    alive: Alive
+    alive: HealthReporter
 
 
 @contextmanager
-def company(
+def join_bus(
     link: Link,
     keys: Keys,
     network: Path,
-    staff: Staff,
+    replanning: ReplanningOptions,
     signals: Signals,
     patience: float = HUB_PATIENCE,
-) -> Iterator[Company]:
-    """Join the bus as a car, for as long as the context lasts.
+) -> Iterator[BusSession]:
+    """Join the bus as a car while the context lasts.
 
     Args:
         link: to the hub.
         keys: of the car.
         network: the file that planning again needs.
-        staff: who does that.
-        signals: may tell to quit meanwhile.
-        patience: [s] for the hub to come up.
+        replanning: options of planning again.
+        signals: may ask to quit meanwhile.
+        patience: [s] to wait for the hub.
 
     Raises:
         HubUnreachable: there is no hub.
         BadLink: the configuration of the link cannot be used.
         NameTaken: another car of this name is on the bus.
-        Dismissed: told to quit before all was ready.
+        QuitBeforeRide: asked to quit before everything was ready.
     """
-    alive = Alive("car", COUNTERS)
+    alive = HealthReporter("car", COUNTERS)
     with ExitStack() as stack:
         bus = joined(link, signals, patience)
         stack.callback(_leave, bus)
         claim(bus, keys, signals)
         outbox = Outbox(bus, alive)
         stack.callback(outbox.close, 0.0)
-        pool = stack.enter_context(workers(network, staff.workers, staff.waiting))
+        pool = stack.enter_context(workers(network, replanning.workers, replanning.waiting))
         alive.gauge("outbox", outbox.waiting)
         alive.gauge("workers", lambda: len(pool.pids))
         alive.gauge("workers_idle", lambda: pool.idle)
         planning = Replanner(pool, alive=alive)
-        bus.watch(keys.of("alive/service"), Attendance(keys.vehicle))
+        bus.watch(keys.of("alive/service"), ServiceMonitor(keys.vehicle))
         serve_roads(bus, keys, network)
         serve(bus, keys, planning, alive)
-        yield Company(outbox, planning, alive)
+        yield BusSession(outbox, planning, alive)
 
 
 def claim(bus: Bus, keys: Keys, signals: Signals, patience: float = VACATED) -> None:
-    """Make sure that there is no other car of this name.
+    """Check that no other car has this name.
 
-    A car that was killed may seem to be there for a while: up to `patience` [s].
+    A car that was killed may stay visible for a while: up to `patience` [s].
 
     Raises:
-        NameTaken: there is one.
-        Dismissed: told to quit meanwhile.
+        NameTaken: another car has it.
+        QuitBeforeRide: asked to quit meanwhile.
     """
     give_up = time.monotonic() + patience
     while not signals.told:
@@ -135,17 +135,17 @@ def claim(bus: Bus, keys: Keys, signals: Signals, patience: float = VACATED) -> 
             f"there is a car named {keys.vehicle!r} on this bus already;"
             " end it, or name this one otherwise: --vehicle NAME"
         )
-    raise Dismissed
+    raise QuitBeforeRide
 
 
-class Attendance:
-    """Logs when the service is gone, and when it is back."""
+class ServiceMonitor:
+    """Logs when the service disappears and when it comes back."""
 
     def __init__(self, vehicle: str) -> None:
         self._vehicle, self._lost = vehicle, False
 
     def __call__(self, _: str, there: bool) -> None:
-        """Learn that the service is there, or not any more."""
+        """Record that the service is present or absent."""
         if not there:
             _LOG.warning("service lost; driving on", extra={"vehicle": self._vehicle})
         elif self._lost:
@@ -159,7 +159,7 @@ def joined(link: Link, signals: Signals, patience: float = HUB_PATIENCE) -> Zeno
     Raises:
         HubUnreachable: there is no hub.
         BadLink: the configuration of the link cannot be used.
-        Dismissed: told to quit meanwhile.
+        QuitBeforeRide: asked to quit meanwhile.
     """
     give_up = time.monotonic() + patience
     while not signals.told:
@@ -168,11 +168,11 @@ def joined(link: Link, signals: Signals, patience: float = HUB_PATIENCE) -> Zeno
         except HubUnreachable:
             if time.monotonic() >= give_up:
                 raise
-    raise Dismissed
+    raise QuitBeforeRide
 
 
 def _leave(bus: ZenohBus) -> None:
-    """Close the connection; to a hub that hangs that takes long, and nothing is lost by it."""
+    """Close the connection; do not wait for a hub that hangs: nothing is lost."""
     closing = threading.Thread(target=bus.close, name="leaving", daemon=True)
     closing.start()
     closing.join(CLOSING)

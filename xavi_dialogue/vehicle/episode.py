@@ -27,7 +27,7 @@ Ending: TypeAlias = Literal["arrived", "collided", "duration"]
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """One step of a ride: what is seen, and what was decided and happened."""
+    """One step of a ride: the scene, the decision and the events."""
 
     scene: Scene
     plan: tuple[Action, ...]  # of the latest decision
@@ -38,7 +38,7 @@ class Moment:
 
 
 class World(Protocol):
-    """What moves the others, and us as commanded."""
+    """A simulated world that moves the others, and the ego as commanded."""
 
     def scene(self) -> Scene: ...
 
@@ -57,7 +57,7 @@ class Drives(Protocol):
 
 
 def moments(world: World, driver: Drives, step: float, duration: float) -> Iterator[Moment]:
-    """Drive until arrival, collision, or the end of the time; the last moment says which.
+    """Drive until arrival, collision or time-out; the last moment says which.
 
     Args:
         world: at its first scene.
@@ -93,7 +93,7 @@ def clock(moment: Moment) -> float:
 
 
 def halts(until: float | None, time: float, events: Sequence[Event]) -> bool:
-    """Whether a ride that is to go on up to `until` [s] halts now.
+    """Check whether a ride that may run up to `until` [s] halts now.
 
     Args:
         until: [s]; None stands for the end of the first lane change or turn.

@@ -1,4 +1,4 @@
-"""`xavi drive`: the car by itself, or as a child that is told its pace."""
+"""`xavi drive`: runs the car alone, or as a child process that takes commands."""
 
 import logging
 import queue
@@ -24,13 +24,13 @@ from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError, save
 from xavi_dialogue.vehicle.bus_session import (
     CHILD_PATIENCE,
     HUB_PATIENCE,
-    Company,
-    Dismissed,
-    Staff,
-    company,
+    BusSession,
+    QuitBeforeRide,
+    ReplanningOptions,
+    join_bus,
 )
 from xavi_dialogue.vehicle.episode import Ending, Moment, clock, network_of, start
-from xavi_dialogue.vehicle.node import Car, Pace
+from xavi_dialogue.vehicle.node import Pace, VehicleNode
 from xavi_dialogue.vehicle.telemetry import Reporter
 
 Record: TypeAlias = Callable[[Moment], None]
@@ -38,7 +38,7 @@ Record: TypeAlias = Callable[[Moment], None]
 _LOG = logging.getLogger(__name__)
 HARD_BRAKE = -4.0  # [m/s2]
 UNHURRIED = 5.0  # [s] for the last reports to go out after the ride,
-HURRIED = 1.0  # and when told to quit
+HURRIED = 1.0  # and when asked to quit
 FORCED = 2.8  # [s] after a signal, at which the process ends whatever it is doing
 
 
@@ -47,18 +47,18 @@ class Summary(msgspec.Struct):
 
     scenario: str
     seed: int
-    ended: Ending | None = None  # null: told to quit
+    ended: Ending | None = None  # null: asked to quit
     goal_reached: bool = False
     arrival_time: float | None = None  # [s]
     decisions: int = 0
     collisions: int = 0  # vehicles that the ego touched
-    hard_brakes: int = 0  # times that the ego began to brake harder than 4 m/s2
+    hard_brakes: int = 0  # times that the ego began to brake by more than 4 m/s2
     events: list[Event] = []
     wall_s: float = 0.0
 
 
 @dataclass
-class Tally:
+class SummaryRecorder:
     """Takes a ride's moments down as figures."""
 
     summary: Summary
@@ -80,8 +80,8 @@ class Tally:
 
 
 @dataclass
-class Log:
-    """Takes a ride's decisions and events down, to be saved."""
+class RideLog:
+    """Records the decisions and events of a ride for saving."""
 
     ride: RecordedRide
 
@@ -96,28 +96,33 @@ class Log:
 
 
 @dataclass(frozen=True)
-class Manner:
-    """How to drive."""
+class DriveOptions:
+    """Options of a ride."""
 
     speed: float = 0.0  # simulated seconds per second; 0 is as fast as possible
     duration: float | None = None  # [s]; None: the scenario's
-    link: Link | None = None  # to a hub; None: nobody is told
+    link: Link | None = None  # to a hub; None: nothing is published
     vehicle: str = DEFAULT_VEHICLE  # name of the car on the bus
     controlled: bool = False  # by orders on standard input; waits for the first one
     save: Path | None = None  # where to save the decisions
-    staff: Staff = field(default_factory=Staff)  # who plans again for others
+    replanning: ReplanningOptions = field(
+        default_factory=ReplanningOptions
+    )  # options of planning again
 
 
 def drive(
-    scenario: Scenario, seed: int, manner: Manner, signals: child_commands.Signals | None = None
+    scenario: Scenario,
+    seed: int,
+    options: DriveOptions,
+    signals: child_commands.Signals | None = None,
 ) -> Summary:
-    """Drive a scenario to its end, or until told to quit.
+    """Drive a scenario to its end, or until asked to quit.
 
     Args:
         scenario: to drive.
         seed: of the ride.
-        manner: how.
-        signals: are listened to; they know afterwards what came.
+        options: of the ride.
+        signals: to listen to; keeps the signals that arrived.
 
     Raises:
         SimulationError: SUMO is not installed or fails.
@@ -127,64 +132,70 @@ def drive(
         NameTaken: another car of this name is on the bus.
         RideFileError: the decisions cannot be saved.
     """
-    if manner.save is not None and not manner.save.parent.is_dir():
-        raise RideFileError(f"cannot write {manner.save}: there is no such folder")
+    if options.save is not None and not options.save.parent.is_dir():
+        raise RideFileError(f"cannot write {options.save}: there is no such folder")
     began = time.monotonic()
     orders: child_commands.Orders = queue.SimpleQueue()
     signals = child_commands.Signals() if signals is None else signals
     signals.listen(orders, FORCED)
-    if manner.controlled:
+    if options.controlled:
         child_commands.listen(sys.stdin, orders)
-    tally = Tally(Summary(scenario.name, seed))
-    log = Log(RecordedRide(scenario.name, seed, 0.0))
-    records = (tally.record, *((log.record,) if manner.save else ()))
-    with suppress(Dismissed), _remedied(scenario), _in_company(scenario, manner, signals) as others:
-        _drive(scenario, seed, manner, _Told(orders, records, others))
-    if manner.save is not None:
-        save(log.ride, manner.save)
+    tally = SummaryRecorder(Summary(scenario.name, seed))
+    log = RideLog(RecordedRide(scenario.name, seed, 0.0))
+    records = (tally.record, *((log.record,) if options.save else ()))
+    with (
+        suppress(QuitBeforeRide),
+        _remedied(scenario),
+        _joined_to_bus(scenario, options, signals) as bus_session,
+    ):
+        _drive(scenario, seed, options, _Connections(orders, records, bus_session))
+    if options.save is not None:
+        save(log.ride, options.save)
     tally.summary.wall_s = round(time.monotonic() - began, 3)
     _LOG.info("the ride is over", extra={"ended": tally.summary.ended or "told to quit"})
     return tally.summary
 
 
 @dataclass(frozen=True)
-class _Told:
-    """Who tells the car, and who is told."""
+class _Connections:
+    """Where commands come from and where moments go."""
 
     orders: child_commands.Orders
     records: tuple[Record, ...]
-    others: Company | None
+    bus_session: BusSession | None
 
 
-def _drive(scenario: Scenario, seed: int, manner: Manner, told: _Told) -> None:
-    reporter, records, others = None, told.records, told.others
-    if others is not None:
-        keys = Keys(manner.vehicle)
-        reporter = Reporter(others.outbox, keys, place_of(scenario), seed, others.alive)
-        records = (*records, others.planning.record)
+def _drive(scenario: Scenario, seed: int, options: DriveOptions, connections: _Connections) -> None:
+    reporter, records, bus_session = None, connections.records, connections.bus_session
+    if bus_session is not None:
+        keys = Keys(options.vehicle)
+        reporter = Reporter(bus_session.outbox, keys, place_of(scenario), seed, bus_session.alive)
+        records = (*records, bus_session.planning.record)
     network = network_of(scenario)
     _LOG.info("the ride begins", extra={"scenario": scenario.name, "seed": seed})
-    with start(scenario, seed, network, duration=manner.duration) as ride:
-        pace = Pace(manner.speed, running=not manner.controlled)
-        Car(ride, scenario.step, records, reporter, told.orders, pace, manner.controlled).run()
-    if others is not None:
-        others.outbox.close(HURRIED if pace.quit else UNHURRIED)
+    with start(scenario, seed, network, duration=options.duration) as ride:
+        pace = Pace(options.speed, running=not options.controlled)
+        VehicleNode(
+            ride, scenario.step, records, reporter, connections.orders, pace, options.controlled
+        ).run()
+    if bus_session is not None:
+        bus_session.outbox.close(HURRIED if pace.quit else UNHURRIED)
 
 
-def _in_company(
-    scenario: Scenario, manner: Manner, signals: child_commands.Signals
-) -> AbstractContextManager[Company | None]:
-    """Who is told of the ride and may ask about it: nobody without a hub."""
-    if manner.link is None:
+def _joined_to_bus(
+    scenario: Scenario, options: DriveOptions, signals: child_commands.Signals
+) -> AbstractContextManager[BusSession | None]:
+    """Join the bus if there is a link; without one, publish nothing."""
+    if options.link is None:
         return nullcontext()
-    patience = CHILD_PATIENCE if manner.controlled else HUB_PATIENCE
-    keys = Keys(manner.vehicle)
-    return company(manner.link, keys, scenario.network, manner.staff, signals, patience)
+    patience = CHILD_PATIENCE if options.controlled else HUB_PATIENCE
+    keys = Keys(options.vehicle)
+    return join_bus(options.link, keys, scenario.network, options.replanning, signals, patience)
 
 
 @contextmanager
 def _remedied(scenario: Scenario) -> Iterator[None]:
-    """Faults of SUMO with a word on where to look."""
+    """Add a hint on where to look to errors of SUMO."""
     try:
         yield
     except (SumoFailed, EgoGone) as error:

@@ -1,4 +1,4 @@
-"""The roads that a car drives on, told to who asks: a recording is planned on again with them."""
+"""Serves the road network of a car on request: with it, a recorded decision is planned again."""
 
 import gzip
 import logging

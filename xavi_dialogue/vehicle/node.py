@@ -11,7 +11,7 @@ import msgspec
 from planner.record import trace as plan_trace
 from planner.record.events import Event
 from planner.record.trace import PlanTrace
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Bus, Call, CallHandler, Keys
 from xavi_dialogue.bus.messages import CarState, EventReport, SceneReport, TraceReport
 from xavi_dialogue.bus.schema import schema_of
@@ -22,7 +22,7 @@ from xavi_dialogue.vehicle.telemetry import Reporter
 
 SHOWN_EVERY = 0.1  # [s] of wall time: the scene, at 10 Hz
 TOLD = {"scene": SceneReport, "trace": TraceReport, "event_report": EventReport}
-COUNTERS = ("decisions", "events", "scenes", SCENES, REPORTS, "what_ifs")  # see Alive
+COUNTERS = ("decisions", "events", "scenes", SCENES, REPORTS, "what_ifs")  # see HealthReporter
 
 
 @dataclass
@@ -58,21 +58,21 @@ class Pace:
 
 
 @dataclass
-class Car:
+class VehicleNode:
     """Drives a ride, reports it, and obeys orders about its pace."""
 
     ride: Iterator[Moment]
     step: float  # [s]
     records: tuple[Callable[[Moment], None], ...]  # take down every moment
-    reporter: Reporter | None  # None: nobody is told
+    reporter: Reporter | None  # None: nothing is published
     orders: Orders
     pace: Pace
-    stays: bool  # after the ride, until told to quit
+    stays: bool  # after the ride, until asked to quit
     events: list[Event] = field(default_factory=list)
     due: float = 0.0  # [s] on the monotonic clock: when the next step may be taken
 
     def run(self) -> None:
-        """Drive to the end, or until told to quit."""
+        """Drive to the end, or until asked to quit."""
         for moment in self.ride:
             self.events.extend(moment.events)
             for record in self.records:
@@ -86,7 +86,7 @@ class Car:
                 return
 
     def _wait(self, moment: Moment) -> None:
-        """Let time pass until the next step is due; after the ride, until told to quit."""
+        """Wait until the next step is due; after the ride, until asked to quit."""
         if self.pace.speed > 0.0:
             self.due = max(self.due, time.monotonic() - self.step) + self.step / self.pace.speed
         over = moment.ending is not None
@@ -101,7 +101,7 @@ class Car:
                 return
 
     def _listen(self, moment: Moment, patience: float) -> None:
-        """Obey the orders that come within `patience` [s]; one is enough."""
+        """Carry out the commands that arrive within `patience` [s]; stop waiting after one."""
         try:
             order = (
                 self.orders.get(timeout=patience) if patience > 0.0 else self.orders.get_nowait()
@@ -122,21 +122,21 @@ class Car:
         reporter.show(moment, state, pace.speed, pace.obeyed)
 
 
-def serve(bus: Bus, keys: Keys, planning: CallHandler, alive: Alive | None = None) -> None:
-    """Answer what is asked of the car, and show that it is there.
+def serve(bus: Bus, keys: Keys, planning: CallHandler, alive: HealthReporter | None = None) -> None:
+    """Answer requests to the car, and announce that it is on the bus.
 
     Args:
         bus: of the car.
         keys: of the car.
         planning: takes requests for planning again.
-        alive: tells how the car fares.
+        alive: reports the health of the car.
     """
     bus.serve(keys.of("@rpc/whatif"), planning)
     for name, kind in {**TOLD, "plan_trace": PlanTrace}.items():
         schema = schema_of(kind, plan_trace.SCHEMA if kind is PlanTrace else None)
         document = msgspec.json.encode(schema)
         bus.serve(keys.of(f"@schema/{name}"), partial(_reply_with, document))
-    (Alive("car", COUNTERS) if alive is None else alive).serve(bus, keys)
+    (HealthReporter("car", COUNTERS) if alive is None else alive).serve(bus, keys)
 
 
 def _reply_with(document: bytes, call: Call) -> None:

@@ -1,4 +1,4 @@
-"""What is to be put on the bus, put there from a thread of its own: who sends never waits.
+"""A queue in front of the bus: a thread sends its messages, so that senders never wait.
 
 A message that must not be lost waits at the carrier for as long as a reader is slow, up to several
 seconds where a hub hangs. Meanwhile the others wait here. Beyond a bound, what may drop is
@@ -11,7 +11,7 @@ from collections import deque
 from contextlib import suppress
 from dataclasses import dataclass
 
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Bus, BusError, Publisher
 
 SCENES = "scenes_dropped"  # counters of what was dropped
@@ -30,7 +30,7 @@ class Bounds:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Letter:
+class _QueuedMessage:
     publisher: Publisher
     payload: bytes
     may_drop: bool
@@ -45,13 +45,13 @@ class _Slot:
     may_drop: bool
 
     def put(self, payload: bytes) -> None:
-        self.outbox.take(_Letter(self.publisher, payload, self.may_drop))
+        self.outbox.take(_QueuedMessage(self.publisher, payload, self.may_drop))
 
 
 class Outbox:
-    """Stands between those who send and a bus."""
+    """Queues messages and sends them on a thread."""
 
-    def __init__(self, bus: Bus, alive: Alive, bounds: Bounds | None = None) -> None:
+    def __init__(self, bus: Bus, alive: HealthReporter, bounds: Bounds | None = None) -> None:
         """Begin to send.
 
         Args:
@@ -60,7 +60,7 @@ class Outbox:
             bounds: how much may wait.
         """
         self._bus, self._alive, self._bounds = bus, alive, bounds or Bounds()
-        self._waiting: deque[_Letter] = deque()
+        self._waiting: deque[_QueuedMessage] = deque()
         self._droppable = self._size = 0  # messages, bytes of those waiting
         self._sending = self._closing = False
         self._changed = threading.Condition()
@@ -68,28 +68,28 @@ class Outbox:
         self._sender.start()
 
     def publisher(self, key: str, keep: int = 0) -> Publisher:
-        """Send under a key; see Bus. What is not kept may drop."""
+        """Make a publisher for a key; see Bus. Messages that are not kept may be dropped."""
         return _Slot(self, self._bus.publisher(key, keep), may_drop=not keep)
 
     def waiting(self) -> int:
-        """How many messages are not sent yet."""
+        """Count the messages that are not sent yet."""
         with self._changed:
             return len(self._waiting) + self._sending
 
-    def take(self, letter: _Letter) -> None:
+    def take(self, message: _QueuedMessage) -> None:
         """Send a message as soon as it can be; returns at once."""
         with self._changed:
             if self._closing:
-                self._count(letter)
+                self._count(message)
                 return
-            self._waiting.append(letter)
-            self._weigh(letter, 1)
+            self._waiting.append(message)
+            self._weigh(message, 1)
             while self._overfull():
                 self._drop_one()
             self._changed.notify_all()
 
     def close(self, patience: float) -> bool:
-        """Send what waits, for up to `patience` [s], and take no more; whether all was sent."""
+        """Send the queue within `patience` [s], then stop; return whether all was sent."""
         with self._changed:
             if self._closing:
                 return not self._sending
@@ -113,11 +113,11 @@ class Outbox:
                 self._changed.wait_for(lambda: self._waiting or self._closing)
                 if not self._waiting:
                     return
-                letter = self._waiting.popleft()
-                self._weigh(letter, -1)
+                message = self._waiting.popleft()
+                self._weigh(message, -1)
                 self._sending = True
             with suppress(BusError):  # the bus is closed
-                letter.publisher.put(letter.payload)
+                message.publisher.put(message.payload)
 
     def _overfull(self) -> bool:
         bounds = self._bounds
@@ -128,15 +128,15 @@ class Outbox:
         )
 
     def _drop_one(self) -> None:
-        place = next((k for k, letter in enumerate(self._waiting) if letter.may_drop), 0)
-        letter = self._waiting[place]
+        place = next((k for k, message in enumerate(self._waiting) if message.may_drop), 0)
+        message = self._waiting[place]
         del self._waiting[place]
-        self._weigh(letter, -1)
-        self._count(letter)
+        self._weigh(message, -1)
+        self._count(message)
 
-    def _weigh(self, letter: _Letter, sign: int) -> None:
-        self._size += sign * len(letter.payload)
-        self._droppable += sign * letter.may_drop
+    def _weigh(self, message: _QueuedMessage, sign: int) -> None:
+        self._size += sign * len(message.payload)
+        self._droppable += sign * message.may_drop
 
-    def _count(self, letter: _Letter) -> None:
-        self._alive.count(SCENES if letter.may_drop else REPORTS)
+    def _count(self, message: _QueuedMessage) -> None:
+        self._alive.count(SCENES if message.may_drop else REPORTS)

@@ -1,4 +1,4 @@
-"""A worker: a process that plans again on request, beside the driving.
+"""A worker process that plans decisions again on request, beside the driving.
 
 It reads one order a line on its standard input and writes one result a line on its standard
 output; the first line says that it is ready. It ends when its input does, in the middle of
@@ -33,21 +33,21 @@ ROOM = 40.0  # [m] of lane for the decision that warms up
 STEP = 0.1  # [s] that is driven then
 
 
-class Order(msgspec.Struct, frozen=True):
-    """What is to be planned again."""
+class ReplanOrder(msgspec.Struct, frozen=True):
+    """A decision to plan again, with the change to apply."""
 
     trace: msgspec.Raw
     what_if: WhatIf
 
 
 class Result(msgspec.Struct, frozen=True):
-    """What came of it: a PlanTrace, or a Failure that says why there is none."""
+    """The result: a PlanTrace, or a Failure with the reason."""
 
     planned: bool
     message: msgspec.Raw
 
 
-def obey(order: Order, network: Network) -> Result:
+def obey(order: ReplanOrder, network: Network) -> Result:
     """Plan again as ordered."""
     try:
         trace = replan(plan_trace.decode(bytes(order.trace)), network, order.what_if)
@@ -85,7 +85,7 @@ def warm_up(network: Network) -> None:
 
 
 def work(network: Network, orders: "queue.SimpleQueue[bytes]", out: IO[bytes]) -> None:
-    """Warm up, say so, and obey one order after the other for as long as somebody listens."""
+    """Warm up, report readiness, and carry out orders until input ends."""
     warm_up(network)
     line = READY
     while True:
@@ -94,21 +94,21 @@ def work(network: Network, orders: "queue.SimpleQueue[bytes]", out: IO[bytes]) -
             out.flush()
         except BrokenPipeError:
             return
-        order = msgspec.json.decode(orders.get(), type=Order)
+        order = msgspec.json.decode(orders.get(), type=ReplanOrder)
         line = msgspec.json.encode(obey(order, network)) + b"\n"
 
 
 def _listen(stream: IO[bytes], orders: "queue.SimpleQueue[bytes]") -> None:
     """Take down orders; the process ends with the stream, whatever it is doing."""
     for line in stream:
-        if line.endswith(b"\n"):  # else whoever wrote it died meanwhile
+        if line.endswith(b"\n"):  # else the process that wrote it died meanwhile
             orders.put(line)
     os._exit(os.EX_OK)
 
 
 def main() -> None:
     """Work on the network file that is named on the command line."""
-    out, sys.stdout = sys.stdout.buffer, sys.stderr  # nothing else may come between results
+    out, sys.stdout = sys.stdout.buffer, sys.stderr  # nothing else may be written between results
     orders: queue.SimpleQueue[bytes] = queue.SimpleQueue()
     threading.Thread(target=_listen, args=(sys.stdin.buffer, orders), daemon=True).start()
     work(read_network(Path(sys.argv[1])), orders, out)

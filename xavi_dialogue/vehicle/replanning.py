@@ -1,7 +1,7 @@
-"""Planning again for others while the car drives: which decisions are known, and who does it.
+"""Planning again on request while the car drives: keeps decisions, checks requests.
 
-The driving only notes its decisions here. Requests come in on threads of the bus, are checked,
-and go to workers (see pool.py), which answer or are given up at the deadline.
+The driving loop only stores its decisions here. Requests arrive on threads of the bus, are
+checked, and go to workers (`worker_pool.py`), which answer or are given up at the deadline.
 """
 
 import contextlib
@@ -20,26 +20,26 @@ from planner.counterfactuals.whatif import WhatIfError, replan
 from planner.record import trace as plan_trace
 from planner.record.trace import PlanTrace, WhatIf
 from sim.roads.network import Network
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import BusError, Call
 from xavi_dialogue.bus.messages import Failure, MessageError, WhatIfRequest, pack, unpack
 from xavi_dialogue.process.subprocesses import TOP
 from xavi_dialogue.vehicle.episode import Moment
-from xavi_dialogue.vehicle.replan_worker import Order
-from xavi_dialogue.vehicle.worker_pool import WAITING, Job, Pool
+from xavi_dialogue.vehicle.replan_worker import ReplanOrder
+from xavi_dialogue.vehicle.worker_pool import WAITING, Job, WorkerPool
 
 _LOG = logging.getLogger(__name__)
 KEPT = 300  # latest decisions that can be planned again: five minutes of driving
 
 
 class Planners(Protocol):
-    """Those who plan again; see Pool."""
+    """Workers that plan again; see WorkerPool."""
 
     def submit(self, job: Job) -> None: ...
 
 
-def workers(network: Path, count: int = 1, waiting: int = WAITING) -> Pool:
-    """Start workers for a network file; see Pool."""
+def workers(network: Path, count: int = 1, waiting: int = WAITING) -> WorkerPool:
+    """Start workers for a network file; see WorkerPool."""
     path = os.pathsep.join(filter(None, (str(TOP), os.environ.get("PYTHONPATH"))))
     # -P keeps the working directory off the path: it may hold packages of our names.
     command = [
@@ -50,22 +50,24 @@ def workers(network: Path, count: int = 1, waiting: int = WAITING) -> Pool:
         str(network.resolve()),
     ]
     environment = {**os.environ, "PYTHONPATH": path}
-    return Pool(command, environment=environment, count=count, waiting=waiting)
+    return WorkerPool(command, environment=environment, count=count, waiting=waiting)
 
 
 class Replanner:
     """Takes requests for planning again from the latest decisions of this ride."""
 
-    def __init__(self, planners: Planners, kept: int = KEPT, alive: Alive | None = None) -> None:
+    def __init__(
+        self, planners: Planners, kept: int = KEPT, alive: HealthReporter | None = None
+    ) -> None:
         """Know no decision yet.
 
         Args:
-            planners: get what is to be done.
-            kept: how many decisions are remembered.
-            alive: counts requests, and what came of them.
+            planners: carry out requests.
+            kept: how many decisions are kept.
+            alive: counts requests and their results.
         """
         self._planners, self._kept = planners, kept
-        self._alive = Alive("car") if alive is None else alive
+        self._alive = HealthReporter("car") if alive is None else alive
         self._traces: dict[str, bytes] = {}
 
     def record(self, moment: Moment) -> None:
@@ -90,7 +92,7 @@ class Replanner:
             self._answer(call, Failure(reason="outside-record", detail=detail))
             return
         what_if = msgspec.convert(msgspec.to_builtins(wanted), WhatIf)
-        order = msgspec.json.encode(Order(msgspec.Raw(trace), what_if))
+        order = msgspec.json.encode(ReplanOrder(msgspec.Raw(trace), what_if))
         self._planners.submit(
             Job(order, came + wanted.deadline_ms / 1000.0, partial(self._answer, call))
         )
@@ -102,7 +104,7 @@ class Replanner:
         self._alive.count("what_ifs")
         self._alive.count(f"what_ifs_{reason.replace('-', '_')}")
         _LOG.info("a what-if was answered", extra={"reason": reason})
-        with contextlib.suppress(BusError):  # who asked is gone
+        with contextlib.suppress(BusError):  # the client that asked has disconnected
             if isinstance(outcome, Failure):
                 call.refuse(pack(outcome))
             else:
@@ -110,7 +112,7 @@ class Replanner:
 
 
 def durations(traces: Sequence[PlanTrace], network: Network) -> Mapping[str, tuple[float, ...]]:
-    """How long [s] it takes to plan again from decisions, in this process, by what is changed."""
+    """Measure how long [s] planning again takes in this process, by kind of change."""
     taken: dict[str, list[float]] = {}
     for trace in traces:
         for name, what_if in _examples(trace):

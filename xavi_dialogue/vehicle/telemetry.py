@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from planner.record.trace import PlanTrace
-from xavi_dialogue.bus.health import Alive
+from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Keys, Publisher
 from xavi_dialogue.bus.messages import CarState, EventReport, SceneReport, TraceReport, pack
 from xavi_dialogue.vehicle.episode import Moment, clock
@@ -17,14 +17,14 @@ KEPT_EVENTS = 1000
 LATELY = 5.0  # [s] over which the speed of the simulation is measured
 
 
-class Sends(Protocol):
-    """Where reports go: a bus, or an outbox before it."""
+class ReportSink(Protocol):
+    """Where reports go: a bus, or an outbox in front of it."""
 
     def publisher(self, key: str, keep: int = 0) -> Publisher: ...
 
 
-class Speedometer:
-    """Measures how fast the simulation has gone lately."""
+class RateMeter:
+    """Measures the recent speed of the simulation."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
@@ -51,11 +51,11 @@ class Reporter:
 
     def __init__(
         self,
-        bus: Sends,
+        bus: ReportSink,
         keys: Keys,
         scenario: str | None = None,
         seed: int | None = None,
-        alive: Alive | None = None,
+        alive: HealthReporter | None = None,
     ) -> None:
         """Begin to report a ride.
 
@@ -63,12 +63,12 @@ class Reporter:
             bus: to report on.
             keys: of the car.
             scenario: name or folder, and
-            seed: so that others can have the ride driven again.
+            seed: of the ride, so that it can be repeated.
             alive: counts what is reported.
         """
         self._scenario, self._seed = scenario, seed
-        self._alive = Alive("car") if alive is None else alive
-        self._speedometer = Speedometer()
+        self._alive = HealthReporter("car") if alive is None else alive
+        self._speedometer = RateMeter()
         self._alive.gauge("speed", self._speedometer.read)
         self._ride = secrets.token_hex(4)
         self._scene = bus.publisher(keys.of("scene"))
@@ -79,7 +79,7 @@ class Reporter:
         self._published = 0.0  # [s] on the monotonic clock
 
     def record(self, moment: Moment) -> None:
-        """Publish what was decided and what happened."""
+        """Publish the decision and the events of a step."""
         self._alive.at(clock(moment))
         self._speedometer.note(moment.scene.time)
         if moment.trace is not None:
@@ -97,7 +97,7 @@ class Reporter:
             self._alive.count("events")
 
     def idle_time(self) -> float:
-        """How long ago [s] the scene was published."""
+        """Return the age [s] of the latest published scene."""
         return time.monotonic() - self._published
 
     def show(
@@ -107,7 +107,7 @@ class Reporter:
         speed_factor: float,
         orders: int = 0,
     ) -> None:
-        """Publish the scene, and how far the record goes."""
+        """Publish the scene, with the numbers of the latest reports."""
         report = SceneReport(
             ride=self._ride,
             seq=self._scenes,

@@ -38,9 +38,9 @@ Done: TypeAlias = Callable[[bytes | Failure], None]  # gets the plan trace, or w
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Job:
-    """One thing to be done."""
+    """A job for a worker."""
 
-    order: bytes  # one line; see worker.Order
+    order: bytes  # one line; see replan_worker.ReplanOrder
     deadline: float  # [s] on the monotonic clock
     done: Done  # called once, from the pool's thread
     tried: bool = False  # by a worker that died
@@ -48,7 +48,7 @@ class Job:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Heard:
-    """What a worker said; None: it is gone."""
+    """A line from a worker; None: it has ended."""
 
     worker: "_Worker"
     line: bytes | None
@@ -92,7 +92,7 @@ class _Worker:
 
     @property
     def late(self) -> bool:
-        """Whether it is at a job that was answered without it."""
+        """Check whether it works on a job that was already answered without it."""
         return self.ends is not None
 
     @property
@@ -100,7 +100,7 @@ class _Worker:
         return self.ready and self.job is None and not self.late
 
     def begin(self, job: Job) -> None:
-        """Hand a job over; on a thread of its own, for the worker may not be listening."""
+        """Send a job on a separate thread, because the worker may not be reading."""
         self.job = job
         threading.Thread(target=self._write, args=(job.order,), daemon=True).start()
 
@@ -114,7 +114,7 @@ class _Worker:
 
     def _write(self, order: bytes) -> None:
         assert self._process.stdin is not None
-        with contextlib.suppress(BrokenPipeError, ValueError):  # it is gone, as will be heard
+        with contextlib.suppress(BrokenPipeError, ValueError):  # it has ended
             self._process.stdin.write(order + b"\n")
             self._process.stdin.flush()
 
@@ -126,7 +126,7 @@ class _Worker:
         self._tell(_Heard(self, None))
 
 
-class Pool:
+class WorkerPool:
     """Workers that are started by the same command."""
 
     def __init__(
@@ -141,8 +141,8 @@ class Pool:
 
         Args:
             command: the program of a worker and its arguments.
-            environment: of the workers; None: ours.
-            count: how many there are.
+            environment: of the workers; None: that of this process.
+            count: number of workers.
             waiting: how many jobs may wait for one of them.
         """
         self._command, self._environment = command, environment
@@ -156,12 +156,12 @@ class Pool:
 
     @property
     def pids(self) -> tuple[int, ...]:
-        """The processes that are there now."""
+        """The worker processes that run now."""
         return tuple(worker.pid for worker in tuple(self._workers))
 
     @property
     def idle(self) -> int:
-        """How many workers are ready for a job."""
+        """Count the workers that are ready for a job."""
         return sum(worker.idle for worker in tuple(self._workers))
 
     def submit(self, job: Job) -> None:
@@ -245,7 +245,7 @@ class Pool:
         self._thin_out()
 
     def _lose(self, worker: _Worker) -> None:
-        """A worker has died; one that did not even start is not replaced before the next job."""
+        """Handle the end of a worker; one that did not start is replaced with the next job only."""
         self._workers.remove(worker)
         worker.kill()
         if worker.job is not None and not worker.job.tried:
@@ -259,7 +259,7 @@ class Pool:
                 self._waiting.clear()
 
     def _thin_out(self) -> None:
-        """When enough workers are up, kill the others: the late, or their successors."""
+        """Kill surplus workers once enough are up: late ones, or their replacements."""
         up = [worker for worker in self._workers if worker.ready and not worker.late]
         if len(up) >= self._count:
             for worker in self._workers:
@@ -268,7 +268,7 @@ class Pool:
             self._workers = up
 
     def _expire(self) -> None:
-        """Answer the jobs whose time is up; kill who is late beyond the grace."""
+        """Answer the jobs that are overdue; kill workers that exceed the grace period."""
         now = time.monotonic()
         late = [job for job in self._open() if job.deadline <= now]
         late += [job for job in self._waiting if now < job.deadline <= now + LEAST]
@@ -294,7 +294,7 @@ class Pool:
 
 
 def _outcome(line: bytes) -> bytes | Failure:
-    """The plan trace in a worker's line, or why there is none."""
+    """Decode a worker's line: a plan trace, or the reason why there is none."""
     try:
         result = msgspec.json.decode(line, type=Result)
         message = bytes(result.message)

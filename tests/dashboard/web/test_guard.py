@@ -4,11 +4,11 @@ import pytest
 
 from xavi_dialogue.dashboard.web.auth import (
     SECURITY,
-    Asked,
-    Enter,
-    Guard,
-    Listen,
+    ListenOptions,
     Refused,
+    RequestGuard,
+    RequestHeaders,
+    SetToken,
     secured,
 )
 
@@ -16,16 +16,18 @@ TOKEN = "0123456789abcdefghij"
 HERE = "127.0.0.1:8480"
 
 
-def asked(path: str = "/", kind: str = "http", method: str = "GET", **headers: str) -> Asked:
+def asked(
+    path: str = "/", kind: str = "http", method: str = "GET", **headers: str
+) -> RequestHeaders:
     """A request; of a header's name underscores are dashes, and an empty one is left out."""
     path, _, query = path.partition("?")
     said = {"host": HERE} | headers
     pairs = [(k.replace("_", "-").encode(), v.encode()) for k, v in said.items() if v != "-"]
-    return Asked(kind, method, path, query.encode(), pairs)  # type: ignore[arg-type]
+    return RequestHeaders(kind, method, path, query.encode(), pairs)  # type: ignore[arg-type]
 
 
-def guard(token: str | None = None) -> Guard:
-    return Guard(Listen.read(":8480", token=token), 8480)
+def guard(token: str | None = None) -> RequestGuard:
+    return RequestGuard(ListenOptions.read(":8480", token=token), 8480)
 
 
 def status(verdict: object) -> int | None:
@@ -60,7 +62,7 @@ def status(verdict: object) -> int | None:
         (asked(f"/ws?token={TOKEN}", "websocket"), 403),  # nobody gave one out
     ],
 )
-def test_without_a_token(request_: Asked, expected: int | None) -> None:
+def test_without_a_token(request_: RequestHeaders, expected: int | None) -> None:
     assert status(guard().judge(request_)) == expected
 
 
@@ -96,12 +98,12 @@ def test_without_a_token(request_: Asked, expected: int | None) -> None:
         (asked("/", cookie=f"xavi-8480={TOKEN}"), None),
     ],
 )
-def test_with_a_token(request_: Asked, expected: int | None) -> None:
+def test_with_a_token(request_: RequestHeaders, expected: int | None) -> None:
     assert status(guard(TOKEN).judge(request_)) == expected
 
 
 def test_behind_a_proxy_with_tls_the_page_has_a_name() -> None:
-    named = Guard(Listen.read(":8480", names=("dash.example.org",)), 8480)
+    named = RequestGuard(ListenOptions.read(":8480", names=("dash.example.org",)), 8480)
     for origin, expected in (
         ("https://dash.example.org", None),
         ("http://dash.example.org", None),
@@ -124,13 +126,13 @@ def test_what_is_part_of_a_strangers_page_is_refused(path: str) -> None:
 def test_the_token_goes_from_the_address_into_a_cookie() -> None:
     cookie = f"xavi-8480={TOKEN}; Path=/; HttpOnly; SameSite=Strict"
     entered = guard(TOKEN).judge(asked(f"/?token={TOKEN}"))
-    assert entered == Enter(cookie, "redirect")
+    assert entered == SetToken(cookie, "redirect")
     led = guard(TOKEN).judge(asked(f"/?token={TOKEN}", sec_fetch_site="cross-site"))
-    assert led == Enter(cookie, "page")
+    assert led == SetToken(cookie, "page")
     unsaid = guard(TOKEN).judge(asked(f"/?token={TOKEN}", accept="text/html,*/*;q=0.8"))
-    assert unsaid == Enter(cookie, "page")
+    assert unsaid == SetToken(cookie, "page")
     typed = asked(f"/?token={TOKEN}", sec_fetch_site="none", accept="text/html")
-    assert guard(TOKEN).judge(typed) == Enter(cookie, "redirect")
+    assert guard(TOKEN).judge(typed) == SetToken(cookie, "redirect")
 
 
 def test_every_response_has_the_headers_once() -> None:

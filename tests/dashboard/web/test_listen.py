@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from xavi_dialogue.dashboard.web.address import Listen, ListenError, name_of
+from xavi_dialogue.dashboard.web.address import ListenError, ListenOptions, name_of
 
 TOKEN = "0123456789abcdef"
 
@@ -29,7 +29,7 @@ TOKEN = "0123456789abcdef"
 def test_a_place_is_read(
     typed: str | None, host: str, port: int, loopback: bool, address: str
 ) -> None:
-    listen = Listen.read(typed)
+    listen = ListenOptions.read(typed)
     assert (listen.host, listen.port, listen.loopback) == (host, port, loopback)
     assert listen.address(port) == address
     assert (listen.token is None) == loopback
@@ -55,14 +55,14 @@ def test_a_place_is_read(
 )
 def test_what_is_no_place_is_said_to_be_none(typed: str, words: str) -> None:
     with pytest.raises(ListenError, match=words) as caught:
-        Listen.read(typed)
+        ListenOptions.read(typed)
     assert "\x1b" not in str(caught.value)
 
 
 @given(st.text(max_size=30))
 def test_any_text_is_a_place_or_is_refused(typed: str) -> None:
     try:
-        listen = Listen.read(typed)
+        listen = ListenOptions.read(typed)
     except ListenError:
         return
     assert 0 <= listen.port <= 65535
@@ -70,17 +70,17 @@ def test_any_text_is_a_place_or_is_refused(typed: str) -> None:
 
 
 def test_a_random_token_is_made_elsewhere_each_time() -> None:
-    tokens = {Listen.read("0.0.0.0:1").token for _ in range(3)}
+    tokens = {ListenOptions.read("0.0.0.0:1").token for _ in range(3)}
     assert len(tokens) == 3
     assert all(token and len(token) >= 32 for token in tokens)
-    assert Listen.read(":1", token=TOKEN).token == TOKEN
-    assert TOKEN not in repr(Listen.read(":1", token=TOKEN))
+    assert ListenOptions.read(":1", token=TOKEN).token == TOKEN
+    assert TOKEN not in repr(ListenOptions.read(":1", token=TOKEN))
 
 
 @pytest.mark.parametrize("token", ["", "short", "0123456789abcde!", "0123456789abcdef\n", "é" * 20])
 def test_a_token_that_is_none_is_refused(token: str) -> None:
     with pytest.raises(ListenError, match="16 to 128"):
-        Listen.read(token=token)
+        ListenOptions.read(token=token)
 
 
 @pytest.mark.parametrize(
@@ -88,7 +88,7 @@ def test_a_token_that_is_none_is_refused(token: str) -> None:
 )
 def test_a_name_that_is_none_is_refused(name: str) -> None:
     with pytest.raises(ListenError, match="no name of a host"):
-        Listen.read(names=(name,))
+        ListenOptions.read(names=(name,))
 
 
 @pytest.mark.parametrize(
@@ -128,11 +128,11 @@ def test_a_name_that_is_none_is_refused(name: str) -> None:
     ],
 )
 def test_a_host_is_served_or_not(listen: str, host: str, served: bool) -> None:
-    assert Listen.read(listen).serves(host) is served
+    assert ListenOptions.read(listen).serves(host) is served
 
 
 def test_other_names_are_served_when_they_are_given() -> None:
-    listen = Listen.read("0.0.0.0:8480", names=("Hall.Example.", "desk"))
+    listen = ListenOptions.read("0.0.0.0:8480", names=("Hall.Example.", "desk"))
     assert listen.serves("hall.example:8480")
     assert listen.serves("DESK")
     assert not listen.serves("desk.example")

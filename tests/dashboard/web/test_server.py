@@ -19,11 +19,11 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
-from tests.dashboard.web.boards import PATIENCE, STATUS, Known, Running, running, scene
+from tests.dashboard.web.known_source import PATIENCE, STATUS, Known, Running, running, scene
 from xavi_dialogue.dashboard.web import server
 from xavi_dialogue.dashboard.web.auth import SECURITY
 from xavi_dialogue.dashboard.web.client_session import MAX_IN_FLIGHT, MAX_WAITING
-from xavi_dialogue.dashboard.web.server import Listen, ListenError, Server
+from xavi_dialogue.dashboard.web.server import ListenError, ListenOptions, Server
 from xavi_dialogue.dashboard.web.websocket_messages import MAX_INCOMING, Trouble
 
 KEY = "dGhlIHNhbXBsZSBub25jZQ=="
@@ -91,7 +91,7 @@ def secure(response: bytes) -> bool:
 
 def test_a_place_that_is_taken_is_said_so(here: Running) -> None:
     with pytest.raises(ListenError, match=r"is in use; choose another with --listen"):
-        Server(Known(), Listen.read(f"127.0.0.1:{here.server.port}"))
+        Server(Known(), ListenOptions.read(f"127.0.0.1:{here.server.port}"))
 
 
 @pytest.mark.parametrize(
@@ -99,11 +99,11 @@ def test_a_place_that_is_taken_is_said_so(here: Running) -> None:
 )
 def test_a_place_that_is_not_ours_is_said_so(place: str, words: str) -> None:
     with pytest.raises(ListenError, match=words):
-        Server(Known(), Listen.read(place))
+        Server(Known(), ListenOptions.read(place))
 
 
 def test_the_address_is_known_before_anybody_is_served() -> None:
-    one = Server(Known(), Listen.read("0.0.0.0:0"))
+    one = Server(Known(), ListenOptions.read("0.0.0.0:0"))
     try:
         assert one.port > 0
         assert one.address == f"http://127.0.0.1:{one.port}/"
@@ -146,7 +146,7 @@ def test_browsers_talk_and_are_told(here: Running) -> None:
             assert of_kind(each, "scene")["seq"] == 1
         assert here.do(lambda: here.server.browsers) == 2
     here.end_of_browsers()
-    assert sorted(here.board.of("left")) == [0, 1]
+    assert sorted(here.source.of("left")) == [0, 1]
 
 
 def test_the_number_of_browsers_is_told_to_those_that_are_there(here: Running) -> None:
@@ -168,7 +168,7 @@ def test_what_other_threads_want_is_done_in_order_and_on_the_loop(
         raise RuntimeError("secret words")
 
     async def main() -> None:
-        one = Server(Known(), Listen.read(":0"))
+        one = Server(Known(), ListenOptions.read(":0"))
         stopped = asyncio.Event()
         one.soon(note, 1)
         one.soon(fail)
@@ -192,7 +192,7 @@ def test_browsers_are_told_of_the_end(here: Running) -> None:
         here.stop()
         assert [closed(one), closed(other)] == [1001, 1001]
     here.end()
-    assert sorted(here.board.of("left")) == [0, 1]
+    assert sorted(here.source.of("left")) == [0, 1]
     with pytest.raises(httpx.ConnectError):
         httpx.get(here.server.address)
 
@@ -206,10 +206,10 @@ def test_it_ends_while_somebody_reads_nothing_or_says_nothing(here: Running) -> 
 
 
 def test_it_ends_when_it_is_cancelled() -> None:
-    board = Known()
+    source = Known()
 
     async def main() -> None:
-        one = Server(board, Listen.read(":0"))
+        one = Server(source, ListenOptions.read(":0"))
         serving = asyncio.create_task(one.serve(asyncio.Event()))
         async with httpx.AsyncClient() as web:
             assert (await web.get(one.address)).status_code == 200
@@ -272,7 +272,7 @@ def test_a_stranger_gets_no_connection(
     response = caught.value.response
     assert response.status_code == status
     assert response.headers["x-content-type-options"] == "nosniff"
-    assert here.board.calls == []
+    assert here.source.calls == []
 
 
 REQUESTS = [
@@ -321,7 +321,7 @@ def test_a_handshake_that_is_none_gets_headers(here: Running, headers: str, stat
     found = raw(here, (UPGRADE + headers + "\r\n").encode())
     assert found.startswith(f"HTTP/1.1 {status} ".encode())
     assert secure(found)
-    assert here.board.calls == []
+    assert here.source.calls == []
 
 
 def test_a_client_that_says_nothing_is_cut_off(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -421,7 +421,7 @@ def test_a_flood_of_messages_ends_the_connection(here: Running) -> None:
         except ConnectionClosed:
             pass
         assert closed(one) == 4429
-    assert len(here.board.of("ask")) < 100
+    assert len(here.source.of("ask")) < 100
 
 
 def test_a_browser_that_draws_slowly_gets_fewer_scenes(here: Running) -> None:

@@ -5,12 +5,12 @@ from contextlib import contextmanager
 
 import pytest
 
-from tests.dashboard.web.boards import Known
 from tests.dashboard.web.browsing import TestClient, WebSocketDenialResponse, WebSocketTestSession
+from tests.dashboard.web.known_source import Known
 from xavi_dialogue.dashboard.web import routes
-from xavi_dialogue.dashboard.web.auth import NO_TOKEN, SECURITY, Guard, Listen
+from xavi_dialogue.dashboard.web.auth import NO_TOKEN, SECURITY, ListenOptions, RequestGuard
 from xavi_dialogue.dashboard.web.middleware import FAULT, FETCHES, TRIES, VISITS
-from xavi_dialogue.dashboard.web.routes import MAX_BROWSERS, Site
+from xavi_dialogue.dashboard.web.routes import MAX_BROWSERS, WebApplication
 
 HERE = "http://127.0.0.1:8480"
 TOKEN = "0123456789abcdefghij"
@@ -18,9 +18,9 @@ ORIGIN = {"origin": HERE}
 WS = "ws://127.0.0.1:8480/ws"
 
 
-def client(board: Known | None = None, token: str | None = None) -> TestClient:
-    listen = Listen.read(":8480", token=token)
-    still = Site(board or Known(), Guard(listen, 8480), clock=lambda: 0.0)
+def client(source: Known | None = None, token: str | None = None) -> TestClient:
+    listen = ListenOptions.read(":8480", token=token)
+    still = WebApplication(source or Known(), RequestGuard(listen, 8480), clock=lambda: 0.0)
     return TestClient(still.app, base_url=HERE, follow_redirects=False)
 
 
@@ -81,11 +81,11 @@ def test_what_is_there(path: str, status: int, text: str) -> None:
     ids=lambda path: path[:30],
 )
 def test_what_is_no_name_is_not_asked_for(path: str) -> None:
-    board = Known()
-    found = client(board).get(path)
+    source = Known()
+    found = client(source).get(path)
     assert found.status_code == 404
     assert "script" not in found.text
-    assert board.calls == []
+    assert source.calls == []
 
 
 def test_the_page_is_there_and_is_kept_until_it_changes() -> None:
@@ -102,15 +102,15 @@ def test_the_page_is_there_and_is_kept_until_it_changes() -> None:
 
 
 def test_what_is_large_is_packed_for_who_can_read_that() -> None:
-    board = Known(past_said=b'{"ride":"' + b"a" * 300_000 + b'"}')
-    browser = client(board)
+    source = Known(past_said=b'{"ride":"' + b"a" * 300_000 + b'"}')
+    browser = client(source)
     packed = browser.get("/api/past", headers={"accept-encoding": "br, gzip;q=1.0, gzip"})
     assert packed.headers["content-encoding"] == "gzip"
     assert int(packed.headers["content-length"]) < 1000
-    assert packed.content == board.past_said
+    assert packed.content == source.past_said
     plain = browser.get("/api/past", headers={"accept-encoding": "identity"})
     assert "content-encoding" not in plain.headers
-    assert plain.content == board.past_said
+    assert plain.content == source.past_said
     assert packed.headers["vary"] == plain.headers["vary"] == "accept-encoding"
 
 
@@ -181,14 +181,14 @@ def test_documents_are_not_fetched_without_end() -> None:
 
 
 def test_a_browser_talks() -> None:
-    board = Known()
-    with talking(client(board)) as socket:
+    source = Known()
+    with talking(client(source)) as socket:
         socket.send_json({"type": "ask", "request": "r1", "text": "Why?"})
         assert socket.receive_json() == {"type": "answered", "request": "r1", "n": 0, "reply": None}
         socket.send_json({"type": "cancel", "request": "r1"})
         socket.send_json({"type": "suggest", "at": 1.0})
         assert socket.receive_json() == {"type": "suggestions", "t": 1.0, "questions": ["Why?"]}
-    assert [name for name, _ in board.calls] == ["greet", "ask", "cancel", "suggest", "left"]
+    assert [name for name, _ in source.calls] == ["greet", "ask", "cancel", "suggest", "left"]
 
 
 def test_a_board_that_fails_ends_neither_the_talk_nor_tells_why(
@@ -225,21 +225,21 @@ def test_what_is_no_text_ends_the_connection() -> None:
     ],
 )
 def test_a_stranger_gets_no_connection(headers: dict[str, str], status: int) -> None:
-    board = Known()
+    source = Known()
     with (
         pytest.raises(WebSocketDenialResponse) as caught,
-        client(board).websocket_connect(WS, headers=headers),
+        client(source).websocket_connect(WS, headers=headers),
     ):
         pass
     assert caught.value.status_code == status
     assert list(caught.value.json()) == ["error"]
     assert caught.value.headers["x-content-type-options"] == "nosniff"
-    assert board.calls == []
+    assert source.calls == []
 
 
 def test_there_are_not_too_many_browsers() -> None:
-    board, sockets = Known(), []
-    browser = client(board)
+    source, sockets = Known(), []
+    browser = client(source)
     with browser:
         for _ in range(MAX_BROWSERS):
             socket = talking(browser)
@@ -254,7 +254,7 @@ def test_there_are_not_too_many_browsers() -> None:
             pass
         for one in sockets:
             one.__exit__(None, None, None)
-    assert len(board.of("greet")) == len(board.of("left")) == MAX_BROWSERS + 1
+    assert len(source.of("greet")) == len(source.of("left")) == MAX_BROWSERS + 1
 
 
 def test_connections_are_not_made_without_end() -> None:

@@ -6,9 +6,14 @@ from typing import Any
 import msgspec
 import pytest
 
-from tests.dashboard.web.boards import STATUS, WELCOME, scene
+from tests.dashboard.web.known_source import STATUS, WELCOME, scene
 from xavi_dialogue.dashboard.web import client_session
-from xavi_dialogue.dashboard.web.client_session import MAX_IN_FLIGHT, MAX_WAITING, Viewer, pack
+from xavi_dialogue.dashboard.web.client_session import (
+    MAX_IN_FLIGHT,
+    MAX_WAITING,
+    ClientSession,
+    pack,
+)
 from xavi_dialogue.dashboard.web.websocket_messages import (
     MAX_INCOMING,
     Ask,
@@ -19,15 +24,15 @@ from xavi_dialogue.dashboard.web.websocket_messages import (
 )
 
 
-def viewer(*, browsers: int = 1) -> Viewer:
+def viewer(*, browsers: int = 1) -> ClientSession:
     """One that has been greeted and has read that."""
-    made = Viewer(0, 0.0, lambda: browsers)
+    made = ClientSession(0, 0.0, lambda: browsers)
     made.greet((WELCOME, STATUS))
     taken(made)
     return made
 
 
-def taken(one: Viewer, now: float = 0.0) -> list[dict[str, Any]]:
+def taken(one: ClientSession, now: float = 0.0) -> list[dict[str, Any]]:
     """All that is to be sent now."""
     found = []
     while (text := one.take(now)) is not None:
@@ -35,7 +40,7 @@ def taken(one: Viewer, now: float = 0.0) -> list[dict[str, Any]]:
     return found
 
 
-def kinds(one: Viewer, now: float = 0.0) -> list[str]:
+def kinds(one: ClientSession, now: float = 0.0) -> list[str]:
     return [message["type"] for message in taken(one, now)]
 
 
@@ -56,7 +61,7 @@ def ride(name: str, roads: str | None = None) -> Ride:
 
 
 def test_a_browser_is_greeted_first_and_told_its_own_status() -> None:
-    one = Viewer(0, 0.0, lambda: 7)
+    one = ClientSession(0, 0.0, lambda: 7)
     one.tell(trouble(1))
     assert one.take(0.0) is None
     one.greet((WELCOME, STATUS))
@@ -141,7 +146,7 @@ def test_dropped_scenes_are_told_once_a_second() -> None:
 
 def test_another_number_of_browsers_is_told() -> None:
     there = 1
-    one = Viewer(0, 0.0, lambda: there)
+    one = ClientSession(0, 0.0, lambda: there)
     one.greet((WELCOME, STATUS))
     taken(one)
     there = 2
@@ -175,7 +180,7 @@ def test_scenes_alone_never_send_a_browser_away() -> None:
 
 
 def test_a_greeting_may_be_as_long_as_it_is() -> None:
-    one = Viewer(0, 0.0)
+    one = ClientSession(0, 0.0)
     many = tuple(Trouble(request=None, text="x" * 100_000) for _ in range(100))
     one.greet((WELCOME, *many))
     one.tell(trouble(1))

@@ -7,7 +7,7 @@ import pytest
 from msgspec.structs import replace
 
 from planner.record.events import Event
-from tests.dialogue.state.test_states import MIND, PLANNED, RIDE
+from tests.dialogue.state.test_states import PIPELINE, PLANNED, RIDE
 from tests.fakes import again
 from xavi_dialogue.dialogue import manager
 from xavi_dialogue.dialogue.manager import advance, fold
@@ -34,7 +34,7 @@ FIRST = RIDE.traces[0]
 
 
 def drove(events: Iterable[Input] = ()) -> Dialogue:
-    return fold(MIND, [*map(TraceRecorded, RIDE.traces), *events])
+    return fold(PIPELINE, [*map(TraceRecorded, RIDE.traces), *events])
 
 
 def ask(text: str, name: str = "ada", request: str = "q") -> Asked:
@@ -54,8 +54,8 @@ def test_no_more_than_the_latest_are_kept(
 ) -> None:
     assert getattr(manager, bound) >= 100
     monkeypatch.setattr(manager, bound, 3)
-    kept = getattr(fold(MIND, map(make, range(5))), field)
-    whole = getattr(fold(MIND, map(make, range(2, 5))), field)
+    kept = getattr(fold(PIPELINE, map(make, range(5))), field)
+    whole = getattr(fold(PIPELINE, map(make, range(2, 5))), field)
     assert kept == whole
     assert len(kept) == 3
 
@@ -63,7 +63,7 @@ def test_no_more_than_the_latest_are_kept(
 def test_the_latest_turns_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     assert manager.MAX_TURNS == 400
     monkeypatch.setattr(manager, "MAX_TURNS", 2)
-    state = fold(MIND, map(ask, ("answer", "refuse", "huh")), drove())
+    state = fold(PIPELINE, map(ask, ("answer", "refuse", "huh")), drove())
     assert [turn.text for turn in state.session("ada").turns] == ["refuse", "huh"]
 
 
@@ -75,9 +75,9 @@ def test_bounds() -> None:
 def test_a_ride_is_named_by_its_first_trace() -> None:
     assert Dialogue().ride_id is None
     assert drove().ride_id == FIRST.trace_id
-    named = fold(MIND, [TraceRecorded(RIDE.traces[1], first="name"), TraceRecorded(FIRST)])
+    named = fold(PIPELINE, [TraceRecorded(RIDE.traces[1], first="name"), TraceRecorded(FIRST)])
     assert named.ride_id == "name"
-    state, (output,) = advance(MIND, named, ask("answer"))
+    state, (output,) = advance(PIPELINE, named, ask("answer"))
     assert isinstance(output, Answered)
     assert output.turn is not None
     assert output.turn.ride == "name"
@@ -106,12 +106,12 @@ def test_what_was_known_earlier_is_part_of_what_is_known_now() -> None:
 
 
 def round_of(state: Dialogue, number: int) -> tuple[Dialogue, Any]:
-    state, (output,) = advance(MIND, state, RolloutsArrived("q", "ada", PLANNED[number]))
+    state, (output,) = advance(PIPELINE, state, RolloutsArrived("q", "ada", PLANNED[number]))
     return state, output
 
 
 def test_planning_again_ends_after_some_rounds() -> None:
-    state, (output,) = advance(MIND, drove(), ask("lack forever"))
+    state, (output,) = advance(PIPELINE, drove(), ask("lack forever"))
     for number in range(manager.MAX_ROUNDS):
         assert isinstance(output, RolloutsWanted)
         assert output.need.rollouts == number + 1
@@ -127,11 +127,11 @@ def test_what_was_planned_again_is_used_at_once() -> None:
     need = NeedRollout(FIRST.trace_id, rollouts=1)
     state = drove([PlannedAhead(need, PLANNED[0])])
     assert state.planned == {need: PLANNED[0]}
-    state, (output,) = advance(MIND, state, ask("lack"))
+    state, (output,) = advance(PIPELINE, state, ask("lack"))
     assert isinstance(output, Answered)
     assert output.reply.kind == "answer"
     # Two were needed: the second one has to be planned.
-    _, (output,) = advance(MIND, state, ask("lack more"))
+    _, (output,) = advance(PIPELINE, state, ask("lack more"))
     assert isinstance(output, RolloutsWanted)
     assert output.need.rollouts == 2
 
@@ -153,21 +153,21 @@ def test_no_more_than_the_latest_plans_are_known(monkeypatch: pytest.MonkeyPatch
     ],
 )
 def test_only_what_was_wanted_is_taken(trace: Any) -> None:
-    state, _ = advance(MIND, drove(), ask("lack"))
+    state, _ = advance(PIPELINE, drove(), ask("lack"))
     with pytest.raises(IllegalEvent, match="not those that were needed"):
-        advance(MIND, state, RolloutsArrived("q", "ada", trace))
+        advance(PIPELINE, state, RolloutsArrived("q", "ada", trace))
 
 
 def test_another_decision_than_the_one_needed_is_not_taken() -> None:
     need = NeedRollout(RIDE.traces[1].trace_id, rollouts=1)
     with pytest.raises(IllegalEvent):
-        advance(MIND, drove(), PlannedAhead(need, PLANNED[0]))
+        advance(PIPELINE, drove(), PlannedAhead(need, PLANNED[0]))
 
 
 def test_plans_that_cannot_be_had_are_refused_with_the_reason() -> None:
-    state, _ = advance(MIND, drove(), ask("lack more"))
+    state, _ = advance(PIPELINE, drove(), ask("lack more"))
     state, _ = round_of(state, 0)
-    state, (output,) = advance(MIND, state, RolloutsFailed("q", "ada", "timed-out"))
+    state, (output,) = advance(PIPELINE, state, RolloutsFailed("q", "ada", "timed-out"))
     assert isinstance(output, Answered)
     assert (output.reply.kind, output.reply.reason) == ("refusal", "timed-out")
     assert state.session("ada").pending is None
@@ -175,24 +175,24 @@ def test_plans_that_cannot_be_had_are_refused_with_the_reason() -> None:
 
 @pytest.mark.parametrize("make", [Cancelled, lambda q, name: RolloutsFailed(q, name, "timed-out")])
 def test_only_the_request_that_waits_can_be_ended(make: Any) -> None:
-    state, _ = advance(MIND, drove(), ask("lack"))
+    state, _ = advance(PIPELINE, drove(), ask("lack"))
     with pytest.raises(IllegalEvent, match="waits for nothing"):
-        advance(MIND, state, make("another", "ada"))
-    state, _ = advance(MIND, state, make("q", "ada"))
+        advance(PIPELINE, state, make("another", "ada"))
+    state, _ = advance(PIPELINE, state, make("q", "ada"))
     assert state.session("ada").phase is Phase.LISTENING
 
 
 def test_a_question_that_was_cancelled_leaves_nothing() -> None:
-    state, _ = advance(MIND, drove(), ask("lack"))
-    state, outputs = advance(MIND, state, Cancelled("q", "ada"))
+    state, _ = advance(PIPELINE, drove(), ask("lack"))
+    state, outputs = advance(PIPELINE, state, Cancelled("q", "ada"))
     assert outputs == ()
     assert state.sessions == {}
     assert state.session("ada") == Session()
 
 
 def test_who_asks_meanwhile_is_turned_away() -> None:
-    state, _ = advance(MIND, drove(), ask("lack"))
-    state, (output,) = advance(MIND, state, ask("answer", request="other"))
+    state, _ = advance(PIPELINE, drove(), ask("lack"))
+    state, (output,) = advance(PIPELINE, state, ask("answer", request="other"))
     assert isinstance(output, Answered)
     assert (output.request, output.reply.reason) == ("other", "busy")
     assert output.turn is not None
@@ -204,12 +204,12 @@ def test_who_asks_meanwhile_is_turned_away() -> None:
 
 
 def test_conversations_do_not_meet() -> None:
-    state = fold(MIND, [ask("either"), ask("answer", "bob")], drove())
+    state = fold(PIPELINE, [ask("either"), ask("answer", "bob")], drove())
     assert state.session("ada").phase is Phase.CHOOSING
     assert state.session("bob").phase is Phase.LISTENING
-    state = fold(MIND, [TurnedAway(ask("answer"), "planner-unavailable")], state)
+    state = fold(PIPELINE, [TurnedAway(ask("answer"), "planner-unavailable")], state)
     assert state.session("ada").phase is Phase.CHOOSING
     assert [turn.turned_away for turn in state.session("ada").turns] == [False, True]
-    _, (output,) = advance(MIND, state, ask("the second"))
+    _, (output,) = advance(PIPELINE, state, ask("the second"))
     assert isinstance(output, Answered)
     assert output.reply.reason == "too-little-evidence"

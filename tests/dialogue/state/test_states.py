@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.scene import Scene
-from tests.dialogue.scripted import scripted_mind
+from tests.dialogue.scripted import scripted_pipeline
 from tests.fakes import again
 from tests.traces import s1_ride
 from xavi_dialogue.dialogue.manager import MAX_ROUNDS, MAX_SCENES, advance, fold
@@ -46,13 +46,13 @@ from xavi_dialogue.transcripts.state_diagram import drawn
 
 ROOT = Path(__file__).resolve().parents[3]
 RIDE = s1_ride(draws=20)
-MIND = scripted_mind()
+PIPELINE = scripted_pipeline()
 
 
 def turns_of(*texts: str) -> tuple[Turn, ...]:
     """The turns of a conversation in which these were asked."""
-    state = fold(MIND, map(TraceRecorded, RIDE.traces))
-    state = fold(MIND, (Asked("q", "ada", text, 7.0) for text in texts), state)
+    state = fold(PIPELINE, map(TraceRecorded, RIDE.traces))
+    state = fold(PIPELINE, (Asked("q", "ada", text, 7.0) for text in texts), state)
     return state.session("ada").turns
 
 
@@ -123,11 +123,11 @@ def test_the_diagram_shows_every_transition() -> None:
 
 @given(st.lists(inputs, max_size=25))
 def test_any_row_of_inputs_ends_in_a_legal_state(row: list[Input]) -> None:
-    state = fold(MIND, map(TraceRecorded, RIDE.traces))
+    state = fold(PIPELINE, map(TraceRecorded, RIDE.traces))
     legal: list[Input] = []
     for one in row:
         try:
-            after_it, outputs = advance(MIND, state, one)
+            after_it, outputs = advance(PIPELINE, state, one)
         except IllegalEvent:
             continue
         legal.append(one)
@@ -141,7 +141,7 @@ def test_any_row_of_inputs_ends_in_a_legal_state(row: list[Input]) -> None:
             assert session.phase is not Phase.CHOOSING or kept[-1].offer is not None
             assert session.phase is not Phase.QUIZZING or kept[-1].quiz is not None
         state = after_it
-    assert fold(MIND, [*map(TraceRecorded, RIDE.traces), *legal]) == state
+    assert fold(PIPELINE, [*map(TraceRecorded, RIDE.traces), *legal]) == state
 
 
 @given(st.lists(inputs, max_size=12), inputs)
@@ -149,10 +149,10 @@ def test_the_state_before_an_input_is_left_as_it_was(row: list[Input], last: Inp
     state = Dialogue()
     for one in row:
         with contextlib.suppress(IllegalEvent):
-            state, _ = advance(MIND, state, one)
+            state, _ = advance(PIPELINE, state, one)
     before = (state.ride, state.traces, state.events, dict(state.sessions), dict(state.planned))
     with contextlib.suppress(IllegalEvent):
-        advance(MIND, state, last)
+        advance(PIPELINE, state, last)
     after = (state.ride, state.traces, state.events, dict(state.sessions), dict(state.planned))
     assert after == before
 
@@ -161,37 +161,39 @@ def test_the_state_before_an_input_is_left_as_it_was(row: list[Input], last: Inp
 def test_a_conversation_that_is_resumed_goes_on_as_it_would_have(
     before: list[str], later: list[str]
 ) -> None:
-    began = fold(MIND, map(TraceRecorded, RIDE.traces))
+    began = fold(PIPELINE, map(TraceRecorded, RIDE.traces))
     asked = [Asked("q", "ada", text, 7.0) for text in before if not text.startswith("lack")]
-    lived = fold(MIND, asked, began)
+    lived = fold(PIPELINE, asked, began)
     stored = [msgspec.json.encode(turn) for turn in lived.session("ada").turns]
     turns = tuple(msgspec.json.decode(line, type=Turn) for line in stored)
-    resumed = fold(MIND, [Resumed("ada", turns)], began)
+    resumed = fold(PIPELINE, [Resumed("ada", turns)], began)
     assert resumed.session("ada") == lived.session("ada")
     more = [Asked("q", "ada", text, 7.0) for text in later if not text.startswith("lack")]
-    gone_on = [fold(MIND, more, state).session("ada") for state in (resumed, lived)]
+    gone_on = [fold(PIPELINE, more, state).session("ada") for state in (resumed, lived)]
     assert gone_on[0] == gone_on[1]
 
 
 def test_a_conversation_is_resumed_before_it_goes_on_and_not_after() -> None:
-    state = fold(MIND, [*map(TraceRecorded, RIDE.traces), Asked("q", "ada", "answer", 7.0)])
+    state = fold(PIPELINE, [*map(TraceRecorded, RIDE.traces), Asked("q", "ada", "answer", 7.0)])
     with pytest.raises(IllegalEvent, match="resumed"):
-        advance(MIND, state, Resumed("ada", TURNS))
+        advance(PIPELINE, state, Resumed("ada", TURNS))
 
 
 def test_what_was_offered_about_another_ride_is_void() -> None:
-    state = fold(MIND, [TraceRecorded(RIDE.traces[1]), Resumed("ada", TURNS)])
+    state = fold(PIPELINE, [TraceRecorded(RIDE.traces[1]), Resumed("ada", TURNS)])
     assert state.session("ada").phase is Phase.LISTENING
     assert state.session("ada").turns == TURNS
 
 
 def test_a_forgotten_conversation_begins_anew() -> None:
-    state = fold(MIND, [*map(TraceRecorded, RIDE.traces), Resumed("ada", TURNS), Forgotten("ada")])
+    state = fold(
+        PIPELINE, [*map(TraceRecorded, RIDE.traces), Resumed("ada", TURNS), Forgotten("ada")]
+    )
     assert state.session("ada") == Session()
 
 
 def test_the_record_holds_what_was_seen_last_up_to_its_moment() -> None:
-    state = fold(MIND, map(SceneSeen, [*SCENES, SCENES[0]]))
+    state = fold(PIPELINE, map(SceneSeen, [*SCENES, SCENES[0]]))
     assert [scene.time for scene in state.scenes] == [4.0, 6.5, 3.9]
     assert [state.record(at).scene for at in (3.0, 4.2, 7.0)] == [None, SCENES[1], SCENES[2]]
     assert up_to(state.record(7.0), 5.0).scene is None
@@ -199,5 +201,5 @@ def test_the_record_holds_what_was_seen_last_up_to_its_moment() -> None:
 
 def test_no_more_than_the_latest_scenes_are_kept() -> None:
     seen = (Scene(k / 10.0, RIDE.traces[0].scene) for k in range(3 * MAX_SCENES))
-    state = fold(MIND, map(SceneSeen, seen))
+    state = fold(PIPELINE, map(SceneSeen, seen))
     assert [state.scenes[0].time, len(state.scenes)] == [2 * MAX_SCENES / 10.0, MAX_SCENES]

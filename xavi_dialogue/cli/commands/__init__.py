@@ -1,1 +1,1 @@
-"""The commands of `xavi`, by what they are about; each imports what it needs when it runs."""
+"""The commands of `xavi`, by topic; each imports what it needs when it runs."""

@@ -21,9 +21,9 @@ from xavi_dialogue.cli.commands.common import (
     KeepDays,
     Seed,
     SessionName,
-    Shell,
     SpeedFactor,
     StoreFile,
+    Streams,
     Vehicle,
     ZenohFile,
     place,
@@ -31,10 +31,10 @@ from xavi_dialogue.cli.commands.common import (
 from xavi_dialogue.cli.commands.sessions import keeping_in, typed_file
 
 if TYPE_CHECKING:
-    from xavi_dialogue.chat.remote_backend import There
+    from xavi_dialogue.chat.remote_backend import RemoteCar
     from xavi_dialogue.dialogue.reply import Reply
     from xavi_dialogue.security.client_token import Passenger
-    from xavi_dialogue.storage.turn_log import Keeping
+    from xavi_dialogue.storage.turn_log import Retention
 
 DEFAULT_SCENARIO = "s1"
 
@@ -47,13 +47,13 @@ Share = Annotated[
 ]
 
 
-def add(app: typer.Typer, shell: Shell) -> None:
+def add(app: typer.Typer, shell: Streams) -> None:
     """Add the commands."""
     app.command("chat")(_chat(shell))
     app.command("ask")(_ask(shell))
 
 
-def _chat(shell: Shell) -> Callable[..., None]:
+def _chat(shell: Streams) -> Callable[..., None]:
     def chat(
         scenario: AnyScenario = None,
         seed: Seed = None,
@@ -84,8 +84,8 @@ def _chat(shell: Shell) -> Callable[..., None]:
             keeping = keeping_in(store, keep_days)
             there = there_of(connect, zenoh, vehicle)
             if there is None:
-                taped = None if record is None else _Tape(record, force)
-                _drive(shell, scenario, seed, speed, session, as_json, keeping, share, taped)
+                recording = None if record is None else _RecordingOptions(record, force)
+                _drive(shell, scenario, seed, speed, session, as_json, keeping, share, recording)
                 return
             alone(scenario=scenario, seed=seed, speed=speed, record=record, force=force or None)
             _ride_along(shell, there, session, as_json, keeping, share)
@@ -93,14 +93,14 @@ def _chat(shell: Shell) -> Callable[..., None]:
     return chat
 
 
-class _Tape:
-    """Where a ride is recorded."""
+class _RecordingOptions:
+    """The file that a ride is recorded in."""
 
     def __init__(self, path: Path, overwrite: bool) -> None:
         """Make sure that nothing is lost.
 
         Raises:
-            BadParameter: the file is there already, and is not to be overwritten.
+            BadParameter: the file exists, and must not be overwritten.
         """
         if path.exists() and not overwrite:
             raise typer.BadParameter(f"{path} is there already; --force overwrites it")
@@ -108,18 +108,18 @@ class _Tape:
 
 
 def _drive(
-    shell: Shell,
+    shell: Streams,
     scenario: str | None,
     seed: int | None,
     speed: float | None,
     session: str | None,
     as_json: bool,
-    keeping: "Keeping | None",
+    keeping: "Retention | None",
     share: bool,
-    tape: _Tape | None,
+    recording: _RecordingOptions | None,
 ) -> None:
     """Talk in a car of one's own."""
-    from xavi_dialogue.chat.main import Ride, at_terminal, through_pipe
+    from xavi_dialogue.chat.main import ChatOptions, at_terminal, through_pipe
     from xavi_dialogue.storage import resume
 
     going = resume.fresh(datetime.now().astimezone(), token_hex(2))
@@ -131,9 +131,9 @@ def _drive(
     if session is None or keeping is None or going.before is not None:
         shell.note(going.note(at, keeping))
     passenger = passenger_of(going.session, share, kept=keeping is not None)
-    ride = Ride(loaded.place, loaded.name, seed, passenger, keeping, at)
-    if tape is not None:
-        ride = replace(ride, record=tape.path, overwrite=tape.overwrite)
+    ride = ChatOptions(loaded.place, loaded.name, seed, passenger, keeping, at)
+    if recording is not None:
+        ride = replace(ride, record=recording.path, overwrite=recording.overwrite)
     if _terminal(as_json):
         pace = 1.0 if speed is None else speed
         at_terminal(ride, typed_file(), shell.note, speed=pace)
@@ -143,16 +143,16 @@ def _drive(
 
 
 def _ride_along(
-    shell: Shell,
-    there: "There",
+    shell: Streams,
+    there: "RemoteCar",
     session: str | None,
     as_json: bool,
-    keeping: "Keeping | None",
+    keeping: "Retention | None",
     share: bool,
 ) -> None:
     """Talk in a car that others drive."""
     from xavi_dialogue.chat import remote_backend
-    from xavi_dialogue.chat.interactive import Typed
+    from xavi_dialogue.chat.interactive import InputHistoryOptions
     from xavi_dialogue.storage import resume
 
     if session is None:
@@ -160,7 +160,7 @@ def _ride_along(
         shell.note(f"this conversation is {session}: --session {session} goes on with it")
     passenger = passenger_of(session, share)
     if _terminal(as_json):
-        typed = Typed(typed_file(), None if keeping is None else keeping.days)
+        typed = InputHistoryOptions(typed_file(), None if keeping is None else keeping.days)
         remote_backend.at_terminal(there, passenger, typed, shell.note)
     else:
         lines = shell.lines()
@@ -169,7 +169,7 @@ def _ride_along(
         )
 
 
-def _ask(shell: Shell) -> Callable[..., None]:
+def _ask(shell: Streams) -> Callable[..., None]:
     def ask(
         text: str,
         scenario: AnyScenario = None,
@@ -198,7 +198,7 @@ def _ask(shell: Shell) -> Callable[..., None]:
             loaded = shell.load(asked or DEFAULT_SCENARIO)
             return ask_once(loaded, loaded.seed if seed is None else seed, text, at, style)
 
-        def under_way(there: "There") -> "Reply":
+        def under_way(there: "RemoteCar") -> "Reply":
             from xavi_dialogue.chat.remote_backend import ask_there
             from xavi_dialogue.storage import resume
 
@@ -216,21 +216,21 @@ def _ask(shell: Shell) -> Callable[..., None]:
     return ask
 
 
-def there_of(connect: str | None, zenoh: Path | None, vehicle: str) -> "There | None":
-    """Whom to talk with; None: nobody is named."""
+def there_of(connect: str | None, zenoh: Path | None, vehicle: str) -> "RemoteCar | None":
+    """Return the car to talk with; None: none was named."""
     if connect is None and zenoh is None:
         return None
     from xavi_dialogue.bus.link import Link
-    from xavi_dialogue.chat.remote_backend import There
+    from xavi_dialogue.chat.remote_backend import RemoteCar
     from xavi_dialogue.security.preflight import check
 
     link = Link.to_hub(connect, zenoh)
     check(link, "ask")
-    return There(link, vehicle)
+    return RemoteCar(link, vehicle)
 
 
 def alone(**given: object) -> None:
-    """Refuse what is about a car of one's own."""
+    """Reject options that need a car of the chat's own."""
     for name, value in given.items():
         if value is not None:
             raise typer.BadParameter(
@@ -239,12 +239,12 @@ def alone(**given: object) -> None:
 
 
 def passenger_of(session: str, share: bool, *, kept: bool = True) -> "Passenger":
-    """As whom to talk: with the token that this user has for a conversation.
+    """Return the passenger, with this user's token for a conversation.
 
     Args:
         session: name of the conversation.
-        share: others may read it.
-        kept: whether the user's secret is, where there is none yet.
+        share: whether others may read it.
+        kept: whether to write the user's secret if there is none yet.
     """
     from xavi_dialogue.security.client_token import Passenger, default_path, own_secret, token_of
 

@@ -1,4 +1,4 @@
-"""What commands share: where they write, how faults are told, and their common options."""
+"""Shared by commands: output streams, error reports, and common options."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -17,16 +17,16 @@ KEEP_DAYS = 30
 
 
 @dataclass(frozen=True)
-class Shell:
+class Streams:
     """The process's streams."""
 
-    errors: Callable[[], AbstractContextManager[None]]  # around what may fail: one line, a status
+    errors: Callable[[], AbstractContextManager[None]]  # reports errors in one line
     write: Callable[[str], None]  # to standard output
     note: Callable[[str], None]  # to standard error
     lines: Callable[[], Iterator[str]]  # of standard input, whatever bytes they hold
 
     def load(self, name: str, *, told: bool = False) -> "Scenario":
-        """Load a scenario, and tell its warnings unless the process that started this one did."""
+        """Load a scenario, and print its warnings unless the parent process did."""
         from sim.setup.scenario import load
 
         scenario = load(name)
@@ -42,7 +42,7 @@ def place(
     destination: str | None,
     begin: float | None,
 ) -> str | None:
-    """The scenario as one text, which says who the ego is, too."""
+    """Return the scenario as text for child processes, with its ego."""
     asked = {"ego": ego, "from": origin, "to": destination, "begin": begin}
     wishes = {key: str(value) for key, value in asked.items() if value is not None}
     if not wishes:

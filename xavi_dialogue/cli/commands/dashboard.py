@@ -19,9 +19,9 @@ from xavi_dialogue.cli.commands.common import (
     KeepDays,
     Seed,
     SessionName,
-    Shell,
     SpeedFactor,
     StoreFile,
+    Streams,
     Vehicle,
     ZenohFile,
     place,
@@ -30,9 +30,9 @@ from xavi_dialogue.cli.commands.log_options import logged
 from xavi_dialogue.cli.commands.sessions import keeping_in
 
 if TYPE_CHECKING:
-    from xavi_dialogue.chat.main import Ride
+    from xavi_dialogue.chat.main import ChatOptions
     from xavi_dialogue.security.client_token import Passenger
-    from xavi_dialogue.storage.turn_log import Keeping
+    from xavi_dialogue.storage.turn_log import Retention
 
 ListenAt = Annotated[
     str | None,
@@ -65,12 +65,12 @@ Played = Annotated[
 Opens = Annotated[bool, typer.Option("--open/--no-open", help="Open the page in a browser.")]
 
 
-def add(app: typer.Typer, shell: Shell) -> None:
+def add(app: typer.Typer, shell: Streams) -> None:
     """Add the command."""
     app.command("dashboard")(logged("dashboard")(_dashboard(shell)))
 
 
-def _dashboard(shell: Shell) -> Callable[..., None]:
+def _dashboard(shell: Streams) -> Callable[..., None]:
     def dashboard(
         scenario: AnyScenario = None,
         seed: Seed = None,
@@ -96,40 +96,40 @@ def _dashboard(shell: Shell) -> Callable[..., None]:
         A car of your own, a recording, or with --connect or --zenoh a car that is under way.
         """
         from xavi_dialogue.bus.link import Link
-        from xavi_dialogue.dashboard.main import Task, run
-        from xavi_dialogue.dashboard.web.address import Listen
+        from xavi_dialogue.dashboard.main import DashboardOptions, run
+        from xavi_dialogue.dashboard.web.address import ListenOptions
         from xavi_dialogue.security.preflight import check
         from xavi_dialogue.storage import resume
 
         with shell.errors():
             scenario = place(scenario, ego, ego_from, ego_to, begin)
-            where = Listen.read(listen, token=token, names=tuple(host_name or ()))
+            where = ListenOptions.read(listen, token=token, names=tuple(host_name or ()))
             going = resume.fresh(datetime.now().astimezone(), token_hex(2))
             passenger = passenger_of(session or going.session, share=False)
             if connect is not None or zenoh is not None:
                 alone(scenario=scenario, seed=seed, speed=speed, replay=replay)
                 link = Link.to_hub(connect, zenoh)
                 check(link, "show a car")
-                task = Task(where, vehicle, passenger, link, opens=opens)
+                task = DashboardOptions(where, vehicle, passenger, link, opens=opens)
             else:
                 own = _own(shell, scenario, seed, replay, passenger, keeping_in(store, keep_days))
                 pace = 1.0 if speed is None else speed
-                task = Task(where, "car", passenger, own, speed=pace, opens=opens)
+                task = DashboardOptions(where, "car", passenger, own, speed=pace, opens=opens)
             run(task, shell.note)
 
     return dashboard
 
 
 def _own(
-    shell: Shell,
+    shell: Streams,
     scenario: str | None,
     seed: int | None,
     replay: Path | None,
     passenger: "Passenger",
-    keeping: "Keeping | None",
-) -> "Ride":
-    """What to drive, or to play."""
-    from xavi_dialogue.chat.main import Ride
+    keeping: "Retention | None",
+) -> "ChatOptions":
+    """Make the options of the ride to drive or play."""
+    from xavi_dialogue.chat.main import ChatOptions
     from xavi_dialogue.storage.mcap_file import read
     from xavi_dialogue.storage.resume import find
 
@@ -140,9 +140,9 @@ def _own(
         at = going.moment(loaded, chosen)
         if going.before is not None:
             shell.note(going.note(at, keeping))
-        return Ride(loaded.place, loaded.name, chosen, passenger, keeping, at)
+        return ChatOptions(loaded.place, loaded.name, chosen, passenger, keeping, at)
     if scenario is not None or seed is not None:
         raise typer.BadParameter("a recording has its own scenario and seed; leave out --replay")
-    next(read(replay), None)  # raises at once where it is no recording
+    next(read(replay), None)  # raises at once if it is no recording
     played = ("replay", str(replay.absolute()), "--vehicle", "car")
-    return Ride(replay.name, replay.name, 0, passenger, keeping, played=played)
+    return ChatOptions(replay.name, replay.name, 0, passenger, keeping, played=played)

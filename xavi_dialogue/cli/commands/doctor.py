@@ -1,4 +1,4 @@
-"""The command `xavi doctor`: what is wrong, and what to do about it."""
+"""The command `xavi doctor`: finds problems and says how to solve them."""
 
 import sys
 from collections.abc import Callable, Iterable, Iterator
@@ -6,7 +6,14 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from xavi_dialogue.cli.commands.common import AsJson, Connect, Shell, StoreFile, ZenohFile, to_json
+from xavi_dialogue.cli.commands.common import (
+    AsJson,
+    Connect,
+    StoreFile,
+    Streams,
+    ZenohFile,
+    to_json,
+)
 from xavi_dialogue.cli.commands.sessions import store_file
 from xavi_dialogue.process.exit_status import ExitStatus
 
@@ -14,12 +21,12 @@ if TYPE_CHECKING:
     from xavi_dialogue.cli.host_checks import Finding
 
 
-def add(app: typer.Typer, shell: Shell) -> None:
+def add(app: typer.Typer, shell: Streams) -> None:
     """Add the command."""
     app.command("doctor")(_doctor(shell))
 
 
-def _doctor(shell: Shell) -> Callable[..., None]:
+def _doctor(shell: Streams) -> Callable[..., None]:
     def doctor(
         context: typer.Context,
         connect: Connect = None,
@@ -27,18 +34,18 @@ def _doctor(shell: Shell) -> Callable[..., None]:
         store: StoreFile = None,
         as_json: AsJson = False,
     ) -> None:
-        """Look for what is wrong with this machine, or on a bus; say what to do about it."""
+        """Find problems of this machine or of a bus; say how to solve them."""
         from datetime import UTC, datetime
 
         from xavi_dialogue.bus.link import Link
         from xavi_dialogue.cli.bus_checks import examine, told
-        from xavi_dialogue.cli.host_checks import Patient
+        from xavi_dialogue.cli.host_checks import CheckedSystem
         from xavi_dialogue.process import config
 
         with shell.errors():
-            mistake = context.obj  # what is wrong with the settings, see __main__
+            mistake = context.obj  # errors in the settings, see __main__
             given = (context.parent or context).params.get("config")
-            patient = Patient(
+            patient = CheckedSystem(
                 store=store_file(store),
                 settings=given or config.default_path(),
                 mistake=None if mistake is None else str(mistake),
@@ -58,13 +65,13 @@ def _doctor(shell: Shell) -> Callable[..., None]:
 
 
 def _printable(text: str) -> str:
-    """A text as standard output can show it, whatever its encoding: that may be what is wrong."""
+    """Convert a text to the encoding of standard output, which may be the problem."""
     encoding = sys.stdout.encoding or "ascii"
     return text.encode(encoding, errors="backslashreplace").decode(encoding)
 
 
 def _kept(coming: "Iterable[Finding]", findings: "list[Finding]") -> "Iterator[Finding]":
-    """What comes, which is also put into a list: each is told as soon as it is known."""
+    """Yield each finding as soon as it is known, and collect it in a list."""
     for finding in coming:
         findings.append(finding)
         yield finding

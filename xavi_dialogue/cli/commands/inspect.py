@@ -1,4 +1,4 @@
-"""The commands that show what there is: questions, scenarios, transcripts and decisions."""
+"""Commands that show questions, scenarios, transcripts and decisions."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -12,14 +12,14 @@ from xavi_dialogue.cli.commands.common import (
     EgoFrom,
     EgoId,
     EgoTo,
-    Shell,
+    Streams,
     place,
     to_json,
 )
 from xavi_dialogue.process.exit_status import ExitStatus
 
 
-def add(app: typer.Typer, shell: Shell) -> None:
+def add(app: typer.Typer, shell: Streams) -> None:
     """Add the commands."""
     app.command("parse")(_parse(shell))
     app.command("scenarios")(_scenarios(shell))
@@ -37,7 +37,7 @@ def add(app: typer.Typer, shell: Shell) -> None:
     app.add_typer(traces, name="trace")
 
 
-def _parse(shell: Shell) -> Callable[..., None]:
+def _parse(shell: Streams) -> Callable[..., None]:
     def parse(
         text: Annotated[str | None, typer.Argument()] = None,
         jsonl: Annotated[bool, typer.Option("--jsonl", help="Read question lines.")] = False,
@@ -64,7 +64,7 @@ def _parse(shell: Shell) -> Callable[..., None]:
     return parse
 
 
-def _scenarios(shell: Shell) -> Callable[..., None]:
+def _scenarios(shell: Streams) -> Callable[..., None]:
     def scenarios(as_json: AsJson = False) -> None:
         """List the scenarios that come with the program."""
         from sim.setup.scenario import descriptions
@@ -86,7 +86,7 @@ def _nothing() -> None:
     """Write scenario folders."""
 
 
-def _scenario_new(shell: Shell) -> Callable[..., None]:
+def _scenario_new(shell: Streams) -> Callable[..., None]:
     def new(
         configuration: Annotated[Path, typer.Argument(metavar="FILE.sumocfg")],
         folder: Annotated[Path, typer.Argument(metavar="FOLDER")],
@@ -110,7 +110,7 @@ def _scenario_new(shell: Shell) -> Callable[..., None]:
     return new
 
 
-def _transcripts(shell: Shell) -> Callable[..., None]:
+def _transcripts(shell: Streams) -> Callable[..., None]:
     def transcripts(
         accept: Annotated[bool, typer.Option("--accept", help="Rewrite what differs.")] = False,
         covered: Annotated[
@@ -120,7 +120,7 @@ def _transcripts(shell: Shell) -> Callable[..., None]:
             "transcripts"
         ),
     ) -> None:
-        """Replay the golden conversations in SUMO; show, or accept, what differs."""
+        """Replay the golden conversations in SUMO; show differences, or accept them."""
         from xavi_dialogue.transcripts.replay import replay_all, transcripts_in
 
         if covered:
@@ -137,7 +137,7 @@ def _transcripts(shell: Shell) -> Callable[..., None]:
     return transcripts
 
 
-def _trace_show(shell: Shell) -> Callable[..., None]:
+def _trace_show(shell: Streams) -> Callable[..., None]:
     def trace_show(
         file: Annotated[
             str, typer.Argument(help="A trace or a ride, gzipped or not; - for stdin.")

@@ -1,4 +1,4 @@
-"""The command `xavi keys`: certificates for a bus that asks everybody who they are."""
+"""The command `xavi keys`: makes certificates for a bus with access control."""
 
 import shlex
 from collections.abc import Callable
@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from xavi_dialogue.cli.commands.common import Shell
+from xavi_dialogue.cli.commands.common import Streams
 
 if TYPE_CHECKING:
     from datetime import datetime
 
-    from xavi_dialogue.security.provisioning import Wanted
+    from xavi_dialogue.security.provisioning import KeyOptions
 
 
-def add(app: typer.Typer, shell: Shell) -> None:
+def add(app: typer.Typer, shell: Streams) -> None:
     """Add the command."""
     app.command("keys")(_keys(shell))
 
 
-def _keys(shell: Shell) -> Callable[..., None]:
+def _keys(shell: Streams) -> Callable[..., None]:
     def keys(
         folder: Annotated[Path, typer.Argument(help="Where to write them; a folder of their own.")],
         host: Annotated[
@@ -53,7 +53,7 @@ def _keys(shell: Shell) -> Callable[..., None]:
             bool, typer.Option("--force", help="Replace all the keys that are there.")
         ] = False,
     ) -> None:
-        """Make keys for a bus on which everybody may do only what their role allows."""
+        """Make keys for a bus on which every component may do only what its role permits."""
         from xavi_dialogue.bus.certificates import utc_now
         from xavi_dialogue.security.provisioning import keep, material, wanted
 
@@ -66,8 +66,8 @@ def _keys(shell: Shell) -> Callable[..., None]:
     return keys
 
 
-def _told(order: "Wanted", folder: Path, now: "datetime", vehicle: str | None) -> str:
-    """What was written, and what to run next."""
+def _told(order: "KeyOptions", folder: Path, now: "datetime", vehicle: str | None) -> str:
+    """List the written files, and the next commands to run."""
     ends = (now + order.valid).date().isoformat()
     width = max(len(one.common_name) for one in order.members)
     lines = [f"Keys in {folder}, valid until {ends}; the hub is at {order.connect}."]

@@ -1,4 +1,4 @@
-"""The options of commands that log: how, from which level on, and whether with what is said."""
+"""Options of commands that log: format, level, and whether to log what passengers say."""
 
 import functools
 import inspect
@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from xavi_dialogue.cli.commands.common import Shell
+from xavi_dialogue.cli.commands.common import Streams
 
 Form = Annotated[
     Literal["text", "json", "off"],
@@ -32,8 +32,8 @@ _OPTIONS: tuple[tuple[str, Any, object], ...] = (
 )
 
 
-def own_name(shell: Shell) -> Callable[[dict[str, Any]], None]:
-    """Settles the name of a car on the bus; see badge.own_name."""
+def own_name(shell: Streams) -> Callable[[dict[str, Any]], None]:
+    """Sets the name of a car on the bus; see preflight.own_name."""
 
     def settle(given: dict[str, Any]) -> None:
         if given["zenoh"] is None:
@@ -51,22 +51,22 @@ def own_name(shell: Shell) -> Callable[[dict[str, Any]], None]:
 def logged(
     component: str, settle: Callable[[dict[str, Any]], None] = lambda _: None
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Give a command the options about its log, and begin to log before it runs.
+    """Add log options to a command, and begin to log before it runs.
 
     Args:
         component: as which it logs: car, service, recorder, ...
-        settle: completes what it was given, before anything is logged.
+        settle: completes the options before anything is logged.
     """
 
     def give(command: Callable[..., None]) -> Callable[..., None]:
         @functools.wraps(command)
         def run(*arguments: Any, **named: Any) -> None:
-            from xavi_dialogue.process.log_setup import Telling, begin
+            from xavi_dialogue.process.log_setup import LogOptions, begin
 
             form, level, dialogue = (named.pop(name) for name, _, _ in _OPTIONS)
             settle(named)
             vehicle = named.get("vehicle")
-            begin(sys.stderr, Telling(form, level, component, vehicle, dialogue))
+            begin(sys.stderr, LogOptions(form, level, component, vehicle, dialogue))
             command(*arguments, **named)
 
         # typer reads a command's options off its signature and annotations.

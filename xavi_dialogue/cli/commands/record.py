@@ -18,9 +18,9 @@ from xavi_dialogue.cli.commands.common import (
     KeepDays,
     PlayedVehicle,
     SessionName,
-    Shell,
     SpeedFactor,
     StoreFile,
+    Streams,
     Vehicle,
     ZenohFile,
 )
@@ -28,7 +28,7 @@ from xavi_dialogue.cli.commands.log_options import logged, own_name
 from xavi_dialogue.cli.commands.sessions import keeping_in, typed_file
 
 if TYPE_CHECKING:
-    from xavi_dialogue.storage.turn_log import Keeping
+    from xavi_dialogue.storage.turn_log import Retention
 
 Recording = Annotated[
     Path, typer.Argument(exists=True, dir_okay=False, metavar="FILE", help="A recording (MCAP).")
@@ -42,13 +42,13 @@ From = Annotated[
 ]
 
 
-def add(app: typer.Typer, shell: Shell) -> None:
+def add(app: typer.Typer, shell: Streams) -> None:
     """Add the commands."""
     app.command("record")(logged("recorder")(_record(shell)))
     app.command("replay")(logged("car", own_name(shell))(_replay(shell)))
 
 
-def _record(shell: Shell) -> Callable[..., None]:
+def _record(shell: Streams) -> Callable[..., None]:
     def record(
         file: Annotated[Path, typer.Argument(metavar="FILE", help="To be written (MCAP).")],
         connect: Connect = None,
@@ -61,18 +61,18 @@ def _record(shell: Shell) -> Callable[..., None]:
     ) -> None:
         """Record what a car reports, and what passengers share; --vehicle all: every car."""
         from xavi_dialogue.bus.link import Link
-        from xavi_dialogue.recording.recorder import Task, record
+        from xavi_dialogue.recording.recorder import RecordOptions, record
         from xavi_dialogue.security.preflight import check
 
         with shell.errors():
             link = Link.to_hub(connect, zenoh)
             check(link, "record")
-            record(Task(file, link, vehicle, force, control), shell.note)
+            record(RecordOptions(file, link, vehicle, force, control), shell.note)
 
     return record
 
 
-def _replay(shell: Shell) -> Callable[..., None]:
+def _replay(shell: Streams) -> Callable[..., None]:
     def replay(
         file: Recording,
         speed: SpeedFactor = None,
@@ -91,11 +91,11 @@ def _replay(shell: Shell) -> Callable[..., None]:
         with shell.errors():
             if connect is not None or zenoh is not None:
                 from xavi_dialogue.bus.link import Link
-                from xavi_dialogue.recording.player import Show, replay
+                from xavi_dialogue.recording.player import ReplayOptions, replay
 
                 pace = 1.0 if speed is None else speed
                 link = Link.to_hub(connect, zenoh)
-                show = Show(file, link, pace, start or 0.0, car, vehicle, control)
+                show = ReplayOptions(file, link, pace, start or 0.0, car, vehicle, control)
                 replay(show, shell.note)
             else:
                 own = _Own(file, car, start, session, keeping_in(store, keep_days))
@@ -106,29 +106,29 @@ def _replay(shell: Shell) -> Callable[..., None]:
 
 @dataclass(frozen=True)
 class _Own:
-    """A conversation about a recording that nobody else hears."""
+    """A private conversation about a recording."""
 
     file: Path
     car: str | None
     start: float | None  # [s]
     session: str | None
-    keeping: "Keeping | None"
+    keeping: "Retention | None"
 
 
-def _talk(shell: Shell, own: _Own, speed: float | None, as_json: bool) -> None:
-    from xavi_dialogue.chat.main import Ride, at_terminal, through_pipe
+def _talk(shell: Streams, own: _Own, speed: float | None, as_json: bool) -> None:
+    from xavi_dialogue.chat.main import ChatOptions, at_terminal, through_pipe
     from xavi_dialogue.security.client_token import Passenger, default_path, own_secret, token_of
     from xavi_dialogue.storage.mcap_file import read
     from xavi_dialogue.storage.resume import fresh
 
-    next(read(own.file), None)  # raises at once where it is no recording
+    next(read(own.file), None)  # raises at once if it is no recording
     session = own.session or fresh(datetime.now().astimezone(), token_hex(2)).session
     secret = own_secret(default_path(), make=own.keeping is not None)
     passenger = Passenger(session, token_of(secret, session), False)
     which = () if own.car is None else ("--car", own.car)
     played = ("replay", str(own.file.absolute()), "--vehicle", "car", *which)
     name = own.file.name
-    ride = Ride(name, name, 0, passenger, own.keeping, own.start, played=played)
+    ride = ChatOptions(name, name, 0, passenger, own.keeping, own.start, played=played)
     if sys.stdin.isatty() and sys.stdout.isatty() and not as_json:
         at_terminal(ride, typed_file(), shell.note, speed=1.0 if speed is None else speed)
     else:

@@ -19,9 +19,9 @@ from xavi_dialogue.cli.commands.common import (
     OwnVehicle,
     ScenarioName,
     Seed,
-    Shell,
     SpeedFactor,
     StoreFile,
+    Streams,
     ZenohFile,
     place,
     to_json,
@@ -30,13 +30,13 @@ from xavi_dialogue.cli.commands.log_options import logged, own_name
 from xavi_dialogue.cli.commands.sessions import keeping_in
 
 
-def add(app: typer.Typer, shell: Shell) -> None:
+def add(app: typer.Typer, shell: Streams) -> None:
     """Add the commands."""
     app.command("drive")(_drive(shell))
     app.command("serve")(_serve(shell))
 
 
-def _drive(shell: Shell) -> Callable[..., None]:
+def _drive(shell: Streams) -> Callable[..., None]:
     @logged("car", own_name(shell))
     def drive(
         scenario: ScenarioName = "s1",
@@ -70,16 +70,16 @@ def _drive(shell: Shell) -> Callable[..., None]:
         from xavi_dialogue.bus.link import Link
         from xavi_dialogue.nlg.narration import story
         from xavi_dialogue.process.child_commands import Signals
-        from xavi_dialogue.vehicle.bus_session import Staff
-        from xavi_dialogue.vehicle.main import Manner, drive
+        from xavi_dialogue.vehicle.bus_session import ReplanningOptions
+        from xavi_dialogue.vehicle.main import DriveOptions, drive
 
         with shell.errors():
             asked = place(scenario, ego, ego_from, ego_to, begin) or scenario
             loaded = shell.load(asked, told=control)
             link = Link.to_hub(connect, zenoh) if connect or zenoh else None
-            staff, signals = Staff(workers, waiting), Signals()
+            replanning, signals = ReplanningOptions(workers, waiting), Signals()
             name = vehicle or DEFAULT_VEHICLE
-            manner = Manner(speed or 0.0, duration, link, name, control, save, staff)
+            manner = DriveOptions(speed or 0.0, duration, link, name, control, save, replanning)
             summary = drive(loaded, loaded.seed if seed is None else seed, manner, signals)
         if not control:
             shell.write(to_json(summary) if as_json else story(summary.events))
@@ -89,7 +89,7 @@ def _drive(shell: Shell) -> Callable[..., None]:
     return drive
 
 
-def _serve(shell: Shell) -> Callable[..., None]:
+def _serve(shell: Streams) -> Callable[..., None]:
     @logged("service")
     def serve(
         listen: Annotated[
@@ -117,12 +117,12 @@ def _serve(shell: Shell) -> Callable[..., None]:
         from xavi_dialogue.bus.link import Link
         from xavi_dialogue.security.preflight import check
         from xavi_dialogue.service.main import serve
-        from xavi_dialogue.storage.turn_log import Memory
+        from xavi_dialogue.storage.turn_log import TurnLog
 
         with shell.errors():
             link = Link.of_hub(listen, tuple(connect or ()), mode, zenoh)
             check(link, "answer passengers")
-            memory = Memory(
+            memory = TurnLog(
                 keeping_in(store, keep_days), lambda text: shell.note(f"warning: {text}")
             )
             serve(link, memory, shell.note, controlled=control)

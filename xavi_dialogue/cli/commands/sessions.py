@@ -7,35 +7,35 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 
 import typer
 
-from xavi_dialogue.cli.commands.common import AsJson, Shell, StoreFile
+from xavi_dialogue.cli.commands.common import AsJson, StoreFile, Streams
 
 if TYPE_CHECKING:
-    from xavi_dialogue.storage.turn_log import Keeping
+    from xavi_dialogue.storage.turn_log import Retention
 
 Command: TypeAlias = Callable[..., None]
 
 
-def add(app: typer.Typer, shell: Shell) -> None:
+def add(app: typer.Typer, shell: Streams) -> None:
     """Add the commands."""
     app.command("sessions")(_sessions(shell))
     app.command("forget")(_forget(shell))
 
 
-def keeping_in(store: Path | None, days: int) -> "Keeping | None":
-    """Where and how long what is said is kept, if at all."""
-    from xavi_dialogue.storage.turn_log import Keeping
+def keeping_in(store: Path | None, days: int) -> "Retention | None":
+    """Return where and how long turns are stored, if at all."""
+    from xavi_dialogue.storage.turn_log import Retention
 
-    return Keeping(store_file(store), days) if days else None
+    return Retention(store_file(store), days) if days else None
 
 
 def store_file(given: Path | None) -> Path:
-    """The file that is given, else the user's."""
+    """Return the given file, else the user's default."""
     from xavi_dialogue.storage.turn_log import default_path
 
     return default_path() if given is None else given
 
 
-def _sessions(shell: Shell) -> Command:
+def _sessions(shell: Streams) -> Command:
     def sessions(
         session: Annotated[str | None, typer.Argument(help="Only this one.")] = None,
         export: Annotated[
@@ -67,7 +67,7 @@ def _sessions(shell: Shell) -> Command:
     return sessions
 
 
-def _forget(shell: Shell) -> Command:
+def _forget(shell: Streams) -> Command:
     def forget(
         session: Annotated[str | None, typer.Argument(help="Which to forget.")] = None,
         everything: Annotated[bool, typer.Option("--all", help="Forget all.")] = False,
@@ -83,7 +83,7 @@ def _forget(shell: Shell) -> Command:
         from xavi_dialogue.cli import session_admin
 
         with shell.errors():
-            wanted = session_admin.Wanted(session, everything, older_than)
+            wanted = session_admin.ForgetOptions(session, everything, older_than)
             agreed = _agreed if not yes else lambda _: True
             shell.write(
                 session_admin.forget(store_file(store), wanted, time.time(), agreed, _Typed())
@@ -93,17 +93,17 @@ def _forget(shell: Shell) -> Command:
 
 
 def typed_file() -> Path:
-    """The file of what was typed at the terminal, for the arrow keys."""
+    """Return the file of typed lines, for the arrow keys."""
     from platformdirs import user_state_path
 
     return user_state_path("xavi-dialogue") / "history"
 
 
 class _Typed:
-    """The file of what was typed; a quarter of a second goes to reading it where there is any."""
+    """The file of typed lines; importing its reader takes a quarter of a second."""
 
     def sessions(self) -> frozenset[str]:
-        """See Typed."""
+        """See InputHistoryFile."""
         if not typed_file().exists():
             return frozenset()
         from xavi_dialogue.storage import input_history
@@ -111,7 +111,7 @@ class _Typed:
         return input_history.sessions(typed_file())
 
     def erase(self, session: str | None, before: float | None) -> None:
-        """See Typed."""
+        """See InputHistoryFile."""
         if not typed_file().exists():
             return
         from datetime import datetime
@@ -123,10 +123,10 @@ class _Typed:
 
 
 def _agreed(question: str) -> bool:
-    """What is typed at the terminal.
+    """Return the typed text.
 
     Raises:
-        SessionUsageError: there is none.
+        SessionUsageError: nothing was typed.
     """
     from xavi_dialogue.cli.session_admin import SessionUsageError
 

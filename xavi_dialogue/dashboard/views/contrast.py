@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from planner.record.trace import PlanTrace
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Intervention
-from xavi_dialogue.dashboard.typed_answer import Told
+from xavi_dialogue.dashboard.typed_answer import TypedAnswer
 from xavi_dialogue.dashboard.views.decision import chosen_plan
 from xavi_dialogue.dialogue.explanation import Contrastive
 from xavi_dialogue.domain.answers import SupposedOfOther
@@ -23,14 +23,16 @@ SAME = 1e-6  # difference of figures that were computed alike
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class ContrastSide:
     """What is behind one side of an explanation."""
 
     trace: PlanTrace  # that the results come from
     plan: Intervention
 
 
-def sides(told: Told, traces: Sequence[PlanTrace]) -> tuple[Found | None, Found | None]:
+def sides(
+    told: TypedAnswer, traces: Sequence[PlanTrace]
+) -> tuple[ContrastSide | None, ContrastSide | None]:
     """Find what was done or planned, and what that is set against.
 
     Args:
@@ -56,7 +58,7 @@ def _decided(trace: PlanTrace) -> bool:
     return again is None or not (again.gone or again.vehicle is not None)
 
 
-def _alone(said: Contrastive, models: Sequence[CausalModel]) -> Iterator[Found]:
+def _alone(said: Contrastive, models: Sequence[CausalModel]) -> Iterator[ContrastSide]:
     """Yield the plan, where there is nothing beside it; of its outcome as it was told."""
     outcome = said.outcome
     for model in models:
@@ -65,14 +67,16 @@ def _alone(said: Contrastive, models: Sequence[CausalModel]) -> Iterator[Found]:
         plan = chosen_plan(model)
         found = _found(model, said.factual)
         if found is None and plan is not None:
-            found = Found(model.trace, plan)
+            found = ContrastSide(model.trace, plan)
         if found is None:
             continue
         if outcome is None or _same(outcome.probability, chances(found.plan).of(outcome.name)):
             yield found
 
 
-def _pairs(told: Told, models: Sequence[CausalModel]) -> Iterator[tuple[Found, Found]]:
+def _pairs(
+    told: TypedAnswer, models: Sequence[CausalModel]
+) -> Iterator[tuple[ContrastSide, ContrastSide]]:
     """Yield what may have been set against one another."""
     fact, foil = told.said.factual, told.said.counterfactual
     for model in models:
@@ -82,7 +86,7 @@ def _pairs(told: Told, models: Sequence[CausalModel]) -> Iterator[tuple[Found, F
         if not isinstance(told.answer, SupposedOfOther):
             there = model.intervene(foil)
             if there is not None:
-                yield here, Found(model.trace, there)
+                yield here, ContrastSide(model.trace, there)
             continue
         for other in models:
             if other is not model and (planned := _found(other, foil)) is not None:
@@ -90,12 +94,12 @@ def _pairs(told: Told, models: Sequence[CausalModel]) -> Iterator[tuple[Found, F
         for vehicle, supposed in _supposed(told.answer, model):
             given = _under(CausalModel(model.trace, {vehicle: supposed}), foil)
             if given is not None:
-                yield here, Found(model.trace, given)
+                yield here, ContrastSide(model.trace, given)
 
 
-def _found(model: CausalModel, plan: Actions) -> Found | None:
+def _found(model: CausalModel, plan: Actions) -> ContrastSide | None:
     found = _under(model, plan)
-    return None if found is None else Found(model.trace, found)
+    return None if found is None else ContrastSide(model.trace, found)
 
 
 def _under(model: CausalModel, plan: Actions) -> Intervention | None:

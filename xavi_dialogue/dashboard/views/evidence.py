@@ -7,8 +7,8 @@ from planner.record.trace import PlanTrace, Rollout
 from sim.scene import EGO
 from xavi_dialogue.causal.mixtures import Result
 from xavi_dialogue.causal.model import Actions, plan_of
-from xavi_dialogue.dashboard.typed_answer import Told, asked_about, title_of, told_of
-from xavi_dialogue.dashboard.views.contrast import Found, sides
+from xavi_dialogue.dashboard.typed_answer import TypedAnswer, asked_about, title_of, told_of
+from xavi_dialogue.dashboard.views.contrast import ContrastSide, sides
 from xavi_dialogue.dashboard.views.decision import expected_arrival, outcome_shares
 from xavi_dialogue.dashboard.views.labels import (
     cause_words,
@@ -82,7 +82,7 @@ def of_turn(n: int, reply: Reply, traces: Mapping[str, PlanTrace]) -> EvidenceSh
 def _shown(
     n: int,
     reply: Reply,
-    told: Told,
+    told: TypedAnswer,
     names: tuple[str, ...],
     known: list[PlanTrace],
     traces: Mapping[str, PlanTrace],
@@ -123,7 +123,7 @@ def _decision(known: list[PlanTrace], traces: Mapping[str, PlanTrace]) -> PlanTr
 
 
 def _missing(
-    said: Contrastive, names: tuple[str, ...], known: list[PlanTrace], there: Found | None
+    said: Contrastive, names: tuple[str, ...], known: list[PlanTrace], there: ContrastSide | None
 ) -> str | None:
     if not known:
         return dashboard_words("missing", "all")
@@ -132,7 +132,7 @@ def _missing(
     return None
 
 
-def _side(found: Found, in_lane: bool, title: str, brief: Actions) -> Side:
+def _side(found: ContrastSide, in_lane: bool, title: str, brief: Actions) -> Side:
     """One side: its likeliest lines, and its rollouts with the likeliest situations first."""
     plan, trace = found.plan, found.trace
     ranked = sorted(zip(plan.weights, plan.results, strict=True), key=lambda pair: -pair[0])
@@ -196,7 +196,7 @@ def _effects(said: Contrastive) -> tuple[EffectShown, ...]:
     )
 
 
-def _causes(told: Told, known: list[PlanTrace]) -> tuple[CauseShown, ...]:
+def _causes(told: TypedAnswer, known: list[PlanTrace]) -> tuple[CauseShown, ...]:
     of_ours = told.ours
     removed = {v for again in known if again.what_if is not None for v in again.what_if.gone}
     return tuple(

@@ -40,14 +40,14 @@ def deed(action: str, form: str = "base", *, in_lane: bool = False) -> str:
 
 
 def has_lane_change(actions: Iterable[str]) -> bool:
-    """Whether a change of lane is one of the choices."""
+    """Check whether a lane change is one of the choices."""
     return any(action in CHANGES for action in actions)
 
 
 def refusals(
     refused: Iterable[tuple[Action, str]], tried: Iterable[Action]
 ) -> tuple[tuple[Action, str], ...]:
-    """What could not be done, and why, but for what is called like something that was tried.
+    """List inapplicable actions with reasons, except those named like one that was tried.
 
     "Straight on" is one name for two macro actions, of which one or the other applies.
     """
@@ -69,25 +69,25 @@ def plan_words(plan: Iterable[Action], *, in_lane: bool = False) -> str:
 
 @lru_cache(maxsize=1024)  # what others may do comes from elsewhere
 def does(actions: tuple[str, ...]) -> str:
-    """What another vehicle does: "changes to the right lane and turns right"."""
+    """Describe the plan of another vehicle: "changes to the right lane and turns right"."""
     verbs = tuple(replace(verb, tense="present") for verb in other_verbs(actions))
     return _said((Slot(verbs, "predicate"),))
 
 
 def goal_words(goal: GoalPrediction) -> str:
-    """What a vehicle does that has a goal: "turns left"."""
+    """Describe what a vehicle does by its goal: "turns left"."""
     if goal.place == PLACES.get(goal.kind):
         return does((goal.kind,))
     return _table()["goal"]["elsewhere"].format(goal.place)
 
 
 def hold_up_words(how: HoldUp) -> str:
-    """How a vehicle is in our way: "cutting in ahead of me"."""
+    """Describe how a vehicle is in our way: "cutting in ahead of me"."""
     return _table()["held-up"][how]
 
 
 def cause_words(cause: Cause, *, of_ours: bool = True) -> str:
-    """What a vehicle was expected to do: "will very likely slow from 43 to 11 km/h".
+    """Describe what a vehicle was expected to do: "will very likely slow from 43 to 11 km/h".
 
     Args:
         cause: the vehicle.
@@ -101,7 +101,7 @@ def cause_words(cause: Cause, *, of_ours: bool = True) -> str:
 
 
 def _expected(cause: Cause) -> tuple[Clause, ...]:
-    """What a vehicle was expected to do, with how it slows."""
+    """Describe what a vehicle was expected to do, with how it slows."""
     verbs, slowing = other_verbs(cause.actions), _slowing(cause.mechanism)
     if slowing is None or not cause.actions:
         return verbs
@@ -110,7 +110,7 @@ def _expected(cause: Cause) -> tuple[Clause, ...]:
 
 
 def _slowing(mechanism: Mechanism | None) -> Range | None:
-    """From which speed to which a vehicle slows; None where it hardly does."""
+    """Return from which speed to which a vehicle slows; None if it hardly does."""
     if mechanism is None or mechanism.how != "leader":
         return None
     if mechanism.speed_from is None or mechanism.speed_to is None:
@@ -121,7 +121,7 @@ def _slowing(mechanism: Mechanism | None) -> Range | None:
 
 
 def way_words(cause: Cause, *, of_ours: bool = True) -> str | None:
-    """How a vehicle held us up, or another: "slowing ahead of me, from 42 to 13 km/h"."""
+    """Describe how a vehicle held us up, or another: "slowing ahead of me, from 42 to 13 km/h"."""
     mechanism = cause.mechanism
     if mechanism is None:
         return None
@@ -140,7 +140,7 @@ def way_words(cause: Cause, *, of_ours: bool = True) -> str | None:
 
 
 def checked_words(cause: Cause) -> str | None:
-    """What planning again without a vehicle showed, as a sentence; None: it was not tried."""
+    """Describe the result of planning again without a vehicle; None: it was not tried."""
     who = Who(Vehicle(cause.vehicle))
     if cause.decision_changes is not None:
         return _told(message("WITHOUT_CAUSE", who=who, changes=cause.decision_changes, past=True))

@@ -1,4 +1,4 @@
-"""What a car drives on and sees, as browsers draw it."""
+"""Roads and scenes, as browsers draw them."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -19,12 +19,12 @@ from xavi_dialogue.dashboard.web.http_documents import (
 from xavi_dialogue.dashboard.web.websocket_messages import HiddenShown, LightShown, SceneShown, Seen
 from xavi_dialogue.storage.recording_format import unpacked
 
-CENTIMETRES = 2  # decimals of what is told in metres, and of speeds [m/s]
+CENTIMETRES = 2  # decimals of metres, and of speeds [m/s]
 ANGLES = 3  # decimals of headings [rad]
-FARTHEST = 1e6  # [m] from the origin at which a road may lie
+FARTHEST = 1e6  # [m] from the origin to the farthest road
 LONG = 100.0  # [m] of a vehicle
 LONGEST = 1e7  # [m] of all lanes together
-USES = {  # by the class of vehicles that tells most, the first that a lane permits
+USES = {  # by class of vehicles, the first that a lane permits
     "bicycle": "bicycles",
     "pedestrian": "people",
     "tram": "rails",
@@ -36,7 +36,7 @@ Outline: TypeAlias = tuple[Point, ...]
 
 
 def read(packed: bytes) -> tuple[Network, tuple[Outline, ...]]:
-    """The network and the outlines of its junctions, from a net file as a car tells it, gzipped.
+    """Convert the network and the outlines of junctions, from a gzipped net file.
 
     Raises:
         NetworkError: it is damaged, or larger than any that a car drives on.
@@ -97,7 +97,7 @@ def shown(network: Network, outlines: Sequence[Outline]) -> Roads:
 
 
 def link_ids(network: Network) -> dict[tuple[str, int], int]:
-    """The ids of links by their junction and their index there."""
+    """Index the ids of links by junction and index there."""
     return {(link.junction, link.index): k for k, link in enumerate(network.links)}
 
 
@@ -146,12 +146,12 @@ def scene(report: SceneReport) -> SceneShown:
 
 
 def lights(known: Iterable[Light]) -> tuple[LightShown, ...]:
-    """What the lights in view show."""
+    """Return the states of the lights in view."""
     return tuple((_signal_id(one.signal), one.state.name.lower()) for one in known)
 
 
 def hidden(stretches: Iterable[Unseen]) -> tuple[HiddenShown, ...]:
-    """The stretches of lanes where nobody can be seen."""
+    """Return the stretches of lanes that the ego cannot see."""
     return tuple(
         (one.lane, round(one.begin, 1), round(one.end, 1))
         for one in stretches
@@ -160,7 +160,7 @@ def hidden(stretches: Iterable[Unseen]) -> tuple[HiddenShown, ...]:
 
 
 def within(points: Iterable[Point]) -> bool:
-    """Whether points [m] lie where a car can be, so that they can be drawn."""
+    """Check whether points [m] are plausible positions of a car, so that they can be drawn."""
     return all(abs(x) <= FARTHEST and abs(y) <= FARTHEST for x, y in points)
 
 

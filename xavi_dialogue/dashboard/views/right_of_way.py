@@ -13,10 +13,10 @@ from xavi_dialogue.dashboard.views.map import link_ids
 from xavi_dialogue.dashboard.web.http_documents import RightOfWay
 
 NEAR = 2.5  # [m] of a line's points from either end of a way that is driven along it
-AT_LINE = 5.0  # [m] of the stop line, where a plan may end that waits there
+AT_LINE = 5.0  # [m] to the stop line, for a plan that ends waiting there
 SOON = 60.0  # [m] from a junction, within which a vehicle counts of which no line is known
 LIKELY = 0.05  # probability from which a prediction counts
-HOPS = 10  # junctions where nobody crosses that are passed over
+HOPS = 10  # junctions without crossing traffic that are skipped
 TURNS: dict[str, Direction] = {"exit-left": "left", "exit-right": "right"}
 
 
@@ -64,7 +64,7 @@ def _next_link(trace: PlanTrace, network: Network, line: NDArray[np.float64] | N
 
 
 def _left_by(network: Network, links: Sequence[Link], line: NDArray[np.float64] | None) -> Link:
-    """The way on which we are within a junction, of those that we may be on, likeliest first."""
+    """Return our way through a junction, of those that we may be on, likeliest first."""
     along = [x for x in links if line is not None and _distance(line, _end(network, x)) <= NEAR]
     return (along or links)[0]
 
@@ -93,7 +93,7 @@ def _taken(
 
 
 def _heading_there(trace: PlanTrace, network: Network, links: Sequence[Link]) -> tuple[int, ...]:
-    """The other vehicles on some ways through a junction, or probably on their way there."""
+    """Return the other vehicles on some ways through a junction, or probably heading there."""
     ways = {
         known.vehicle: [
             np.array(way.path)

@@ -10,7 +10,7 @@ DIGITS = 3  # of values and times
 
 
 def branches(trace: PlanTrace) -> tuple[Branch, ...]:
-    """The branches of the root, the chosen one first; none where the rollouts are no search."""
+    """Return the branches of the root, the chosen one first; none without a search."""
     try:
         root = search_tree.grow(trace)
     except search_tree.TreeError:
@@ -29,7 +29,7 @@ def _beneath(branch: search_tree.Branch, *, arrives: bool) -> tuple[Branch, ...]
 
 
 def _branch(branch: search_tree.Branch, in_lane: bool, arrives: bool) -> Branch:
-    """One branch; `arrives`: rollouts aim for the goal, and not for a place on the way there."""
+    """Return one branch; `arrives`: rollouts aim for the goal, not for a waypoint."""
     action, total = branch.actions[-1], branch.visits + branch.forced
     value = next((v for v in (branch.alike, branch.value, branch.mean) if v is not None), None)
     return Branch(

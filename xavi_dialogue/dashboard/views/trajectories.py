@@ -1,4 +1,4 @@
-"""The lines of a decision: what is or would be driven, by us and by others."""
+"""Trajectories of a decision: those planned for us and predicted for others."""
 
 from collections.abc import Sequence
 
@@ -16,7 +16,7 @@ def likeliest(trace: PlanTrace, plan: Mixture, limit: int = 1) -> tuple[Drive, .
     Rollouts that drive the same line to the same end are one.
 
     Args:
-        trace: of the decision that the results come from.
+        trace: the decision of the results.
         plan: the results.
         limit: lines at most.
     """
@@ -40,7 +40,7 @@ def likeliest(trace: PlanTrace, plan: Mixture, limit: int = 1) -> tuple[Drive, .
 
 
 def predicted(trace: PlanTrace, way: TrajectoryPrediction) -> Drive | None:
-    """The line of another vehicle; None where the record has none."""
+    """Return the predicted line of another vehicle; None if it is not recorded."""
     if not way.path or not roads.within(way.path):
         return None
     return Drive(

@@ -1,3 +1,3 @@
-"""The wire between the dashboard's process and the browsers that look at it."""
+"""The web server of the dashboard, and its messages to browsers."""
 
 MISSING = "the dashboard needs more packages: pip install 'xavi-dialogue[dashboard]'"

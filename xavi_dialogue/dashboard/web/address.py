@@ -1,4 +1,4 @@
-"""Where the dashboard listens, and under which names it is opened there."""
+"""Addresses of the dashboard: where it listens, and under which names it is opened."""
 
 import ipaddress
 import re
@@ -16,12 +16,12 @@ _TOKEN = re.compile(r"[A-Za-z0-9_-]{16,128}")
 
 
 class ListenError(Exception):
-    """It cannot be listened there; says how to mend that."""
+    """The address cannot be used; the message says how to correct it."""
 
 
 @dataclass(frozen=True, slots=True)
-class Listen:
-    """Where to listen, and who may come."""
+class ListenOptions:
+    """Where to listen, and which hosts are accepted."""
 
     host: str = DEFAULT_HOST  # an address, that of IPv6 without brackets, or a name
     port: int = DEFAULT_PORT  # 0: any that is free
@@ -34,12 +34,12 @@ class Listen:
     def read(
         cls, text: str | None = None, *, token: str | None = None, names: tuple[str, ...] = ()
     ) -> Self:
-        """Make sense of what was typed.
+        """Parse an address.
 
         Args:
             text: such as 127.0.0.1:8480, :8480, [::1]:8480 or 0.0.0.0:8480; None: the default.
             token: chosen; None: none on loopback, and elsewhere a random one.
-            names: that the page is opened under, besides the address that is listened at.
+            names: host names of the page, besides the address itself.
 
         Raises:
             ListenError: one of them makes no sense.
@@ -70,7 +70,7 @@ class Listen:
         return f"{bracketed(self.host)}:{self.port}"
 
     def address(self, port: int) -> str:
-        """What to open in a browser, without the token.
+        """Return the address to open in a browser, without the token.
 
         Args:
             port: that is listened at, once it is known.
@@ -79,7 +79,7 @@ class Listen:
         return f"http://{self.names[0] if self.names else host}:{port}/"
 
     def serves(self, host: str) -> bool:
-        """Whether the page may be opened under what a Host header says.
+        """Check whether a Host header is accepted.
 
         On loopback these are its usual names, with any port: ports are forwarded, by ssh for
         instance, and the names alone keep out a stranger's name that was made to lead here (DNS
@@ -97,22 +97,22 @@ class Listen:
 
 
 def is_loopback(host: str) -> bool:
-    """Whether only this machine can reach a host, an address or a name."""
+    """Check whether only this machine can reach a host, an address or a name."""
     address = _address(host)
     return host.lower() == "localhost" if address is None else address.is_loopback
 
 
 def bracketed(host: str) -> str:
-    """A host as it stands in an address."""
+    """Format a host as part of an address."""
     return f"[{host}]" if ":" in host else host
 
 
 def name_of(host: str, *, ported: bool = False) -> str | None:
-    """The name in a Host header, in small letters; None: there is none that makes sense.
+    """Return the name in a Host header, in small letters; None if it is invalid.
 
     Args:
         host: a name, an address of IPv4, or one of IPv6 in brackets.
-        ported: whether a port may follow.
+        ported: whether a port is allowed.
     """
     found = re.fullmatch(r"(\[[0-9a-fA-F:.]+\]|[^:\[\]]*)(:[0-9]{1,5})?", host)
     if found is None or (found[2] and not ported):

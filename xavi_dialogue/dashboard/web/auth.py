@@ -1,4 +1,4 @@
-"""Who may come in, and what a browser is told to beware of. Pure: headers in, a verdict out."""
+"""Authentication and security headers. Pure: takes headers, returns a verdict."""
 
 import hmac
 from collections.abc import Sequence
@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 from urllib.parse import parse_qs
 
-from xavi_dialogue.dashboard.web.address import Listen, ListenError, name_of
+from xavi_dialogue.dashboard.web.address import ListenError, ListenOptions, name_of
 
-__all__ = ["Asked", "Enter", "Guard", "Listen", "ListenError", "Refused"]
+__all__ = ["ListenError", "ListenOptions", "Refused", "RequestGuard", "RequestHeaders", "SetToken"]
 
 Headers: TypeAlias = Sequence[tuple[bytes, bytes]]  # names in small letters
 
@@ -24,10 +24,10 @@ SECURITY = {
     "cross-origin-opener-policy": "same-origin",
     "cross-origin-resource-policy": "same-origin",
 }
-#: And this, on those that do not say better.
+#: Added to responses without a header of their own.
 CACHE = ("cache-control", "no-store")
 
-#: Served without the token: whether we are there, and what the page without it is drawn with.
+#: Served without the token: the health check, and the files of the page without it.
 OPEN = frozenset({"/healthz", "/static/css/tokens.css", "/static/css/door.css", "/static/icon.svg"})
 METHODS = ("GET", "HEAD")
 MAX_FIELDS = 16  # of a query
@@ -42,8 +42,8 @@ READ_ONLY = "Here things are only looked at: GET and HEAD are understood."
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
-    """A request, as far as it matters who asks."""
+class RequestHeaders:
+    """The parts of a request that authentication needs."""
 
     kind: Literal["http", "websocket"]
     method: str
@@ -52,7 +52,7 @@ class Asked:
     headers: Headers
 
     def all(self, name: str) -> list[str]:
-        """What the headers of a name say."""
+        """Return the values of a header."""
         wanted = name.encode()
         return [value.decode("latin-1") for key, value in self.headers if key == wanted]
 
@@ -66,27 +66,27 @@ class Refused:
 
 
 @dataclass(frozen=True, slots=True)
-class Enter:
+class SetToken:
     """The token was in the address: it is put into a cookie, and the browser sent on to /."""
 
     cookie: str  # Set-Cookie
     onward: Literal["redirect", "page"]
 
 
-class Guard:
+class RequestGuard:
     """Judges requests."""
 
-    def __init__(self, listen: Listen, port: int) -> None:
+    def __init__(self, listen: ListenOptions, port: int) -> None:
         """A guard of one place.
 
         Args:
             listen: the place.
-            port: that is listened at; cookies know no ports, so that it is part of their name.
+            port: of the server; cookies are shared between ports, so it is part of their name.
         """
         self._listen, self._cookie = listen, f"xavi-{port}"
 
-    def judge(self, asked: Asked) -> Refused | Enter | None:
-        """Whether a request is to be served; None: it is."""
+    def judge(self, asked: RequestHeaders) -> Refused | SetToken | None:
+        """Decide whether a request is refused; None: it is served."""
         hosts, origins = asked.all("host"), asked.all("origin")
         if len(hosts) != 1:
             return Refused(400, "A request names one host.")
@@ -99,7 +99,7 @@ class Guard:
         if any(origin.lower() not in ours for origin in origins):
             return Refused(403, STRANGER)
         if asked.path != "/" and "cross-site" in asked.all("sec-fetch-site"):
-            return Refused(403, STRANGER)  # part of somebody else's page
+            return Refused(403, STRANGER)  # part of another site's page
         if asked.kind == "http" and asked.method not in METHODS:
             return Refused(405, READ_ONLY)
         given = _in_query(asked.query)
@@ -116,12 +116,12 @@ class Guard:
 
     def _known(self, given: Sequence[str]) -> bool:
         token = self._listen.token
-        # Each is compared, whatever came of those before, in a time that tells nothing.
+        # All are compared, in constant time.
         same = [hmac.compare_digest(one.encode(), (token or "").encode()) for one in given]
         return token is not None and any(same)
 
-    def _elsewhere(self, asked: Asked) -> list[str]:
-        """Tokens in cookies, and of programs that say `Authorization: Bearer TOKEN`."""
+    def _elsewhere(self, asked: RequestHeaders) -> list[str]:
+        """Yield tokens in cookies, and in `Authorization: Bearer TOKEN`."""
         pairs = [pair.split("=", 1) for line in asked.all("cookie") for pair in line.split(";")]
         cookies = [
             pair[1].strip() for pair in pairs if pair[0].strip() == self._cookie and pair[1:]
@@ -129,7 +129,7 @@ class Guard:
         spoken = [value.split(" ", 1) for value in asked.all("authorization")]
         return cookies + [s[1].strip() for s in spoken if s[0].lower() == "bearer" and s[1:]]
 
-    def _enter(self, asked: Asked) -> Enter:
+    def _enter(self, asked: RequestHeaders) -> SetToken:
         """Let a browser in.
 
         One that followed a link on a stranger's page, in a mail for instance, would not show a
@@ -139,7 +139,7 @@ class Guard:
         cookie = f"{self._cookie}={self._listen.token}; Path=/; HttpOnly; SameSite=Strict"
         sites = asked.all("sec-fetch-site")
         led = "cross-site" in sites or (not sites and "text/html" in "".join(asked.all("accept")))
-        return Enter(cookie, "page" if led else "redirect")
+        return SetToken(cookie, "page" if led else "redirect")
 
 
 def _in_query(query: bytes) -> list[str]:
@@ -151,7 +151,7 @@ def _in_query(query: bytes) -> list[str]:
 
 
 def secured(headers: Headers) -> list[tuple[bytes, bytes]]:
-    """The headers of a response, with those that every response has."""
+    """Return the headers of a response, with those of every response."""
     said = {name.lower() for name, _ in headers}
     ours = [(name.encode(), value.encode()) for name, value in SECURITY.items()]
     kept = [(name, value) for name, value in headers if name.lower().decode() not in SECURITY]

@@ -1,4 +1,4 @@
-"""One browser: what waits to be sent to it, and what it may say. No sockets; time is an argument.
+"""One browser: its queue of messages and its limits. No sockets; time is an argument.
 
 Of scenes only the newest waits, and none is sent while too many are not acknowledged: a slow
 browser gets fewer of them, which are counted. All else is sent in order, and bounded in bytes.
@@ -27,9 +27,9 @@ from xavi_dialogue.dashboard.web.websocket_messages import (
 )
 
 MIB = 1 << 20
-MAX_WAITING = 8 * MIB  # bytes, besides what a browser is greeted with
+MAX_WAITING = 8 * MIB  # bytes, besides the first messages
 MAX_IN_FLIGHT = 3  # scenes that were sent and are not acknowledged
-STATUS_EVERY = 1.0  # [s] at least between two that tell of dropped scenes alone
+STATUS_EVERY = 1.0  # [s] at least between two status messages about dropped scenes
 QUESTIONS = Rate(2.0, 5)
 OTHERS = Rate(50.0, 100)
 MESSAGES = Rate(100.0, 200)  # of all kinds, those among them that are not taken up
@@ -37,8 +37,8 @@ MAX_REASON = 123  # bytes (RFC 6455, 5.5.1)
 
 GOING_AWAY = 1001  # the dashboard ends
 UNREADABLE = 1003  # binary
-BROKEN = 1011  # a fault of ours
-AGAIN_LATER = 1013  # too slow for what it is told, or too many browsers
+BROKEN = 1011  # an internal error
+AGAIN_LATER = 1013  # too slow a reader, or too many browsers
 TOO_LARGE = 1009
 NO_TOKEN = 4401
 TOO_OFTEN = 4429
@@ -54,8 +54,8 @@ _DECODER = msgspec.json.Decoder(Incoming)
 
 
 @dataclass(frozen=True, slots=True)
-class Packed:
-    """A message, ready to be sent to any number of browsers."""
+class EncodedMessage:
+    """A message encoded once for any number of browsers."""
 
     message: Outgoing
     text: str  # JSON
@@ -63,53 +63,53 @@ class Packed:
 
 
 @dataclass(frozen=True, slots=True)
-class Leave:
-    """Why a browser is sent away."""
+class Disconnect:
+    """The reason for closing a connection."""
 
     code: int  # of the WebSocket
     reason: str  # at most MAX_REASON bytes
 
 
-def pack(message: Outgoing) -> Packed:
+def pack(message: Outgoing) -> EncodedMessage:
     """Make a message JSON."""
     data = _ENCODER.encode(message)
-    return Packed(message, data.decode(), len(data))
+    return EncodedMessage(message, data.decode(), len(data))
 
 
-class Viewer:
+class ClientSession:
     """One browser. All methods are for the event loop's thread alone."""
 
     def __init__(self, number: int, now: float, browsers: Callable[[], int] = lambda: 1) -> None:
-        """A browser that has just connected.
+        """Begin the session of a browser that has just connected.
 
         Args:
-            number: tells it from all others of this process.
+            number: of the browser in this process.
             now: [s, monotonic].
             browsers: how many there are, for its status.
         """
         self.number = number
         self.dropped = 0  # scenes that it was too slow for
-        self.leave: Leave | None = None  # set: it is to be sent away, and told nothing more
+        self.leave: Disconnect | None = None  # set: to be disconnected
         self.changed: Callable[[], None] = lambda: None  # called when there may be more to send
         self._browsers = browsers
         self._greeted = False
-        self._row: deque[Packed] = deque()
+        self._row: deque[EncodedMessage] = deque()
         self._waiting, self._limit = 0, MAX_WAITING  # bytes
-        self._scene: Packed | None = None
+        self._scene: EncodedMessage | None = None
         self._ride: str | None = None
         self._in_flight: deque[int] = deque()  # numbers of scenes, as sent
-        self._status: Status | None = None  # as told to it last
+        self._status: Status | None = None  # as last sent
         self._told = now  # [s] when it was
         self._questions, self._others = Bucket(QUESTIONS, now), Bucket(OTHERS, now)
         self._messages = Bucket(MESSAGES, now)
 
     @property
     def waiting(self) -> int:
-        """Bytes that wait to be sent."""
+        """Count the bytes that wait to be sent."""
         return self._waiting + (0 if self._scene is None else self._scene.size)
 
     def greet(self, messages: tuple[Outgoing, ...]) -> None:
-        """Tell it all that a new one is told; that alone is never too much."""
+        """Queue the first messages of a new browser, without limit."""
         packed = [pack(message) for message in messages]
         self._greeted = True
         self._limit = MAX_WAITING + sum(one.size for one in packed)
@@ -117,11 +117,11 @@ class Viewer:
             self.put(one)
 
     def tell(self, message: Outgoing) -> None:
-        """Tell it something that no other browser is told."""
+        """Queue a message for this browser only."""
         self.put(pack(message))
 
-    def put(self, packed: Packed) -> None:
-        """Have a message sent; where too much waits already, the browser is sent away.
+    def put(self, packed: EncodedMessage) -> None:
+        """Queue a message; disconnect the browser if too much waits already.
 
         What all are told before it is greeted is part of the greeting.
         """
@@ -143,16 +143,16 @@ class Viewer:
         self.changed()
 
     def send_away(self, code: int, reason: str) -> None:
-        """Have the connection closed; what waits is forgotten. The first reason stands."""
+        """Close the connection and drop what waits. The first reason counts."""
         if self.leave is None:
             short = reason.encode()[:MAX_REASON].decode(errors="ignore")
-            self.leave = Leave(code, short)
+            self.leave = Disconnect(code, short)
             self._row.clear()
             self._scene, self._waiting = None, 0
             self.changed()
 
     def take(self, now: float) -> str | None:
-        """What is to be sent next, as JSON; None: nothing at present."""
+        """Return the next message as JSON; None: nothing at present."""
         if self._row:
             packed = self._row.popleft()
             self._waiting -= packed.size
@@ -170,7 +170,7 @@ class Viewer:
         return None
 
     def due(self, now: float) -> float | None:
-        """[s] until its status is to be told again; None: that is as it was told."""
+        """Return in how many seconds the status is due; None: it has not changed."""
         status = self._status
         if status is None or (status.dropped, status.browsers) == (self.dropped, self._browsers()):
             return None
@@ -180,7 +180,7 @@ class Viewer:
         """Take in a message of the browser's.
 
         Returns:
-            What it wants; None where there is nothing to do, or it is told what is amiss.
+            The request; None if there is nothing to do, or the browser got an error message.
         """
         if self.leave is not None:
             return None
@@ -212,7 +212,7 @@ class Viewer:
         return None
 
     def _seen(self, seq: int) -> None:
-        """A scene has been drawn; those sent before it are, or never will be."""
+        """Handle that a scene was drawn; earlier ones are drawn or dropped."""
         if seq in self._in_flight:
             while self._in_flight.popleft() != seq:
                 pass

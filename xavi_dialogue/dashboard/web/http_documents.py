@@ -1,4 +1,4 @@
-"""What a browser fetches from the dashboard's process over HTTP: JSON.
+"""Documents that a browser fetches over HTTP: JSON.
 
 SI units, radians anticlockwise from east, seconds of simulation time.
 """
@@ -26,11 +26,11 @@ class LaneShown(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class CrossingShown(msgspec.Struct, frozen=True, kw_only=True):
-    """A place where people on foot cross a road."""
+    """A pedestrian crossing."""
 
     line: Line  # its middle, from kerb to kerb
     width: float  # [m]
-    signal: str | None  # id of the light that it has
+    signal: str | None  # id of its light
 
 
 class LinkShown(msgspec.Struct, frozen=True, kw_only=True):
@@ -43,7 +43,7 @@ class LinkShown(msgspec.Struct, frozen=True, kw_only=True):
     via: tuple[str, ...]  # lanes
     direction: str  # left, straight, right, turnaround
     yields_to: tuple[int, ...]  # ids of links
-    signal: str | None = None  # id of the light that it has
+    signal: str | None = None  # id of its light
 
 
 class Roads(msgspec.Struct, frozen=True, kw_only=True):
@@ -62,7 +62,7 @@ class Past(msgspec.Struct, frozen=True, kw_only=True):
     """GET /api/past: the scenes of this ride so far, at most 5 a second."""
 
     ride: str
-    #: t, vehicles, lights, what is hidden (null: not known); in order of time
+    #: t, vehicles, lights, hidden stretches (null: not known); in order of time
     scenes: tuple[
         tuple[
             float, tuple[Seen, ...], tuple[LightShown, ...] | None, tuple[HiddenShown, ...] | None
@@ -84,14 +84,14 @@ class Drive(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Way(msgspec.Struct, frozen=True, kw_only=True):
-    """One way in which a vehicle may reach a goal."""
+    """A way in which a vehicle may reach a goal."""
 
     probability: float  # of goal and way together
     line: Drive | None  # null: not in the record
 
 
 class GoalShown(msgspec.Struct, frozen=True, kw_only=True):
-    """One goal that another vehicle may have."""
+    """A possible goal of another vehicle."""
 
     kind: Action
     words: str  # "turns left"
@@ -102,7 +102,7 @@ class GoalShown(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Predicted(msgspec.Struct, frozen=True, kw_only=True):
-    """What one other vehicle may do."""
+    """The prediction of another vehicle."""
 
     vehicle: int
     goals: tuple[GoalShown, ...]  # likeliest first
@@ -122,14 +122,14 @@ class Alternative(msgspec.Struct, frozen=True, kw_only=True):
     action: Action
     words: str  # "change to the left lane"
     chosen: bool
-    outcomes: dict[str, float]  # share of rollouts by outcome; {} where it was not tried
-    time: TimeRange | None  # null of the chosen one, and where it cannot be told
+    outcomes: dict[str, float]  # share of rollouts by outcome; {} if it was not tried
+    time: TimeRange | None  # null of the chosen one, and if unknown
     arrival: float | None  # [s] expected time to the goal
     value: float | None  # expected reward
     rollouts: int
     distinct: int  # distinct samples behind it
     line: Drive | None
-    reason: str | None  # why it could not be done: "there is no lane to the left"
+    reason: str | None  # why it was inapplicable: "there is no lane to the left"
 
 
 class Branch(msgspec.Struct, frozen=True, kw_only=True):
@@ -149,7 +149,7 @@ class Branch(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class RightOfWay(msgspec.Struct, frozen=True, kw_only=True):
-    """At the junction that the ego comes to next."""
+    """Right of way at the next junction."""
 
     junction: str
     ego: int  # id of its link
@@ -158,11 +158,11 @@ class RightOfWay(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class ImaginedShown(msgspec.Struct, frozen=True, kw_only=True):
-    """Somebody who may come out of a hidden part of the road."""
+    """A road user that may come out of a hidden stretch of road."""
 
     position: tuple[float, float]  # [m] of its front
     heading: float  # [rad]
-    probability: float  # that somebody is there
+    probability: float  # that there is one
     behind: int | None  # the vehicle that hides the place; null: a building
 
 
@@ -176,7 +176,7 @@ class DecisionShown(msgspec.Struct, frozen=True, kw_only=True):
     words: str
     plan: tuple[tuple[Action, str, float, int], ...]  # action, in words, value, visits
     under_way: str | None  # in words: what has to be finished first
-    goal: tuple[float, float] | None  # [m] where the passenger wants to go
+    goal: tuple[float, float] | None  # [m] the passenger's destination
     view_radius: float  # [m]
     ego: Drive | None  # the likeliest line of the plan
     alternatives: tuple[Alternative, ...]  # the chosen one first, then best first
@@ -189,7 +189,7 @@ class DecisionShown(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Run(msgspec.Struct, frozen=True, kw_only=True):
-    """One rollout, and how often one like it was drawn."""
+    """A rollout, and how often one like it was drawn."""
 
     index: int
     draws: int
@@ -202,7 +202,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Side(msgspec.Struct, frozen=True, kw_only=True):
-    """What was done, or what would have been."""
+    """What was done, or the foil."""
 
     title: str  # "my plan", "what you asked about", "what I would have done instead"
     brief: str  # what tells it from the other side: "move to the left lane"
@@ -238,7 +238,7 @@ class CauseShown(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class EvidenceShown(msgspec.Struct, frozen=True, kw_only=True):
-    """GET /api/turns/N/evidence: what an answer rests on."""
+    """GET /api/turns/N/evidence: the evidence of an answer."""
 
     n: int
     decision: str  # trace id
@@ -251,4 +251,4 @@ class EvidenceShown(msgspec.Struct, frozen=True, kw_only=True):
     effects: tuple[EffectShown, ...]
     causes: tuple[CauseShown, ...]
     traces: tuple[str, ...]
-    missing: str | None  # in words: what of it is not in the record any more
+    missing: str | None  # in words: parts that are no longer in the record

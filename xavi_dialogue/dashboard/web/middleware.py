@@ -1,4 +1,4 @@
-"""The gate in front of the web application (ASGI): guard, limits, headers, and faults in words."""
+"""Middleware (ASGI): authentication, rate limits, headers and error pages."""
 
 import logging
 import time
@@ -6,7 +6,14 @@ from collections.abc import Awaitable, Callable, MutableMapping
 from typing import Any, TypeAlias
 
 from xavi_dialogue.dashboard.web import responses
-from xavi_dialogue.dashboard.web.auth import METHODS, Asked, Enter, Guard, Refused, secured
+from xavi_dialogue.dashboard.web.auth import (
+    METHODS,
+    Refused,
+    RequestGuard,
+    RequestHeaders,
+    SetToken,
+    secured,
+)
 from xavi_dialogue.dashboard.web.client_session import NO_TOKEN, TOO_OFTEN
 from xavi_dialogue.dashboard.web.rate_limit import Buckets, Rate
 
@@ -16,10 +23,10 @@ Receive: TypeAlias = Callable[[], Awaitable[Message]]
 Send: TypeAlias = Callable[[Message], Awaitable[None]]
 App: TypeAlias = Callable[[Scope, Receive, Send], Awaitable[None]]
 
-# Of one address, behind which there may be many browsers: on loopback there are all of them.
+# Per address, which many browsers may share: on loopback all of them do.
 VISITS = Rate(4.0, 64)  # WebSockets
 FETCHES = Rate(100.0, 400)  # of documents
-TRIES = Rate(1.0, 20)  # of those who know no token, so that none is guessed
+TRIES = Rate(1.0, 20)  # of requests without a valid token, to prevent guessing
 TRIED_OFTEN = "That was tried too often. Wait a little."
 FETCHED_OFTEN = "Too much is asked for at once. Wait a second, then try again."
 VISITED_OFTEN = "Too many connections at once. Wait a little."
@@ -28,15 +35,17 @@ FAULT = "Something went wrong in the dashboard. It has been written to its log."
 _LOG = logging.getLogger(__name__)
 
 
-class Gate:
+class GuardMiddleware:
     """An ASGI application in front of another one."""
 
-    def __init__(self, app: App, guard: Guard, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self, app: App, guard: RequestGuard, clock: Callable[[], float] = time.monotonic
+    ) -> None:
         """A gate.
 
         Args:
-            app: what is behind it.
-            guard: judges who comes.
+            app: the application.
+            guard: authenticates requests.
             clock: [s], monotonic.
         """
         self._app, self._guard, self._clock = app, guard, clock
@@ -45,7 +54,7 @@ class Gate:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """See ASGI."""
-        if scope["type"] not in {"http", "websocket"}:  # nobody has come: a beginning or an end
+        if scope["type"] not in {"http", "websocket"}:  # a lifespan event, not a request
             await self._app(scope, receive, send)
             return
         started = False
@@ -64,7 +73,7 @@ class Gate:
         try:
             if isinstance(verdict, Refused):
                 await _refuse(asked, verdict, receive, out)
-            elif isinstance(verdict, Enter):
+            elif isinstance(verdict, SetToken):
                 await _enter(verdict, out)
             else:
                 await self._app(scope, receive, out)
@@ -73,7 +82,7 @@ class Gate:
             if not started and asked.kind == "http":
                 await _say(out, 500, FAULT)
 
-    def _too_often(self, scope: Scope, asked: Asked, *, known: bool) -> Refused | None:
+    def _too_often(self, scope: Scope, asked: RequestHeaders, *, known: bool) -> Refused | None:
         whose, now = (scope.get("client") or ("",))[0], self._clock()
         if not known:  # else tokens could be guessed
             return None if self._tries.take(whose, now) else Refused(429, TRIED_OFTEN)
@@ -84,12 +93,14 @@ class Gate:
         return None
 
 
-def _asked(scope: Scope) -> Asked:
+def _asked(scope: Scope) -> RequestHeaders:
     kind, method = scope["type"], scope.get("method", "GET")
-    return Asked(kind, method, scope["path"], scope.get("query_string", b""), scope["headers"])
+    return RequestHeaders(
+        kind, method, scope["path"], scope.get("query_string", b""), scope["headers"]
+    )
 
 
-async def _refuse(asked: Asked, refused: Refused, receive: Receive, out: Send) -> None:
+async def _refuse(asked: RequestHeaders, refused: Refused, receive: Receive, out: Send) -> None:
     codes = {401: NO_TOKEN, 429: TOO_OFTEN}
     if asked.kind == "websocket" and refused.status in codes:
         # A page learns why from the code alone, and that only of a connection that was accepted.
@@ -104,7 +115,7 @@ async def _refuse(asked: Asked, refused: Refused, receive: Receive, out: Send) -
         await _say(out, refused.status, refused.words, websocket=asked.kind == "websocket")
 
 
-async def _enter(entered: Enter, out: Send) -> None:
+async def _enter(entered: SetToken, out: Send) -> None:
     headers = [(b"set-cookie", entered.cookie.encode())]
     if entered.onward == "redirect":
         await _answer(out, 303, b"", [*headers, (b"location", b"/")])

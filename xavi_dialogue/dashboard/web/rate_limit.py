@@ -1,4 +1,4 @@
-"""How often somebody may do something: token buckets. The clock is an argument."""
+"""Rate limits by token buckets. The clock is an argument."""
 
 from collections.abc import Hashable
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Rate:
-    """How often something may be done."""
+    """A rate and a burst."""
 
     every_second: float  # in the long run
     burst: int  # at once
@@ -19,7 +19,7 @@ class Bucket:
         self._rate, self._tokens, self._filled = rate, float(rate.burst), now
 
     def take(self, now: float) -> bool:
-        """Take a token at a time [s, monotonic]; whether there was one."""
+        """Take a token at a time [s, monotonic]; return whether there was one."""
         if self.full(now):
             self._tokens = float(self._rate.burst)
         else:
@@ -31,22 +31,22 @@ class Bucket:
         return True
 
     def full(self, now: float) -> bool:
-        """Whether it is as one that was never used."""
+        """Check whether it is full."""
         grown = self._tokens + max(now - self._filled, 0.0) * self._rate.every_second
         return grown >= self._rate.burst
 
 
 class Buckets:
-    """A bucket for each of many, such as addresses; no more of them than `most`."""
+    """Token buckets by client, such as an address; at most `most` of them."""
 
     def __init__(self, rate: Rate, most: int = 1000) -> None:
         self._rate, self._most = rate, most
         self._buckets: dict[Hashable, Bucket] = {}
 
     def take(self, whose: Hashable, now: float) -> bool:
-        """Take a token of somebody's; see `Bucket.take`.
+        """Take a token of a client; see `Bucket.take`.
 
-        Of more than `most` who come at once, those that are not known yet get none.
+        If there are more than `most` clients, new ones get no token.
         """
         bucket = self._buckets.get(whose)
         if bucket is None:

@@ -1,4 +1,4 @@
-"""What is sent over HTTP: the page's files, documents as JSON, and words where there is none."""
+"""HTTP responses: files of the page, documents as JSON, and errors as text."""
 
 import gzip
 import hashlib
@@ -9,8 +9,8 @@ from importlib.resources import files
 
 import msgspec
 
-WORTH_PACKING = 1024  # bytes; less is not made smaller by much
-LEVEL = 4  # of gzip: most of what there is to win, at a third of the time of its default
+WORTH_PACKING = 1024  # bytes; compressing less saves little
+LEVEL = 4  # of gzip: nearly as small as its default, in a third of the time
 TYPES = {
     "css": "text/css; charset=utf-8",
     "html": "text/html; charset=utf-8",
@@ -40,7 +40,7 @@ _PAGE = """<!doctype html>
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """What a response holds."""
+    """The contents of a response."""
 
     data: bytes
     type: str
@@ -58,7 +58,7 @@ def body(data: bytes, kind: str) -> Body:
 
 
 def asset(path: str) -> Body | None:
-    """One of the page's files; None: there is none of this name.
+    """Return one of the page's files; None: there is no such file.
 
     Args:
         path: within the folder `static`, its parts parted by slashes.
@@ -74,12 +74,12 @@ def asset(path: str) -> Body | None:
 
 
 def said(words: str) -> bytes:
-    """Why there is nothing else, as JSON."""
+    """Return an error as JSON."""
     return msgspec.json.encode({"error": words})
 
 
 def no_token_page(words: str) -> bytes:
-    """What a browser without the token is shown."""
+    """Return the page for browsers without the token."""
     return _PAGE.format(head="", title="This dashboard has a key", text=escape(words)).encode()
 
 

@@ -1,4 +1,4 @@
-"""The web application: the page, its documents, and the browsers that look on. See `board`."""
+"""The web application: page, documents and WebSocket. See `interfaces`."""
 
 import asyncio
 import logging
@@ -21,25 +21,25 @@ except ImportError as error:
     raise ImportError(MISSING) from error
 
 from xavi_dialogue.dashboard.web import responses
-from xavi_dialogue.dashboard.web.auth import Guard
+from xavi_dialogue.dashboard.web.auth import RequestGuard
 from xavi_dialogue.dashboard.web.client_session import (
     AGAIN_LATER,
     BROKEN,
     GOING_AWAY,
     UNREADABLE,
-    Packed,
-    Viewer,
+    ClientSession,
+    EncodedMessage,
     Wanted,
     pack,
 )
-from xavi_dialogue.dashboard.web.interfaces import Board
-from xavi_dialogue.dashboard.web.middleware import FAULT, App, Gate
+from xavi_dialogue.dashboard.web.interfaces import DashboardSource
+from xavi_dialogue.dashboard.web.middleware import FAULT, App, GuardMiddleware
 from xavi_dialogue.dashboard.web.responses import JSON, Body
 from xavi_dialogue.dashboard.web.websocket_messages import Ask, Cancel, Outgoing, Suggest, Trouble
 
 MAX_BROWSERS = 32
 EVIDENCE_WAIT = 30.0  # [s]
-CLOSING = 1.0  # [s] that a browser may take to be told that it has to leave
+CLOSING = 1.0  # [s] to tell a browser why it is disconnected
 ASIDE = 64 * 1024  # bytes, from which on a body is packed on another thread
 
 FULL = "There are too many browsers already. Close one of them, then try again."
@@ -57,26 +57,29 @@ _NUMBER = re.compile(r"[0-9]{1,9}")
 _Endpoint: TypeAlias = Callable[[Request], Awaitable[Response]]
 
 
-class Site:
+class WebApplication:
     """The application, and the browsers that are connected to it."""
 
     app: App
 
     def __init__(
-        self, board: Board, guard: Guard, clock: Callable[[], float] = time.monotonic
+        self,
+        source: DashboardSource,
+        guard: RequestGuard,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """An application.
 
         Args:
-            board: knows what there is to see.
-            guard: judges who comes.
+            source: the contents of the dashboard.
+            guard: authenticates requests.
             clock: [s], monotonic.
         """
-        self._board, self._clock = board, clock
-        self._viewers: dict[int, Viewer] = {}
+        self._source, self._clock = source, clock
+        self._viewers: dict[int, ClientSession] = {}
         self._came = 0
         self._ending = False
-        self.empty = asyncio.Event()  # nobody is there
+        self.empty = asyncio.Event()  # no browsers are connected
         self.empty.set()
         routes = [
             Route("/", _page),
@@ -92,7 +95,7 @@ class Site:
             routes=routes, exception_handlers={HTTPException: _in_words, Exception: _fault}
         )
         inner.router.redirect_slashes = False
-        self.app = Gate(inner, guard, clock)
+        self.app = GuardMiddleware(inner, guard, clock)
 
     @property
     def browsers(self) -> int:
@@ -101,13 +104,13 @@ class Site:
 
     def tell(self, message: Outgoing) -> None:
         """Tell all browsers."""
-        packed: Packed | None = None
+        packed: EncodedMessage | None = None
         for viewer in list(self._viewers.values()):
             packed = packed or pack(message)
             viewer.put(packed)
 
     def close(self) -> None:
-        """Send all browsers away, and let no more in."""
+        """Disconnect all browsers, and accept no more."""
         self._ending = True
         for viewer in list(self._viewers.values()):
             viewer.send_away(GOING_AWAY, ENDING)
@@ -116,20 +119,20 @@ class Site:
 
     async def _roads(self, request: Request) -> Response:
         name = _named(request, _NAME, NO_ROADS)
-        return await _json(request, self._board.roads(name), NO_ROADS)
+        return await _json(request, self._source.roads(name), NO_ROADS)
 
     async def _past(self, request: Request) -> Response:
-        return await _json(request, self._board.past(), UNKNOWN)
+        return await _json(request, self._source.past(), UNKNOWN)
 
     async def _decision(self, request: Request) -> Response:
         name = _named(request, _NAME, NO_DECISION)
-        return await _json(request, self._board.decision(name), NO_DECISION)
+        return await _json(request, self._source.decision(name), NO_DECISION)
 
     async def _evidence(self, request: Request) -> Response:
         number = int(_named(request, _NUMBER, NO_EVIDENCE, "number"))
         try:
             async with asyncio.timeout(EVIDENCE_WAIT):
-                found = await self._board.evidence(number)
+                found = await self._source.evidence(number)
         except TimeoutError:
             raise HTTPException(504, TOO_LATE) from None
         return await _json(request, found, NO_EVIDENCE)
@@ -137,19 +140,19 @@ class Site:
     # Browsers:
 
     async def _meet(self, socket: WebSocket) -> None:
-        """Talk with a browser until it leaves, or has to."""
+        """Serve a browser until it disconnects or must be disconnected."""
         await socket.accept()
         if self._ending or self.browsers >= MAX_BROWSERS:
             code, why = (GOING_AWAY, ENDING) if self._ending else (AGAIN_LATER, FULL)
             await socket.close(code, why)
             return
-        viewer = Viewer(self._came, self._clock(), lambda: self.browsers)
+        viewer = ClientSession(self._came, self._clock(), lambda: self.browsers)
         self._came += 1
         self._viewers[viewer.number] = viewer
         self.empty.clear()
         try:
             self._look_up()
-            viewer.greet(self._board.greet(viewer))
+            viewer.greet(self._source.greet(viewer))
             await self._talk(socket, viewer)
         except Exception:
             _LOG.exception("the dashboard failed to talk with a browser")
@@ -160,14 +163,14 @@ class Site:
             self._look_up()
             if not self._viewers:
                 self.empty.set()
-            self._board.left(viewer)
+            self._source.left(viewer)
 
     def _look_up(self) -> None:
-        """There are more or fewer browsers, of which all are told in their status."""
+        """Update the number of browsers in the status of each."""
         for viewer in self._viewers.values():
             viewer.changed()
 
-    async def _talk(self, socket: WebSocket, viewer: Viewer) -> None:
+    async def _talk(self, socket: WebSocket, viewer: ClientSession) -> None:
         more, leave = asyncio.Event(), asyncio.Event()
 
         def changed() -> None:
@@ -192,7 +195,7 @@ class Site:
                 task.result()
         await _dismiss(socket, viewer)
 
-    async def _send(self, socket: WebSocket, viewer: Viewer, more: asyncio.Event) -> None:
+    async def _send(self, socket: WebSocket, viewer: ClientSession, more: asyncio.Event) -> None:
         while True:
             more.clear()
             text = viewer.take(self._clock())
@@ -204,7 +207,7 @@ class Site:
                     async with asyncio.timeout(viewer.due(self._clock())):
                         await more.wait()
 
-    async def _hear(self, socket: WebSocket, viewer: Viewer) -> None:
+    async def _hear(self, socket: WebSocket, viewer: ClientSession) -> None:
         while (event := await socket.receive())["type"] == "websocket.receive":
             text = event.get("text")
             if text is None:
@@ -214,23 +217,23 @@ class Site:
             if wanted is not None:
                 self._pass_on(viewer, wanted)
 
-    def _pass_on(self, viewer: Viewer, wanted: Wanted) -> None:
+    def _pass_on(self, viewer: ClientSession, wanted: Wanted) -> None:
         try:
             match wanted:
                 case Ask():
-                    self._board.ask(viewer, wanted)
+                    self._source.ask(viewer, wanted)
                 case Cancel():
-                    self._board.cancel(viewer, wanted)
+                    self._source.cancel(viewer, wanted)
                 case Suggest():
-                    self._board.suggest(viewer, wanted)
+                    self._source.suggest(viewer, wanted)
         except Exception:
             _LOG.exception("the board failed")
             request = None if isinstance(wanted, Suggest) else wanted.request
             viewer.tell(Trouble(request=request, text=FAULT))
 
 
-async def _dismiss(socket: WebSocket, viewer: Viewer) -> None:
-    """Close the connection where a browser is to leave; one that reads nothing is not told."""
+async def _dismiss(socket: WebSocket, viewer: ClientSession) -> None:
+    """Close the connection of a browser that must leave; one that reads nothing gets no reason."""
     if viewer.leave is not None:
         with suppress(TimeoutError, RuntimeError, WebSocketDisconnect):
             async with asyncio.timeout(CLOSING):
@@ -251,7 +254,7 @@ async def _health(_: Request) -> Response:
 
 
 def _named(request: Request, form: re.Pattern[str], words: str, part: str = "name") -> str:
-    """A part of the address; what does not look like a name cannot be one that is known."""
+    """Return a parameter of the path; one that is not like a name is unknown."""
     name: str = request.path_params[part]
     if not form.fullmatch(name):
         raise HTTPException(404, words)
@@ -267,7 +270,7 @@ async def _json(request: Request, data: bytes | None, words: str) -> Response:
 
 
 def _response(request: Request, body: Body | None, words: str) -> Response:
-    """A response to be kept by browsers, which ask whether it is still the same."""
+    """Make a response that browsers may cache and revalidate."""
     if body is None:
         raise HTTPException(404, words)
     headers = {"etag": body.etag, "cache-control": "no-cache", "vary": "accept-encoding"}

@@ -28,20 +28,26 @@ except ImportError as error:
     raise ImportError(MISSING) from error
 
 from xavi_dialogue.dashboard.web import responses
-from xavi_dialogue.dashboard.web.auth import CACHE, SECURITY, Guard, Listen, ListenError
-from xavi_dialogue.dashboard.web.interfaces import Board
+from xavi_dialogue.dashboard.web.auth import (
+    CACHE,
+    SECURITY,
+    ListenError,
+    ListenOptions,
+    RequestGuard,
+)
+from xavi_dialogue.dashboard.web.interfaces import DashboardSource
 from xavi_dialogue.dashboard.web.rate_limit import Bucket, Rate
-from xavi_dialogue.dashboard.web.routes import Site
+from xavi_dialogue.dashboard.web.routes import WebApplication
 from xavi_dialogue.dashboard.web.websocket_messages import MAX_INCOMING, Outgoing
 
-__all__ = ["Listen", "ListenError", "Server"]
+__all__ = ["ListenError", "ListenOptions", "Server"]
 
 MAX_CONNECTIONS = 256  # a browser has up to seven
 MAX_HEAD = 16 * 1024  # bytes of a request's first line and headers
-PATIENCE = 15.0  # [s] for a request to come whole
-LAST = 60.0  # [s] for a response to be read, once it is all there is left to do
-PARTING = 5.0  # [s] for a browser to close a WebSocket that we have closed
-PING = 15.0  # [s] between signs of life that are asked for, and for one to come
+PATIENCE = 15.0  # [s] to receive a whole request
+LAST = 60.0  # [s] to send a response after everything else was sent
+PARTING = 5.0  # [s] for a browser to confirm the closing of a WebSocket
+PING = 15.0  # [s] between pings, and for a reply to one
 FRAMES = Rate(100.0, 400)  # parts of messages, and signs of life
 ENDING = 1.0  # [s] for browsers to leave, and then for requests to end
 STATUS = {400: "Bad Request", 503: "Service Unavailable"}
@@ -50,24 +56,24 @@ _LOG = logging.getLogger(__name__)
 
 
 class Server:
-    """Serves a board to browsers."""
+    """Serves a dashboard to browsers."""
 
-    def __init__(self, board: Board, listen: Listen) -> None:
-        """Take the place to listen at; browsers that come wait until `serve`.
+    def __init__(self, source: DashboardSource, listen: ListenOptions) -> None:
+        """Bind the address; browsers that connect wait until `serve`.
 
         Args:
-            board: what there is to see.
-            listen: where.
+            source: the contents of the dashboard.
+            listen: the address.
 
         Raises:
-            ListenError: it cannot be listened there.
+            ListenError: the address cannot be used.
         """
         self._socket = bind(listen)
         self.port: int = self._socket.getsockname()[1]
-        self.address = listen.address(self.port)  # what to open in a browser
-        #: The same with the token, if there is one: whoever has this may come in.
+        self.address = listen.address(self.port)  # the address to open in a browser
+        #: The same with the token, if there is one: it permits access.
         self.link = self.address + (f"?token={listen.token}" if listen.token else "")
-        self._site = Site(board, Guard(listen, self.port))
+        self._application = WebApplication(source, RequestGuard(listen, self.port))
         self._lock = threading.Lock()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._early: deque[tuple[Callable[..., None], tuple[Any, ...]]] = deque()
@@ -75,15 +81,15 @@ class Server:
 
     @property
     def browsers(self) -> int:
-        """How many are there."""
-        return self._site.browsers
+        """How many there are."""
+        return self._application.browsers
 
     def tell(self, message: Outgoing) -> None:
         """Tell all browsers; on the event loop only."""
-        self._site.tell(message)
+        self._application.tell(message)
 
     def soon(self, function: Callable[..., None], *arguments: Any) -> None:
-        """Have something called on the event loop; see `board.Audience`. Any thread may."""
+        """Schedule a call on the event loop; see `interfaces.Browsers`. Thread-safe."""
         with self._lock:
             if self._loop is not None:
                 self._loop.call_soon_threadsafe(_call, function, arguments)
@@ -91,7 +97,7 @@ class Server:
                 self._early.append((function, arguments))
 
     async def serve(self, stopped: asyncio.Event) -> None:
-        """Serve until told to stop, or cancelled; then end within 3 s. Once only."""
+        """Serve until asked to stop, or cancelled; then end within 3 s. Call it once only."""
         server = _Uvicorn(self._config())
         with self._lock:
             self._loop = asyncio.get_running_loop()
@@ -103,16 +109,16 @@ class Server:
             await asyncio.wait({serving, stopping}, return_when=asyncio.FIRST_COMPLETED)
         finally:
             stopping.cancel()
-            self._site.close()
+            self._application.close()
             with suppress(TimeoutError):
                 async with asyncio.timeout(ENDING):
-                    await self._site.empty.wait()
+                    await self._application.empty.wait()
             with self._lock:
                 self._loop, self._over = None, True
             server.should_exit = True
             await serving
             for connection in list(server.server_state.connections):
-                connection.transport.abort()  # of who reads nothing
+                connection.transport.abort()  # of clients that read nothing
             await asyncio.sleep(0)  # they are lost in the loop's next round
 
     def close(self) -> None:
@@ -121,30 +127,30 @@ class Server:
 
     def _config(self) -> uvicorn.Config:
         return uvicorn.Config(
-            self._site.app,
+            self._application.app,
             http=_Http,
             ws=_WebSocket,
             loop="asyncio",
             lifespan="off",
             log_config=None,
-            log_level="critical",  # what strangers send is no news, and our own faults are logged
+            log_level="critical",  # else it logs errors of strangers
             access_log=False,
             server_header=False,
-            proxy_headers=False,  # a client's word for where it comes from is worth nothing
+            proxy_headers=False,  # forwarded addresses cannot be trusted
             ws_max_size=MAX_INCOMING,
             ws_ping_interval=PING,
             ws_ping_timeout=PING,
-            ws_per_message_deflate=False,  # would be done anew for each browser
+            ws_per_message_deflate=False,  # would be repeated for each browser
             h11_max_incomplete_event_size=MAX_HEAD,
             timeout_graceful_shutdown=1,
         )
 
 
-def bind(listen: Listen) -> socket.socket:
+def bind(listen: ListenOptions) -> socket.socket:
     """A socket that listens.
 
     Raises:
-        ListenError: it cannot be listened there.
+        ListenError: the address cannot be used.
     """
     place = listen.place
     try:
@@ -181,12 +187,12 @@ def _call(function: Callable[..., None], arguments: tuple[Any, ...]) -> None:
 class _Uvicorn(uvicorn.Server):
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
-        """Leave the signals to the process, which has more than this server to end."""
+        """Leave signals to the process, which has more to end than this server."""
         yield
 
 
 class _Http(H11Protocol):
-    """Cuts off who does not ask, or does not read, in time; has the headers of all responses."""
+    """Disconnects slow clients, and adds headers to all responses."""
 
     _late: asyncio.TimerHandle | None = None
     _cut: asyncio.TimerHandle | None = None
@@ -245,7 +251,7 @@ class _Http(H11Protocol):
 
 class _Handshake(ServerProtocol):
     def accept(self, request: Request) -> Response:
-        """As it is, with the headers of all responses where it is refused."""
+        """Add the headers to the response of a refused handshake."""
         response = super().accept(request)
         if response.status_code != 101:
             response.headers.update({**SECURITY, CACHE[0]: CACHE[1]})
@@ -253,7 +259,7 @@ class _Handshake(ServerProtocol):
 
 
 class _WebSocket(WebSocketsSansIOProtocol):
-    """Cuts off who does not read, and who sends endless parts of messages or signs of life."""
+    """Disconnects clients that do not read, or that send endless fragments or pings."""
 
     _cut: asyncio.TimerHandle | None = None
 
@@ -265,7 +271,7 @@ class _WebSocket(WebSocketsSansIOProtocol):
 
     async def run_asgi(self) -> None:
         await super().run_asgi()
-        # What was not read until now keeps a connection open that is closed otherwise.
+        # Unread input would keep a connection open that is closed otherwise.
         if self in self.connections:
             self._cut = self.loop.call_later(PARTING, self.transport.abort)
 
@@ -293,7 +299,7 @@ class _WebSocket(WebSocketsSansIOProtocol):
             super().handle_cont(event)
 
     def _bears(self) -> bool:
-        """Whether one more part is borne with; where it is not, that was the last one."""
+        """Count a fragment or ping; return whether it is within the limit."""
         if self._frames.take(time.monotonic()):
             return True
         self.transport.abort()

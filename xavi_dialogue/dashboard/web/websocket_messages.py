@@ -1,7 +1,7 @@
-"""What a browser and the dashboard's process say to one another over a WebSocket: JSON.
+"""Messages between browser and dashboard over a WebSocket: JSON.
 
 Each message has a `type`. SI units, radians anticlockwise from east, seconds of simulation time.
-What is large, and wanted seldom, is fetched over HTTP instead: see `documents`.
+Large documents that are needed seldom are fetched over HTTP instead: see `http_documents`.
 """
 
 from typing import Annotated, Literal, TypeAlias
@@ -22,7 +22,7 @@ Seen: TypeAlias = tuple[
 LightShown: TypeAlias = tuple[str, str]
 #: lane, from where to where [m] along it nobody can be seen.
 HiddenShown: TypeAlias = tuple[str, float, float]
-#: awaited: not seen yet; coming: it is being started (again), and driven to where it is to be.
+#: awaited: not seen yet; coming: starting or restarting, and driving to its starting time.
 Presence: TypeAlias = Literal["there", "gone", "awaited", "coming"]
 
 
@@ -30,7 +30,7 @@ Presence: TypeAlias = Literal["there", "gone", "awaited", "coming"]
 
 
 class Outgoing(msgspec.Struct, frozen=True, kw_only=True, tag_field="type"):
-    """What all messages to a browser have."""
+    """Base of all messages to a browser."""
 
 
 class Welcome(Outgoing, frozen=True, kw_only=True, tag="welcome"):
@@ -39,23 +39,23 @@ class Welcome(Outgoing, frozen=True, kw_only=True, tag="welcome"):
     version: str  # of the program; a page of another one reloads itself
     vehicle: str  # name of the car on the bus
     session: str  # the conversation that is talked in
-    recording: bool = False  # whether the car is a recorded ride that is played
+    recording: bool = False  # whether a recorded ride is played
     max_text: int = MAX_TEXT  # characters of a question
 
 
 class Ride(Outgoing, frozen=True, kw_only=True, tag="ride"):
-    """A ride begins, or is under way: all that was shown of another one is over."""
+    """A ride begins, or is under way; it replaces any other ride."""
 
     ride: str
     scenario: str | None
     seed: int | None
-    roads: str | None  # hash, for GET /api/roads/HASH; null: not known (yet), told anew when it is
+    roads: str | None  # hash, for GET /api/roads/HASH; null: not known yet
 
 
 class SceneShown(Outgoing, frozen=True, kw_only=True, tag="scene"):
-    """What the car sees now, up to 10 times a second; a slow browser gets fewer."""
+    """The present scene, up to 10 times a second; a slow browser gets fewer."""
 
-    seq: int  # to be acknowledged with `seen`
+    seq: int  # to acknowledge with `seen`
     t: float
     wall: float  # [s since 1970] when the car published it
     state: CarState
@@ -67,7 +67,7 @@ class SceneShown(Outgoing, frozen=True, kw_only=True, tag="scene"):
 
 
 class Belief(msgspec.Struct, frozen=True):
-    """What one other vehicle is expected to do."""
+    """The prediction of one other vehicle."""
 
     vehicle: int
     goals: tuple[tuple[str, float], ...]  # in words, probability; they sum to 1
@@ -81,7 +81,7 @@ class Decision(msgspec.Struct, frozen=True, kw_only=True):
     number: int
     plan: tuple[Action, ...]
     words: str  # of the plan: "Change to the left lane, then turn left"
-    changed: bool  # whether it is another plan than the one before
+    changed: bool  # whether it differs from the plan before
     beliefs: tuple[Belief, ...]
 
 
@@ -108,7 +108,7 @@ class Events(Outgoing, frozen=True, kw_only=True, tag="events"):
 
 
 class Status(Outgoing, frozen=True, kw_only=True, tag="status"):
-    """Who is there. Comes with the welcome, and whenever something of it changes."""
+    """The state of the connections. Sent with the welcome, and after every change."""
 
     hub: Presence
     car: Presence
@@ -124,39 +124,39 @@ class TurnShown(msgspec.Struct, frozen=True, kw_only=True):
     text: str
     reply: Reply
     vehicles: tuple[int, ...]  # that the answer speaks of
-    evidence: bool  # whether GET /api/turns/N/evidence has something to show
+    evidence: bool  # whether GET /api/turns/N/evidence has contents
 
 
 class Turns(Outgoing, frozen=True, kw_only=True, tag="turns"):
-    """Turns that the browser does not know yet, whoever asked; `reset`: forget those before."""
+    """Turns that are new to the browser, from any client; `reset`: drop those before."""
 
     turns: tuple[TurnShown, ...]
     reset: bool = False
 
 
 class Thinking(Outgoing, frozen=True, kw_only=True, tag="thinking"):
-    """A question is on its way to the service; told to the browser that asked."""
+    """A question was sent to the service; for the browser that asked."""
 
     request: Name
 
 
 class AnsweredHere(Outgoing, frozen=True, kw_only=True, tag="answered"):
-    """What came of a question, told to the browser that asked it."""
+    """The result of a question, for the browser that asked."""
 
     request: Name
     n: int | None  # the turn that holds it, which was sent before this
-    reply: Reply | None  # of what became no turn (busy, no service, ...); else null
+    reply: Reply | None  # why there is no turn (busy, no service, ...); else null
 
 
 class Suggestions(Outgoing, frozen=True, kw_only=True, tag="suggestions"):
-    """What could well be asked now, most interesting first; from what just happened."""
+    """Suggested questions, most interesting first, about what has just happened."""
 
     t: float
     questions: tuple[str, ...]
 
 
 class Trouble(Outgoing, frozen=True, kw_only=True, tag="trouble"):
-    """A message of the browser was not taken up; said in words for people."""
+    """A message of the browser was rejected; the reason is a text for users."""
 
     request: Name | None
     text: str
@@ -180,13 +180,13 @@ class Cancel(msgspec.Struct, frozen=True, kw_only=True, tag="cancel", tag_field=
 
 
 class SeenScene(msgspec.Struct, frozen=True, kw_only=True, tag="seen", tag_field="type"):
-    """A scene has been drawn; those that are not acknowledged hold up the next ones."""
+    """A scene has been drawn; missing acknowledgements delay the next scenes."""
 
     seq: int
 
 
 class Suggest(msgspec.Struct, frozen=True, kw_only=True, tag="suggest", tag_field="type"):
-    """What could be asked at another moment than now is wanted: a reply of type suggestions."""
+    """Requests suggestions for another time; the reply is of type suggestions."""
 
     at: Seconds
 

@@ -3,7 +3,7 @@
 from msgspec.structs import replace
 
 from xavi_dialogue.dialogue.acts import Lacking, Results, respond
-from xavi_dialogue.dialogue.mind import Said, Situation, speak
+from xavi_dialogue.dialogue.pipeline import Said, Situation, speak
 from xavi_dialogue.dialogue.quizzes.quiz import candidates, solved
 from xavi_dialogue.dialogue.quizzes.quiz_replies import judged, signs
 from xavi_dialogue.dialogue.standing import REFUSALS
@@ -81,7 +81,7 @@ def _conclude(
 
 
 def _explained(now: Situation, posed: Posed, record: Record) -> Answer | Refusal | NeedRollout:
-    return now.mind.explain(_act(posed), record)
+    return now.pipeline.explain(_act(posed), record)
 
 
 def _act(posed: Posed) -> GroundedAct:
@@ -108,6 +108,6 @@ def _vehicles(now: Situation, quiz: Quiz, readings: tuple[Reading, ...]) -> tupl
     words: tuple[Thing, ...] = tuple(thing for act in acts for thing in parts(act, Described))
     asked = tuple(Reading(acts=(Ask(Identify(thing)),), shares=()) for thing in words[:1])
     record = up_to(now.record, quiz.at)
-    found = now.mind.ground(asked, record, now.memory.discourse) if asked else None
+    found = now.pipeline.ground(asked, record, now.memory.discourse) if asked else None
     acts_found = () if found is None else found.acts
     return tuple(thing for act in acts_found for thing in parts(act.act, Vehicle))

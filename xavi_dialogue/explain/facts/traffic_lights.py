@@ -6,7 +6,7 @@ from planner.record.light_record import LightPrediction
 from planner.record.trace import PlanTrace
 from planner.traffic_lights.cycles import BRAKING, REACTION
 from sim.scene import EGO, Signal
-from xavi_dialogue.domain.terms import Feature, Thing, Vehicle
+from xavi_dialogue.domain.terms import Feature, Vehicle
 from xavi_dialogue.domain.traffic_lights import (
     COLOURS,
     TURNING,
@@ -35,11 +35,6 @@ SAID: dict[str, LightColour] = {
 }  # fmt: skip
 AROUND = 1.0  # [s] around a line that we pass in which that light is the one spoken of
 BEHIND = 20.0  # [s] for which a light that we passed is still the one spoken of
-
-
-def is_light(thing: Thing | None) -> bool:
-    """Tell whether a thing is a traffic light."""
-    return isinstance(thing, Feature) and thing.kind == "light"
 
 
 def light_in(*things: object) -> Feature | None:
@@ -210,10 +205,3 @@ def _repeats(known: Sequence[Stretch], now: Stretch, time: float) -> bool:
     """Whether the light was seen to show the same before, from beginning to end."""
     before = [one for one in known if one.end <= time + ROUNDING and one is not now]
     return any(one.state == now.state and one.begun and one.changed for one in before)
-
-
-def others_facing(ride: Ride, vehicle: int, time: float) -> Shown | None:
-    """Tell what the light shows that another vehicle is held by; None where none is known."""
-    if vehicle == EGO:
-        return shown_at(ride, Feature("light"), time)
-    return shown_at(ride, Feature("light", of=Vehicle(vehicle)), time)

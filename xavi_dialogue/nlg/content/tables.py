@@ -53,6 +53,7 @@ FACTS: dict[type, Planner] = {
     answers.Comfort: safety.plan_comfort,
     answers.Closeness: safety.plan_closeness,
     answers.PullingUp: dangers.plan_pulling_up,
+    answers.Slowing: dangers.plan_slowing,
     answers.Unblocking: turns.plan_unblocking,
     answers.Comforting: talk.plan_comforting,
     answers.Declined: requests.plan_declined,

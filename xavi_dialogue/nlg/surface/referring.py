@@ -46,6 +46,7 @@ FEATURES = {"light": "the traffic light", "sign": "the sign", "crossing": "the c
 #: Somebody on foot is no "it"; as a subject, "they" would be several.
 _PERSONAL = {"object": "them", "possessive": "their"}
 MANY = 5  # vehicles that are named one by one
+COUNTED = 3  # people from which they are counted rather than named
 
 
 @dataclass(slots=True)
@@ -69,6 +70,8 @@ class Speaker:
             self.lit = True  # "it" may be the light from here on
         if isinstance(thing, Vehicles) and len(thing.numbers) > MANY:
             return {"object": "them", "possessive": "their"}.get(form, "they")
+        if isinstance(thing, Vehicles) and (people := self._people(thing, who)):
+            return _owned(people, form)
         if isinstance(thing, Vehicles):
             parts = [self._vehicle(v, who, "full") for v in thing.numbers]
             return _owned(listed(parts), form)
@@ -86,6 +89,17 @@ class Speaker:
         """Whether a vehicle is somebody on foot, and may be spoken of as such."""
         look = self.context.look(vehicle.number, who.time)
         return look is not None and look.kind in ON_FOOT and self.context.style != "paper"
+
+    def _people(self, several: Vehicles, who: Who) -> str:
+        """Some people on foot, counted rather than listed; "" of others, or of fewer than three."""
+        looks = [self.context.look(v, who.time) for v in several.numbers]
+        kinds = {look.kind for look in looks if look is not None and look.kind in ON_FOOT}
+        if len(looks) < COUNTED or len(kinds) != 1 or self.context.style == "paper":
+            return ""
+        if any(look is None or look.kind not in kinds for look in looks):
+            return ""
+        self.mentioned += [v for v in several.numbers if v not in self.mentioned]
+        return f"the {number(Number(len(looks), word('vehicles', 'kind', kinds.pop())))}"
 
     def _named(self, vehicle: int, who: Who) -> str:
         look = self.context.look(vehicle, who.time) or self.context.look(vehicle)

@@ -15,8 +15,8 @@ from xavi_dialogue.domain.meaning import (
     Whither,
     Why,
 )
-from xavi_dialogue.domain.somebody_else import SOMEBODY_ELSE
 from xavi_dialogue.domain.terms import (
+    SOMEBODY_ELSE,
     Back,
     Ego,
     Event,

@@ -14,8 +14,8 @@ from xavi_dialogue.domain.meaning import (
     Social,
     Whether,
 )
-from xavi_dialogue.domain.somebody_else import SOMEBODY_ELSE
 from xavi_dialogue.domain.terms import (
+    SOMEBODY_ELSE,
     Described,
     Ego,
     Event,

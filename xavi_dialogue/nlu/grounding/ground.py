@@ -16,7 +16,7 @@ from xavi_dialogue.domain.answers import NoSuchVehicle, NotUnderstood
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct
 from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Claim, Reading, Request, Social
 from xavi_dialogue.domain.rewriting import first, substitute
-from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.domain.terms import Described, Exists, Nobody, Unsaid, Vehicle
 from xavi_dialogue.nlu.grounding import clarify, doubts, quoting
 from xavi_dialogue.nlu.grounding.acts.acts import act as ground_act
 from xavi_dialogue.nlu.grounding.acts.acts import completed
@@ -24,7 +24,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import proposition_of
 from xavi_dialogue.nlu.grounding.context import Context, Notes
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 from xavi_dialogue.nlu.grounding.result import Failure, Grounding
-from xavi_dialogue.nlu.grounding.salience import after, named_time
+from xavi_dialogue.nlu.grounding.salience import after, named_time, naming
 from xavi_dialogue.nlu.grounding.soundness import is_sound
 from xavi_dialogue.nlu.grounding.world import World
 
@@ -98,7 +98,8 @@ def _try(reading: Reading, context: Context) -> Trial:
         part = _part(reading, index, judged, context)
         parts.append(part)
         cost += part.notes.cost
-        context = context.within(_discussed(after(context.discourse, part.act), part.act, context))
+        told = _discussed(after(context.discourse, part.act), part.act, context)
+        context = context.within(_anchored(told, part.complete, context))
     return Trial(reading, tuple(parts), cost)
 
 
@@ -109,6 +110,17 @@ def _discussed(discourse: Discourse, done: GroundedAct, context: Context) -> Dis
         discourse = replace(discourse, named=named)
     of = proposition_of(done.act.question) if isinstance(done.act, Ask) else None
     return replace(discourse, propositions=(of, *discourse.propositions)) if of else discourse
+
+
+def _anchored(discourse: Discourse, spoken: Act, context: Context) -> Discourse:
+    """Let "it" behind "is there anyone in front of the lorry?" be the lorry."""
+    sought = first(spoken, Exists)
+    thing = None if sought is None else sought.thing
+    thing = thing.described if isinstance(thing, Nobody) else thing
+    if not isinstance(thing, Described) or thing.definite or thing.of is None:
+        return discourse
+    g = TermGrounder(context)
+    return naming(discourse, g.thing(thing.of, g.window(Unsaid(), "present")))
 
 
 def _part(reading: Reading, index: int, judged: doubts.Doubts, context: Context) -> Part:

@@ -36,12 +36,15 @@ from xavi_dialogue.domain.terms import (
     Back,
     Believed,
     Both,
+    Caused,
+    Compares,
     Described,
     Ego,
     Event,
     Exists,
     Exit,
     Happens,
+    Has,
     Is,
     Measured,
     Not,
@@ -90,6 +93,7 @@ def settled(acts: Sequence[Act | None], asked: list[bool], stated: list[bool]) -
             found.append(None)
             continue
         if before is not None:
+            act = _at_limit(before, _of_each(before, act))
             act = _of_trend(before, _of_ours(before, _of_exits(before, _linked(before, act))))
         alone = asked[index] and isinstance(act, Elliptic)  # "and the bus?"
         found.append(_setting(act) if index < questions[-1] and not alone else act)
@@ -180,6 +184,33 @@ def _linked(before: Act, act: Act) -> Act:
     return Ask(structs.replace(question, of=of))
 
 
+def _of_each(before: Act, act: Act) -> Act:
+    """Ask for the reason of each: "how often did you brake, and why each time?"."""
+    match act:
+        case (
+            Repair(kind="why")
+            | Elliptic(form="why", thing=None, event=None)
+            | Ask(question=Why(of=That() | Caused(cause=Pronoun("them-all"), effect=None)))
+            | Ask(question=Listing(of="reasons", event=None))
+        ):
+            pass
+        case _:
+            return act
+    match before:
+        case (
+            Ask(question=HowMany(of=Event(actor=Ego(), time=time) as event))
+            | Ask(question=Listing(of="events", event=Event(actor=Ego()) as event, time=time))
+            | Ask(question=Which(such=Happens(event=Event(actor=Ego(), time=time) as event)))
+        ) if event.tense in ("past", "perfect"):
+            whom = None if isinstance(event.object, Wanted) else event.object
+            event = structs.replace(event, object=whom, time=Unsaid())
+        case Ask(question=Listing(of="stops", time=time)):
+            event = Event("stop")
+        case _:
+            return act
+    return Ask(Listing("reasons", time=time, event=event))
+
+
 def _of_trend(before: Act, act: Act) -> Act:
     """Read "tell me the gap, and whether it has been shrinking or growing" of that measure."""
     match before, act:
@@ -195,6 +226,21 @@ def _of_trend(before: Act, act: Act) -> Act:
         ) if of.attribute in _MOMENTARY:
             spoken = first_time if isinstance(time, Unsaid) else time
             return Ask(Whether(changed(of, tense, spoken)))
+    return act
+
+
+def _at_limit(before: Act, act: Act) -> Act:
+    """Read "what is the limit, and what keeps you from driving it?" as of that speed."""
+    match before, act:
+        case Ask(question=HowMuch(of=Measured(attribute="limit" | "speed") as of)), Ask(
+            question=Why(
+                of=Not(
+                    content=Has(attribute="occupant", thing=Pronoun("it"))
+                    | Happens(event=Event(action="do" | "move" | "go", object=Pronoun("it")))
+                )
+            )
+        ):
+            return Ask(Why(Not(Compares(Measured("speed"), "same", of))))
     return act
 
 

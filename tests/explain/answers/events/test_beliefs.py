@@ -167,7 +167,7 @@ def test_what_came_of_it_is_the_event_or_the_way_it_took() -> None:
 def test_the_time_asked_about(event: Any, time: Any, span: Any, at: float) -> None:
     turned = (they(1, "exit-left", 5.0, 6.0), they(1, "exit-left", 9.0, 10.0))
     asked = scene(span, episodes=turned, looks={1: look(1)})
-    assert asked_time(asked, event, time, 1) == at
+    assert asked_time(asked, event, time) == at
 
 
 @pytest.mark.parametrize(

@@ -9,13 +9,16 @@ from planner.prediction.goals import BRANCHES
 from planner.record.trace import HeldUp, TrajectoryPrediction
 from tests.explain.answers.stated import US, aim, decision, look, scene
 from tests.traces import Aim, Way
+from xavi_dialogue.domain.facts import Belief, Expectation
 from xavi_dialogue.domain.terms import Event, Road, Vehicle
 from xavi_dialogue.explain.answers.expectations.foreseen import (
+    besides,
     chance,
     contains,
     foretells,
     macros,
     sided,
+    unconsidered,
 )
 
 ONE, TWO = Vehicle(1), Vehicle(2)
@@ -270,3 +273,44 @@ def test_into_our_road() -> None:
     assert likely(event, traces=[pathed(10.0, EARLY, FAST)]) == 0.0
     side = Event("enter", ONE, Road("side"))
     assert likely(side, traces=[pathed(10.0, EARLY, FAST)]) == 1.0
+
+
+# --- what was left out of account ---------------------------------------------------------------
+
+
+def sole(*priors: float) -> Any:
+    """A decision that reckons with vehicle 1 going straight on only; priors of its roads."""
+    trace = decision(10.0, aims={1: tuple(aim("continue", 1.0 / len(priors)) for _ in priors)})
+    known = trace.predictions[0]
+    goals = zip(known.goals, priors, strict=True)
+    goals = tuple(replace(goal, prior=prior, edge="on") for goal, prior in goals)
+    return replace(trace, predictions=(replace(known, goals=goals),))
+
+
+@pytest.mark.parametrize(
+    ("event", "priors", "left_out"),
+    [
+        (Event("leave", ONE), (0.99,), True),
+        (Event("turn", ONE, side="left"), (0.99,), True),
+        (Event("exit-right", ONE), (0.99,), True),
+        (Event("turn", ONE), (0.5, 0.5), False),  # other roads were weighed, and ruled out
+        (Event("change-lane", ONE), (0.99,), False),
+        (Event("continue", ONE), (0.99,), False),
+        (Event("stop", ONE), (0.99,), False),
+    ],
+)
+def test_a_turn_that_was_not_considered_has_no_chance(
+    event: Any, priors: Any, left_out: Any
+) -> None:
+    asked = scene(traces=[sole(*priors)], looks={1: look(1)})
+    told = unconsidered(asked, event, 20.0)
+    assert (told is not None, chance(asked, event, 20.0) is None) == (left_out, left_out)
+    if told is not None:
+        assert (told.actor, told.unconsidered, told.signal) == (ONE, event, None)
+
+
+def test_where_it_goes_is_no_alternative_to_whether_it_stops() -> None:
+    on = Expectation(("continue",), 0.57)
+    belief = Belief(1, 10.0, (on, Expectation(("exit-left",), 0.43)))
+    assert besides(belief, Event("stop", ONE, US)) == ()
+    assert besides(belief, Event("turn", ONE, side="left")) == (on,)

@@ -73,8 +73,11 @@ def test_what_runs_on_is_counted_once() -> None:
 
 
 def test_a_lane_change_back_at_once_is_another_one() -> None:
-    weaving = (did("change-left", 2.0, 4.5), did("change-right", 4.6, 7.0))
-    assert counted(Event("change-lane"), episodes=weaving).count == 2
+    for back in (4.6, 4.4):  # also where the first one is not quite over
+        weaving = (did("change-left", 2.0, 4.5), did("change-right", back, 7.0))
+        assert counted(Event("change-lane"), episodes=weaving).count == 2
+    once = (did("change-left", 2.0, 4.5), did("change-left", 2.4, 4.8))
+    assert counted(Event("change-lane"), episodes=once).count == 1
 
 
 @pytest.mark.parametrize(

@@ -196,3 +196,28 @@ def test_it_is_tried_when_it_was_still_open(
     )
     asked = Given(looks={1: look(1)}).asked()
     assert supposed_when.open_until(asked, 1, TURN, at) == found
+
+
+def test_what_it_was_before_we_decided_otherwise_does_not_count(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It was open at 8 s, when we went straight on; at 10 s we chose to change lanes."""
+    traces = (plan(8.0), plan(10.0, "change-left"), plan(12.0, "change-left"))
+    chances = {8.0: 0.5, 10.0: 1.0, 12.0: 1.0}
+    monkeypatch.setattr(supposed_when, "known_to", lambda ride, vehicle, moment: traces)
+    monkeypatch.setattr(
+        supposed_when, "probability", lambda ride, trace, v, names: chances[trace.sim_time]
+    )
+    asked = Given(looks={1: look(1)}, traces=traces).asked()
+    assert supposed_when.open_until(asked, 1, TURN, 10.0) == 10.0
+    assert supposed_when.open_until(asked, 1, TURN, 8.0) == 8.0
+    chances[10.0] = 0.5
+    assert supposed_when.open_until(asked, 1, TURN, 12.0) == 10.0
+
+
+def test_keeping_the_lane_is_what_a_change_of_lanes_did_not_do() -> None:
+    kept = Event("keep-lane", tense="past")
+    moved = {"events": begun("change-left", 8.0, 11.0), "traces": (plan(7.0, "change-left"),)}
+    assert moment(kept, past=True, **moved) == 7.0
+    assert supposed_when.was_done(Given(**moved).asked(), kept) is False
+    assert moment(kept, past=False, **moved) != 7.0

@@ -35,6 +35,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.explain.answers.reasons import knowing as room
 from xavi_dialogue.explain.answers.reasons import others
 from xavi_dialogue.explain.causes.plans.premise import Premise
+from xavi_dialogue.explain.history.deeds import Deed
 
 IT, US = Vehicle(1), Ego()
 SEEN = {1: look(1), 2: look(2)}
@@ -282,11 +283,12 @@ def test_what_was_not_done_is_asked_of_its_foil(decided: Any) -> None:
 @pytest.mark.parametrize(
     ("of", "span", "time", "named"),
     [
-        (None, None, 2.0, None),
+        (None, None, 8.0, None),
+        (None, SAID, 4.0, None),
         (Event("change-left"), None, 2.0, Event("change-left")),
         (Event("stop"), None, 8.0, None),
         (Event("stop"), SAID, 4.0, None),
-        (Event("stop", IT), None, 2.0, None),
+        (Event("stop", IT), None, 8.0, None),
     ],
 )
 def test_how_it_was_decided_tells_what_was_compared(
@@ -296,5 +298,35 @@ def test_how_it_was_decided_tells_what_was_compared(
     asked = scene(span, traces=GROWS, looks=SEEN)
     found: Any = room.how_decide(HowDecide(None if of is None else Happens(of)), asked)
     assert (found.decided, found.options, found.vehicles, found.tried) == (time, ("rows",), 1, 1)
-    assert ("about" in decided) is (time == 2.0)
+    assert ("about" in decided) is (of is None or of.action != "stop" or of.actor == IT)
     assert "about" not in decided or decided["about"].event == named
+
+
+@pytest.mark.parametrize(
+    ("deed", "time"),
+    [
+        (Deed("change-left", 0, 2.0, 2.0, 9.0), 2.0),  # over, of late
+        (Deed("change-left", 0, 2.0, 2.0, 7.0), 8.0),  # long over
+        (Deed("change-left", 0, 2.0, 2.0), 8.0),  # it goes on, and is decided again
+        (Deed("continue", 0, 2.0, None, 9.0), 8.0),
+    ],
+)
+def test_how_we_decided_is_of_what_was_done_of_late_or_of_the_last_decision(
+    monkeypatch: pytest.MonkeyPatch, deed: Deed, time: float
+) -> None:
+    monkeypatch.setattr(room, "premise", lambda _, about: Premise(GROWS[0], deed))
+    monkeypatch.setattr(room.options, "weighed", lambda _, found: ())  # type: ignore[attr-defined]
+    found: Any = room.how_decide(HowDecide(), scene(traces=GROWS, looks=SEEN))
+    assert found.decided == time
+
+
+def test_how_sure_we_are_of_what_goes_on_is_of_the_last_decision(
+    decided: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = GROWS[3].plan[0].action
+    for ended, tense, time in ((None, "present", 8.0), (None, "past", 2.0), (4.0, "present", 2.0)):
+        deed = Deed(first, 0, 2.0, None, ended)
+        monkeypatch.setattr(room, "premise", lambda _, about, deed=deed: Premise(GROWS[0], deed))
+        asked: Any = Event(first, tense=tense)  # type: ignore[arg-type]
+        found: Any = room.certain(scene(traces=GROWS), asked, negated=False)
+        assert found == ("choice", time)

@@ -114,7 +114,7 @@ def test_what_is_announced_now_may_still_come() -> None:
 
 # --- wavering -----------------------------------------------------------------------------------
 
-MIND = Event("change-plan")
+PIPELINE = Event("change-plan")
 
 
 def wavered(
@@ -129,7 +129,7 @@ def wavered(
 
     patch.setattr(wavering, "of_trace", options)
     patch.setattr(reasons, "why", lambda question, asked: Told("why"))
-    event = MIND if time is None else replace(MIND, time=time)
+    event = PIPELINE if time is None else replace(PIPELINE, time=time)
     traces = tuple(plan(t, *((one,) if one else ())) for t, one in plans)
     return wavering.wavered(Why(Happens(event)), Given(traces=traces, now=now).asked())
 

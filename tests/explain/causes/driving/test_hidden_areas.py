@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.planner.corner import at_the_corner
-from xavi_dialogue.service.in_process import Conversation, make_mind, planner_for
+from xavi_dialogue.service.in_process import Conversation, make_pipeline, planner_for
 from xavi_dialogue.vehicle.episode import Moment, clock, network_of, start
 
 pytestmark = pytest.mark.slow
@@ -32,7 +32,7 @@ def told(folder: Path, at: float, text: str, *, house: bool = True, routes: str 
             if clock(moment) > at + 1e-6:
                 break
             moments.append(moment)
-    passenger = Conversation(make_mind(), planner_for(network))
+    passenger = Conversation(make_pipeline(), planner_for(network))
     for moment in moments:
         passenger.record(moment)
     return passenger.ask(text, at).text

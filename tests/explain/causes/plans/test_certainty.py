@@ -13,7 +13,7 @@ from tests.traces import Actions, Aim, End, Way
 from xavi_dialogue.explain.causes.plans.certainty import at_least, of_choice, of_plan
 from xavi_dialogue.explain.causes.plans.contrast import contrast
 from xavi_dialogue.explain.causes.plans.natural import natural
-from xavi_dialogue.explain.causes.plans.options import free, situations, weighed
+from xavi_dialogue.explain.causes.plans.options import free, open_at, situations, weighed
 from xavi_dialogue.explain.causes.plans.premise import Premise
 from xavi_dialogue.explain.history.ride import Ride
 
@@ -199,3 +199,30 @@ def test_within_a_manoeuvre_the_decision_before_counts() -> None:
     doubled = replace(first, rollouts=first.rollouts * 2)
     found = situations(Premise(doubled, None))
     assert (found.rollouts, found.distinct_samples, found.traces) == (3, 1, (doubled.trace_id,))
+
+
+def test_what_leads_off_the_way_is_no_rival() -> None:
+    """Turning left is a dead end; the choice was between turning right and stopping."""
+    ends = {"exit-right": End(time=12.0), "exit-left": End("dead"), "stop": End(time=15.0)}
+    plans: tuple[Actions, ...] = (("exit-right",), ("exit-left",), ("stop", "exit-right"))
+    several = {1: (Aim("continue", 1.0, tuple(Way(("continue",), p) for p in (0.5, 0.3, 0.2))),)}
+    trace = decided(ends, several, plans, plan=("exit-right",))
+    found = of_choice(ride(trace), Premise(trace, None))
+    assert found is not None
+    assert found.contrast is not None
+    assert found.contrast.foil == ("stop",)
+    lost = decided(ends, several, plans[:2], plan=("exit-right",))
+    assert of_choice(ride(lost), Premise(lost, None)) is None
+    named = of_choice(ride(trace), Premise(trace, None), ("exit-left",))
+    assert named is not None
+    assert named.contrast is not None
+    assert named.contrast.foil == ("exit-left",)
+
+
+def test_the_last_decision_with_more_than_one_option_counts() -> None:
+    first, second = plain(), replace(plain(), sim_time=5.0)
+    only = replace(decided({"continue": End()}, plans=[("continue",)]), sim_time=6.0)
+    whole = ride(first, second, only)
+    assert open_at(whole, Premise(only, None)).trace is second
+    assert open_at(whole, Premise(first, None)).trace is first
+    assert open_at(ride(only), Premise(only, None)).trace is only

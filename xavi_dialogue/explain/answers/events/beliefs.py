@@ -25,6 +25,7 @@ from xavi_dialogue.explain.answers.expectations.foreseen import (
     came_of,
     chance,
     collision_chance,
+    unconsidered,
 )
 from xavi_dialogue.explain.answers.expectations.plans import foreseen
 from xavi_dialogue.explain.answers.measuring.closeness import How, closeness
@@ -54,7 +55,9 @@ def how_sure(question: HowSure, asked: Asked) -> Answer:
     time = question.time if not isinstance(question.time, Unsaid) else time_of(of)
     match of:
         case Happens(event=event) if number(event.actor) is not None:
-            return _under_way(asked, event, time) or beliefs_of(asked, event, time)
+            under_way = _under_way(asked, event, time)
+            at = asked_time(asked, event, time)
+            return under_way or unconsidered(asked, event, at) or beliefs_of(asked, event, time)
         case Happens(event=Event(action="collide")):
             at = instant(asked, time)
             return Verdict(of, None, probability=collision_chance(asked, at))
@@ -108,7 +111,7 @@ def history_of(asked: Asked, vehicle: int, event: Event | None, time: Time = UNS
         Unanswered: nothing was ever believed of it.
     """
     world = asked.world
-    at = asked_time(asked, event, time, vehicle)
+    at = asked_time(asked, event, time)
     every = world.beliefs(vehicle, world.begin, asked.now)
     if not every:
         raise Unanswered(NotRecorded("not-recorded", Vehicle(vehicle), about="probability"))
@@ -147,6 +150,9 @@ def foreknown(asked: Asked, event: Event, time: Time) -> Finding:
     share, belief = chance(asked, event, at), asked.world.belief(vehicle, at)
     facts: tuple[Fact, ...] = () if came is None else (came,)
     shown = () if belief is None else (belief,)
+    left_out = unconsidered(asked, replace(event, tense="past"), at)
+    if left_out is not None:
+        return Finding(False, facts, None, shown, answer=left_out)
     if share is None:
         look = first_look(asked, vehicle, at)
         return Finding(None, (*facts, *(() if look is None else (look,))), "not-recorded", shown)
@@ -195,7 +201,7 @@ def since_when(asked: Asked, event: Event) -> Beliefs:
     return replace(found, since=since.time, time=since.time, probability=share)
 
 
-def asked_time(asked: Asked, event: Event | None, time: Time, vehicle: int) -> float:
+def asked_time(asked: Asked, event: Event | None, time: Time) -> float:
     """Give the time [s] that is asked about: said, or just before it came, or the last one."""
     if is_ahead(asked, time, "present"):
         return asked.now

@@ -4,7 +4,7 @@ from msgspec.structs import replace as with_fields
 
 from xavi_dialogue.domain.answers import Bound, Course
 from xavi_dialogue.domain.facts import Episode, Fact, Measure
-from xavi_dialogue.domain.terms import Ego, Event, Exit, Happens, Now, Unsaid, Vehicle, WholeRide
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Now, Unsaid, Vehicle, WholeRide
 from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
 from xavi_dialogue.explain.answers.events.picking import likeliest
 from xavi_dialogue.explain.answers.expectations.foreseen import (
@@ -15,9 +15,11 @@ from xavi_dialogue.explain.answers.expectations.foreseen import (
     collision_chance,
     is_open,
     macros,
+    unconsidered,
     wrong_belief,
 )
 from xavi_dialogue.explain.answers.expectations.plans import foreseen
+from xavi_dialogue.explain.answers.expectations.slowing import slowing
 from xavi_dialogue.explain.answers.measuring.closeness import closeness
 from xavi_dialogue.explain.answers.measuring.nearing import (
     closes,
@@ -32,6 +34,7 @@ from xavi_dialogue.explain.answers.reference.findings import Finding, expected, 
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, is_ahead, window
 from xavi_dialogue.explain.answers.reference.occasions import instead, occasion, occasions, overlaps
 from xavi_dialogue.explain.answers.ride.leaving import apart, left_behind, still_there
+from xavi_dialogue.explain.answers.ride.onward import other_exit
 from xavi_dialogue.explain.answers.ride.places import to_go, told
 from xavi_dialogue.explain.answers.sight.sight import comes, sees
 from xavi_dialogue.explain.history.thresholds import MOVING
@@ -129,7 +132,10 @@ def _intended(asked: Asked, event: Event) -> bool:
         return False
     meant = bool(macros(event)) or event.action in INTENDED
     begun = occasion(asked, event) if meant else None
-    return meant and begun is None and chance(asked, event, asked.now) is not None
+    if not meant or begun is not None:
+        return False
+    left_out = unconsidered(asked, event, asked.now) is not None
+    return left_out or chance(asked, event, asked.now) is not None
 
 
 def _has_been(asked: Asked, event: Event) -> Finding:
@@ -179,12 +185,14 @@ def _to_come(asked: Asked, event: Event) -> Finding:
     if naming.is_us(event.actor):
         if asked.ride.arrived or asked.ride.ended:
             return Finding(False, going)
-        other = _other_exit(asked, event)
+        other = other_exit(asked, event)
         if other is not None:
             return Finding(False, (other,))
         nearing = nears(asked, event)
         if nearing is not None:
             return nearing
+        if slows := slowing(asked, event):
+            return Finding(None, answer=slows)
         found = foreseen(asked, event)
         kept = event.action in ("keep-lane", "follow")
         if kept or (found is None and event.action == "continue"):
@@ -211,22 +219,13 @@ def _to_come(asked: Asked, event: Event) -> Finding:
     belief = asked.world.belief(vehicle, now)
     share = chance(asked, event, now)
     if share is None and belief is not None and (look is None or look.in_view):
-        return Finding(None, (), "in-future", answer=Bound(Vehicle(vehicle), belief))
+        told_of = unconsidered(asked, event, now) or Bound(Vehicle(vehicle), belief)
+        return Finding(None, (), "in-future", answer=told_of)
     if look is not None and not look.in_view and now - (look.seen or now) > RECENT:
         return Finding(None, (look,), "out-of-view", () if belief is None else (belief,))
     if belief is not None and not going:
         belief = with_fields(belief, expectations=besides(belief, event))
     return expected(share, *going, believed=() if belief is None else (belief,))
-
-
-def _other_exit(asked: Asked, event: Event) -> Measure | None:
-    """Give the exit that we take, where another one was asked about."""
-    if not isinstance(event.object, Exit) or event.object.rank is None:
-        return None
-    taken = asked.world.measure("exit-number", Ego(), asked.now)
-    if taken.value is None or taken.count is None or taken.value == event.object.rank:
-        return None
-    return taken
 
 
 def _arrived(asked: Asked, event: Event) -> Finding:

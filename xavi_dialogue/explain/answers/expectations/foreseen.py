@@ -2,14 +2,21 @@
 
 from msgspec.structs import replace
 
-from planner.record.trace import Action, HeldUp, PlanTrace, TrajectoryPrediction
+from planner.record.trace import (
+    Action,
+    HeldUp,
+    PlanTrace,
+    TrajectoryPrediction,
+    VehiclePrediction,
+)
 from sim.scene import EGO
+from xavi_dialogue.domain.answers import Bound
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation
 from xavi_dialogue.domain.terms import Event, Road, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.precedence import before_us, first, into_our_road
 from xavi_dialogue.explain.answers.reference.asked import Asked
-from xavi_dialogue.explain.answers.reference.moments import Window
+from xavi_dialogue.explain.answers.reference.moments import SHORT, Window
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
 from xavi_dialogue.explain.answers.reference.occasions import overlaps
 from xavi_dialogue.explain.causes.plans.chances import chances
@@ -22,6 +29,7 @@ MOVING = 1.0  # [m/s] by which a vehicle that goes gains speed
 OPEN = 0.1  # probability from which an answer adds another alternative
 CLEAR = 0.6  # from which one may be said to have been wrong
 BEFORE = 10.0  # [s] before an event that a prediction of it can be from
+SOLE = 0.95  # prior from which a road was the only one considered
 
 #: The macro actions that an action of a question is foreseen by, sides apart.
 TURNING: tuple[Action, ...] = ("exit-left", "exit-right", "exit-straight", "continue-next-exit")
@@ -56,7 +64,7 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
     event = _alongside(asked, event, vehicle, at)
     trace = asked.ride.at(at, vehicle)
     known = None if trace is None else prediction(trace, vehicle)
-    if trace is None or known is None:
+    if trace is None or known is None or _ignored(known, event):
         return None
     total, any_known = 0.0, False
     for goal in known.goals:
@@ -69,6 +77,29 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
             any_known = True
             total += goal.probability * way.probability if does else 0.0
     return min(total, 1.0) if any_known else None
+
+
+def unconsidered(asked: Asked, event: Event, at: float) -> Bound | None:
+    """Tell of a turn or exit that a decision up to a time [s] left out of account; None: else."""
+    vehicle = number(event.actor)
+    trace = None if vehicle is None else asked.ride.at(at, vehicle)
+    known = None if trace is None or vehicle is None else prediction(trace, vehicle)
+    if vehicle is None or known is None or not _ignored(known, event):
+        return None
+    who, belief = Vehicle(vehicle), asked.world.belief(vehicle, at)
+    shown = asked.world.episodes(actor=who, actions=("signal",), begin=at - SHORT, end=at)
+    lit = [e for e in shown if e.end is None or e.end > at]
+    return Bound(who, belief, unconsidered=event, signal=lit[-1] if lit else None)
+
+
+def _ignored(known: VehiclePrediction, event: Event) -> bool:
+    """Tell whether only the road ahead was considered, where a turn or exit is asked about."""
+    names = macros(event)
+    if not names or not set(names) <= set(TURNING):
+        return False
+    ways = [(goal, way) for goal in known.goals for way in goal.trajectories]
+    found = any(branches_off(*one) or contains(one[1].actions, event) for one in ways)
+    return not found and all(g.prior >= SOLE for g in known.goals if g.edge is not None)
 
 
 def _alongside(asked: Asked, event: Event, vehicle: int, at: float) -> Event:
@@ -169,6 +200,9 @@ def matches(expected: Expectation, event: Event) -> bool | None:
 
 def besides(belief: Belief | None, event: Event) -> tuple[Expectation, ...]:
     """Give what else than an event is likely by a belief, likeliest first."""
+    names = macros(event)
+    if not names or "stop" in names:
+        return ()  # where it goes is no alternative to whether it stops
     found = () if belief is None else belief.expectations
     others = (e for e in found if e.probability >= OPEN and matches(e, event) is False)
     return tuple(e for e in others if event.action not in e.actions)

@@ -13,6 +13,7 @@ from xavi_dialogue.explain.answers.expectations.foreseen import collision_chance
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window
 from xavi_dialogue.explain.answers.ride.priority import rule_between
+from xavi_dialogue.explain.facts.episodes.waiting import top_holders
 from xavi_dialogue.explain.history.thresholds import STANDING
 
 How = Literal["safe", "dangerous", "close", "hit", "room", "grounds"]
@@ -38,8 +39,11 @@ def closeness(
     near = about.widened() if about.instant else about
     seen = near if past else Window(asked.now, asked.now)  # a present tense speaks of now
     fading = 0.0 if seen.said else FADING
-    who = nearest_vehicle(asked, seen, fading) if vehicle is None else vehicle
     risk = collision_chance(asked, about.begin if past else asked.now, vehicle)
+    if not past and vehicle is None and how in ("safe", "dangerous") and risk is not None:
+        first = _let_first(asked)  # who is nearest may have nothing to do with it
+        return Closeness(None, None, None, risk, how, about.end, past, giving=first)
+    who = nearest_vehicle(asked, seen, fading) if vehicle is None else vehicle
     if who is None:
         return Closeness(None, None, None, risk, how, about.end, past)
     closest = closest_approach(asked, who, seen)
@@ -89,6 +93,13 @@ def shortest_time(asked: Asked, vehicle: int, about: Window) -> Measure | None:
     found = asked.world.extreme("time-to-collision", Ego(), "lowest", begin, end, Vehicle(vehicle))
     short = found.value is not None and found.value <= URGENT
     return found if short else None
+
+
+def _let_first(asked: Asked) -> tuple[int, ...]:
+    """Name whom we are about to let go first."""
+    trace = asked.world.states.trace(asked.now)
+    held = () if trace is None else top_holders(asked.world.states, trace, EGO)
+    return tuple(vehicle for vehicle, how in held if how == "right-of-way")
 
 
 def nearest_vehicle(asked: Asked, about: Window, fading: float = 0.0) -> int | None:

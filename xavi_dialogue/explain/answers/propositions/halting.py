@@ -5,9 +5,10 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.answers import Verdict
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Why
-from xavi_dialogue.domain.terms import Between, Both, Ego, Event, Happens, Next, Now, Unsaid
+from xavi_dialogue.domain.terms import Back, Between, Both, Ego, Event, Happens, Next, Now, Unsaid
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.plans import MOVES, foreseen, plan_ahead, steps
+from xavi_dialogue.explain.answers.expectations.slowing import slowing
 from xavi_dialogue.explain.answers.propositions import reasons
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import EXPECTED, Finding
@@ -49,7 +50,7 @@ def stop_or_go(of: Both, asked: Asked) -> Finding | None:
     if len(events) < len(of.contents) or not ahead or not meant:
         return None
     said = asked.past is not None and asked.past.said
-    if said or not all(isinstance(e.time, Unsaid | Now | Next | Between) for e in events):
+    if said or not all(isinstance(e.time, Unsaid | Now | Next | Between | Back) for e in events):
         return None
     events = [replace(e, time=Unsaid()) for e in events]
     halts = [e for e in events if e.action in HALTS]
@@ -62,6 +63,9 @@ def stop_or_go(of: Both, asked: Asked) -> Finding | None:
         return Finding(None, answer=reasons.why(Why(Happens(_deed(held[-1].action))), asked))
     if not halts or not goes:
         return _moving(asked, events)
+    named = slowing(asked, halts[0]) if halts[0].object is not None else None
+    if named is not None:
+        return Finding(None, answer=named)
     stops = to_come(asked, replace(halts[0], action="stop", object=None))
     slows = next((to_come(asked, e) for e in goes if e.action in SLOWS), None)
     told = stops or slows or _under_way(asked, goes[0]) or to_come(asked, goes[0])

@@ -13,8 +13,8 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import HowAvoid, Why
-from xavi_dialogue.domain.somebody_else import SOMEBODY_ELSE
 from xavi_dialogue.domain.terms import (
+    SOMEBODY_ELSE,
     Believed,
     Caused,
     Compares,

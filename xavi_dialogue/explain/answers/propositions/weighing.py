@@ -12,6 +12,7 @@ from xavi_dialogue.domain.terms import (
     Both,
     Caused,
     Compares,
+    Ego,
     Event,
     Exists,
     Happens,
@@ -31,7 +32,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import Relation
 from xavi_dialogue.explain.answers.events.beliefs import foreknown, time_of
 from xavi_dialogue.explain.answers.events.happens import happens
-from xavi_dialogue.explain.answers.expectations.foreseen import macros
+from xavi_dialogue.explain.answers.expectations.foreseen import HALTS, YIELDS, macros
 from xavi_dialogue.explain.answers.propositions.comparisons import compares, has
 from xavi_dialogue.explain.answers.propositions.conditions import condition, handed
 from xavi_dialogue.explain.answers.propositions.duties import duty, is_owed, of_order, who_first
@@ -117,6 +118,8 @@ def _joined(of: Both, asked: Asked) -> Finding:
         rule = who_first(asked, first)
         if rule is not None and (rule.rule != "none" or rule.vehicle is not None):
             return Finding(None, answer=replace(rule, holds=None))
+    if of.join == "or" and (held := _stops(of)) is not None:
+        return _open_to_all(weigh(held, asked))
     owed = next((part for part in of.contents if is_owed(part)), None)
     if owed is not None:  # the rule decides, also over what goes with it
         return _open_to_all(weigh(owed, asked)) if of.join == "or" else weigh(owed, asked)
@@ -147,6 +150,19 @@ def _feared(of: Both, asked: Asked) -> Proposition | None:
             ):
                 return part
     return None
+
+
+def _stops(of: Both) -> Happens | None:
+    """Find whether somebody stops, where it is asked beside it whether it comes out or drives on.
+
+    Where it goes is another matter: who stops for us may go straight on.
+    """
+    events = [part.event for part in of.contents if isinstance(part, Happens)]
+    ahead = all(e.tense in ("present", "future") and number(e.actor) is not None for e in events)
+    held = [e for e in events if e.action in HALTS | YIELDS]
+    if len(events) < len(of.contents) or not ahead or len(held) != 1 or is_us(held[0].actor):
+        return None
+    return Happens(replace(held[0], tense="future", object=held[0].object or Ego()))
 
 
 def _told_once(facts: Iterable[Fact]) -> tuple[Fact, ...]:

@@ -50,7 +50,8 @@ from xavi_dialogue.explain.causes.vehicles.conduct import (
     probability,
 )
 from xavi_dialogue.explain.causes.vehicles.grounds import grounds
-from xavi_dialogue.explain.history.ride import prediction
+from xavi_dialogue.explain.history.deeds import Deed
+from xavi_dialogue.explain.history.ride import planned, prediction
 
 COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
 SPEEDS = frozenset[ActionName](("brake", "slow-down", "speed-up"))
@@ -157,8 +158,17 @@ def certain(scene: Asked, event: Event | None, *, negated: bool) -> Certainty:
         if event.action in SPEEDS:  # no option of its own: it comes of the plan
             return certainty.of_plan(ride, found)
     else:
-        found = premise(ride, subject(scene, event))
+        found = _as_now(scene, event, premise(ride, subject(scene, event)))
     return certainty.of_choice(ride, found) or certainty.of_plan(ride, found)
+
+
+def _as_now(scene: Asked, event: Event | None, found: Premise) -> Premise:
+    """Take the last decision for what goes on and is asked of as now: it is decided again."""
+    deed, last = found.deed, scene.ride.latest
+    if deed is None or deed.ended is not None or event is None or event.tense == "past":
+        return found
+    again = last.under_way is None and planned(last)[:1] == (deed.action,)
+    return Premise(last, deed) if again else found
 
 
 def _in_order(rows: tuple[Belief, ...]) -> tuple[Belief, ...]:
@@ -212,15 +222,28 @@ def how_decide(question: HowDecide, scene: Asked) -> Answer:
     """
     event = event_of(question.of)
     ride = scene.ride
-    if event is not None and is_own(event.actor) and not choices.is_choice(event):
+    own = event if event is not None and is_own(event.actor) else None
+    if own is not None and not choices.is_choice(own):
         found = Premise(_trace_at(scene), None)
     else:
-        found = premise(ride, subject(scene, event if event and is_own(event.actor) else None))
-    found = options.free(ride, found)
+        found = premise(ride, subject(scene, own))
+        if own is None and not _tells(scene, found.deed):
+            found = Premise(_trace_at(scene), None)
+    found = options.open_at(ride, found)
     count = len(found.trace.predictions)
     rows, rests_on = options.weighed(ride, found), options.situations(found)
     tried = len(ride.model(found.trace).options(found.node))
     return Method(found.trace.sim_time, rows, rests_on, count, tried)
+
+
+def _tells(scene: Asked, deed: Deed | None) -> bool:
+    """Tell whether a deed is what is asked about where none is named: one of late, and over.
+
+    One that goes on is decided again all the time, and so is driving on.
+    """
+    if deed is None or deed.ended is None or deed.action == "continue":
+        return False
+    return deed.ended >= scene.moment - choices.LATELY
 
 
 def _trace_at(scene: Asked) -> PlanTrace:

@@ -125,7 +125,7 @@ def _at_deed(
 ) -> Premise | None:
     """Find the choice of the deed that a question speaks of by what was not done.
 
-    Keeping the lane is what the last change of lanes did not; earlier or later is what was done.
+    Retention the lane is what the last change of lanes did not; earlier or later is what was done.
     """
     if event.action == "keep-lane":
         names = CHANGES

@@ -212,8 +212,13 @@ def merged(asked: Asked, episodes: Iterable[Episode]) -> tuple[Episode, ...]:
 
 
 def _is_after(asked: Asked, one: Episode, other: Episode) -> bool:
-    """Tell whether one has ended before another begins; lane changes may follow at once."""
-    pause = 0.0 if {one.action, other.action} <= CHANGED else PAUSE
+    """Tell whether one has ended before another begins; lane changes may follow at once.
+
+    One to the other side is never part of the first, though it may begin before that one is over.
+    """
+    if {one.action, other.action} == CHANGED:
+        return True
+    pause = 0.0 if one.action in CHANGED and other.action in CHANGED else PAUSE
     return other.begin >= _end(asked, one) + pause
 
 

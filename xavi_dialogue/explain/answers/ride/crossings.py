@@ -8,7 +8,7 @@ from xavi_dialogue.domain.facts import Episode, Somebody
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reference.asked import Asked
-from xavi_dialogue.explain.answers.reference.moments import Window
+from xavi_dialogue.explain.answers.reference.moments import SHORT, Window
 from xavi_dialogue.explain.answers.reference.naming import number
 from xavi_dialogue.explain.answers.reference.occasions import overlaps
 
@@ -44,7 +44,8 @@ def went_first(
     entered = any(near.begin <= t for t in entries(asked))
     inside = _inside(asked, vehicle, near)
     if entered and inside and not any(one for _, one in inside) and _let_us(asked, vehicle, near):
-        return Ego()  # it waits before the junction that we are in or have crossed
+        ours = _inside(asked, EGO, near)  # it waits before the junction that we are in or crossed
+        return None if ours[-1][1] and ours[-1][0] >= asked.now - SHORT else Ego()
     if not entered and _left(asked, vehicle, near) is not None:
         return Vehicle(vehicle)
     over = waited is not None and waited.end is not None and waited.standing
@@ -61,7 +62,10 @@ def _let_us(asked: Asked, vehicle: int, near: Window) -> bool:
 def stood(asked: Asked, vehicle: int, near: Window) -> bool:
     """Tell whether a vehicle was at a standstill when we came into the junction."""
     entered = [t for t in entries(asked) if near.begin <= t <= near.end]
-    speeds = [asked.world.measure("speed", Vehicle(vehicle), t + 1.0).value for t in entered[-1:]]
+    speeds = [
+        asked.world.measure("speed", Vehicle(vehicle), min(t + 1.0, asked.now)).value
+        for t in entered[-1:]
+    ]
     return any(speed is not None and speed < MOVING for speed in speeds)
 
 

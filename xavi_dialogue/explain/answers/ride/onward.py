@@ -5,6 +5,7 @@ from msgspec.structs import replace
 from planner.record.places import RouteStep
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, Course, Measures, NotRecorded
+from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.journeys import WayStep
 from xavi_dialogue.domain.meaning import Whether
 from xavi_dialogue.domain.terms import (
@@ -27,6 +28,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.expectations.precedence import on_ring
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import SHORT, instant, is_past, window
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
@@ -69,7 +71,8 @@ def which_way(of: Measured, asked: Asked) -> Answer:
     """Tell which way we take at the junction asked about; in the past, which way we took."""
     past = is_past(asked, of.time, of.tense) and not _to_come(of)
     at = instant(asked, of.time, of.tense)
-    if past or at < asked.now - SHORT:
+    still_on = of.attribute == "exit-number" and on_ring(asked.world.road(asked.now))
+    if not still_on and (past or at < asked.now - SHORT):  # the exit is to come as long as that
         return _way_taken(of, asked, at)
     steps = steps_ahead(asked)
     if of.event is not None:  # "after how many metres do we turn?"
@@ -276,3 +279,13 @@ def _agrees(event: Event, step: WayStep) -> bool:
 
 def _turned(step: WayStep) -> bool:
     return step.turn != "exit-straight"
+
+
+def other_exit(asked: Asked, event: Event) -> Measure | None:
+    """Give the exit that we take, where another one was asked about."""
+    if not isinstance(event.object, Exit) or event.object.rank is None:
+        return None
+    taken = asked.world.measure("exit-number", Ego(), asked.now)
+    if taken.value is None or taken.count is None or taken.value == event.object.rank:
+        return None
+    return taken

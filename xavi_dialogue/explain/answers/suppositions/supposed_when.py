@@ -20,7 +20,10 @@ from xavi_dialogue.explain.causes.driving.suppositions import (
     planned_without,
 )
 from xavi_dialogue.explain.causes.plans.premise import happened, manoeuvre, premise
+from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, DRIVING, names_of, same
 from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names, probability
+from xavi_dialogue.explain.history.deeds import Deed
+from xavi_dialogue.explain.history.ride import planned
 
 POSSIBLE = 0.02  # probability from which it is open whether somebody does something
 
@@ -67,6 +70,8 @@ def driven(scene: Asked, then: Event | None) -> Episode | None:
 
 def was_done(scene: Asked, then: Event) -> bool:
     """Tell whether what is asked about came about, as a choice or in how we drove."""
+    if then.action == "keep-lane" and _left_lane(scene) is not None:
+        return False
     if choices.is_choice(then):
         return happened(scene.ride, subject(scene, then).names, scene.span) is not None
     kinds = (*motions.KINDS.get(then.action, (motions.SLOWING,))[0], *motions.STILL)
@@ -74,6 +79,14 @@ def was_done(scene: Asked, then: Event) -> bool:
     if scene.past is not None and scene.past.said:
         return scene.pick(found, lambda e: (e.begin, e.end)) is not None
     return bool(found)
+
+
+def is_new(found: Supposed, then: Event) -> bool:
+    """Tell whether what is asked about is no part of the plan as things are."""
+    names = names_of(then)
+    if set(names) & DRIVING:
+        return False
+    return not any(same(name, step) for name in names for step in found.here.plan)
 
 
 def without_at(
@@ -108,8 +121,11 @@ def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bo
     """Find the time [s] of the decision that a supposition is about."""
     if driven is not None:
         return driven.begin  # once it is under way, planning again without its cause tells less
+    left = None if then is None or then.action != "keep-lane" else _left_lane(scene)
     if then is not None and choices.is_choice(then):
         try:
+            if past and left is not None:
+                return scene.ride.choice_of(left).sim_time
             return premise(scene.ride, subject(scene, then)).trace.sim_time
         except Unanswered:
             return scene.moment
@@ -131,13 +147,25 @@ def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bo
     return scene.moment
 
 
+def _left_lane(scene: Asked) -> Deed | None:
+    """Find the change of lanes that was made instead of keeping the lane."""
+    made = [deed for deed in scene.ride.deeds if deed.action in CHANGES]
+    return scene.pick(made, lambda deed: deed.span)
+
+
 def open_until(scene: Asked, vehicle: int, event: Event, moment: float) -> float:
     """Find the last time [s] up to a moment at which it was open whether a vehicle would do so.
 
-    The moment itself where it never was: then it is planned again with what is supposed.
+    The moment itself where it never was, or where we decided otherwise as long as it was: then
+    it is planned again with what is supposed.
     """
-    names = conduct_names(event)
-    known = [trace for trace in known_to(scene.ride, vehicle, moment) if trace.sim_time <= moment]
+    names, decided = conduct_names(event), scene.ride.at(moment)
+    chosen = () if decided is None else planned(decided)[:1]
+    known = [
+        trace
+        for trace in known_to(scene.ride, vehicle, moment)
+        if trace.sim_time <= moment and planned(trace)[:1] == chosen
+    ]
     chances = [(t.sim_time, probability(scene.ride, t, vehicle, names)) for t in known]
     open_ = [time for time, chance in chances if POSSIBLE < chance < 1.0 - POSSIBLE]
     return open_[-1] if open_ else moment

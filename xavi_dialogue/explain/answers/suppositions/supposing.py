@@ -54,6 +54,7 @@ from xavi_dialogue.explain.answers.suppositions.own_suppositions import (
 from xavi_dialogue.explain.answers.suppositions.supposed_when import (
     driven,
     imagined,
+    is_new,
     moment,
     open_until,
     was_done,
@@ -232,8 +233,8 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
         if found.proxy is not None and not negated and event.action in ("brake", "slow-down"):
             event = structs.replace(event, action=found.proxy, manner=())
         still = _still(found, then, drove)
-    undone = past and then is not None and not was_done(scene, then)
-    if undone and then is not None and still:  # what the plan has yet to do is not what it changes
+    new = then is not None and (not was_done(scene, then) if past else is_new(found, then))
+    if past and new and then is not None and still:  # what the plan has yet to do stays
         still = not _comes_anyway(found, then)
     return SupposedOfOther(
         vehicle=numbers[0],
@@ -253,7 +254,7 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
         others=numbers[1:],
         left_out=left,
         everybody=of.everybody,
-        undone=undone,
+        undone=new,
     )
 
 

@@ -2,15 +2,29 @@
 
 import numpy as np
 
-from planner.record.trace import Outcome
+from planner.record.trace import Outcome, PlanTrace
 from xavi_dialogue.causal.mixtures import Joint
 from xavi_dialogue.causal.model import Actions, Intervention
-from xavi_dialogue.domain.answers import Certainty, NeedRollout
+from xavi_dialogue.domain.answers import Certainty, Contrast, NeedRollout
 from xavi_dialogue.explain.causes.plans.chances import chances, either_way, surely
-from xavi_dialogue.explain.causes.plans.contrast import alone, contrast, decided, evidence, factual
+from xavi_dialogue.explain.causes.plans.contrast import (
+    alone,
+    alternatives,
+    compare,
+    contrast,
+    decided,
+    evidence,
+    factual,
+)
 from xavi_dialogue.explain.causes.plans.natural import natural
 from xavi_dialogue.explain.causes.plans.premise import Premise
-from xavi_dialogue.explain.history.ride import MIN_COVERAGE, MIN_DISTINCT, Ride, Unanswered
+from xavi_dialogue.explain.history.ride import (
+    MIN_COVERAGE,
+    MIN_DISTINCT,
+    Ride,
+    Unanswered,
+    planned,
+)
 
 DOUBT = 0.05  # chance that a probability is smaller than its lower bound
 UTMOST = 0.99  # no bound is higher: there is always what nobody foresees
@@ -72,7 +86,7 @@ def of_choice(ride: Ride, found: Premise, foil: Actions = ()) -> Certainty | Non
     Args:
         ride: the record.
         found: the decision, and where in its plan the choice is.
-        foil: what the question names instead; () for what one would naturally do.
+        foil: what the question names instead; () for the rival.
 
     Returns:
         None where there is nothing to compare it with.
@@ -82,8 +96,8 @@ def of_choice(ride: Ride, found: Premise, foil: Actions = ()) -> Certainty | Non
     """
     trace, node = found.trace, found.node
     try:
-        against = contrast(ride, trace, foil, node) if foil else natural(ride, trace, node)
-        if against.verdict == "alone":
+        against = contrast(ride, trace, foil, node) if foil else _rival(ride, trace, node)
+        if against is None or against.verdict == "alone":
             return None
         model, there = ride.evidence(trace, against.foil)
         here = decided(ride, model)
@@ -111,6 +125,25 @@ def of_choice(ride: Ride, found: Premise, foil: Actions = ()) -> Certainty | Non
         known,
         proven,
     )
+
+
+def _rival(ride: Ride, trace: PlanTrace, node: Actions) -> Contrast | None:
+    """Compare a choice with what one would naturally do, else with the best that leads on.
+
+    What leads off the way is no rival: that it is worse was never in doubt. None where all do.
+
+    Raises:
+        Unanswered: there is too little evidence, or rollouts are needed.
+    """
+    found = natural(ride, trace, node)
+    lost = found.outcome is not None and found.outcome.name == "dead"
+    if not lost and not found.way:
+        return found
+    model, plan = ride.model(trace), planned(trace)
+    here = factual(model, trace)
+    rivals = alternatives(model, plan[len(node)], node)
+    alive = [pair for pair in rivals if pair[1].likeliest != "dead"]
+    return compare(ride, model, here, alive[0][1], alive[0][0]) if alive else None
 
 
 def _expected(good: int, tried: int) -> float:

@@ -23,6 +23,22 @@ def free(ride: Ride, found: Premise) -> Premise:
     return Premise(before[-1], deed) if before else found
 
 
+def open_at(ride: Ride, found: Premise) -> Premise:
+    """Find the decision asked about, or the last before it that had more than one option.
+
+    Where none had, that is the last before it that was free.
+    """
+    last = free(ride, found)
+    if last.node:
+        return last
+    for trace in reversed(ride.traces):
+        late = trace.sim_time > last.trace.sim_time or trace.under_way is not None
+        first = planned(trace)[:1]
+        if not late and first and alternatives(ride.model(trace), first[0]):
+            return last if trace is last.trace else Premise(trace, last.deed)
+    return last
+
+
 def with_choice(ride: Ride, found: Premise) -> Premise:
     """Find the decision that chose what is under way, with more than one thing to choose from.
 

@@ -39,7 +39,7 @@ def _lit(states: States) -> Iterator[Episode]:
     scene = states.ride.scene
     if scene is None or states.ride.ended or "brake" not in scene.ego.signals:
         return
-    if scene.ego.speed > MOVING:
+    if scene.ego.speed > MOVING and _rate_now(states, EGO) < RATE:
         speed = scene.ego.speed
         yield Episode(named(EGO), "brake", scene.time, speed_from=speed, speed_to=speed)
 

@@ -2,10 +2,10 @@
 
 from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import Activity, Bound, MotionCause, PlanAhead
-from xavi_dialogue.domain.facts import Episode, Look, Measure
-from xavi_dialogue.domain.terms import Ego, Vehicle
-from xavi_dialogue.nlg.content.clauses.clauses import doing, episode_clause
-from xavi_dialogue.nlg.content.clauses.facts import belief_message, episode_message
+from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
+from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.nlg.content.clauses.clauses import doing, episode_clause, event_clause
+from xavi_dialogue.nlg.content.clauses.facts import belief_message, episode_message, verbs_of
 from xavi_dialogue.nlg.content.clauses.measures import STANDING, measure_message
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.routes import (
@@ -15,7 +15,7 @@ from xavi_dialogue.nlg.content.clauses.routes import (
     step_clauses,
     way_messages,
 )
-from xavi_dialogue.nlg.content.clauses.tenses import PRESENT
+from xavi_dialogue.nlg.content.clauses.tenses import PRESENT, since
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import word
@@ -238,4 +238,28 @@ def plan_bound(answer: Bound, context: SpeechContext) -> Plan:
         return Plan((message("BOUND_WENT", **_gone(went, look, context)),), measures)
     if answer.belief is None:
         return Plan((message("BELIEF_NONE", who=Who(answer.actor)),), measures)
+    if answer.unconsidered is not None:
+        return _unconsidered(answer.unconsidered, answer.belief, answer.signal, context)
     return Plan((belief_message(answer.belief, context),), measures)
+
+
+def _unconsidered(
+    event: Event, belief: Belief, signal: Episode | None, context: SpeechContext
+) -> Plan:
+    """Plan that conduct was left out of account, what was considered, and what is indicated."""
+    at = belief.time
+    knew = event.tense == "past"  # whether it was expected is what was asked
+    past = knew or context.now - at > since(context)
+    first = message(
+        "UNCONSIDERED",
+        past=past,
+        knew=knew,
+        when=Moment(at),
+        who=Who(Vehicle(belief.vehicle), at if past else None),
+        of=event_clause(event, context.now, tense="future"),
+        verbs=verbs_of(belief.expectations[0].actions) if belief.expectations else None,
+    )
+    if signal is None:
+        return Plan((first,))
+    shown = episode_message(signal, context, when=False, tense="past" if past else None)
+    return Plan((first, shown))

@@ -1,9 +1,9 @@
 """Dangers: whether somebody stops in time, and why no collision is expected."""
 
-from xavi_dialogue.domain.answers import Closeness, PullingUp
+from xavi_dialogue.domain.answers import Closeness, PullingUp, Slowing
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.findings import Assurance
-from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.domain.terms import Vehicle, Vehicles
 from xavi_dialogue.nlg.content.clauses.facts import belief_message, episode_message
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.context import SpeechContext
@@ -12,6 +12,7 @@ from xavi_dialogue.nlg.surface.values import Chance, Number, Quantity, Who
 
 LIKELY = 0.5  # probability from which a chance is told beside a rule
 SOME = 0.5  # [m] of braking below which it hardly needs any
+AT_ONCE = 1.0  # [s] within which something comes at once
 
 
 def plan_pulling_up(answer: PullingUp, context: SpeechContext) -> Plan:
@@ -35,6 +36,25 @@ def plan_pulling_up(answer: PullingUp, context: SpeechContext) -> Plan:
     if answer.risk is None or answer.how == "stands":
         return Plan((first,))
     return Plan((first,), (message("RISK", risk=Chance(answer.risk), past=False),))
+
+
+def plan_slowing(answer: Slowing, context: SpeechContext) -> Plan:
+    """Plan whether we stop or slow down, for whom, or who is out of the way by then."""
+    named = Vehicles(answer.others) if answer.others[1:] else None
+    one = Vehicle(answer.others[0]) if answer.others else None
+    soon = None if answer.time is None else max(answer.time - context.now, 0.0)
+    first = message(
+        "SLOWING",
+        who=None if one is None else Who(named or one),
+        stops=answer.stops,
+        held=answer.held >= LIKELY,
+        ready=answer.held > 0.0,
+        slows=answer.slows,
+        slow=None if answer.slow is None else Quantity(answer.slow, "m/s"),
+        soon=None if soon is None or soon < AT_ONCE else Quantity(soon, "s"),
+        order=answer.order,
+    )
+    return Plan((first,))
 
 
 def plan_assured(answer: Closeness, of: Assurance, context: SpeechContext) -> Plan:

@@ -21,6 +21,8 @@ CLOSE = 2.5  # [m] and close
 URGENT = 1.5  # [s] time to collision below which it was tight
 MANY = 3  # vehicles from which they are not named one by one
 _COUNTS = {3: "three", 4: "four", 5: "five", 6: "six", 7: "seven", 8: "eight"}
+#: Who has right of way stands, and leaves it to us.
+STOOD = ("it-stands", "we-first-stood")
 RISKY = 0.05  # risk of a collision from which it is called one
 FAR = 40.0  # [m] from which nobody came close
 
@@ -32,7 +34,7 @@ def plan_priority(answer: Priority, context: SpeechContext) -> Plan:
     many = (answer.vehicle or 0, *answer.others)
     named = Vehicles(many) if answer.others else Vehicle(answer.vehicle or 0)
     who = Who(named, at) if answer.vehicle is not None else None
-    words = verbs(past, many=True)
+    words, kept = verbs(past, many=True), _kept(answer)
     if answer.others:
         words |= {"has": words["have"], "has_to": words["have_to"]}
     first = message(
@@ -42,8 +44,8 @@ def plan_priority(answer: Priority, context: SpeechContext) -> Plan:
         light=answer.light,
         all=_COUNTS.get(len(many)) if len(many) >= MANY and answer.holds is not None else None,
         who=who,
-        kept=_kept(answer),
-        asked=answer.holds is not None,
+        kept=kept,
+        asked=answer.holds is not None and kept not in STOOD,
         holds=answer.holds,
         claim=answer.claim,
         why=answer.why,
@@ -145,18 +147,20 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
         who=Who(Vehicle(vehicle), at) if vehicle is not None else None,
         closest=Quantity(closest.value, "m") if closest and closest.value is not None else None,
         past=answer.past,
+        giving=these(answer.giving),
         foreseen=answer.foreseen,
         then=not answer.overall,
         peak_at=Moment(closest.time) if closest is not None and answer.past else None,
     )
     details: list[Message] = []
-    if answer.risk is not None and (closest is None or (answer.asked == "hit" and not answer.past)):
+    alone = closest is None and not answer.giving
+    if answer.risk is not None and (alone or (answer.asked == "hit" and not answer.past)):
         risk = message("CLOSENESS", lead=_lead(answer), risk=Chance(answer.risk), past=answer.past)
         return Plan((risk,))
     left = answer.ttc.value if answer.ttc is not None else None
     if judged and left is not None and left <= URGENT:
         details.append(message("TIME_LEFT", ttc=Quantity(left, "s")))
-    elif judged and answer.risk is not None and vehicle is not None:
+    elif judged and answer.risk is not None and (vehicle is not None or answer.giving):
         details.append(message("RISK", risk=Chance(answer.risk), past=answer.past))
     return Plan((first,), tuple(details))
 

@@ -10,7 +10,13 @@ from xavi_dialogue.nlg.content.clauses.manoeuvres import other_verbs, own_verbs
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.proposals import about_vehicle
 from xavi_dialogue.nlg.content.clauses.tenses import PRESENT
-from xavi_dialogue.nlg.content.reasons.contrasts import cause_message, consequence_slots, kind_of
+from xavi_dialogue.nlg.content.reasons.contrasts import (
+    RISK,
+    cause_message,
+    consequence_slots,
+    kind_of,
+    risks,
+)
 from xavi_dialogue.nlg.content.reasons.evidence import further, rests_on
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
@@ -125,12 +131,15 @@ def plan_certainty(answer: Certainty, context: SpeechContext) -> Plan:
     if contrast is not None and foil:
         told = consequence_slots(contrast, context, past=past)
         slots = told | slots | {"foil": own_verbs(foil, fact), "verdict": contrast.verdict}
-    details: tuple[Message, ...] = (Message("CERTAIN_OF", slots),)
+    held: tuple[Message, ...] = (Message("CERTAIN_OF", slots),)
+    details = held if share is None else ()  # a figure is trusted as far as asked
     if slots["verdict"] == "better" and slots["fair"]:
         details = (*_because(contrast, context, past=past), *details)
+    risk = None if contrast is None else risks(contrast, context, past=past, unsaid=True)
     more = () if contrast is None else further(contrast, context, past=past)
     shown = () if context.detail == "simpler" else details
-    return Plan((Message("CERTAINTY", slots),), shown, more[:2])
+    core = (*(() if risk is None else (risk,)), Message("CERTAINTY", slots))
+    return Plan(core, shown, (*(() if share is None else held), *more[:2]))
 
 
 def _weight(answer: Certainty) -> str | None:
@@ -158,9 +167,13 @@ def plan_method(answer: Method, context: SpeechContext) -> Plan:
         vehicles=Number(answer.vehicles, "vehicle") if answer.vehicles else None,
     )
     basis = rests_on(answer.evidence, None)
+    risk: tuple[Message, ...] = ()
+    if chosen is not None and (chosen.collision or 0.0) >= RISK:
+        past = answer.decided is not None and context.now - answer.decided > PRESENT
+        risk = (message("RISK_ALONE", past=past, risk=Chance(chosen.collision)),)
     more = tuple(option_message(o) for o in others[:NAMED])
     details = () if basis is None or context.detail == "simpler" else (basis,)
-    return Plan((first,), details, more)
+    return Plan((*risk, first), details, more)
 
 
 def plan_pivot(answer: Pivot, context: SpeechContext) -> Plan:

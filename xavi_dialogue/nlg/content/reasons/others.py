@@ -4,6 +4,7 @@ import dataclasses
 
 from msgspec.structs import replace
 
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import MotionCause, OtherReason, PlaceReason, SignalReason
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Vehicle
@@ -43,6 +44,7 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
     goal = _goal(answer, context)
     slots: dict[str, object] = {
         "who": who,
+        "walks": _walks(answer.vehicle, context),
         "past": past,
         "deed": None if deed is None else _their_deed(deed, answer, context),
         "asked": _not_asked(answer, context),
@@ -60,12 +62,19 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
         return Plan((core,), (), (), (), about_cause(answer))
     details = () if goal is None or cause is not None else (goal,)
     if deed is None and cause is None and goal is not None:
-        return Plan((goal,), (message("MINDS_HIDDEN"),), (), (), about_cause(answer))
+        hidden = message("MINDS_HIDDEN", walks=_walks(answer.vehicle, context))
+        return Plan((goal,), (hidden,), (), (), about_cause(answer))
     core = Message("OTHER_DID", slots)
     more = [message("ALSO_THEIRS", cause=_their_cause(c, answer, context, past))
             for c in answer.causes[1:2]]  # fmt: skip
     more += [goal] if goal is not None and cause is not None else []
     return Plan((core,), details, tuple(more), (), about_cause(answer))
+
+
+def _walks(vehicle: int, context: SpeechContext) -> bool:
+    """Whether it is somebody on foot, who has no driver."""
+    look = context.look(vehicle)
+    return look is not None and look.kind in ON_FOOT
 
 
 def _paced(cause: MotionCause | None, context: SpeechContext) -> dict[str, object]:

@@ -55,7 +55,7 @@ from xavi_dialogue.nlu.compose.propositions.tally import counts, exits_passed, t
 from xavi_dialogue.nlu.compose.states.pacing import not_rather, permitted
 from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
 from xavi_dialogue.nlu.compose.verbs.sheltering import concealed
-from xavi_dialogue.nlu.compose.wh_questions.wh import fact, prevented
+from xavi_dialogue.nlu.compose.wh_questions.wh import fact
 from xavi_dialogue.nlu.compose.wh_questions.which import way_at
 
 _WAYS = frozenset(
@@ -286,8 +286,8 @@ class Polar(Comparing):
             return Fault(None, value.subject, legal=True)
         if value.name == "blame":
             return Fault(None, as_thing(value.object))
-        if value.name == "prevent" and (denied := prevented(value)) is not None:
-            return Why(Not(denied))
+        if value.name == "prevent" and value.content is not None:
+            return Why(Not(value.content))
         if clause.verb is not None and clause.verb.key == "guess" and value.name == "believe":
             return HowKnow(value.content)  # "did you just guess?"
         if value.name == "startle" and isinstance(as_thing(value.object), Ego):

@@ -91,10 +91,8 @@ def adopted(sem: Sem | None, phrase: Complement) -> Sem | None:
         return _measured(sem, phrase.key, other)
     if isinstance(sem, Described) and sem.such is None and phrase.key in ("on", "in", "at"):
         thing = as_thing(other)
-        if isinstance(thing, Described) and sem.kind == "vehicle" and phrase.key != "at":
-            colour, size = sem.colour or thing.colour, sem.size or thing.size
-            return cast(Sem, with_fields(sem, kind=thing.kind, colour=colour, size=size))
-        if thing is not None and not isinstance(thing, Described):
+        ridden = isinstance(thing, Described) and (sem.kind != "vehicle" or phrase.key == "at")
+        if thing is not None and not ridden:
             return cast(Sem, placed_on(sem, phrase, thing))
     if isinstance(sem, Event) and phrase.key in ("for", "with", "of") and sem.object is None:
         thing = as_thing(other)
@@ -104,10 +102,24 @@ def adopted(sem: Sem | None, phrase: Complement) -> Sem | None:
 
 
 def placed_on(thing: Described, phrase: Complement, place: Thing) -> Described:
-    """Say of somebody where he is; who is on a crossing crosses our way."""
+    """Say of somebody where he is; who is on a crossing crosses our way.
+
+    Who is on a bicycle or in a van is described by that.
+    """
+    if isinstance(place, Described) and thing.kind == "vehicle" and phrase.key in ("on", "in"):
+        return structs.replace(thing, **ridden(thing, place))
     if is_crossing(phrase, place) and thing.doing is None:
         return structs.replace(thing, doing=Event("cross", Wanted(), Ego(), tense="present"))
     return structs.replace(thing, such=Related("on", Wanted(), place))
+
+
+def ridden(rider: Described, vehicle: Described) -> dict[str, Any]:
+    """Give what a description takes over from the vehicle that somebody rides."""
+    said = {name: getattr(vehicle, name) for name in _OF_RIDDEN if getattr(rider, name) is None}
+    return {**said, "kind": vehicle.kind}
+
+
+_OF_RIDDEN = ("colour", "size", "bearing", "origin", "of", "doing")
 
 
 def is_crossing(phrase: Complement, place: Thing) -> bool:
@@ -145,6 +157,8 @@ def _measured(sem: Measure, key: str, other: Sem) -> Measure | None:
         return replace(sem, of=with_fields(measured, event=other))
     if key == "between" and (pair := between(other)) is not None:
         return replace(sem, of=with_fields(measured, thing=pair[0], to=pair[1]))
+    if (near := next_to_us(key, as_thing(other))) is not None:
+        return replace(sem, of=with_fields(measured, to=near))
     thing = as_thing(other)
     several = isinstance(other, Group) and not isinstance(other.members[-1], Measure)
     if thing is None or key not in _OF or several:
@@ -152,6 +166,14 @@ def _measured(sem: Measure, key: str, other: Sem) -> Measure | None:
     if key == "of" or (measured.attribute == "probability" and isinstance(measured.thing, Ego)):
         return replace(sem, of=with_fields(measured, thing=thing))
     return replace(sem, of=with_fields(measured, to=thing))
+
+
+def next_to_us(key: str, thing: Thing | None) -> Described | None:
+    """Give who is meant by "in front of us", "behind us", up to whom it is measured."""
+    bearing: Any = key.removeprefix("bearing-")
+    if bearing not in ("ahead", "behind") or not isinstance(thing, Ego | Passenger):
+        return None
+    return Described(bearing=bearing, extreme="nearest")
 
 
 def of_numbers(of: Measured) -> Measured:

@@ -68,6 +68,7 @@ class Clause:
     lacking: Event | None = None  # what is not done with it: "without stopping"
     infinitive: "Clause | None" = None
     gerund: "Clause | None" = None
+    away: "Clause | None" = None  # a gerund behind "from": "keeps us from turning"
     bare: "Clause | None" = None
     that: "Clause | None" = None
     question: Any = None  # an embedded question, composed
@@ -202,6 +203,24 @@ def _deed_made(clause: Clause) -> None:
     clause.objects[1] = deed, part
 
 
+def _deed_placed(clause: Clause) -> None:
+    """Take "waiting" in "is the van at the roundabout waiting" for the verb of the clause."""
+    inner = clause.gerund
+    placed = bool(clause.complements or clause.bearings) and clause.subject is not None
+    said = clause.objects or clause.adjectives or clause.comparisons or clause.feelings
+    if clause.verb is not None or inner is None or not placed or said or not clause.has("be"):
+        return
+    if inner.verb is None or inner.aux or wanted_pronoun(clause.subject):
+        return
+    clause.verb, clause.gerund = inner.verb, inner.gerund
+    clause.objects, clause.infinitive = inner.objects, inner.infinitive
+    clause.complements += inner.complements
+    clause.bearings += inner.bearings
+    clause.particles += inner.particles
+    clause.manner += inner.manner
+    clause.side = clause.side or inner.side
+
+
 class Slots:
     """Fills the slots of a clause from the parts of a parse."""
 
@@ -218,6 +237,7 @@ class Slots:
                 self._phrase(part, clause)
         _be_back(clause)
         _deed_made(clause)
+        _deed_placed(clause)
         if clause.verb is None:
             timed_by(clause)
         return clause

@@ -128,8 +128,8 @@ def asked_of(sem: Sem, time: Time, tense: str = "present") -> Question | None:
             return None
         case Group(members=members) if not isinstance(as_thing(sem), Together):
             return asked_of(members[0], time, tense)
-        case Everyone():
-            return Listing("vehicles", time=time)
+        case Everyone(kind=kind):
+            return Listing("vehicles", None if kind == "vehicle" else cast(Any, sem), time)
         case Destination():
             return Where(sem, time)
         case Record():
@@ -179,7 +179,8 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
             return WhatWouldChange(about, most=True)
         return Why(about or That())
     if sem.key == "reason":
-        return Listing("reasons", thing, time)
+        each = about.event if isinstance(about, Happens) else None
+        return Listing("reasons", None if each else thing, time, each)
     if sem.key in _LISTED:
         if sem.key == "decision" and not (sem.plural or sem.word.endswith("s")):
             return HowDecide(about)

@@ -17,6 +17,7 @@ ALMOST = 0.5  # of a thing of another type that might do
 LEFT_PARTICLE = 0.25
 NO_ACTOR = 0.6  # of a deed that is said to drive: "its turning passed us"
 UNITLESS = 0.4  # what a number is cheaper by beside a verb of speed: "doing 60"
+STEADY = 0.4  # of being about to do what may as well last: "is driving in front of us"
 COLOUR = "c"  # types of a role that what is asked for fills only where it is a colour
 _OF_VEHICLES = frozenset(
     {"pass", "overtake", "cut-in", "brake", "turn", "exit-left", "exit-right", "change-left",
@@ -48,6 +49,8 @@ def amiss(clause: Clause, found: Match) -> float:
     """Say what it costs that a deed would drive, and what a speed without a unit is cheaper by."""
     if found.sense.head == "@exceed" and clause.objects and isinstance(found.object, Quantity):
         return -UNITLESS
+    if found.sense.head == "cut-in" and clause.verb is not None and clause.verb.key == "drive":
+        return STEADY * (clause.verb.category == "VING")
     return NO_ACTOR * (isinstance(clause.subject, Event) and found.sense.head in _OF_VEHICLES)
 
 

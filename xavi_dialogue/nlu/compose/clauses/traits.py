@@ -55,7 +55,7 @@ def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
     for key, sem in traits.about:
         if key in ("in", "on") and isinstance(sem, Described) and kind == "vehicle":
             kind = sem.kind  # "the one on the motorbike", "somebody in a blue car"
-            for name in ("colour", "size"):
+            for name in ("colour", "size", "bearing", "origin", "of", "doing"):
                 if getattr(sem, name) is not None:
                     fields.setdefault(name, getattr(sem, name))
         elif key == "with" and isinstance(sem, Measure) and sem.of.attribute in LIGHTS:

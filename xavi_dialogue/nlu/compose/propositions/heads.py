@@ -96,6 +96,7 @@ def noun(head: Leaf | Node | None, traits: Traits) -> Sem:
     return Unknown(" ".join([*traits.unknown, *head.words]))
 
 
+_SEVERAL = frozenset({"people", "children", "schoolchildren"})  # irregular plurals
 _MET = (Vehicle, Described, Pronoun)
 
 
@@ -131,8 +132,7 @@ def _vehicle(head: Leaf, traits: Traits, plural: bool) -> Sem:
     ):
         return Everyone(cast(Any, head.key))
     kind = traits.kind if head.key in ("car", "vehicle") and traits.kind else head.key
-    if head.words == ("people",):
-        plural = True
+    plural |= head.words[-1] in _SEVERAL
     found = described(kind, traits, plural=plural or traits.determiner == "every")
     if traits.determiner == "no":
         return Nobody(found)

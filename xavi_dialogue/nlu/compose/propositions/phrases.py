@@ -174,6 +174,8 @@ class Phrases(Adjuncts):
                 clause.complements.append(Complement(leaf.key, place, node))
             return
         sem = self.inner(last)
+        if leaf.key == "from" and isinstance(last, Node) and last.name in CLAUSES:
+            clause.away = self.clause(last)  # "what keeps you from driving the limit"
         if isinstance(sem, SideOf):
             self._sided(leaf.key, sem.side, node, clause)
             return
@@ -340,6 +342,13 @@ class Phrases(Adjuncts):
             shared.there = True
             shared.objects = [(placeless(sem), node) for sem, node in clause.objects]
         other = self.slots.fill(node.parts, shared)
+        clause.chained.append(("or", other))
+        self.notes.chained.append(other)
+
+    def _on_or_gapped(self, node: Node, clause: Clause) -> None:
+        """Read "or we for them" as the same deed of another: "did he wait for us or we for him"."""
+        other = Clause(aux=list(clause.aux), verb=clause.verb)
+        other = self.slots.fill(tuple(p for p in node.parts if isinstance(p, Node)), other)
         clause.chained.append(("or", other))
         self.notes.chained.append(other)
 

@@ -148,6 +148,8 @@ class Propositions:
     def _special(self, clause: Clause, one: Match) -> Special:
         clause.time = when(clause, one)
         governed = clause.that or clause.infinitive or clause.gerund or clause.bare
+        if one.sense.head == "@prevent":
+            governed = clause.away or governed
         content: Proposition | None = None
         if one.sense.head == "@make-do" and isinstance(one.second, Event):
             content = Happens(with_fields(one.second, actor=as_thing(one.object) or Ego()))

@@ -137,12 +137,12 @@ def _filled(measure: Measure, to: Thing | None) -> Measure:
         return measure
     if of.thing == Pronoun("it"):  # "the gap to the bus and its speed"
         return replace(measure, of=with_fields(of, thing=to))
-    if of.to == Pronoun("it") or (of.to is None and of.attribute in _MUTUAL):
+    if of.to == Pronoun("it") or (of.to is None and of.attribute in MUTUAL):
         return replace(measure, of=with_fields(of, to=to))
     return measure
 
 
-_MUTUAL = frozenset({"gap", "headway", "distance", "time-to-collision"})
+MUTUAL = frozenset({"gap", "headway", "distance", "time-to-collision"})
 
 
 def of_rival(found: list[tuple[Question, float]], clause: Clause) -> Question | None:

@@ -19,7 +19,8 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import exceeding, with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
-from xavi_dialogue.nlu.compose.clauses.sem import as_speed, as_thing
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, as_speed, as_thing
 from xavi_dialogue.nlu.compose.verbs.events import when
 from xavi_dialogue.nlu.compose.verbs.trends import trend
 
@@ -104,7 +105,20 @@ def do(special: Special) -> Proposition:
         if (able and tense_of(special) == "present") or "semi-allowed" in special.clause.aux:
             return Compares(Measured("limit"), "at-least", sem)  # "may we do 70?"
         return Compares(Measured("speed", special.subject, tense=tense_of(special)), "same", sem)
+    if isinstance(sem, Measure) and sem.of.attribute in ("speed", "limit"):
+        return _paced(special, sem)
     return Happens(event_of(special, "do", thing))
+
+
+def _paced(special: Special, sem: Measure) -> Proposition:
+    """Read "are we doing the limit", "is he going the same speed as us"."""
+    speed = Measured("speed", special.subject, time=time_of(special), tense=tense_of(special))
+    other: Measured = sem.of
+    if other.attribute == "speed":
+        than = None if isinstance(special.clause.than, Clause) else as_thing(special.clause.than)
+        it = Pronoun("it") if isinstance(special.subject, Ego) else Ego()
+        other = with_fields(other, thing=than or it)
+    return Compares(speed, "same", other)
 
 
 def changed(special: Special) -> Proposition:

@@ -7,6 +7,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Everyone,
     Happens,
     Lane,
     Passenger,
@@ -88,6 +89,8 @@ def placed(relation: str, thing: Thing, to: Thing) -> Thing:
         return to  # "that on the motorbike", "this in green"
     if isinstance(thing, Pronoun) and thing.form in ("that", "this"):
         thing = Described()
+    if isinstance(thing, Everyone):
+        thing = Described(thing.kind, plural=True)
     if isinstance(thing, Described) and thing.bearing is None and relation in bearings:
         return cast(Thing, with_fields(thing, bearing=bearings[relation], of=of))
     return thing

@@ -223,7 +223,12 @@ def is_short(condition: Clause) -> bool:
 
 def _if_needed(condition: Clause | None) -> bool:
     """Say whether only a need is supposed: "could you stop if you had to?"."""
-    if condition is None or condition.negated or not is_short(condition):
+    if condition is None:
+        return False
+    wished = condition.verb is not None and condition.verb.key in ("want", "like")
+    if wished and not condition.objects and condition.infinitive is None:
+        return True  # "could it go faster if it wanted?"
+    if condition.negated or not is_short(condition):
         return False
     return condition.modal == "must" or "semi-must" in condition.aux
 

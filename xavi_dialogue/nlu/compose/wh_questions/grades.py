@@ -39,7 +39,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
+from xavi_dialogue.nlu.compose.clauses.adoption import next_to_us, with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import (
@@ -272,6 +272,8 @@ def reference(clause: Clause) -> Thing | None:
     """Find the thing up to which it is measured."""
     for phrase in clause.complements:
         thing = _reached(phrase.sem)
+        if (near := next_to_us(phrase.key, thing)) is not None:
+            return near
         inside = phrase.key in ("in", "on") and isinstance(thing, Feature | Junction | Road)
         if thing is not None and phrase.key not in ("at", "by") and not inside:
             return thing

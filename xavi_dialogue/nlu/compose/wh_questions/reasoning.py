@@ -9,7 +9,17 @@ from xavi_dialogue.domain.meaning import (
     WhatWouldChange,
     Why,
 )
-from xavi_dialogue.domain.terms import Ego, Event, Feature, Happens, Not, Pronoun, That, Unsaid
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Feature,
+    Happens,
+    Not,
+    Pronoun,
+    Proposition,
+    That,
+    Unsaid,
+)
 from xavi_dialogue.nlu.compose.clauses.adoption import as_of
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -17,7 +27,6 @@ from xavi_dialogue.nlu.compose.clauses.nominal import propose
 from xavi_dialogue.nlu.compose.clauses.sem import as_thing
 from xavi_dialogue.nlu.compose.verbs.others import expected_of
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured
-from xavi_dialogue.nlu.compose.wh_questions.wh import prevented
 
 
 def reasoned(clause: Clause, value: Special) -> Question | None:
@@ -45,7 +54,7 @@ def reasoned(clause: Clause, value: Special) -> Question | None:
             return Changed(time)
         case "require" | "change" | "need":
             return WhatWouldChange(value.content)
-        case "prevent" if (denied := prevented(value)) is not None:
+        case "prevent" if (denied := value.content or _against(value)) is not None:
             if clause.modal in ("would", "could"):
                 return HowAvoid(denied)
             return Why(Not(denied))
@@ -62,3 +71,9 @@ def reasoned(clause: Clause, value: Special) -> Question | None:
         case "cost" | "take-time" if isinstance(subject, (Pronoun, Event)):
             return measured("delay", clause, as_thing(subject))
     return None
+
+
+def _against(value: Special) -> Proposition | None:
+    """Find against what something speaks: "what spoke against overtaking"."""
+    deed = value.match.phrases.get("with")
+    return None if deed is None else as_of(propose(deed) or That(), value.clause.tense)

@@ -47,17 +47,6 @@ def fact(value: Proposition | Special) -> Proposition:
     return proposition_of(value) if isinstance(value, Special) else value
 
 
-def prevented(value: Special) -> Proposition | None:
-    """Find what somebody is kept from: "what stopped you from turning"."""
-    event = value.match.phrases.get("from")
-    if value.content is not None and event is None:
-        return value.content
-    if not isinstance(event, Event):
-        return None
-    actor = as_thing(value.object) or Ego()
-    return Happens(cast(Event, with_fields(event, actor=actor, tense=value.clause.tense)))
-
-
 def content_of(clause: Clause, value: Any) -> Proposition | None:
     """Find what a belief is of: "that he would turn", "to vehicle 1 entering our lane"."""
     if isinstance(value, Special):

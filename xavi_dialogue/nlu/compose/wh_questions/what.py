@@ -189,6 +189,12 @@ class What:
             case Happens(event=Event(action="go" | "continue", actor=Wanted(), object=None)):
                 if "on" in {leaf.key for leaf in clause.particles} | {*clause.focus}:
                     return Doing(None, clause.time, cast(Any, clause.tense))
+            case Happens(
+                event=Event(
+                    action="move" | "go" | "stand", actor=Wanted(), manner=(), where=Related() as at
+                )
+            ):  # "what is driving in front of the bus"
+                return Which(wanted, with_fields(at, time=clause.time))
             case Related(relation="same-as", thing=Wanted(), to=to):
                 return asked_of(to, clause.time, clause.tense) or Identify(to)
             case Is(state="present", thing=Described(definite=True) as thing, event=None):

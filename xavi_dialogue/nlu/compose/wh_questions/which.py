@@ -40,7 +40,9 @@ from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.nominal import asked_of
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, SideOf, as_thing
+from xavi_dialogue.nlu.compose.propositions.severally import MUTUAL
 from xavi_dialogue.nlu.compose.verbs.others import nearest, placed
+from xavi_dialogue.nlu.compose.wh_questions.grades import reference
 from xavi_dialogue.nlu.compose.wh_questions.lasting import meanwhile, measured
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, actor_of, content_of, fact, time_of
 
@@ -142,8 +144,11 @@ class WhichOne:
             thing = as_thing(clause.objects[0][0])
         if isinstance(value, Related) and thing is not None and value.thing == thing:
             thing = placed(value.relation, thing, value.to)  # "the car behind us"
+        to = measure.to
+        if to is None and measure.attribute in MUTUAL:
+            to = reference(clause)  # "what gap do you leave to the bus"
         return HowMuch(
-            Measured(measure.attribute, thing or measure.thing, measure.to, measure.event, None,
+            Measured(measure.attribute, thing or measure.thing, to, measure.event, None,
                      _moment(clause, value), cast(Any, clause.tense)), sem.extreme,
         )  # fmt: skip
 

@@ -32,8 +32,8 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.rewriting import first
-from xavi_dialogue.domain.somebody_else import SOMEBODY_ELSE
 from xavi_dialogue.domain.terms import (
+    SOMEBODY_ELSE,
     Between,
     Described,
     Ego,

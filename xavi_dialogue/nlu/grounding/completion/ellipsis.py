@@ -33,8 +33,8 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.rewriting import first
-from xavi_dialogue.domain.somebody_else import SOMEBODY_ELSE
 from xavi_dialogue.domain.terms import (
+    SOMEBODY_ELSE,
     Described,
     Ego,
     Event,

@@ -316,6 +316,18 @@ _FROM: Final[dict[str, str]] = {
 }  # fmt: skip
 
 
+_IN_LINE: Final = ("ahead", "behind")
+
+
+def _lanes_apart(search: Search, one: int, other: int) -> bool:
+    """Tell whether two vehicles are on the same road, but not in the same lane."""
+    road = search.grounder.context.world.road(search.moment)
+    here, there = (None if road is None else road.places.get(n) for n in (one, other))
+    if here is None or there is None or here.edge != there.edge:
+        return False
+    return here.lane is not None and there.lane is not None and here.lane != there.lane
+
+
 def _seen_from(search: Search, vehicle: int) -> float:
     """Weigh where a vehicle is, seen from another one."""
     context, of = search.grounder.context, search.reference
@@ -324,6 +336,8 @@ def _seen_from(search: Search, vehicle: int) -> float:
     mine, theirs = (context.look(n, search.moment) for n in (vehicle, of.number))
     if mine is None or theirs is None:
         return 1.0
+    if search.described.bearing in _IN_LINE and _lanes_apart(search, vehicle, of.number):
+        return 1.0  # beside the lane of the lorry, nobody is in front of it
     relation = _FROM.get(search.described.bearing or "", "near")
     held = context.world.relation(relation, Vehicle(vehicle), of, search.moment)  # type: ignore[arg-type]
     if held is not None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from xavi_dialogue.bus.messages import Failure
-from xavi_dialogue.vehicle.worker_pool import Job, Pool
+from xavi_dialogue.vehicle.worker_pool import Job, WorkerPool
 
 PATIENCE = 30.0  # [s] before a test gives up on what never comes
 LONG = 600.0  # [s] a deadline that is never met
@@ -50,10 +50,10 @@ def _stat(pid: int) -> list[str]:
         return []
 
 
-class Desk:
+class PoolClient:
     """Hands jobs to a pool and takes the answers."""
 
-    def __init__(self, pool: Pool) -> None:
+    def __init__(self, pool: WorkerPool) -> None:
         self.pool = pool
         self.answers: dict[str, queue.SimpleQueue[bytes | Failure]] = {}
 

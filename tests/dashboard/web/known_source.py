@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from xavi_dialogue.dashboard.web.client_session import Viewer
-from xavi_dialogue.dashboard.web.server import Listen, Server
+from xavi_dialogue.dashboard.web.client_session import ClientSession
+from xavi_dialogue.dashboard.web.server import ListenOptions, Server
 from xavi_dialogue.dashboard.web.websocket_messages import (
     AnsweredHere,
     Ask,
@@ -48,22 +48,22 @@ class Known:
     past_said: bytes = b'{"ride":"r","scenes":[]}'
     fails: str = ""  # the method that fails
 
-    def greet(self, viewer: Viewer) -> tuple[Outgoing, ...]:
+    def greet(self, viewer: ClientSession) -> tuple[Outgoing, ...]:
         self._call("greet", viewer.number)
         return (WELCOME, STATUS)
 
-    def ask(self, viewer: Viewer, message: Ask) -> None:
+    def ask(self, viewer: ClientSession, message: Ask) -> None:
         self._call("ask", message)
         viewer.tell(AnsweredHere(request=message.request, n=0, reply=None))
 
-    def cancel(self, viewer: Viewer, message: Cancel) -> None:
+    def cancel(self, viewer: ClientSession, message: Cancel) -> None:
         self._call("cancel", message)
 
-    def suggest(self, viewer: Viewer, message: Suggest) -> None:
+    def suggest(self, viewer: ClientSession, message: Suggest) -> None:
         self._call("suggest", message)
         viewer.tell(Suggestions(t=message.at, questions=("Why?",)))
 
-    def left(self, viewer: Viewer) -> None:
+    def left(self, viewer: ClientSession) -> None:
         self._call("left", viewer.number)
 
     def roads(self, name: str) -> bytes | None:
@@ -95,8 +95,8 @@ class Known:
 class Running:
     """A server that serves on a thread."""
 
-    def __init__(self, board: Known, listen: Listen) -> None:
-        self.board, self.server = board, Server(board, listen)
+    def __init__(self, source: Known, listen: ListenOptions) -> None:
+        self.source, self.server = source, Server(source, listen)
         self._stopped = asyncio.Event()
         self._thread = threading.Thread(target=lambda: asyncio.run(self._serve()))
         self._thread.start()
@@ -140,9 +140,9 @@ class Running:
 
 @contextmanager
 def running(
-    board: Known | None = None, listen: str = "127.0.0.1:0", **said: Any
+    source: Known | None = None, listen: str = "127.0.0.1:0", **said: Any
 ) -> Iterator[Running]:
-    server = Running(board or Known(), Listen.read(listen, **said))
+    server = Running(source or Known(), ListenOptions.read(listen, **said))
     try:
         yield server
     finally:

@@ -1,4 +1,4 @@
-"""Mind: the faculties that the dialogue rests on, and how what is said comes about. Pure."""
+"""The pipeline behind the dialogue, as functions, and how a reply is made with it. Pure."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -28,8 +28,8 @@ See: TypeAlias = Callable[[Record], Looks]
 
 
 @dataclass(frozen=True, slots=True)
-class Mind:
-    """The faculties that the dialogue rests on, as functions."""
+class Pipeline:
+    """The stages of a reply, as functions: read, ground, explain, say."""
 
     read: Read  # text into readings, best first
     ground: Ground  # readings into acts about this world and conversation
@@ -42,7 +42,7 @@ class Mind:
 class Situation:
     """A question, and all there is to answer it from."""
 
-    mind: Mind
+    pipeline: Pipeline
     memory: Memory
     asked: Asked
     record: Record
@@ -83,7 +83,7 @@ def speech(now: Situation) -> SpeechContext:
     return SpeechContext(
         style=now.asked.style,
         now=now.record.now,
-        looks=now.mind.see(now.record),
+        looks=now.pipeline.see(now.record),
         named=memory.named,
         detail=memory.detail,
         turn=len(memory.turns),
@@ -109,14 +109,14 @@ def speak(
         repeated = part.act is not None and now.memory.answered(part.act, part.result)
         detail = "less" if len(said) > 1 and _is_aside(part.result) else context.detail
         own = replace(context, repeated=repeated, detail=detail, then=_is_named(part.act, now))
-        one = now.mind.say(part.result, own)
+        one = now.pipeline.say(part.result, own)
         context = replace(context, named=context.named | frozenset(one.mentioned))
         utterances.append(one)
     whole = joined(utterances)
     if taken_as and any(not isinstance(part.result, REFUSALS) for part in said):
         before = Part(None, TakenAs(taken_as))
         said = (before, *said)
-        whole = replace(whole, text=f"{now.mind.say(before.result, context).text} {whole.text}")
+        whole = replace(whole, text=f"{now.pipeline.say(before.result, context).text} {whole.text}")
     open_offer = offer if whole.choices else None
     return Said(reply_of(now, said, whole), tuple(said), whole.mentioned, open_offer)
 

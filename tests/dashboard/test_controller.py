@@ -14,10 +14,10 @@ from tests.fakes import s1_moments
 from xavi_dialogue.bus.interface import Keys
 from xavi_dialogue.bus.memory_bus import MemoryHub
 from xavi_dialogue.chat.client import Client
-from xavi_dialogue.dashboard.controller import Board
+from xavi_dialogue.dashboard.controller import Controller
 from xavi_dialogue.dashboard.web import websocket_messages as wire
 from xavi_dialogue.security.client_token import Passenger
-from xavi_dialogue.service.in_process import make_mind
+from xavi_dialogue.service.in_process import make_pipeline
 from xavi_dialogue.service.server import Service
 from xavi_dialogue.vehicle.telemetry import Reporter
 
@@ -50,11 +50,11 @@ class Browsers:
 
 
 @dataclass
-class House:
+class Setting:
     """A board on a bus with a service and a car."""
 
     hub: MemoryHub
-    board: Board
+    controller: Controller
     all: Browsers
 
     def drive(self, until: float = 7.0) -> None:
@@ -69,26 +69,26 @@ class House:
 
     async def ask(self, text: str, at: float | None = None) -> wire.AnsweredHere:
         one = Browsers()
-        self.board.ask(one, wire.Ask(request=f"r{len(text)}", text=text, at=at))  # type: ignore[arg-type]
+        self.controller.ask(one, wire.Ask(request=f"r{len(text)}", text=text, at=at))  # type: ignore[arg-type]
         await self.all.until(lambda: one.of(wire.AnsweredHere))
         return one.of(wire.AnsweredHere)[0]
 
 
 @asynccontextmanager
-async def house(*, served: bool = True, session: str = "ada") -> AsyncIterator[House]:
+async def running(*, served: bool = True, session: str = "ada") -> AsyncIterator[Setting]:
     hub, everybody = MemoryHub(), Browsers()
     everybody.loop = asyncio.get_running_loop()
-    board = Board(KEYS, Passenger(session, "t" * 20))
-    board.attach(everybody)
+    controller = Controller(KEYS, Passenger(session, "t" * 20))
+    controller.attach(everybody)
     over = threading.Event()
     serving = threading.Thread(target=lambda: _serve(hub, over))
     if served:
         serving.start()
         await everybody.until(lambda: KEYS.of("alive/service") in hub.alive)
-    board.join(hub.connect())
-    watching = asyncio.get_running_loop().create_task(board.watch())
+    controller.join(hub.connect())
+    watching = asyncio.get_running_loop().create_task(controller.watch())
     try:
-        yield House(hub, board, everybody)
+        yield Setting(hub, controller, everybody)
     finally:
         watching.cancel()
         over.set()
@@ -97,7 +97,7 @@ async def house(*, served: bool = True, session: str = "ada") -> AsyncIterator[H
 
 
 def _serve(hub: MemoryHub, over: threading.Event) -> None:
-    service = Service(hub.connect(), make_mind())
+    service = Service(hub.connect(), make_pipeline())
     service.open()
     while not over.is_set():
         service.work(0.05)
@@ -109,7 +109,7 @@ def runs(test: Callable[[], Awaitable[None]]) -> None:
 
 def test_a_question_becomes_a_turn_that_all_see() -> None:
     async def test() -> None:
-        async with house() as here:
+        async with running() as here:
             here.drive()
             answered = await here.ask("Why did you chnage lanes?")
             assert answered.n == 0
@@ -125,7 +125,7 @@ def test_a_question_becomes_a_turn_that_all_see() -> None:
 
 def test_what_is_asked_elsewhere_is_seen_here() -> None:
     async def test() -> None:
-        async with house() as here:
+        async with running() as here:
             here.drive()
             await here.ask("What are you doing?")
             terminal = Client(here.hub.connect(), KEYS, "ada", token="t" * 20)
@@ -139,31 +139,31 @@ def test_what_is_asked_elsewhere_is_seen_here() -> None:
 
 def test_evidence_and_decisions_can_be_fetched() -> None:
     async def test() -> None:
-        async with house() as here:
+        async with running() as here:
             here.drive()
             answered = await here.ask("Why did you change lanes?")
             assert answered.n is not None
-            document = await here.board.evidence(answered.n)
+            document = await here.controller.evidence(answered.n)
             assert document is not None
             evidence = msgspec.json.decode(document)
             assert evidence["counterfactual"] is not None
             [decisions] = [
-                one for one in here.board.record.all() if isinstance(one, wire.Decisions)
+                one for one in here.controller.record.all() if isinstance(one, wire.Decisions)
             ]
             for decision in decisions.decisions:
-                found = here.board.decision(decision.id)
+                found = here.controller.decision(decision.id)
                 assert found is not None
                 assert msgspec.json.decode(found)["id"] == decision.id
-            assert here.board.decision("unknown") is None
-            assert await here.board.evidence(99) is None
-            assert msgspec.json.decode(here.board.past())["scenes"]
+            assert here.controller.decision("unknown") is None
+            assert await here.controller.evidence(99) is None
+            assert msgspec.json.decode(here.controller.past())["scenes"]
 
     runs(test)
 
 
 def test_an_earlier_moment_can_be_asked_about() -> None:
     async def test() -> None:
-        async with house() as here:
+        async with running() as here:
             here.drive()
             await here.ask("What are you doing?", at=2.0)
             [turns] = here.all.of(wire.Turns)
@@ -174,7 +174,7 @@ def test_an_earlier_moment_can_be_asked_about() -> None:
 
 def test_without_a_service_a_question_is_answered_with_that() -> None:
     async def test() -> None:
-        async with house(served=False) as here:
+        async with running(served=False) as here:
             answered = await here.ask("Hello?")
             assert answered.n is None
             assert answered.reply is not None
@@ -185,14 +185,14 @@ def test_without_a_service_a_question_is_answered_with_that() -> None:
 
 def test_a_conversation_of_somebody_else_is_not_shown() -> None:
     async def test() -> None:
-        async with house() as here:
+        async with running() as here:
             here.drive()
             other = Client(here.hub.connect(), KEYS, "bob", token="u" * 20)
             await asyncio.to_thread(other.ask, "Where are you going?")
-            await here.board.refresh()
+            await here.controller.refresh()
             assert here.all.of(wire.Turns) == []
 
-        async with house(session="bob") as here:
+        async with running(session="bob") as here:
             here.drive()
             other = Client(here.hub.connect(), KEYS, "bob", token="u" * 20)
             await asyncio.to_thread(other.ask, "Where are you going?")
@@ -200,14 +200,14 @@ def test_a_conversation_of_somebody_else_is_not_shown() -> None:
             assert answered.n is None
             assert answered.reply is not None
             assert "somebody else" in answered.reply.text
-            assert here.board.conversation.turns == []
+            assert here.controller.conversation.turns == []
 
     runs(test)
 
 
 def test_who_is_there_is_told_when_it_changes() -> None:
     async def test() -> None:
-        async with house() as here:
+        async with running() as here:
             await here.all.until(lambda: here.all.of(wire.Status))
             assert here.all.of(wire.Status)[-1].car == "awaited"
             here.drive()
@@ -223,13 +223,13 @@ def test_who_is_there_is_told_when_it_changes() -> None:
 
 def test_who_comes_is_told_everything_and_the_ride_may_begin() -> None:
     async def test() -> None:
-        async with house() as here:
+        async with running() as here:
             begun: list[bool] = []
-            here.board.first_seen = lambda: begun.append(True)
+            here.controller.first_seen = lambda: begun.append(True)
             here.drive()
-            await here.all.until(lambda: here.board.record.scene is not None)
+            await here.all.until(lambda: here.controller.record.scene is not None)
             one = Browsers()
-            kinds = [type(message) for message in here.board.greet(one)]  # type: ignore[arg-type]
+            kinds = [type(message) for message in here.controller.greet(one)]  # type: ignore[arg-type]
             assert kinds[:2] == [wire.Welcome, wire.Status]
             assert {wire.Ride, wire.Decisions, wire.Events, wire.SceneShown} <= set(kinds)
             assert begun == [True]
@@ -239,22 +239,22 @@ def test_who_comes_is_told_everything_and_the_ride_may_begin() -> None:
 
 def test_a_car_that_is_coming_is_shown_once_it_is_there() -> None:
     async def test() -> None:
-        async with house() as here:
+        async with running() as here:
             coming = [True]
-            here.board.coming = lambda: coming[0]
+            here.controller.coming = lambda: coming[0]
             here.drive(until=5.0)
-            await here.all.until(lambda: here.board.record.scene is not None)
+            await here.all.until(lambda: here.controller.record.scene is not None)
             one = Browsers()
-            kinds = [type(message) for message in here.board.greet(one)]  # type: ignore[arg-type]
+            kinds = [type(message) for message in here.controller.greet(one)]  # type: ignore[arg-type]
             assert wire.Ride not in kinds
-            assert here.board.status().car == "coming"
+            assert here.controller.status().car == "coming"
             assert here.all.of(wire.SceneShown) == here.all.of(wire.Ride) == []
             coming[0] = False
             here.drive()
             await here.all.until(lambda: here.all.of(wire.Ride))
             told = [type(message) for message in here.all.told]
             assert told.index(wire.Ride) < told.index(wire.Decisions) < told.index(wire.SceneShown)
-            assert here.board.status().car == "there"
+            assert here.controller.status().car == "there"
 
     runs(test)
 
@@ -262,11 +262,11 @@ def test_a_car_that_is_coming_is_shown_once_it_is_there() -> None:
 @pytest.mark.parametrize("payload", [b"", b"{}", b"\xff", b'{"schema": "xavi.scene/1"}'])
 def test_nonsense_on_the_bus_is_counted_and_left_at_that(payload: bytes) -> None:
     async def test() -> None:
-        async with house() as here:
+        async with running() as here:
             for key in ("scene", "trace", "event"):
                 here.hub.connect().send(KEYS.of(key), payload)
             here.drive()
-            await here.all.until(lambda: here.board.record.scene is not None)
-            assert here.board.alive.counted("rejected") == 3
+            await here.all.until(lambda: here.controller.record.scene is not None)
+            assert here.controller.alive.counted("rejected") == 3
 
     runs(test)

@@ -115,7 +115,7 @@ def _read(outcome: Outcome) -> tuple[AskReply | None, str | None]:
     return reply, reply.reason
 
 
-class Ear:
+class Listener:
     """Hears a car, and who comes and goes."""
 
     def __init__(self, bus: Bus, vehicle: str = "car") -> None:

@@ -16,18 +16,18 @@ from xavi_dialogue.bus.interface import Keys
 from xavi_dialogue.bus.memory_bus import MemoryHub
 from xavi_dialogue.bus.messages import EventReport, SceneReport, TraceReport, unpack
 from xavi_dialogue.dashboard import scene_history
-from xavi_dialogue.dashboard.ride_state import Record
-from xavi_dialogue.dashboard.scene_history import Moments
-from xavi_dialogue.dashboard.trace_cache import Shelf
+from xavi_dialogue.dashboard.ride_state import RideState
+from xavi_dialogue.dashboard.scene_history import SceneHistory
+from xavi_dialogue.dashboard.trace_cache import TraceCache
 from xavi_dialogue.dashboard.web.http_documents import Past
 from xavi_dialogue.dashboard.web.websocket_messages import Decisions, Events, Ride, SceneShown
-from xavi_dialogue.service.reorder_buffer import Heard
+from xavi_dialogue.service.reorder_buffer import ReportOfRide
 from xavi_dialogue.vehicle.telemetry import Reporter
 
 KEYS = Keys()
 
 
-def reports() -> list[Heard]:
+def reports() -> list[ReportOfRide]:
     """All that the car of a made-up ride says, in its order."""
     hub, said = MemoryHub(), []
     listener, car = hub.connect(), hub.connect()
@@ -42,17 +42,17 @@ def reports() -> list[Heard]:
     return said
 
 
-def past(record: Record) -> Past:
+def past(record: RideState) -> Past:
     return msgspec.json.decode(record.past(), type=Past)
 
 
-def told(record: Record, heard: list[Heard]) -> Iterator[object]:
+def told(record: RideState, heard: list[ReportOfRide]) -> Iterator[object]:
     for report in heard:
         yield from record.hear(report)[1]
 
 
 def test_a_ride_is_told_as_it_comes() -> None:
-    record = Record()
+    record = RideState()
     messages = list(told(record, reports()))
     assert sum(isinstance(one, Ride) for one in messages) == 1
     decisions = [d for one in messages if isinstance(one, Decisions) for d in one.decisions]
@@ -64,7 +64,7 @@ def test_a_ride_is_told_as_it_comes() -> None:
 
 
 def test_who_comes_later_is_told_the_same() -> None:
-    record = Record()
+    record = RideState()
     messages = list(told(record, reports()))
     ride, decisions, events, scene = record.all()
     assert isinstance(decisions, Decisions)
@@ -77,16 +77,16 @@ def test_who_comes_later_is_told_the_same() -> None:
 
 
 def test_every_decision_can_be_had_whole() -> None:
-    record = Record()
+    record = RideState()
     list(told(record, reports()))
     for trace in s1_ride().traces:
-        assert record.shelf.get(trace.trace_id) == trace
+        assert record.trace_cache.get(trace.trace_id) == trace
     assert record.up_to(4.5) == s1_ride().traces[1]
     assert record.up_to(1.0) is None
 
 
 def test_another_ride_begins_anew() -> None:
-    record, heard = Record(), reports()
+    record, heard = RideState(), reports()
     list(told(record, heard))
     scene = next(one for one in heard if isinstance(one, SceneReport))
     other = msgspec.structs.replace(scene, ride="other", traces=0, events=0)
@@ -99,7 +99,7 @@ def test_another_ride_begins_anew() -> None:
 
 
 def test_nothing_is_told_of_a_ride_that_nobody_has_seen() -> None:
-    record = Record()
+    record = RideState()
     assert record.all() == []
     assert past(record).scenes == ()
     trace = next(one for one in reports() if isinstance(one, TraceReport))
@@ -108,7 +108,7 @@ def test_nothing_is_told_of_a_ride_that_nobody_has_seen() -> None:
 
 
 def test_what_was_missed_is_filled_in_from_histories() -> None:
-    moments, trace = Moments(), s1_ride().traces[1]
+    moments, trace = SceneHistory(), s1_ride().traces[1]
     ego = trace.scene[0]
     moments.see(Scene(4.0, {0: ego}))
     moments.learn(trace)
@@ -127,7 +127,7 @@ def test_what_was_missed_is_filled_in_from_histories() -> None:
 
 
 def test_lights_and_hidden_stretches_are_kept() -> None:
-    moments, trace = Moments(), s1_ride().traces[1]
+    moments, trace = SceneHistory(), s1_ride().traces[1]
     person = PersonState((5.0, 1.0), 0.5, 1.4, 0.2, 0.5)
     light = Light(Signal("J", 3), LightState.RED, 1.0, change_seen=True)
     unseen = Unseen("a_0", 10.0, 22.0)
@@ -147,7 +147,7 @@ def test_lights_and_hidden_stretches_are_kept() -> None:
 
 
 def test_moments_that_come_too_often_or_late_are_left_out() -> None:
-    moments, ego = Moments(), s1_ride().traces[0].scene[0]
+    moments, ego = SceneHistory(), s1_ride().traces[0].scene[0]
     for time in (0.0, 0.1, 0.2, 0.3, 0.4, 0.1):
         moments.see(Scene(time, {0: replace(ego, speed=time)}))
     assert moments.times == [0.0, 0.2, 0.4]
@@ -155,7 +155,7 @@ def test_moments_that_come_too_often_or_late_are_left_out() -> None:
 
 def test_of_very_many_moments_the_latest_are_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(scene_history, "MAX_MOMENTS", 100)
-    moments, ego = Moments(), s1_ride().traces[0].scene[0]
+    moments, ego = SceneHistory(), s1_ride().traces[0].scene[0]
     for k in range(1000):
         moments.see(Scene(0.2 * k, {0: ego}))
     assert 80 <= len(moments.times) <= 100
@@ -169,12 +169,12 @@ def test_of_very_many_moments_the_latest_are_kept(monkeypatch: pytest.MonkeyPatc
 
 def test_a_shelf_has_room_for_so_much() -> None:
     traces = s1_ride().traces
-    shelf = Shelf(room=1)
+    trace_cache = TraceCache(room=1)
     for trace in traces:
-        shelf.put(trace)
-    assert all(shelf.get(trace.trace_id) is None for trace in traces)
-    shelf = Shelf()
+        trace_cache.put(trace)
+    assert all(trace_cache.get(trace.trace_id) is None for trace in traces)
+    trace_cache = TraceCache()
     for trace in traces * 2:
-        shelf.put(trace)
-    assert [shelf.get(trace.trace_id) for trace in traces] == list(traces)
-    assert shelf.get("unknown") is None
+        trace_cache.put(trace)
+    assert [trace_cache.get(trace.trace_id) for trace in traces] == list(traces)
+    assert trace_cache.get("unknown") is None

@@ -1,0 +1,93 @@
+"""Slowing: whether we stop or slow down for somebody, by the drives that our plan foresees."""
+
+from planner.record.trace import PlanTrace, Rollout
+from xavi_dialogue.domain.answers import Slowing
+from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.expectations.foreseen import EXPECTED
+from xavi_dialogue.explain.answers.expectations.plans import current_plan, foreseen, slowest_ahead
+from xavi_dialogue.explain.answers.expectations.precedence import First, first
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.naming import somebodies
+from xavi_dialogue.explain.causes.vehicles.course import expected
+from xavi_dialogue.explain.history.motion import Motion
+from xavi_dialogue.explain.history.ride import prediction
+from xavi_dialogue.explain.history.thresholds import STANDING
+
+HALTS: frozenset[ActionName] = frozenset(("stop", "stand", "wait"))
+SLOWS: frozenset[ActionName] = HALTS | {"brake", "slow-down", "give-way", "let-go"}
+POSSIBLE = 0.1  # share of the drives from which somebody may hold us up
+SURE = 0.8  # probability from which it is told who comes first
+SLOWER = 1.5  # [m/s] by which one is slower to passengers
+
+
+def slowing(asked: Asked, event: Event) -> Slowing | None:
+    """Tell whether we stop or slow down, and whether for whom is asked about; None: not asked.
+
+    None also where no drive is foreseen, or nobody is named and we stop.
+    """
+    if event.action not in SLOWS or not asked.ride.traces:
+        return None
+    stop, slow = foreseen(asked, Event("stop")), slowest_ahead(asked)
+    speed = asked.world.measure("speed", Ego(), asked.now).value
+    if slow is None or speed is None or speed < STANDING:
+        return None
+    others = _others(asked, event.object)
+    if event.object is not None and not others:
+        return None
+    stops = stop is not None and stop.share >= EXPECTED
+    if not others and (stops or event.action not in HALTS):
+        return None
+    shares = {v: _held(asked, v) for v in others}
+    held = tuple(v for v, share in shares.items() if share >= POSSIBLE)
+    slower = speed - slow >= SLOWER
+    return Slowing(
+        held or others, stops,
+        held=max(shares[v] for v in held) if held else 0.0,
+        slows=event.action not in HALTS,
+        slow=slow if slower else None,
+        time=stop.moment if stop is not None and stops else None,
+        order=None if held or not others else _order(asked, others),
+    )  # fmt: skip
+
+
+def _others(asked: Asked, thing: Thing | None) -> tuple[int, ...]:
+    """Name whom it is asked for."""
+    if thing is None:
+        return ()
+    found = somebodies(asked, thing, asked.now)
+    return tuple(v.number for v in found if isinstance(v, Vehicle))
+
+
+def _held(asked: Asked, vehicle: int) -> float:
+    """Tell in what share of the drives foreseen a vehicle or person holds us up."""
+    known = current_plan(asked)
+    if known is None:
+        return 0.0
+
+    def mark(rollout: Rollout, _: Motion) -> float | None:
+        return next((h.since for h in rollout.held_up if h.vehicle == vehicle), None)
+
+    found = expected(*known, mark)
+    return 0.0 if found is None else found.share
+
+
+def _order(asked: Asked, others: tuple[int, ...]) -> First | None:
+    """Tell who comes first where our ways meet, by what is likeliest of each; None: it differs."""
+    trace = asked.ride.latest
+    found = {_likeliest_order(trace, vehicle) for vehicle in others}
+    return found.pop() if len(found) == 1 else None
+
+
+def _likeliest_order(trace: PlanTrace, vehicle: int) -> First | None:
+    known = prediction(trace, vehicle)
+    if known is None:
+        return None
+    ways = [(g.probability * w.probability, w) for g in known.goals for w in g.trajectories]
+    share: dict[First, float] = {}
+    for chance, way in ways:
+        came = first(trace, way)
+        if came is not None:
+            share[came] = share.get(came, 0.0) + chance
+    best = max(share, key=lambda one: share[one], default=None)
+    return best if best is not None and share[best] >= SURE else None
