@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from planner.kernels.driving import GAP_HORIZON
-from planner.manoeuvres.actions import COMFORT, ActionPlan, Situation, Stop
-from planner.motion.forward import DT, Motion, drive
+from planner.manoeuvres.actions import COMFORT, Situation
+from planner.motion.forward import DT
 from planner.motion.obstacles import NOBODY, Motions, Obstacle, Traffic
 from planner.motion.scenery import Others, Scenery
 from planner.motion.tracks import (
@@ -23,7 +23,6 @@ from planner.motion.tracks import (
     drive_on,
     links_of,
     queued,
-    sample_path,
 )
 from planner.prediction.astar import GRIP, SOLUTIONS, Solution, held, ways
 from planner.prediction.beliefs import NEGLIGIBLE, Belief, Trajectory, likeliest
@@ -32,16 +31,14 @@ from planner.prediction.indication import indicated
 from planner.prediction.likelihood import likelihoods
 from planner.prediction.people import past_of, recognise_people
 from planner.prediction.relevance import gives_way
+from planner.prediction.stopping import stopping
 from planner.record.light_record import HeldByLight
 from planner.record.trace import ON_FOOT, Action, EgoGoal, HeldUp, Settings
-from planner.roads.routes import onward
 from planner.roads.trajectory import Roads
 from planner.rollouts.rollout import Leg, Task, held_by_lights, held_up
 from planner.traffic_lights.signals import DARK, Outlook
 
 __all__ = ["Belief", "Trajectory", "motion_along", "recognise", "trajectories_to"]
-
-STOPPING = 100.0  # [m] at least of road on which a vehicle may stop
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -233,7 +230,9 @@ def _ways_on(
     grip: float = GRIP,
 ) -> list[_Way]:
     if goal.target is None:
-        return _stopping(frame, starts[0], observed, others.usual)
+        motion = stopping(frame, starts[0], observed, others.usual)
+        cost = starts[0].speed / COMFORT
+        return [] if motion is None else [_Way(cost, 0.0, ("stop",), Motions(motion))]
     task = replace(frame, goal=goal.target)
     solutions = ways(task, starts, others.usual, SOLUTIONS, grip)
     if not solutions:
@@ -301,31 +300,6 @@ def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic)
         links_of(task.roads, [lane for leg in legs for lane in leg.lanes] + list(lanes)),
         berth_of(task.roads, observed),
     )
-
-
-def _stopping(frame: Task, here: Situation, observed: Observed, others: Traffic) -> list[_Way]:
-    """Braking to a standstill and staying there; nobody means to stay inside a junction."""
-    reach = max(STOPPING, here.speed**2 / COMFORT)  # twice what the braking takes
-    row = onward(frame.roads, (here.location.lane,), here.location.offset + reach)
-    path = frame.roads.path(row, here.position, here.heading, 12.0, reach, reach)
-    plan = ActionPlan("stop", path, (Stop(0.0, COMFORT),), path.length, math.inf, None)
-    driven = drive(plan, Motion(0.0, here.speed, 0.0), 0, others, frame.size, frame.horizon)
-    arcs, speed = driven.motion[:, 0], driven.motion[:, 1]
-    if frame.roads.network.lanes[path.lane_at(float(arcs[-1]))[0]].internal:
-        return []
-    position, heading = sample_path(path, arcs, observed.length)
-    rest = frame.horizon + 1 - len(arcs)
-    motion = Obstacle(
-        observed.vehicle,
-        observed.length,
-        observed.width,
-        np.vstack((position, np.repeat(position[-1:], rest, axis=0))),
-        np.concatenate((heading, np.repeat(heading[-1:], rest))),
-        np.concatenate((speed, np.zeros(rest))),
-        links_of(frame.roads, [lane for lane, start in path.lanes if start <= arcs[-1]]),
-        berth_of(frame.roads, observed),
-    )
-    return [_Way(here.speed / COMFORT, 0.0, ("stop",), Motions(motion))]
 
 
 def _trajectories(onwards: list[_Way], settings: Settings) -> tuple[Trajectory, ...]:

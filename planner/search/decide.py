@@ -126,7 +126,8 @@ def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
         for vehicle in sorted({*nearest[: 1 + CROWD], *planned, *people})
     ]
     apart = frozenset(others).difference(planned)
-    bound = waypoint(frame.roads, here, frame.goal)
+    found = lanes_at(frame.roads, ego.position, ego.heading)  # as recorded
+    bound = waypoint(frame.roads, found[0], frame.goal) if found else None
     time, outlook = moment.time, moment.outlook
     return recognise(frame.roads, tracks, frame.settings, time, EGO, outlook, apart, bound)
 

@@ -1,8 +1,11 @@
 """How those who have to give way to the ego reckon with it: at a crossroads drawn by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from planner.motion.forward import DT
 from planner.motion.tracks import Observed
 from planner.prediction.recognise import recognise
 from planner.record.trace import EgoGoal, Settings
@@ -31,10 +34,13 @@ def standing(arm: str, turn: Direction, away: float, vehicle: int) -> Observed:
     )
 
 
-def leaves(away: float, bound: EgoGoal | None, other: Observed | None = None) -> float:
-    """When [s] a left turn from the north is over, where the ego stands in the south."""
-    waiting = other or standing("north", "left", 1.0, OTHER)
+def leaves(away: float, bound: EgoGoal | None, speed: float = 0.0) -> float:
+    """When [s] a left turn from the north is over, where the ego is in the south."""
+    waiting = standing("north", "left", 1.0, OTHER)
     ego = standing("south", "straight", away, EGO)
+    if speed > 0.0:
+        back = np.outer(np.arange(19, -1, -1), (0.0, speed * DT))
+        ego = replace(ego, position=ego.position - back, speed=np.full(20, speed))
     found = recognise(crossroads(), [ego, waiting], Settings(), 40.0, EGO, bound=bound)
     assert list(found) == [OTHER]
     (belief,) = (b for b in found[OTHER] if b.goal.kind == "exit-left")
@@ -48,6 +54,11 @@ def test_a_left_turn_waits_for_the_ego_that_is_about_to_set_off() -> None:
 
 def test_a_left_turn_does_not_wait_for_an_ego_that_turns_left_too() -> None:
     assert leaves(2.0, TO_THE_LEFT) < GONE
+
+
+def test_where_the_ego_drives_to_counts_while_it_moves() -> None:
+    assert leaves(20.0, TO_THE_LEFT, 8.0) < GONE < leaves(20.0, None, 8.0)
+    assert leaves(20.0, STRAIGHT_ON, 8.0) > GONE
 
 
 def test_a_left_turn_does_not_wait_where_there_is_time_enough() -> None:
