@@ -110,18 +110,15 @@ def recognise(
         now = likeliest(found[walker.vehicle])
         coasting[walker.vehicle] = _Coasting(walker.elapsed, now, past_of(walker, now.usual))
     held = {one for one, mine in coasting.items() if outlook.known and mine.now.usual.rests}
-    us, links = None, frozenset[tuple[str, int]]()  # the ego as it will most likely drive
+    us: tuple[_Coasting, _Coasting] | None = None  # the ego as it coasts, and as it would drive
     for observed in queued(vehicles, held, None if bound is None else ego):
         one, own = observed.vehicle, scenery.on(observed.kind)
         waits = observed.standing or one in held
         if one == ego and bound is not None:
-            us = _bound_for(own, observed, coasting, settings, time, bound)
-            links = coasting[ego].now.usual.links | (us or coasting[ego]).now.usual.links
+            driving = _bound_for(own, observed, coasting, settings, time, bound)
+            us = None if driving is None else (coasting[ego], driving)
         elif one != ego and one not in apart:
-            known = coasting
-            if us is not None and gives_way(own.roads, observed, links, settings.view_radius):
-                known = {**coasting, ego: us}
-            found[one] = _beliefs(own, observed, known, settings, time)
+            found[one] = _beliefs(own, observed, coasting, settings, time, us)
             if waits:
                 coasting[one] = replace(coasting[one], now=likeliest(found[one]))
     return {track.vehicle: found[track.vehicle] for track in tracks if track.vehicle in found}
@@ -156,6 +153,7 @@ def _beliefs(
     coasting: Mapping[int, _Coasting],
     settings: Settings,
     time: float,
+    us: tuple[_Coasting, _Coasting] | None,
 ) -> tuple[Belief, ...]:
     roads = scenery.roads
     others = [other for vehicle, other in coasting.items() if vehicle != observed.vehicle]
@@ -166,6 +164,16 @@ def _beliefs(
     frame = _frame(scenery, observed, settings, time)
     now = Others(scenery, tuple(other.now for other in others))
     onwards = _ways_to(frame, starts, goals, observed, now)
+    if us is not None:
+        links = us[0].now.usual.links | us[1].now.usual.links
+        reckoned = [us[1].now if other is us[0] else other.now for other in others]
+        with_us = Others(scenery, tuple(reckoned))
+        onwards = [
+            _ways_on(frame, starts, goal, observed, with_us) or ways
+            if ways and gives_way(roads.network, ways[0].motions.usual.links, links)
+            else ways
+            for goal, ways in zip(goals, onwards, strict=True)
+        ]
     left = [ways[0].cost - ways[0].waiting if ways else None for ways in onwards]
     likelihood = (
         likelihoods(frame, observed, goals, left, _before(scenery, observed, others), settings)

@@ -9,7 +9,7 @@ in a junction, matters to it no more than who is out of view.
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 
-from planner.motion.tracks import Observed, lanes_at
+from planner.motion.tracks import lanes_at
 from planner.record.trace import EgoGoal, Settings
 from planner.roads.routes import approach, onward
 from planner.roads.trajectory import Roads
@@ -141,24 +141,15 @@ def _beside(network: Network, lanes: Iterable[str]) -> list[str]:
 
 
 def gives_way(
-    roads: Roads, observed: Observed, links: Collection[tuple[str, int]], view: float
+    network: Network, links: Iterable[tuple[str, int]], others: Collection[tuple[str, int]]
 ) -> bool:
-    """Whether a vehicle may have to give way, at the junction that it comes to or is in.
-
-    Args:
-        roads: to drive on.
-        observed: its track.
-        links: (junction, link index) that somebody else drives along.
-        view: [m] ahead.
-    """
-    network = roads.network
-    ahead: list[Link] = []
-    for here in observed.situation(roads, -1, 0.0):
-        inside = network.link_via(here.location.lane)
-        ahead += () if inside is None else (inside,)
-        for lane in _beside(network, approach(roads, here.location, view).lanes):
-            ahead += network.links_from(lane)
-    return any((way.junction, first) in links for way in ahead for first in way.yields_to)
+    """Whether who drives along links (junction, index) has to give way to who does along others."""
+    return any(
+        (junction, first) in others
+        for junction, index in links
+        if (link := network.junction_links(junction).get(index)) is not None
+        for first in link.yields_to
+    )
 
 
 def _internal(network: Network, lane: str) -> bool:
