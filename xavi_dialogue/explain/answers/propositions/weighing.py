@@ -29,7 +29,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
 )
-from xavi_dialogue.domain.vocabulary import Relation
+from xavi_dialogue.domain.vocabulary import ActionName, Relation
 from xavi_dialogue.explain.answers.events.beliefs import foreknown, time_of
 from xavi_dialogue.explain.answers.events.happens import happens
 from xavi_dialogue.explain.answers.expectations.foreseen import HALTS, YIELDS, macros
@@ -51,6 +51,7 @@ from xavi_dialogue.explain.answers.suppositions.pulling_up import pulls_up
 from xavi_dialogue.explain.history.ride import planned
 
 #: Where a thing is from another one.
+STATES: frozenset[ActionName] = frozenset(("stand", "wait"))  # what can be seen now
 BEARINGS: frozenset[Relation] = frozenset(
     ("ahead-of", "behind", "left-of", "right-of", "beside", "oncoming-to")
 )
@@ -161,6 +162,8 @@ def _stops(of: Both) -> Happens | None:
     ahead = all(e.tense in ("present", "future") and number(e.actor) is not None for e in events)
     held = [e for e in events if e.action in HALTS | YIELDS]
     if len(events) < len(of.contents) or not ahead or len(held) != 1 or is_us(held[0].actor):
+        return None
+    if held[0].tense == "present" and held[0].action in STATES:  # "is it moving or standing?"
         return None
     return Happens(replace(held[0], tense="future", object=held[0].object or Ego()))
 

@@ -23,7 +23,7 @@ from xavi_dialogue.explain.causes.plans.premise import happened, manoeuvre, prem
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, DRIVING, names_of, same
 from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names, probability
 from xavi_dialogue.explain.history.deeds import Deed
-from xavi_dialogue.explain.history.ride import planned
+from xavi_dialogue.explain.history.ride import planned, prediction
 
 POSSIBLE = 0.02  # probability from which it is open whether somebody does something
 
@@ -157,15 +157,13 @@ def open_until(scene: Asked, vehicle: int, event: Event, moment: float) -> float
     """Find the last time [s] up to a moment at which it was open whether a vehicle would do so.
 
     The moment itself where it never was, or where we decided otherwise as long as it was: then
-    it is planned again with what is supposed.
+    it is planned again with what is supposed, if the vehicle was still in view.
     """
     names, decided = conduct_names(event), scene.ride.at(moment)
-    chosen = () if decided is None else planned(decided)[:1]
-    known = [
-        trace
-        for trace in known_to(scene.ride, vehicle, moment)
-        if trace.sim_time <= moment and planned(trace)[:1] == chosen
-    ]
+    known = [trace for trace in known_to(scene.ride, vehicle, moment) if trace.sim_time <= moment]
+    if decided is not None and prediction(decided, vehicle) is not None:
+        chosen = planned(decided)[:1]
+        known = [trace for trace in known if planned(trace)[:1] == chosen]
     chances = [(t.sim_time, probability(scene.ride, t, vehicle, names)) for t in known]
     open_ = [time for time, chance in chances if POSSIBLE < chance < 1.0 - POSSIBLE]
     return open_[-1] if open_ else moment
