@@ -127,6 +127,30 @@ def risky(time: float) -> Moment:
     return Moment(World(aims, plans, simulate, (NO_RIGHT,)), seen, time, pace=pace)
 
 
+def wavering(time: float) -> Moment:
+    """Somebody may well come out before us, for a moment; before and after, hardly."""
+    likely = 0.4 if 5.0 < time < 7.0 else 0.01
+    aims = {
+        1: (
+            Aim("exit-right", likely, (Way(("exit-right",)),)),
+            Aim("stop", 1.0 - likely, (Way(("stop",)),)),
+        )
+    }
+
+    def simulate(plan: Actions, chosen: Chosen) -> tuple[End, int]:
+        if plan[0] == "continue" and chosen.get(1, ("",))[0] == "exit-right":
+            return End("collision", collided_with=1), 1
+        return End(time=12.0 if plan[0] == "continue" else 20.0), len(plan)
+
+    seen = {
+        0: Seen(0.0, 0.0, ((0.0, 9.0), (4.0, 9.0), (8.0, 5.0))),
+        1: Seen(110.0, 6.0, ((0.0, 0.0),)),
+    }
+    plans: tuple[Actions, ...] = (("continue",), ("stop", "continue"))
+    world = World(aims, plans, simulate, (), plans[1 if likely > 0.1 else 0])
+    return Moment(world, seen, time)
+
+
 def hopeless(time: float) -> Moment:
     """No road from here leads to where we want to go."""
 
@@ -169,5 +193,6 @@ def rides() -> dict[str, RecordedRide]:
         "plenty": ride_of(map(plenty, (6.0, 10.0)), (BEGUN,), 10.0),
         "risky": ride_of(map(risky, (6.0, 7.0, 8.0, 10.0)), (BEGUN,), 10.0),
         "hopeless": ride_of(map(hopeless, (6.0, 10.0)), (BEGUN,), 10.0),
+        "wavering": ride_of(map(wavering, (2.0, 4.0, 6.0, 8.0, 10.0)), (BEGUN,), 10.0),
         "over": ride_of(map(over, (4.0, 6.0, 8.0)), (BEGUN, *moved, *done), 8.0),
     }
