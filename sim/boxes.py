@@ -37,7 +37,7 @@ def corners(state: Box) -> tuple[Point, Point, Point, Point]:
 
 
 def overlap(a: Box, b: Box) -> bool:
-    """Whether two boxes share ground; touching is not overlapping.
+    """Check whether two boxes share ground; touching is not overlapping.
 
     Two convex shapes are apart exactly if the normal of one of their edges separates them
     (separating axis theorem; Gottschalk, Lin and Manocha, "OBBTree", SIGGRAPH 1996).
@@ -54,6 +54,6 @@ def overlap(a: Box, b: Box) -> bool:
 
 
 def _extent(points: tuple[Point, ...], axis: Point) -> tuple[float, float]:
-    """The interval [m] that points cover along an axis."""
+    """Return the interval [m] that points cover along an axis."""
     along = [x * axis[0] + y * axis[1] for x, y in points]
     return min(along), max(along)

@@ -129,7 +129,7 @@ class Engine:
 
 
 def version() -> str:
-    """Which SUMO there is.
+    """Return which SUMO there is.
 
     Raises:
         SumoMissing: none, or a system library is not installed.
@@ -138,7 +138,7 @@ def version() -> str:
 
 
 def _libsumo() -> Any:
-    """The libsumo module, untyped by its makers.
+    """Return the libsumo module, untyped by its makers.
 
     Raises:
         SumoMissing: it, or a system library that it needs, is not installed.

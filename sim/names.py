@@ -28,7 +28,7 @@ class VehicleNames:
         self._taken = {EGO, *(int(vehicle) for vehicle in ids if _is_name(vehicle))}
 
     def of(self, vehicle: str) -> int:
-        """The name of a vehicle, given now if it has none."""
+        """Return the name of a vehicle, given now if it has none."""
         if vehicle not in self._names:
             name = int(vehicle) if self._stands(vehicle) else self._lowest_free()
             self._names[vehicle] = name
@@ -36,7 +36,7 @@ class VehicleNames:
         return self._names[vehicle]
 
     def _stands(self, vehicle: str) -> bool:
-        """Whether an id is its own name: nobody got that number before it was known."""
+        """Check whether an id is its own name: nobody got that number before it was known."""
         return _is_name(vehicle) and (vehicle in self._order or int(vehicle) not in self._taken)
 
     def in_order(self, vehicles: Iterable[str]) -> list[str]:
@@ -52,6 +52,6 @@ class VehicleNames:
 
 
 def _is_name(vehicle: str) -> bool:
-    """Whether an id is short enough to be said."""
+    """Check whether an id is short enough to be said."""
     plain = vehicle.isascii() and vehicle.isdigit() and vehicle[0] != "0"
     return plain and len(vehicle) <= LONGEST

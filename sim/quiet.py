@@ -26,7 +26,7 @@ def errors_to(file: Path) -> Iterator[None]:
 
 
 def first_error(file: Path) -> str | None:
-    """The first line of a file of messages that tells of an error."""
+    """Return the first line of a file of messages that tells of an error."""
     for line in file.read_text(encoding="utf-8", errors="replace").splitlines():
         if line.startswith("Error: "):
             return line.removeprefix("Error: ").strip()
@@ -34,7 +34,7 @@ def first_error(file: Path) -> str | None:
 
 
 def warnings_in(file: Path) -> list[str]:
-    """The warnings in a file of messages, without repetition."""
+    """Return the warnings in a file of messages, without repetition."""
     lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
     told = (x.removeprefix("Warning: ").strip() for x in lines if x.startswith("Warning: "))
     return list(dict.fromkeys(told))

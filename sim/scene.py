@@ -99,7 +99,7 @@ class Scene:
         return self.vehicles[EGO]
 
     def light(self, signal: Signal) -> Light | None:
-        """What a signal shows; None where it is out of view."""
+        """Return what a signal shows; None where it is out of view."""
         return next((light for light in self.lights if light.signal == signal), None)
 
 

@@ -97,7 +97,7 @@ class Simulation:
         return round(self._steps * self._scenario.step, 9)
 
     def scene(self) -> Scene:
-        """Every vehicle within the scenario's view radius that the ego can see, now."""
+        """Return every vehicle within the scenario's view radius that the ego can see, now."""
         return self._view.scene
 
     def step(self, command: Command | None) -> Scene:
@@ -129,7 +129,7 @@ class Simulation:
         return self._view.scene
 
     def collisions(self) -> tuple[int, ...]:
-        """The vehicles and people, seen or not, whose box overlaps the ego's now, by name.
+        """Return the vehicles and people, seen or not, whose box overlaps the ego's now, by name.
 
         Those on a bridge over the ego's road, or under it, do not count.
         """
@@ -139,7 +139,7 @@ class Simulation:
         return tuple(sorted(self._names.of(x) for x in self._names.in_order(hit)))
 
     def sumo_collisions(self) -> tuple[int, ...]:
-        """The vehicles that SUMO itself finds in collision with the ego: a cross-check."""
+        """Return the vehicles that SUMO itself finds in collision with the ego: a cross-check."""
         pairs = [
             (hit.collider, hit.victim)
             for hit in self._call(self._api.simulation.getCollisions)
@@ -176,7 +176,7 @@ class Simulation:
                 return VehicleNames(self._ego, ()), Painted()
 
     def _routes(self, seed: int) -> Path:
-        """The route file, with the starts of this seed."""
+        """Return the route file, with the starts of this seed."""
         if self._scenario.spawn is None:
             return self._scenario.routes
         root = routes.parse(self._scenario.routes)
@@ -219,7 +219,7 @@ class Simulation:
                 self._announced = edges
 
     def _width_to_show(self) -> float:
-        """The ego's width [m] as SUMO is to know it in the coming step.
+        """Return the ego's width [m] as SUMO is to know it in the coming step.
 
         Where the ego crosses into a lane, SUMO would note that it overlaps the one it comes
         from, and never strike that out: whoever it passes there would brake hard.

@@ -23,7 +23,7 @@ CLEARLY = 0.01  # [m] by which a plan must fit better than one made later
 
 
 def resume(roads: Roads, trace: PlanTrace) -> tuple[ActionPlan, Motion] | Refusal | None:
-    """The manoeuvre under way, and where on it the ego is; None if there is none."""
+    """Return the manoeuvre under way, and where on it the ego is; None if there is none."""
     if trace.under_way is None:
         return None
     ego, ahead = trace.scene[EGO], _ahead(trace)
@@ -55,7 +55,7 @@ def _plans(roads: Roads, trace: PlanTrace) -> Iterator[tuple[ActionPlan, tuple[P
 
 
 def _situation(roads: Roads, trace: PlanTrace, sample: int) -> Situation | None:
-    """Where the ego was at a sample of its history; None off the road."""
+    """Return where the ego was at a sample of its history; None off the road."""
     track, now = trace.history[EGO], trace.scene[EGO]
     state = VehicleState(
         track.position[sample],
@@ -78,7 +78,7 @@ def _ahead(trace: PlanTrace) -> tuple[Point, ...]:
 
 
 def _beside(path: Path, points: Sequence[Point]) -> tuple[Array, Array]:
-    """How far [m] to the left of a path points lie, and at which of its arcs [m]."""
+    """Return how far [m] to the left of a path points lie, and at which of its arcs [m]."""
     xy = np.array(points)
     offsets = path.points[None, :, :] - xy[:, None, :]
     nearest = np.argmin(np.einsum("ijk,ijk->ij", offsets, offsets), axis=1)

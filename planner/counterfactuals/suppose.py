@@ -45,7 +45,7 @@ def suppose(
     goal: str | None,
     actions: Sequence[Action],
 ) -> Belief | Refusal:
-    """The one thing that a vehicle is then taken to be up to.
+    """Return the one thing that a vehicle is then taken to be up to.
 
     With a goal alone, its ways there keep their relative probabilities; where recognition gave
     the goal up, they are planned afresh, and its likelihood is 0. With actions, it drives these
@@ -86,7 +86,7 @@ def _on_foot(
     goal: str | None,
     actions: Sequence[Action],
 ) -> Belief | Refusal:
-    """The same of somebody on foot, whose goals are what he may do."""
+    """Return the same of somebody on foot, whose goals are what he may do."""
     named = {*actions, *(() if goal is None else (goal,))}
     if len(named) != 1:
         return Refusal("people on foot are supposed to do one thing: cross, continue or stop")
@@ -125,14 +125,14 @@ def _prospect(frame: Frame, moment: Moment, vehicle: int) -> _Prospect:
 
 
 def _goals(prospect: _Prospect, known: Sequence[Belief]) -> tuple[Goal, ...]:
-    """All goals that the vehicle may have, probable or not."""
+    """Return all goals that the vehicle may have, probable or not."""
     if not prospect.starts:
         return tuple(belief.goal for belief in known)
     return goals_in_view(prospect.task.roads, prospect.starts, prospect.task.view)
 
 
 def _named(goals: Sequence[Goal], name: str) -> Goal | Refusal:
-    """The goal of a kind, or at an edge."""
+    """Return the goal of a kind, or at an edge."""
     found = [goal for goal in goals if name in (goal.kind, edge_of(goal))]
     if not found and name in STRAIGHT:
         found = [goal for goal in goals if goal.kind in STRAIGHT]
@@ -162,7 +162,7 @@ def _acting(
     wanted: Goal | None,
     actions: Sequence[Action],
 ) -> Belief | Refusal:
-    """The belief that a vehicle does certain things, whichever goal that leads to."""
+    """Return the belief that a vehicle does certain things, whichever goal that leads to."""
     legs = _driven_freely(prospect, actions, prospect.others.usual)
     if isinstance(legs, Refusal):
         return legs
@@ -181,7 +181,7 @@ def _acting(
 def _moving(
     prospect: _Prospect, actions: Sequence[Action], usual: list[Leg], courses: tuple[int, ...]
 ) -> Obstacle:
-    """How a vehicle does certain things where lights take certain courses."""
+    """Return how a vehicle does certain things where lights take certain courses."""
     traffic, legs = prospect.others.under(courses), usual
     if courses != prospect.others.scenery.outlook.usual:
         driven = _driven_freely(prospect, actions, traffic)
@@ -193,7 +193,7 @@ def _moving(
 def _driven_freely(
     prospect: _Prospect, actions: Sequence[Action], others: Traffic
 ) -> list[Leg] | Refusal:
-    """The actions in turn; should others coast into the vehicle, without these."""
+    """Return the actions in turn; should others coast into the vehicle, without these."""
     legs = _driven(prospect, actions, others)
     if not isinstance(legs, Refusal) and legs[-1].outcome == "collision":
         return _driven(prospect, actions, replace(NOBODY, lights=others.lights))
@@ -201,7 +201,7 @@ def _driven_freely(
 
 
 def _driven(prospect: _Prospect, actions: Sequence[Action], others: Traffic) -> list[Leg] | Refusal:
-    """The actions in turn, from the first lane on which all of them apply."""
+    """Return the actions in turn, from the first lane on which all of them apply."""
     tried = [_legs(prospect.task, start, actions, others) for start in prospect.starts]
     driven = (legs for legs in tried if not isinstance(legs, Refusal))
     return next(driven, tried[0] if tried else Refusal("it is on no lane"))
@@ -210,7 +210,7 @@ def _driven(prospect: _Prospect, actions: Sequence[Action], others: Traffic) -> 
 def _legs(
     task: Task, here: Situation, actions: Sequence[Action], others: Traffic
 ) -> list[Leg] | Refusal:
-    """The actions in turn, as far as the horizon or a collision lets them."""
+    """Return the actions in turn, as far as the horizon or a collision lets them."""
     legs: list[Leg] = []
     first = 0
     for action in actions:
@@ -228,7 +228,7 @@ def _legs(
 
 
 def _reached(prospect: _Prospect, goals: Sequence[Goal], legs: Sequence[Leg]) -> tuple[Goal, ...]:
-    """The goals driven to, last the one that stands for the whole; at least one.
+    """Return the goals driven to, last the one that stands for the whole; at least one.
 
     Where none of the goals in view was reached, it is the road taken.
     """
@@ -245,7 +245,7 @@ def _reached(prospect: _Prospect, goals: Sequence[Goal], legs: Sequence[Leg]) ->
 
 
 def _standing(motion: Obstacle, last: Leg) -> Obstacle:
-    """The motion that stays for good where a leg ended."""
+    """Return the motion that stays for good where a leg ended."""
     end = last.first + len(last.speed) - 1
     position, heading, speed = motion.position.copy(), motion.heading.copy(), motion.speed.copy()
     position[end:], heading[end:], speed[end:] = last.position[-1], last.heading[-1], 0.0

@@ -113,7 +113,7 @@ def _with_more(
     beliefs: Mapping[int, Sequence[Belief]],
     request: WhatIf,
 ) -> PlanTrace:
-    """The trace with rollouts that begin with the forced actions."""
+    """Return the trace with rollouts that begin with the forced actions."""
     search = prepare(frame, moment, beliefs, salt="/" + ",".join(request.actions))
     search.force(request.actions, request.rollouts)
     known = {(entry.node, entry.action) for entry in trace.not_applicable}
@@ -162,18 +162,18 @@ def _check(trace: PlanTrace, network: Network, request: WhatIf) -> None:
 
 
 def changes_world(request: WhatIf) -> bool:
-    """Whether what was inferred of the others is kept, though the world is another."""
+    """Check whether what was inferred of the others is kept, though the world is another."""
     hastened = isinstance(request.faster, float)
     return bool(request.gone or hastened or supposed_lights(request) or seen_past(request))
 
 
 def supposed_lights(request: WhatIf) -> tuple[LightSupposed, ...]:
-    """What lights are supposed to show."""
+    """Return what lights are supposed to show."""
     return request.lights if isinstance(request.lights, tuple) else ()
 
 
 def _restore(trace: PlanTrace, roads: Roads, request: WhatIf) -> tuple[Frame, Moment]:
-    """The frame and moment of a recorded decision, with what is changed in its scene."""
+    """Return the frame and moment of a recorded decision, with what is changed in its scene."""
     here = root_at(roads, trace.scene[EGO], trace.sim_time)
     if here is None:
         raise WhatIfError(f"the ego was on no lane at {trace.sim_time} s")
@@ -203,7 +203,7 @@ def _restore(trace: PlanTrace, roads: Roads, request: WhatIf) -> tuple[Frame, Mo
 
 
 def seen_past(request: WhatIf) -> frozenset[int]:
-    """The indices of the imagined road users that are not there."""
+    """Return the indices of the imagined road users that are not there."""
     return frozenset(request.seen_past if isinstance(request.seen_past, tuple) else ())
 
 
@@ -216,7 +216,7 @@ def _imagined(trace: PlanTrace, request: WhatIf) -> tuple[Phantom, ...]:
 
 
 def _lit(roads: Roads, trace: PlanTrace, request: WhatIf) -> tuple[LightPrediction, ...]:
-    """How the lights may go on, with what is supposed of some."""
+    """Return how the lights may go on, with what is supposed of some."""
     found = {known.controller: known for known in trace.lights}
     for light in supposed_lights(request):
         known = found[light.controller]
@@ -226,7 +226,7 @@ def _lit(roads: Roads, trace: PlanTrace, request: WhatIf) -> tuple[LightPredicti
 
 
 def _hastened(state: VehicleState, track: Track, faster: float) -> tuple[VehicleState, Track]:
-    """A vehicle that is where it is, but drives faster by so much [m/s], and did."""
+    """Return a vehicle that is where it is, but drives faster by so much [m/s], and did."""
     speeds = tuple(max(speed + faster, 0.0) for speed in track.speed)
     return (
         replace(state, speed=max(state.speed + faster, 0.0)),
@@ -258,7 +258,7 @@ def _follows(track: Observed, other: Observed) -> bool:
 def _beliefs(
     frame: Frame, moment: Moment, request: WhatIf, recorded: Sequence[VehiclePrediction]
 ) -> dict[int, Sequence[Belief]]:
-    """What the others may be up to, with what is supposed of one of them."""
+    """Return what the others may be up to, with what is supposed of one of them."""
     beliefs: dict[int, Sequence[Belief]] = dict(predict(frame, moment))
     if changes_world(request):
         known_goals = {known.vehicle: known for known in recorded}

@@ -104,7 +104,7 @@ def control(driving: Driving, around: Around, dt: float) -> tuple[float, Keeping
 
 
 def view_of(roads: Roads, memory: Memory, scene: Scene) -> View:
-    """What is seen now, and what is hidden."""
+    """Return what is seen now, and what is hidden."""
 
     def rate(edge: str) -> float:
         return memory.counts.rate(edge, scene.time)
@@ -179,7 +179,7 @@ def _clear(
 
 
 def _seen(around: Around) -> list[Obstacle]:
-    """The others where they are, going on as they do."""
+    """Return the others where they are, going on as they do."""
     found, ego = [], around.scene.ego
     for vehicle, state in around.memory.now.items():
         near = state.kind not in ON_FOOT or math.dist(state.position, ego.position) < AROUND
@@ -190,7 +190,7 @@ def _seen(around: Around) -> list[Obstacle]:
 
 
 def _predicted(driving: Driving, around: Around, likely: float) -> list[Obstacle]:
-    """The motions that the last decision found likely enough, from now on."""
+    """Return the motions that the last decision found likely enough, from now on."""
     found: list[Obstacle] = []
     if around.outlook is None:
         return found
@@ -212,7 +212,7 @@ def _predicted(driving: Driving, around: Around, likely: float) -> list[Obstacle
 
 
 def _waits_for_us(driving: Driving, around: Around, vehicle: int) -> bool:
-    """Whether a vehicle that may go first lets the ego go on.
+    """Check whether a vehicle that may go first lets the ego go on.
 
     Else the two would wait for one another forever: one that stands while the ego is past its
     line; or that has stood as long as the ego has at its line, with no light that held them.
@@ -226,24 +226,24 @@ def _waits_for_us(driving: Driving, around: Around, vehicle: int) -> bool:
 
 
 def _stands(around: Around, vehicle: int) -> bool:
-    """Whether a vehicle has stood for a while."""
+    """Check whether a vehicle has stood for a while."""
     speeds = around.memory.track(vehicle, around.scene.time).speed[-PATIENCE:]
     return len(speeds) == PATIENCE and max(speeds) < STANDING
 
 
 def _kept(driving: Driving, around: Around) -> bool:
-    """Whether the ego has hardly moved for a while, and not for a light."""
+    """Check whether the ego has hardly moved for a while, and not for a light."""
     return _lingers(around) and not _just_green(driving, around)
 
 
 def _lingers(around: Around) -> bool:
-    """Whether the ego has hardly moved for as long; setting off counts as that at first."""
+    """Check whether the ego has hardly moved for as long; setting off counts as that at first."""
     places = around.memory.track(EGO, around.scene.time).position[-PATIENCE:]
     return len(places) == PATIENCE and math.dist(places[0], places[-1]) < SPARE
 
 
 def _just_green(driving: Driving, around: Around) -> bool:
-    """Whether a light that the ego stands at shows what it shows for a short while only."""
+    """Check whether a light that the ego stands at shows what it shows for a short while only."""
     found = (around.scene.light(ahead.signal) for ahead in driving.plan.obey_lights)
     since = around.scene.time - PATIENCE * DT
     return any(light is not None and light.since > since for light in found)

@@ -153,14 +153,14 @@ class Driver:
         return decision.trace
 
     def _lookout(self, scene: Scene) -> tuple[LightPrediction, ...]:
-        """How the lights in view may go on."""
+        """Return how the lights in view may go on."""
         roads, goal, here = self._frame.roads, self._frame.goal, self._situation(scene)
         edges = way(roads, (here.location.lane,), goal)
         horizon, now = self._frame.settings.horizon, round(scene.time, 3)
         return lookout(roads, self._memory.watched, now, horizon, edges)
 
     def _imagined(self, scene: Scene) -> tuple[Phantom, ...]:
-        """Who might come out of what is hidden, at the junction here or ahead."""
+        """Return who might come out of what is hidden, at the junction here or ahead."""
         if not scene.unseen:
             return ()
         view = view_of(self._frame.roads, self._memory, scene)
@@ -182,7 +182,7 @@ class Driver:
         events.append(_event("action-started", moment.time, begun))
 
     def _begin(self, action: Action, moment: Moment) -> _Execution | Refusal:
-        """An action at its beginning."""
+        """Return an action at its beginning."""
         frame, here = self._frame, moment.root.here
         plan = expand(frame.roads, here, action, frame.goal, frame.settings.view_radius)
         if isinstance(plan, Refusal):
@@ -201,7 +201,7 @@ class Driver:
         return min(plan.path.length, begin + network.lanes[last].length) - END_GAP
 
     def _surprised(self, scene: Scene) -> bool:
-        """Whether somebody near does what the last decision did not foresee.
+        """Check whether somebody near does what the last decision did not foresee.
 
         It matters where the ego has to give way: there it counts on what it foresaw. A light that
         it comes to matters too.
@@ -238,7 +238,7 @@ class Driver:
         )
 
     def _beyond(self, ego: VehicleState, time: float) -> Situation | None:
-        """Where it is once it has come out beyond the end of the road, too fast to stop."""
+        """Return where it is once it has come out beyond the end of the road, too fast to stop."""
         if self._left is None:
             return None
         end = self._frame.roads.network.lanes[self._left].length
@@ -268,7 +268,7 @@ class Driver:
         return Command(position, heading, motion.speed, current.edges, shown)
 
     def _lights(self, current: _Execution, motion: Motion, acceleration: float) -> tuple[str, ...]:
-        """What the car shows the others in the coming step."""
+        """Return what the car shows the others in the coming step."""
         plan = self._last.trace.plan if self._last is not None else ()
         actions = tuple(planned.action for planned in plan)
         later = actions[1:] if actions[:1] == (current.plan.action,) else ()

@@ -22,7 +22,7 @@ STRAY = 2.0  # [m] by which a place on foot must, more than who sets off or stop
 def lookout(
     roads: Roads, watched: Sequence[Watched], time: float, horizon: float, edges: Sequence[str]
 ) -> tuple[LightPrediction, ...]:
-    """How the lights in view may go on.
+    """Return how the lights in view may go on.
 
     Args:
         roads: the road network.
@@ -41,7 +41,7 @@ def lookout(
 
 
 def _along(roads: Roads, edges: Sequence[str]) -> Iterator[str]:
-    """The controllers of the junctions between edges, in order."""
+    """Yield the controllers of the junctions between edges, in order."""
     network = roads.network
     for edge, after in pairwise(edges):
         for lane in network.edge_lanes(edge):
@@ -73,7 +73,7 @@ def changed(plan: ActionPlan, scene: Scene, known: Sequence[LightPrediction]) ->
 
 
 def as_foreseen(state: VehicleState | PersonState, motion: Obstacle, step: int) -> bool:
-    """Whether somebody moves as a motion says: as fast; on foot, about there."""
+    """Check whether somebody moves as a motion says: as fast; on foot, about there."""
     at = min(step, len(motion.speed) - 1)
     if isinstance(state, PersonState):
         x, y = motion.position[at].tolist()

@@ -38,7 +38,7 @@ class Lost:
     going_on: Obstacle  # from then on
 
     def at(self, time: float) -> VehicleState | None:
-        """Where it is taken to be; None where it would have left the network."""
+        """Return where it is taken to be; None where it would have left the network."""
         step = (time - self.since) / DT
         k = min(int(step), len(self.going_on.speed) - 2)
         share = min(step - k, 1.0)
@@ -89,11 +89,11 @@ class Memory:
         return {vehicle: self._lost[vehicle].since for vehicle in sorted(self._lost)}
 
     def track(self, vehicle: int, time: float) -> Track:
-        """The history of a vehicle at 5 Hz, the last sample now; without its lights."""
+        """Return the history of a vehicle at 5 Hz, the last sample now; without its lights."""
         return _resampled(self._seen[vehicle], time)
 
     def recorded(self, vehicle: int, time: float) -> Track:
-        """The same with its lights, as the trace records it."""
+        """Return the same with its lights, as the trace records it."""
         track = self.track(vehicle, time)
         if self._seen[vehicle][-1][1].kind in ON_FOOT:
             return track
@@ -144,14 +144,14 @@ class Memory:
 
 
 def hidden(state: VehicleState, scene: Scene) -> bool:
-    """Whether a tall vehicle stands between the middles of the ego and of another vehicle."""
+    """Check whether a tall vehicle stands between the middles of the ego and of another vehicle."""
     here, there = middle(scene.ego), middle(state)
     tall = (other for name, other in scene.vehicles.items() if name != EGO and other.kind in TALL)
     return any(between(here, there, other) for other in tall)
 
 
 def _rounded(state: VehicleState) -> VehicleState:
-    """The state as traces record it, so that a trace holds all that a decision used."""
+    """Return the state as traces record it, so that a trace holds all that a decision used."""
     return replace(
         state,
         position=(round(state.position[0], 2), round(state.position[1], 2)),
@@ -162,7 +162,7 @@ def _rounded(state: VehicleState) -> VehicleState:
 
 
 def _resampled(seen: deque[tuple[float, VehicleState]], time: float) -> Track:
-    """A history at 5 Hz, counted back from now."""
+    """Return a history at 5 Hz, counted back from now."""
     states: list[VehicleState] = []
     start, wanted = time, time
     for moment, state in reversed(seen):
@@ -179,7 +179,7 @@ def _resampled(seen: deque[tuple[float, VehicleState]], time: float) -> Track:
 
 
 def _lights(seen: deque[tuple[float, VehicleState]], start: float) -> tuple[LightChange, ...]:
-    """The lights shown at a moment [s], and every change since."""
+    """Return the lights shown at a moment [s], and every change since."""
     found: list[LightChange] = []
     for time, state in seen:
         if time <= start + 1e-3:

@@ -30,7 +30,7 @@ SPACE = 1.5  # [m] before somebody at which to wait
 def with_walkers(
     plan: ActionPlan, roads: Roads, seen: Sequence[Obstacle], ego: VehicleState
 ) -> tuple[ActionPlan, list[Obstacle]]:
-    """A plan that lets those pass who are about to walk into its way, and how they go on.
+    """Return a plan that lets those pass who are about to walk into its way, and how they go on.
 
     Args:
         plan: to drive.
@@ -54,7 +54,7 @@ def with_walkers(
 
 
 def passing_speed(plan: ActionPlan, motion: Motion, others: Sequence[VehicleState]) -> float:
-    """The speed [m/s] at which to drive on, since somebody stands beside at a crossing.
+    """Return the speed [m/s] at which to drive on, since somebody stands beside at a crossing.
 
     Vehicles are not overtaken there: whom they let cross they may hide. It is infinite where
     nobody does, or a light controls the crossing.
@@ -73,7 +73,7 @@ def passing_speed(plan: ActionPlan, motion: Motion, others: Sequence[VehicleStat
 
 
 def _waits_beside(plan: ActionPlan, line: LetCross, other: VehicleState) -> bool:
-    """Whether a vehicle waits at a crossing on a lane beside a path."""
+    """Check whether a vehicle waits at a crossing on a lane beside a path."""
     if other.speed > SLOW or other.kind in ON_FOOT:
         return False
     path = plan.path
@@ -91,7 +91,7 @@ def _on_a_road(roads: Roads, walker: Obstacle) -> bool:
 
 
 def _going_on(walker: Obstacle) -> Obstacle:
-    """The same walker for AHEAD steps."""
+    """Return the same walker for AHEAD steps."""
     steps = STEP * np.arange(AHEAD + 1, dtype=np.float64) * float(walker.speed[0])
     heading = float(walker.heading[0])
     ahead = np.array([math.cos(heading), math.sin(heading)])

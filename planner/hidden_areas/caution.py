@@ -42,7 +42,7 @@ def cautious(phantoms: Sequence[Phantom]) -> dict[tuple[str, int], float]:
 
 
 def caution(plan: ActionPlan, slow: Mapping[tuple[str, int], float], count: int) -> Array:
-    """The highest speed [m/s] at each of so many metres along a plan's path.
+    """Return the highest speed [m/s] at each of so many metres along a plan's path.
 
     Nobody knows when the view will open. It is taken to do so in time for READY.
 
@@ -81,12 +81,12 @@ def allowed_speed(view: View, plan: ActionPlan, arc: float) -> float:
 
 
 def key_of(line: GiveWay) -> tuple[str, int]:
-    """The link of a line, as (junction, index)."""
+    """Return the link of a line, as (junction, index)."""
     return line.link.junction, line.link.index
 
 
 def coming(roads: Roads, one: Phantom, name: int, steps: int) -> Obstacle:
-    """How somebody who is imagined would drive, as bends allow, from now on.
+    """Return how somebody who is imagined would drive, as bends allow, from now on.
 
     Args:
         roads: the road network.
@@ -122,7 +122,7 @@ def name_of(phantom: int) -> int:
 def careful_steps(
     plan: ActionPlan, slow: Mapping[tuple[str, int], float], driven: Drive, count: int
 ) -> Careful:
-    """The steps of a drive that were slower since somebody might come out of what is hidden.
+    """Return the steps of a drive that were slower since somebody might come out of what is hidden.
 
     Args:
         plan: that was driven.

@@ -55,7 +55,7 @@ class Counts:
     _seen: dict[str, set[int]] = field(default_factory=dict)
 
     def rate(self, edge: str, time: float) -> float:
-        """The rate [1/s] of vehicles on an edge: the mean of a gamma distribution.
+        """Return the rate [1/s] of vehicles on an edge: the mean of a gamma distribution.
 
         Before anything is seen it is PRIOR_RATE, as if one had come in 1 / PRIOR_RATE seconds.
         """
@@ -109,7 +109,7 @@ def around(view: View, here: Location) -> tuple[Phantom, ...]:
 
 
 def ways_ahead(roads: Roads, here: Location, speed: float) -> tuple[Link, ...]:
-    """The links of the junction that somebody comes to who drives at a speed [m/s].
+    """Return the links of the junction that somebody comes to who drives at a speed [m/s].
 
     Who stands before a line comes to it as soon as it sets off, at READY.
     """
@@ -125,12 +125,12 @@ def ways_ahead(roads: Roads, here: Location, speed: float) -> tuple[Link, ...]:
 
 
 def reach_of(speed: float) -> float:
-    """How far [m] before a line it begins to matter what is hidden."""
+    """Return how far [m] before a line it begins to matter what is hidden."""
     return speed * (NOTICE + REACTION) + speed * speed / (2.0 * COMFORT)
 
 
 def imagined(view: View, links: Iterable[Link]) -> tuple[Phantom, ...]:
-    """Who might come out of what is hidden, and would go first.
+    """Return who might come out of what is hidden, and would go first.
 
     Args:
         view: what is seen, and what is not.
@@ -164,7 +164,7 @@ def time_across(network: Network, link: Link, ego: VehicleState) -> float:
 
 
 def meeting(roads: Roads, mine: Link, theirs: Link) -> float:
-    """How far [m] behind its line a link comes to the way of another of its junction."""
+    """Return how far [m] behind its line a link comes to the way of another of its junction."""
     key = (mine.junction, mine.index, theirs.index)
     found = roads.meetings.get(key)
     if found is None:
@@ -184,7 +184,7 @@ def meeting(roads: Roads, mine: Link, theirs: Link) -> float:
 
 
 def _beside(line: tuple[Point, ...], place: Point) -> bool:
-    """Whether a car on a line would be less than a metre from one at a place."""
+    """Check whether a car on a line would be less than a metre from one at a place."""
     offset, _, _ = project(line, place)
     nearest, _ = point_at(line, offset)
     return math.dist(nearest, place) < ASIDE
@@ -216,12 +216,12 @@ def _is_straight(network: Network, junction: str, index: int) -> bool:
 
 
 def _open(link: Link, lights: Lights) -> bool:
-    """Whether the ego has to look out for others at a link, as its light shows."""
+    """Check whether the ego has to look out for others at a link, as its light shows."""
     return not isinstance(link.control, Signal) or _shown(link.control, lights) in (OPEN, HALT)
 
 
 def _comes(link: Link, lights: Lights) -> bool:
-    """Whether a light lets the others come along a link."""
+    """Check whether a light lets the others come along a link."""
     return not isinstance(link.control, Signal) or _shown(link.control, lights) in (FIRST, OPEN)
 
 
@@ -232,7 +232,7 @@ def _shown(signal: Signal, lights: Lights) -> int:
 def _nearest(
     network: Network, hidden: Mapping[str, Sequence[Unseen]], lane: str, reach: float
 ) -> _Nearest | None:
-    """The nearest hidden stretch up the road from a line, at most `reach` [m] away."""
+    """Return the nearest hidden stretch up the road from a line, at most `reach` [m] away."""
     waiting: list[tuple[float, tuple[str, ...]]] = [(0.0, (lane,))]
     best: _Nearest | None = None
     while waiting:
@@ -270,7 +270,7 @@ def _hidden_up(
 
 
 def _before(network: Network, lane: str) -> tuple[str, ...]:
-    """The lanes that lead onto a lane, those of junctions among them."""
+    """Return the lanes that lead onto a lane, those of junctions among them."""
     inside = network.link_via(lane)
     if inside is not None:
         at = inside.via.index(lane)
@@ -282,7 +282,7 @@ def _before(network: Network, lane: str) -> tuple[str, ...]:
 def _phantom(
     view: View, theirs: Link, ours: Sequence[Link], nearest: _Nearest, reach: float
 ) -> Phantom | None:
-    """Who is imagined at the near end of a hidden stretch; None where nobody would come."""
+    """Return who is imagined at the near end of a hidden stretch; None where nobody would come."""
     network, lane = view.roads.network, view.roads.network.lanes[nearest.lanes[0]]
     pace = min(lane.speed_limit, _held_by(view, nearest))
     hidden = min(nearest.hidden, max(reach - nearest.distance, 0.0))
@@ -323,7 +323,7 @@ def _looked_at(lane: Lane, stretch: Unseen) -> Point:
 
 
 def _held_by(view: View, nearest: _Nearest) -> float:
-    """The speed [m/s] of the slowest who is seen between a hidden stretch and the line."""
+    """Return the speed [m/s] of the slowest who is seen between a hidden stretch and the line."""
     slowest = math.inf
     for name, state in view.seen.items():
         if name == EGO:
@@ -336,7 +336,7 @@ def _held_by(view: View, nearest: _Nearest) -> float:
 
 
 def _hiders(view: View, point: Point) -> tuple[int, ...]:
-    """The vehicles behind which a place is hidden, the nearest first."""
+    """Return the vehicles behind which a place is hidden, the nearest first."""
     eye = middle(view.ego)
     tall = {name: x for name, x in view.seen.items() if name != EGO and x.kind not in LOW}
     found = [name for name, state in tall.items() if between(eye, point, state)]

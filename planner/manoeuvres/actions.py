@@ -70,7 +70,7 @@ SIDES: dict[Action, Direction] = {"change-left": "left", "change-right": "right"
 def expand(
     roads: Roads, here: Situation, action: Action, goal: EgoGoal | None, view: float
 ) -> ActionPlan | Refusal:
-    """The plan for a macro action, or why it does not apply.
+    """Return the plan for a macro action, or why it does not apply.
 
     Args:
         roads: the road network.
@@ -168,7 +168,7 @@ def _exit(
 
 
 def _beside(roads: Roads, entry: Link, direction: Direction) -> bool:
-    """Whether a road leads past a roundabout in a direction."""
+    """Check whether a road leads past a roundabout in a direction."""
     network = roads.network
     return any(
         lead.direction == direction

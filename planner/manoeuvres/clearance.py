@@ -52,7 +52,7 @@ def first_touch(
 
 
 def _on_another_level(path: Path, other: VehicleState) -> bool:
-    """Whether somebody stands above or below a path."""
+    """Check whether somebody stands above or below a path."""
     if not path.passings:
         return False
     state = np.array([[(*other.position, other.heading, other.speed)]])

@@ -118,12 +118,12 @@ def stop(roads: Roads, here: Situation, goal: EgoGoal | None) -> ActionPlan | Re
 
 
 def _rest(speed: float, braking: float) -> float:
-    """Where [m] from here a vehicle that brakes comes to rest."""
+    """Return where [m] from here a vehicle that brakes comes to rest."""
     return speed**2 / (2.0 * braking) + speed * SETTLING
 
 
 def _refused_inside(roads: Roads, lane: str) -> Refusal | None:
-    """Why one cannot just go on from inside a junction."""
+    """Return why one cannot just go on from inside a junction."""
     link = _crossing(roads, lane)
     if link is None:
         return None
@@ -135,7 +135,7 @@ def _refused_inside(roads: Roads, lane: str) -> Refusal | None:
 
 
 def _crossing(roads: Roads, lane: str) -> Link | None:
-    """The link by which one is just crossing a junction."""
+    """Return the link by which one is just crossing a junction."""
     link = roads.network.link_via(lane)
     return None if link is None or lane_end(roads, link.from_lane).joint == link else link
 
@@ -148,13 +148,13 @@ def _widens(roads: Roads, link: Link) -> bool:
 
 
 def _leads_on(roads: Roads, lane: str) -> bool:
-    """Whether the road goes on from a lane, or from those beside it."""
+    """Check whether the road goes on from a lane, or from those beside it."""
     end = lane_end(roads, lane)
     return bool(end.leads) or end.merges
 
 
 def _off(roads: Roads, link: Link, goal: EgoGoal | None) -> bool:
-    """Whether another way than a link is the shorter one to the goal, or none leads there."""
+    """Check whether another way than a link is the shorter one to the goal, or none leads there."""
     if goal is None:
         return False
     network = roads.network

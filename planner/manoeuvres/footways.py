@@ -28,7 +28,7 @@ class Over:
 
 
 def over(roads: Roads, link: Link) -> tuple[Over, ...]:
-    """The crossings that a link leads over, nearest first."""
+    """Return the crossings that a link leads over, nearest first."""
     key = (link.junction, link.index)
     found = roads.footways.get(key)
     if found is None:
@@ -39,7 +39,7 @@ def over(roads: Roads, link: Link) -> tuple[Over, ...]:
 
 
 def lines_over(roads: Roads, link: Link, begin: float) -> Iterator[LetCross]:
-    """Where to let people cross on a path that follows a link from an arc [m] on.
+    """Yield where to let people cross on a path that follows a link from an arc [m] on.
 
     The arc is negative where the path begins inside the junction. Crossings passed are left out.
     Where there is no room to wait between two crossings, one waits for people on both before the
@@ -63,7 +63,7 @@ def lines_over(roads: Roads, link: Link, begin: float) -> Iterator[LetCross]:
 def crossings_along(
     roads: Roads, lane: str, edges: Sequence[str], reach: float
 ) -> tuple[Crossing, ...]:
-    """The crossings that a way leads over.
+    """Return the crossings that a way leads over.
 
     Args:
         roads: the road network.
@@ -87,7 +87,7 @@ def crossings_along(
 
 
 def _over(roads: Roads, link: Link, crossing: Crossing) -> Over | None:
-    """Where a link leads over a crossing; None where it does not come onto it."""
+    """Return where a link leads over a crossing; None where it does not come onto it."""
     length, half = cumulative(crossing.line)[-1], 0.5 * crossing.width
     inside: list[float] = []
     passed = 0.0

@@ -26,7 +26,7 @@ def lights(
     acceleration: float,
     later: Sequence[Action] = (),
 ) -> tuple[str, ...]:
-    """The lights to show, of left, right, brake.
+    """Return the lights to show, of left, right, brake.
 
     Args:
         roads: the road network.
@@ -71,7 +71,7 @@ def _next_side(
 
 
 def _onto_ring(roads: Roads, plan: ActionPlan, turn: Turn) -> bool:
-    """Whether a turn leads onto a roundabout, which nobody indicates."""
+    """Check whether a turn leads onto a roundabout, which nobody indicates."""
     ring = roads.network.roundabout
     lanes = roads.network.lanes
     before = lanes[plan.path.lane_at(turn.start - 1e-3)[0]]

@@ -72,7 +72,7 @@ class Layout:
         return cls(path, end, tuple(_crossings(roads, lanes, begins)))
 
     def manoeuvres(self) -> tuple[Manoeuvre, ...]:
-        """What is done up to the last turn, in order."""
+        """Return what is done up to the last turn, in order."""
         found: list[Manoeuvre] = []
         at = 0.0
         for x in self.crossings:
@@ -93,7 +93,7 @@ class Layout:
 
 
 def waits_along(roads: Roads, path: Path, row: tuple[str, ...]) -> tuple[Manoeuvre, ...]:
-    """Where to wait along the lanes of a path, should what comes after it lead straight on.
+    """Return where to wait along the lanes of a path, should what comes after it lead straight on.
 
     Args:
         roads: the road network.
@@ -119,7 +119,7 @@ def finish(
     commit: float,
     goal: EgoGoal | None,
 ) -> ActionPlan:
-    """The plan of an action, which ends at the goal where it comes past it, or near it."""
+    """Return the plan of an action, which ends at the goal where it comes past it, or near it."""
     reached = None if goal is None else _goal_arc(roads, path, goal, end)
     return ActionPlan(
         action, path, manoeuvres, end if reached is None else reached, commit, reached
@@ -180,13 +180,13 @@ def _beginning(roads: Roads, link: Link, here: float, gone: int, enter: float) -
 
 
 def _firsts(roads: Roads, link: Link) -> tuple[int, ...]:
-    """The links of a junction that go first, those for others than cars among them."""
+    """Return the links of a junction that go first, those for others than cars among them."""
     beside = links_beside(roads.network, link, link.other_yields_to)
     return (*link.yields_to, *(other.index for other in beside))
 
 
 def _foes(roads: Roads, link: Link) -> tuple[Foe, ...]:
-    """The links whose ways cross that of a link at a light."""
+    """Return the links whose ways cross that of a link at a light."""
     if not isinstance(link.control, Signal):
         return ()
     found = roads.foes.get((link.junction, link.index))
@@ -215,7 +215,7 @@ def _foe(roads: Roads, link: Link, first: bool) -> Foe:
 
 
 def _any_lane(network: Network, name: str) -> Lane:
-    """A lane, whoever may use it."""
+    """Return a lane, whoever may use it."""
     return network.lanes[name] if name in network.lanes else network.other_lanes[name]
 
 
@@ -228,7 +228,7 @@ def _link_between(roads: Roads, lanes: tuple[str, ...], k: int) -> Link | None:
 
 
 def _turns(roads: Roads, link: Link) -> bool:
-    """Whether a link is more than following the road, or the ring of a roundabout."""
+    """Check whether a link is more than following the road, or the ring of a roundabout."""
     network = roads.network
     start, end = network.lanes[link.from_lane].edge, network.lanes[link.to_lane].edge
     ring = network.roundabout(start)

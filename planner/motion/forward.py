@@ -53,7 +53,7 @@ class Stops:
     signals: tuple[Signal, ...]
 
     def before(self, step: int) -> "Stops":
-        """Those before a step."""
+        """Return those before a step."""
         n = int(np.searchsorted(self.step, step))
         return Stops(self.step[:n], self.which[:n], self.signals)
 
@@ -68,7 +68,7 @@ class Hindrances:
     speed: Array  # [m/s] [H] of the hindering vehicle
 
     def before(self, step: int) -> "Hindrances":
-        """Those before a step."""
+        """Return those before a step."""
         n = int(np.searchsorted(self.step, step))
         return Hindrances(self.step[:n], self.vehicle[:n], self.how[:n], self.speed[:n])
 
@@ -106,13 +106,13 @@ class Lane:
             self.caps = np.minimum(self.caps, np.sqrt(2.0 * driving.COMFORT * room))
 
     def speed(self, arc: float) -> float:
-        """The highest speed [m/s] at an arc [m]."""
+        """Return the highest speed [m/s] at an arc [m]."""
         return float(self.caps[min(int(arc), len(self.caps) - 1)])
 
 
 @lru_cache(maxsize=KEPT)
 def lane_of(path: Path) -> Lane:
-    """A path prepared for driving, kept."""
+    """Return a path prepared for driving, kept."""
     return Lane(path)
 
 
@@ -175,7 +175,7 @@ def accelerate(
     length: float,
     dt: float,
 ) -> tuple[float, Keeping]:
-    """What to do in the coming step, and what is in the way.
+    """Return what to do in the coming step, and what is in the way.
 
     Args:
         plan: what is being driven.
@@ -213,7 +213,7 @@ def accelerate(
 
 
 def _course(plan: ActionPlan, caps: Array, lights: Lights, length: float) -> Course:
-    """A plan as the kernels know it, with the highest speed [m/s] at every metre."""
+    """Return a plan as the kernels know it, with the highest speed [m/s] at every metre."""
     lines = [(line.stop, line.clear, isinstance(line, GiveWay)) for line in plan.lines]
     rooms = [(room.stop, room.out + length) for room in plan.keep_clears]
     ahead = plan.obey_lights
@@ -228,7 +228,7 @@ def _course(plan: ActionPlan, caps: Array, lights: Lights, length: float) -> Cou
 
 
 def _shown(lights: Lights, signals: tuple[Signal, ...]) -> Codes:
-    """What some lights show at each step [S, T]."""
+    """Return what some lights show at each step [S, T]."""
     steps = max((len(lights.shows(signal, 1)) for signal in signals), default=1)
     rows = [lights.shows(signal, steps) for signal in signals]
     return np.array(rows, np.int8).reshape(len(rows), steps)

@@ -19,7 +19,7 @@ ASIDE = 0.5  # [m] beside a crossing where one is on it
 
 
 def crossings_near(roads: Roads, here: Point) -> Iterator[tuple[Crossing, bool]]:
-    """The crossings that begin near a place, and whether their lines end there."""
+    """Yield the crossings that begin near a place, and whether their lines end there."""
     for k in _around(roads, here, REACH).tolist():
         crossing = roads.network.crossings[k // 2]
         near, far = crossing.line[0], crossing.line[-1]
@@ -28,7 +28,7 @@ def crossings_near(roads: Roads, here: Point) -> Iterator[tuple[Crossing, bool]]
 
 
 def crossing_under(roads: Roads, here: Point) -> Crossing | None:
-    """The crossing that somebody is on, beyond its kerb."""
+    """Return the crossing that somebody is on, beyond its kerb."""
     for k in _around(roads, here, LONGEST).tolist():
         crossing: Crossing = roads.network.crossings[k // 2]
         offset, aside, _ = project(crossing.line, here)
@@ -39,12 +39,12 @@ def crossing_under(roads: Roads, here: Point) -> Crossing | None:
 
 
 def on_crossing(roads: Roads, here: Point) -> bool:
-    """Whether a place is on a crossing, beyond its kerb."""
+    """Check whether a place is on a crossing, beyond its kerb."""
     return crossing_under(roads, here) is not None
 
 
 def is_by(crossing: Crossing, here: Point) -> bool:
-    """Whether a place is near an end of a crossing, or on it."""
+    """Check whether a place is near an end of a crossing, or on it."""
     start, end = crossing.line[0], crossing.line[-1]
     if min(math.dist(here, start), math.dist(here, end)) <= REACH:
         return True
@@ -54,20 +54,20 @@ def is_by(crossing: Crossing, here: Point) -> bool:
 
 
 def people_first(roads: Roads, crossing: Crossing) -> bool:
-    """Whether people have priority on a crossing before who would drive over it."""
+    """Check whether people have priority on a crossing before who would drive over it."""
     links = roads.network.junction_links(crossing.junction).values()
     over = [link for link in links if crossing.index in link.other_foes]
     return bool(over) and all(crossing.index in link.other_yields_to for link in over)
 
 
 def walks_back(person: Observed, crossing: Crossing) -> bool:
-    """Whether somebody on a crossing walks against the direction of its line."""
+    """Check whether somebody on a crossing walks against the direction of its line."""
     _, _, heading = project(crossing.line, place_of(person))
     return math.cos(angle_between(direction_of(person), heading)) < 0.0
 
 
 def came_over(person: Observed, crossing: Crossing) -> bool:
-    """Whether somebody has just walked over a crossing."""
+    """Check whether somebody has just walked over a crossing."""
     length = cumulative(crossing.line)[-1]
     for x, y in person.position[max(person.elapsed - LATELY, 0) :: 5].tolist():
         offset, aside, _ = project(crossing.line, (x, y))
@@ -77,14 +77,14 @@ def came_over(person: Observed, crossing: Crossing) -> bool:
 
 
 def _around(roads: Roads, here: Point, reach: float) -> Ints:
-    """Which ends of crossings are within reach [m] of a place, as indices into `_ends`."""
+    """Return which ends of crossings are within reach [m] of a place, as indices into `_ends`."""
     ends = _ends(roads)
     found: Ints = np.flatnonzero(np.hypot(ends[:, 0] - here[0], ends[:, 1] - here[1]) <= reach)
     return found
 
 
 def _ends(roads: Roads) -> Array:
-    """Where crossings begin and end [m] [2 C, 2]."""
+    """Return where crossings begin and end [m] [2 C, 2]."""
     if roads.kerbs is None:
         ends = [point for x in roads.network.crossings for point in (x.line[0], x.line[-1])]
         roads.kerbs = np.array(ends, np.float64).reshape(-1, 2)

@@ -49,7 +49,7 @@ class Motions:
     other: Mapping[tuple[int, ...], Obstacle] = field(default_factory=dict)  # by courses
 
     def under(self, courses: tuple[int, ...]) -> Obstacle:
-        """The motion where controllers take certain courses."""
+        """Return the motion where controllers take certain courses."""
         return self.other.get(courses, self.usual)
 
 
@@ -94,7 +94,7 @@ class Traffic:
         lights: Lights = NO_LIGHTS,
         pool: Pool | None = None,
     ) -> "Traffic":
-        """The motions of obstacles; one that ends sooner than others stays as it is then.
+        """Return the motions of obstacles; one that ends sooner than others stays as it is then.
 
         Args:
             obstacles: the others.
@@ -158,12 +158,12 @@ class Traffic:
         return np.array(rows, np.bool_).reshape(self.states.shape[:2])
 
     def beside(self, path: Path) -> Array:
-        """The states without those above or below a path, which are NaN."""
+        """Return the states without those above or below a path, which are NaN."""
         there = self.elsewhere(path)
         return np.where(there[:, :, None], np.nan, self.states) if len(there) else self.states
 
     def since(self, step: int) -> "Traffic":
-        """The same motions, with a later step as step 0."""
+        """Return the same motions, with a later step as step 0."""
         states = np.ascontiguousarray(self.states[:, step:])
         tags = tuple((tag, step) for tag in self.tags)
         return replace(self, states=states, tags=tags, lights=self.lights.since(step))
@@ -199,7 +199,7 @@ class Occupancy:
     stretches: Stretches
 
     def behind(self, front: float, length: float) -> Bools:
-        """Whom driving on does not come to, at step 0 [M].
+        """Return whom driving on does not come to, at step 0 [M].
 
         These are vehicles behind the middle of the own body, and people behind its front.
 
@@ -226,7 +226,7 @@ class Occupancy:
         return found
 
     def firsts(self, lines: Sequence[GiveWay | LetCross]) -> Bools:
-        """Who goes first at each line [L, M, T], at each step where there are lights."""
+        """Return who goes first at each line [L, M, T], at each step where there are lights."""
         links = self.traffic.links
         found = [[not own.isdisjoint(line.yields_to) for own in links] for line in lines]
         always = np.array(found, dtype=np.bool_).reshape(len(found), len(links), 1)
@@ -254,7 +254,7 @@ def occupancy(path: Path, traffic: Traffic, width: float, first: int, last: int)
 
 
 def _projected(path: Path, traffic: Traffic, width: float, first: int, last: int) -> Stretches:
-    """Where traffic is on a path; see `occupancy`."""
+    """Return where traffic is on a path; see `occupancy`."""
     line, states = (path.points, path.arc, path.heading), traffic.beside(path)
     return project(*line, states, traffic.spaces, width, first, last)
 
@@ -308,7 +308,7 @@ def _add(met: Met, path: Path, traffic: Traffic, width: float, first: int, last:
 
 
 def _by_light(traffic: Traffic, line: GiveWay, steps: int) -> Bools:
-    """Who goes first at a line with a light [M, T], which may show others red.
+    """Return who goes first at a line with a light [M, T], which may show others red.
 
     Who is inside the junction is let out, whatever the light; of the others, those go first for
     whom the junction's rules say so while their light lets them in, and ours does not let us first.

@@ -23,12 +23,12 @@ class Scenery:
     _lights: dict[tuple[int, ...], Lights] = field(default_factory=dict)
 
     def on(self, kind: str) -> "Scenery":
-        """The same on the roads for a kind of vehicle."""
+        """Return the same on the roads for a kind of vehicle."""
         roads = roads_of(self.roads, kind)
         return self if roads is self.roads else replace(self, roads=roads)
 
     def lights(self, courses: tuple[int, ...]) -> Lights:
-        """What lights show from now on, where controllers take certain courses."""
+        """Return what lights show from now on, where controllers take certain courses."""
         found = self._lights.get(courses)
         if found is None:
             found = self.outlook.lights(courses, self.steps + GAP_HORIZON)
@@ -36,7 +36,7 @@ class Scenery:
         return found
 
     def motions(self, make: Callable[[tuple[int, ...]], Obstacle]) -> Motions:
-        """The motions of a vehicle under all courses of the controllers that it comes to."""
+        """Return the motions of a vehicle under all courses of the controllers that it comes to."""
         usual = self.outlook.usual
         motion = make(usual)
         if len(self.outlook.joint) == 1:
@@ -53,7 +53,7 @@ class Scenery:
         return Motions(motion, other)
 
     def coast(self, track: Observed) -> Motions:
-        """How a vehicle goes on if nothing changes but the lights."""
+        """Return how a vehicle goes on if nothing changes but the lights."""
         return self.motions(
             lambda courses: coast(
                 self.roads, track, self.steps, past=False, lights=self.lights(courses)
@@ -70,7 +70,7 @@ class Others:
     _traffic: dict[tuple[int, ...], Traffic] = field(default_factory=dict)
 
     def under(self, courses: tuple[int, ...]) -> Traffic:
-        """The traffic where controllers take certain courses."""
+        """Return the traffic where controllers take certain courses."""
         found = self._traffic.get(courses)
         if found is None:
             known = [motion.under(courses) for motion in self.motions]
@@ -84,7 +84,7 @@ class Others:
 
 
 def _controllers(roads: Roads, ways: Iterable[tuple[str, int]]) -> frozenset[str]:
-    """What controls the lights of some links and crossings, given as (junction, index)."""
+    """Return what controls the lights of some links and crossings, given as (junction, index)."""
     network = roads.network
     found = []
     for junction, index in ways:

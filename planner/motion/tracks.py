@@ -78,7 +78,7 @@ class Observed:
         return fastest if lately[-1] >= LEAST_PACE else most
 
     def situation(self, roads: Roads, sample: int, time: float) -> tuple[Situation, ...]:
-        """Where it may have been at a sample: one entry for each lane that fits."""
+        """Return where it may have been at a sample: one entry for each lane that fits."""
         x, y = float(self.position[sample, 0]), float(self.position[sample, 1])
         heading, speed = float(self.heading[sample]), float(self.speed[sample])
         return tuple(
@@ -93,7 +93,7 @@ def indicating(state: VehicleState) -> frozenset[Side]:
 
 
 def berth_of(roads: Roads, observed: Observed) -> float:
-    """What [m] is kept free beside a vehicle by who passes it: more, where it is a bicycle.
+    """Return what [m] is kept free beside a vehicle by who passes it: more, where it is a bicycle.
 
     On a lane of its own, a bicycle is passed as the lanes allow.
     """
@@ -108,7 +108,7 @@ def berth_of(roads: Roads, observed: Observed) -> float:
 def queued(
     tracks: Sequence[Observed], held: Collection[int] = (), early: int | None = None
 ) -> list[Observed]:
-    """Those who stand, or are held, first, in a queue from its head on; then the others.
+    """Return those who stand, or are held, first, in a queue from its head on; then the others.
 
     One that is to come early comes first, but for those before it.
     """
@@ -121,7 +121,7 @@ def queued(
 
 
 def leads(track: Observed, other: Observed) -> bool:
-    """Whether another is before a vehicle in its track."""
+    """Check whether another is before a vehicle in its track."""
     dx, dy = other.position[-1] - track.position[-1]
     cos, sin = math.cos(track.heading[-1]), math.sin(track.heading[-1])
     along, aside = dx * cos + dy * sin, dy * cos - dx * sin
@@ -162,7 +162,7 @@ def _lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, 
 def _on_one_level(
     roads: Roads, found: tuple[Location, ...], position: Point, heading: float
 ) -> tuple[Location, ...]:
-    """Those lanes that do not pass above or below the one that leads where a body points."""
+    """Return those lanes that do not pass above or below the one that leads where a body points."""
     crossing = [x for x in found[1:] if roads.levels.cross(found[0].lane, x.lane)]
     if not crossing:
         return found
@@ -177,7 +177,7 @@ def _on_one_level(
 
 
 def links_of(roads: Roads, lanes: Sequence[str]) -> frozenset[tuple[str, int]]:
-    """The links, as (junction, index), that a row of lanes drives along."""
+    """Return the links, as (junction, index), that a row of lanes drives along."""
     network = roads.network
     links = [network.link_via(lane) for lane in lanes]
     for lane, after in itertools.pairwise(lanes):  # links without a lane of their own
@@ -188,7 +188,7 @@ def links_of(roads: Roads, lanes: Sequence[str]) -> frozenset[tuple[str, int]]:
 def coast(
     roads: Roads, observed: Observed, steps: int, *, past: bool, lights: Lights = NO_LIGHTS
 ) -> Obstacle:
-    """The vehicle as an obstacle that goes on along its lane as it does now.
+    """Return the vehicle as an obstacle that goes on along its lane as it does now.
 
     Where it comes to a line at which it must give way, or to a red light, it is taken to wait
     there: those who go first need not reckon with it.

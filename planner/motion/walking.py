@@ -48,7 +48,7 @@ class Route:
 
 
 def across(person: Observed, crossing: Crossing, *, back: bool, on: bool) -> Route:
-    """The route over a crossing.
+    """Return the route over a crossing.
 
     Args:
         person: who walks.
@@ -70,7 +70,7 @@ def across(person: Observed, crossing: Crossing, *, back: bool, on: bool) -> Rou
 
 
 def onward(network: Network, person: Observed, reach: float, *, waits: bool = False) -> Route:
-    """The route straight on, up to a road for cars, unless it is on one already.
+    """Return the route straight on, up to a road for cars, unless it is on one already.
 
     Who waits at a kerb may stand right where the road begins, and is not on it.
     """
@@ -86,22 +86,22 @@ def onward(network: Network, person: Observed, reach: float, *, waits: bool = Fa
 
 
 def on_road(network: Network, position: Point, half: float = HALF_LANE) -> bool:
-    """Whether a place is on a lane for cars, which reaches so far [m] to each side."""
+    """Check whether a place is on a lane for cars, which reaches so far [m] to each side."""
     return bool(network.locate(position, 0.0, half, math.pi))
 
 
 def place_of(person: Observed) -> Point:
-    """Where somebody is [m]."""
+    """Return where somebody is [m]."""
     return float(person.position[-1, 0]), float(person.position[-1, 1])
 
 
 def direction_of(person: Observed) -> float:
-    """The heading [rad] of somebody."""
+    """Return the heading [rad] of somebody."""
     return float(person.heading[-1])
 
 
 def paces(person: Observed) -> tuple[tuple[float, float], ...]:
-    """How fast [m/s] somebody may walk, with probabilities: who walks goes on as he does."""
+    """Return how fast [m/s] somebody may walk, with probabilities: who walks goes on as he does."""
     walked = person.speed[person.speed >= WALKING]
     if float(person.speed[-1]) >= WALKING:
         return ((float(np.mean(walked)), 1.0),)
@@ -211,6 +211,6 @@ def _along(person: Observed, route: Route, arcs: Array) -> Obstacle:
 
 
 def _beside(line: Sequence[Point], arc: float, aside: float) -> Point:
-    """The place at an arc [m] of a line, so far [m] to its left."""
+    """Return the place at an arc [m] of a line, so far [m] to its left."""
     (x, y), heading = point_at(tuple(line), arc)
     return x - aside * math.sin(heading), y + aside * math.cos(heading)

@@ -80,7 +80,7 @@ def ways(
     wanted: int,
     grip: float = GRIP,
 ) -> list[Solution]:
-    """The cheapest ways to the task's goal, best first.
+    """Return the cheapest ways to the task's goal, best first.
 
     Args:
         task: frame and goal; its size is that of the vehicle.
@@ -144,7 +144,7 @@ def held(
 
 
 def _expand(task: Task, starts: Sequence[Situation], node: _Reached) -> list[_Ahead]:
-    """The actions that may be taken at a node."""
+    """Return the actions that may be taken at a node."""
     legs = node.legs
     if len(legs) >= DEPTH:
         return []
@@ -162,7 +162,7 @@ def _expand(task: Task, starts: Sequence[Situation], node: _Reached) -> list[_Ah
 
 
 def _driven(task: Task, ahead: _Ahead, traffic: Traffic, grip: float) -> _Reached | None:
-    """What comes of an action; None where it fails."""
+    """Return what comes of an action; None where it fails."""
     here, legs = ahead.node.here, ahead.node.legs
     first = legs[-1].first + len(legs[-1].speed) - 1 if legs else 0
     leg = take(task, ahead.plan, Motion(0.0, here.speed, here.acceleration), first, traffic)
@@ -173,7 +173,7 @@ def _driven(task: Task, ahead: _Ahead, traffic: Traffic, grip: float) -> _Reache
 
 
 def _least(task: Task, ahead: _Ahead) -> float:
-    """A lower bound of the cost [s] of ways to the goal that go on with an action.
+    """Return a lower bound of the cost [s] of ways to the goal that go on with an action.
 
     No speed is beyond what a vehicle has, or its path allows. The action is over at most a step
     beyond its end.
@@ -194,7 +194,7 @@ def _at(plan: ActionPlan, arc: float) -> Location:
 
 
 def _drivable(leg: Leg, grip: float) -> bool:
-    """Whether no bend is taken faster than any car could."""
+    """Check whether no bend is taken faster than any car could."""
     return bool(np.max(leg.speed**2 * np.abs(leg.curvature)) < grip)
 
 

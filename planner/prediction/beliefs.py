@@ -39,7 +39,7 @@ class Belief:
 
 
 def likeliest(beliefs: Sequence[Belief]) -> Motions:
-    """The likeliest motion of somebody."""
+    """Return the likeliest motion of somebody."""
     pairs = (
         (belief.probability * way.probability, way.motions)
         for belief in beliefs

@@ -47,7 +47,7 @@ _Exit: TypeAlias = tuple[Action, str, EgoGoal]
 
 
 def goals_in_view(roads: Roads, starts: tuple[Situation, ...], view: float) -> tuple[Goal, ...]:
-    """The goals of a vehicle that may be on one of several lanes, stopping last.
+    """Return the goals of a vehicle that may be on one of several lanes, stopping last.
 
     They are the roads that leave the next junction, or all exits of a roundabout; where none is
     in view, to go on.
@@ -133,7 +133,7 @@ def _farther(roads: Roads, here: Location, ahead: Approach, view: float) -> _Exi
 
 
 def _ring_exits(roads: Roads, here: Location, ring: Roundabout) -> list[_Exit]:
-    """All exits of a roundabout but the one that leads back."""
+    """Return all exits of a roundabout but the one that leads back."""
     kind: Action = "exit-right" if ring.side == "right" else "exit-left"
     found = []
     for number, way in enumerate(ring.exits[: len(ORDINALS)]):
@@ -145,7 +145,7 @@ def _ring_exits(roads: Roads, here: Location, ring: Roundabout) -> list[_Exit]:
 
 
 def _leads_back(network: Network, entry: Link, out: Link) -> bool:
-    """Whether an exit leads back to where the entry came from."""
+    """Check whether an exit leads back to where the entry came from."""
     before, beyond = network.lanes[entry.from_lane], network.lanes[out.to_lane]
     _, towards = point_at(before.centreline, before.length - LATER)
     (x, y), away = point_at(beyond.centreline, LATER)
@@ -154,7 +154,7 @@ def _leads_back(network: Network, entry: Link, out: Link) -> bool:
 
 
 def stopping_time(distance: float, speed: float, limit: float, up: float, down: float) -> float:
-    """The shortest time [s] to come to rest after a distance [m].
+    """Return the shortest time [s] to come to rest after a distance [m].
 
     Args:
         distance: [m]

@@ -37,7 +37,7 @@ def likelihoods(
     before: Traffic,
     settings: Settings,
 ) -> list[float]:
-    """How well each goal explains the track, relative to the one that does so best.
+    """Return how well each goal explains the track, relative to the one that does so best.
 
     Args:
         frame: the planning from now on; its goal does not matter.
@@ -104,7 +104,7 @@ def _waited(frame: Task, observed: Observed, target: EgoGoal, before: Traffic) -
 
 
 def _stop_excess(frame: Task, observed: Observed) -> float:
-    """The same for stopping where the vehicle would now come to rest."""
+    """Return the same for stopping where the vehicle would now come to rest."""
     moving = np.flatnonzero(observed.speed > 0.1)
     until = int(moving[-1]) if len(moving) else 0
     rest = float(observed.speed[-1])

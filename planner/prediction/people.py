@@ -83,7 +83,7 @@ class _Aim:
 def concerned(
     roads: Roads, scene: Mapping[int, VehicleState], crossings: Sequence[Crossing], view: float
 ) -> list[int]:
-    """The people who may get in the ego's way, nearest first, by name.
+    """Return the people who may get in the ego's way, nearest first, by name.
 
     Args:
         roads: the road network.
@@ -113,7 +113,7 @@ def recognise_people(
     coasting: Sequence[Obstacle],
     settings: Settings,
 ) -> dict[int, tuple[Belief, ...]]:
-    """What people may be up to.
+    """Return what people may be up to.
 
     Args:
         scenery: the roads and lights.
@@ -137,7 +137,7 @@ def ways_of(
     coasting: Sequence[Obstacle],
     settings: Settings,
 ) -> tuple[Belief, ...]:
-    """All that somebody may do, however improbable; each as if it were certain."""
+    """Return all that somebody may do, however improbable; each as if it were certain."""
     aims = _aims(scenery, person, vehicles, settings)
     busy: dict[str, Bools] = {}
     return tuple(
@@ -149,7 +149,7 @@ def ways_of(
 def _aims(
     scenery: Scenery, person: Observed, vehicles: Sequence[Observed], settings: Settings
 ) -> list[_Aim]:
-    """The goals that somebody may have, staying last."""
+    """Return the goals that somebody may have, staying last."""
     network, here = scenery.roads.network, place_of(person)
     on = crossing_under(scenery.roads, here)
     routes: list[tuple[Crossing, Route]] = []
@@ -206,7 +206,7 @@ def _trajectories(
     coasting: Sequence[Obstacle],
     busy: dict[str, Bools],
 ) -> tuple[Trajectory, ...]:
-    """The ways to a goal, one for each speed."""
+    """Return the ways to a goal, one for each speed."""
     kind, route, steps = aim.goal.kind, aim.route, scenery.steps + 1
     if route is None:
         return (Trajectory(1.0, (kind,), Motions(stand(person, steps))),)
@@ -246,7 +246,7 @@ def _crossing_excess(
 
 
 def _turned(person: Observed, route: Route) -> float:
-    """The angle [rad] between where somebody heads and where he would head to cross."""
+    """Return the angle [rad] between where somebody heads and where he would head to cross."""
     here, entry, far = place_of(person), route.points[1], route.points[2]
     assert route.crossing is not None
     _, aside, _ = project((entry, far), here)
@@ -256,7 +256,7 @@ def _turned(person: Observed, route: Route) -> float:
 
 
 def _onward_excess(person: Observed) -> float:
-    """The same for going straight on as somebody did at first."""
+    """Return the same for going straight on as somebody did at first."""
     first = max(person.elapsed - LOOK, 0)
     position, speed = person.position[first:], person.speed[first:]
     pace, start = _pace(speed), position[0]
@@ -315,7 +315,7 @@ def _busy(crossing: Crossing, coasting: Sequence[Obstacle], steps: int) -> Bools
 
 
 def _aslant(roads: Roads, person: Observed) -> bool:
-    """Whether somebody on a road walks rather across than along it."""
+    """Check whether somebody on a road walks rather across than along it."""
     found = roads.network.locate(place_of(person), 0.0, HALF_LANE, math.pi)
     if not found or person.speed[-1] < WALKING:
         return False
@@ -324,7 +324,7 @@ def _aslant(roads: Roads, person: Observed) -> bool:
 
 
 def past_of(person: Observed, motion: Obstacle) -> Obstacle:
-    """A motion that begins with the first sample of somebody's track."""
+    """Return a motion that begins with the first sample of somebody's track."""
     return replace(
         motion,
         position=np.vstack((person.position[:-1], motion.position)),

@@ -72,7 +72,7 @@ def recognise(
     apart: Collection[int] = (),
     bound: EgoGoal | None = None,
 ) -> dict[int, tuple[Belief, ...]]:
-    """What everybody but the ego may be up to.
+    """Return what everybody but the ego may be up to.
 
     Others are reckoned with as they coast. Who stands would stand forever; it is reckoned with as
     it will most likely move off, so that a queue dissolves from its head on; and so is who will
@@ -125,7 +125,7 @@ def recognise(
 
 
 def _frame(scenery: Scenery, observed: Observed, settings: Settings, time: float) -> Task:
-    """The planning of a vehicle from now on, without a goal."""
+    """Return the planning of a vehicle from now on, without a goal."""
     size, nowhere = (observed.length, observed.width), EgoGoal("", 0.0, None)
     steps, view, pace = scenery.steps, settings.view_radius, observed.pace
     return Task(scenery.roads, nowhere, size, time, steps, view, yielding=True, pace=pace)
@@ -139,7 +139,7 @@ def _bound_for(
     time: float,
     bound: EgoGoal,
 ) -> _Coasting | None:
-    """A vehicle as it will most likely drive to where it is bound for."""
+    """Return a vehicle as it will most likely drive to where it is bound for."""
     others = [other.now for vehicle, other in coasting.items() if vehicle != observed.vehicle]
     starts = observed.situation(scenery.roads, -1, time)
     goal, frame = Goal("continue", "", bound, 1.0), _frame(scenery, observed, settings, time)
@@ -198,7 +198,7 @@ def _beliefs(
 
 
 def _before(scenery: Scenery, observed: Observed, others: Sequence[_Coasting]) -> Traffic:
-    """The others from the first sample of a track on."""
+    """Return the others from the first sample of a track on."""
     horizon = scenery.steps + observed.elapsed
     return Traffic.of(
         [aligned(other.past, observed.elapsed - other.elapsed, horizon) for other in others],
@@ -207,7 +207,7 @@ def _before(scenery: Scenery, observed: Observed, others: Sequence[_Coasting]) -
 
 
 def _unknown(scenery: Scenery, observed: Observed) -> tuple[Belief, ...]:
-    """A vehicle for which no goal makes sense: it is taken to go on as it does."""
+    """Return a vehicle for which no goal makes sense: it is taken to go on as it does."""
     goal = Goal("continue", PLACES["continue"], None, 1.0)
     return (Belief(goal, 1.0, 1.0, (Trajectory(1.0, ("continue",), scenery.coast(observed)),)),)
 
@@ -219,7 +219,7 @@ def _ways_to(
     observed: Observed,
     others: Others,
 ) -> list[list[_Way]]:
-    """The ways on to each goal.
+    """Return the ways on to each goal.
 
     Where none but to stop could be driven as fast as it comes, the bends are drawn too sharp.
     """
@@ -278,7 +278,7 @@ def _motions(
     observed: Observed,
     others: Others,
 ) -> Motions:
-    """A solution as it is driven under all courses of the lights."""
+    """Return a solution as it is driven under all courses of the lights."""
 
     def under(courses: tuple[int, ...]) -> Obstacle:
         traffic = others.under(courses)
@@ -291,7 +291,7 @@ def _motions(
 
 
 def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic) -> Obstacle:
-    """A solution as an obstacle, driving on beyond its goal."""
+    """Return a solution as an obstacle, driving on beyond its goal."""
     legs = solution.legs
     first = legs[-1].first + len(legs[-1].speed) - 1
     position, heading, speed, lanes = drive_on(
@@ -311,7 +311,7 @@ def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic)
 
 
 def _trajectories(onwards: list[_Way], settings: Settings) -> tuple[Trajectory, ...]:
-    """The ways on with p(way | goal) by softmax over their costs."""
+    """Return the ways on with p(way | goal) by softmax over their costs."""
     best = onwards[0].cost
     weights = [math.exp(-settings.rationality * (way.cost - best)) for way in onwards]
     weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
@@ -330,7 +330,7 @@ def trajectories_to(
     others: Others,
     settings: Settings,
 ) -> tuple[Trajectory, ...]:
-    """The ways on to a goal, however improbable it is; none where no way leads there."""
+    """Return the ways on to a goal, however improbable it is; none where no way leads there."""
     onwards = _ways_on(frame, starts, goal, observed, others)
     return _trajectories(onwards, settings) if onwards else ()
 

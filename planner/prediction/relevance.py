@@ -28,7 +28,7 @@ class Reach:
     links: dict[str, set[int]] = field(default_factory=dict)  # indices, by junction
 
     def meets(self, network: Network, other: "Reach") -> bool:
-        """Whether the ways of two vehicles share a road, or cross in a junction."""
+        """Check whether the ways of two vehicles share a road, or cross in a junction."""
         if not self.edges.isdisjoint(other.edges):
             return True
         return any(
@@ -45,7 +45,7 @@ def relevant(
     goal: EgoGoal,
     settings: Settings,
 ) -> frozenset[int]:
-    """The vehicles that may meet the ego; all of them where they are FEW.
+    """Return the vehicles that may meet the ego; all of them where they are FEW.
 
     Who is on no lane, or has ways of its own, is one of them.
 
@@ -68,7 +68,7 @@ def relevant(
 
 
 def _may_meet(roads: Roads, state: VehicleState, own: Reach, settings: Settings) -> bool:
-    """Whether a vehicle may come onto the ways of the ego."""
+    """Check whether a vehicle may come onto the ways of the ego."""
     starts = lanes_at(roads, state.position, state.heading)
     reach = settings.horizon * max(roads.fastest, state.speed)
     theirs = (_of_other(roads, start, reach, settings.view_radius) for start in starts)
@@ -76,7 +76,7 @@ def _may_meet(roads: Roads, state: VehicleState, own: Reach, settings: Settings)
 
 
 def _of_ego(roads: Roads, here: Location, goal: EgoGoal, reach: float, view: float) -> Reach:
-    """Where the ego may come to: out of every junction on its ways by any link."""
+    """Return where the ego may come to: out of every junction on its ways by any link."""
     network, found = roads.network, Reach()
     ahead = approach(roads, here, view)
     for first in _beside(network, ahead.lanes):
@@ -94,7 +94,7 @@ def _of_ego(roads: Roads, here: Location, goal: EgoGoal, reach: float, view: flo
 
 
 def _of_other(roads: Roads, here: Location, reach: float, view: float) -> Reach:
-    """Where another may come to: out of the next junction by any link, and straight on."""
+    """Return where another may come to: out of the next junction by any link, and straight on."""
     network, found = roads.network, Reach()
     ahead = approach(roads, here, view)
     _add(network, found, onward(roads, ahead.lanes, reach + here.offset))
@@ -157,7 +157,7 @@ def _internal(network: Network, lane: str) -> bool:
 
 
 def _cross(network: Network, junction: str, own: Iterable[int], theirs: Collection[int]) -> bool:
-    """Whether links of a junction cross, or are the same."""
+    """Check whether links of a junction cross, or are the same."""
     links = network.junction_links(junction)
     return any(
         k == i or k in links[i].foes or i in links[k].foes

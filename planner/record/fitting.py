@@ -19,7 +19,7 @@ IMPROBABLE = (0.1, 0.2, 0.35, 0.5)  # probabilities up to which predicted lines 
 
 
 def fitted(trace: PlanTrace) -> PlanTrace:
-    """The trace without the lines that it has no room for.
+    """Return the trace without the lines that it has no room for.
 
     Where it is larger than MAX_BYTES, the histories of those who are not predicted shrink to
     RECENT samples; then the less probable predictions lose path, speed and who
@@ -46,7 +46,7 @@ def fitted(trace: PlanTrace) -> PlanTrace:
 
 
 def _without_past(trace: PlanTrace) -> PlanTrace:
-    """The trace with the latest samples alone of those who are not predicted."""
+    """Return the trace with the latest samples alone of those who are not predicted."""
     kept = {EGO, *(known.vehicle for known in trace.predictions)}
     history = {
         name: track if name in kept else _recent(track) for name, track in trace.history.items()
@@ -55,7 +55,7 @@ def _without_past(trace: PlanTrace) -> PlanTrace:
 
 
 def _recent(track: Track) -> Track:
-    """The latest samples of a track, with the lights shown since."""
+    """Return the latest samples of a track, with the lights shown since."""
     left_out = max(len(track.speed) - RECENT, 0)
     if left_out == 0:
         return track
@@ -73,7 +73,7 @@ def _recent(track: Track) -> Track:
 
 
 def _without_lines(trace: PlanTrace, below: float) -> PlanTrace:
-    """The trace without the predicted lines that are at most as probable as `below`."""
+    """Return the trace without the predicted lines that are at most as probable as `below`."""
 
     def stripped(goal: GoalPrediction) -> GoalPrediction:
         ways = (

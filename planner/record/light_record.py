@@ -55,7 +55,7 @@ class LightPrediction(msgspec.Struct, frozen=True):
         return None
 
     def state(self, place: int) -> str:
-        """The letter that a place shows now; UNSEEN where it is out of view."""
+        """Return the letter that a place shows now; UNSEEN where it is out of view."""
         return self.now[self.places.index(place)] if place in self.places else UNSEEN
 
     def since(self, place: int) -> tuple[float, bool]:

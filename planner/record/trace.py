@@ -284,7 +284,7 @@ class TraceError(ValueError):
 
 
 def encode(trace: PlanTrace) -> bytes:
-    """The canonical JSON of a trace: the same trace gives the same bytes.
+    """Return the canonical JSON of a trace: the same trace gives the same bytes.
 
     Vehicles stand in increasing order of their names, as in `Scene`.
     """
@@ -313,7 +313,7 @@ def decode(data: bytes) -> PlanTrace:
 
 
 def fault_of(trace: PlanTrace) -> str | None:
-    """What in a trace does not fit together, if anything."""
+    """Return what in a trace does not fit together, if anything."""
     for one in trace.rollouts:
         parts = (value for value in one.components.values() if value is not None)
         if not all(abs(value) <= LARGEST for value in (*parts, *one.terms.values(), one.reward)):

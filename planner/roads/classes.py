@@ -28,7 +28,7 @@ def roads_of(roads: Roads, kind: str) -> Roads:
 
 
 def links_beside(network: Network, link: Link, indices: Iterable[int]) -> tuple[Link, ...]:
-    """The links for others only among some of a junction, by index."""
+    """Return the links for others only among some of a junction, by index."""
     beside = network.junction_others(link.junction)
     met = (beside.get(index) for index in indices)
     return tuple(way for way in met if isinstance(way, Link))
@@ -43,7 +43,7 @@ def _for(roads: Roads, classes: tuple[str, ...]) -> Roads:
 
 
 def _network(network: Network, kind: str) -> Network:
-    """What of a network vehicles of a class may use; the rest stays aside."""
+    """Return what of a network vehicles of a class may use; the rest stays aside."""
     every = {**network.lanes, **network.other_lanes}
     lanes = {
         name: replace(lane, speed_limit=lane.limit_for(kind), limits=())
@@ -64,13 +64,13 @@ def _network(network: Network, kind: str) -> Network:
 
 
 def _served(lanes: dict[str, Lane], links: Iterable[Link]) -> dict[str, Lane]:
-    """The lanes without those inside junctions that no link leads along."""
+    """Return the lanes without those inside junctions that no link leads along."""
     via = {lane for link in links for lane in link.via}
     return {name: lane for name, lane in lanes.items() if not lane.internal or name in via}
 
 
 def _ruled(link: Link, known: set[tuple[str, int]]) -> Link:
-    """A link that tells apart which links of its junction are among some."""
+    """Return a link that tells apart which links of its junction are among some."""
 
     def split(ours: tuple[int, ...], others: tuple[int, ...]) -> tuple[tuple[int, ...], ...]:
         every = sorted({*ours, *others})

@@ -54,7 +54,7 @@ def eased(points: Array) -> tuple[Array, Ints]:
 
 
 def _slopes(long: Array, heading: Array) -> tuple[Array, Array]:
-    """The slopes of the curves against each side at its begin and its end [N - 1]."""
+    """Return the slopes of the curves against each side at its begin and its end [N - 1]."""
     turn = np.diff(heading)
     less, more = np.minimum(long[:-1], long[1:]), np.maximum(long[:-1], long[1:])
     wide = (np.abs(turn) <= SHARPEST) & (less >= COARSE) & (more <= SIDES * less)

@@ -68,7 +68,7 @@ def elsewhere(
 
 
 def _along(one: Passing, states: Array, lengths: Array) -> Bools:
-    """Whether bodies [K] are on a lane, where it is above or below the other one."""
+    """Return whether bodies [K] are on a lane, where it is above or below the other one."""
     sides = np.diff(one.line, axis=0)
     long = np.hypot(sides[:, 0], sides[:, 1])
     offset = states[:, None, :2] - one.line[None, :-1]
@@ -111,7 +111,7 @@ class Levels:
         return tuple(one for one in found if one.edge not in own)
 
     def cross(self, one: str, other: str) -> bool:
-        """Whether two lanes pass above or below one another."""
+        """Check whether two lanes pass above or below one another."""
         edge = self._network.lanes[other].edge
         return any(passing.edge == edge for passing in self._across(one))
 
@@ -171,19 +171,19 @@ class Levels:
         return found
 
     def _joined(self, one: Lane, other: Lane) -> bool:
-        """Whether both are at one junction, or at two close by."""
+        """Check whether both are at one junction, or at two close by."""
         ends = self._junctions.get(one.edge, set())
         near = ends.union(*(self._beside.get(end, set()) for end in ends))
         return not near.isdisjoint(self._junctions.get(other.edge, set()))
 
     def _around(self, x: tuple[float, float], y: tuple[float, float]) -> list[Lane]:
-        """The lanes of which something may lie within a box [m]."""
+        """Return the lanes of which something may lie within a box [m]."""
         low_x, low_y, high_x, high_y = self._boxes
         met = (low_x <= x[1]) & (high_x >= x[0]) & (low_y <= y[1]) & (high_y >= y[0])
         return [self._lanes[k] for k in np.flatnonzero(met).tolist()]
 
     def _search(self, own: Lane) -> Iterator[Passing]:
-        """The lanes that pass above or below one."""
+        """Yield the lanes that pass above or below one."""
         xs, ys = zip(*own.centreline, strict=True)
         for other in self._around((min(xs), max(xs)), (min(ys), max(ys))):
             joined = self._joined(own, other)
@@ -197,7 +197,7 @@ class Levels:
                     yield from self._passings(other, place, theirs, turn)
 
     def _mistaken(self, own: Lane, other: Lane, place: Point, heading: float) -> bool:
-        """Whether who drives on our level might be taken to be on the lane that crosses."""
+        """Check whether who drives on our level might be taken to be on the lane that crosses."""
         x, y = place
         for lane in self._around((x - SAME, x + SAME), (y - SAME, y + SAME)):
             if lane.edge in (own.edge, other.edge) or not self._joined(own, lane):
@@ -209,7 +209,7 @@ class Levels:
         return False
 
     def _passings(self, lane: Lane, place: Point, at: float, turn: float) -> Iterator[Passing]:
-        """A lane that crosses, with each way on from it."""
+        """Yield a lane that crosses, with each way on from it."""
         wide = WIDE / math.sin(turn)
         on_foot = FOOT in lane.permits and CAR not in lane.permits
         for line in self._onward(lane, at + wide + BODY - lane.length):
@@ -226,7 +226,7 @@ class Levels:
             yield Passing(lane.edge, on_foot, place, reach, row, begin - wide, begin + wide, half)
 
     def _onward(self, lane: Lane, left: float) -> Iterator[tuple[Point, ...]]:
-        """The centreline of a lane and on for some way [m], by every link from its end."""
+        """Yield the centreline of a lane and on for some way [m], by every link from its end."""
         links = self._from.get(lane.id, ())
         if left <= 0.0 or not links or lane.internal:
             yield lane.centreline
@@ -237,7 +237,7 @@ class Levels:
 
 
 def _distance(a: Point, b: Point, place: Point) -> float:
-    """How far [m] a place is from a stretch of road."""
+    """Return how far [m] a place is from a stretch of road."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     long = dx * dx + dy * dy
     share = ((place[0] - a[0]) * dx + (place[1] - a[1]) * dy) / long if long > 0.0 else 0.0

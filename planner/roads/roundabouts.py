@@ -33,7 +33,7 @@ class Roundabout:
 
 
 def roundabout_ahead(roads: Roads, here: Location, view: float) -> Roundabout | Refusal:
-    """The roundabout in view that a vehicle is in, or that its road leads to.
+    """Return the roundabout in view that a vehicle is in, or that its road leads to.
 
     Args:
         roads: the road network.
@@ -70,7 +70,7 @@ def roundabout_ahead(roads: Roads, here: Location, view: float) -> Roundabout | 
 
 
 def _side(roads: Roads, ring: frozenset[str]) -> Direction:
-    """The side to which a roundabout is left, kept."""
+    """Return the side to which a roundabout is left, kept."""
     found: Direction | None = roads.sides.get(ring)
     if found is None:
         found = roads.sides[ring] = way_out(roads.network, ring)
@@ -82,7 +82,7 @@ def _ring(network: Network, lane: str) -> frozenset[str] | None:
 
 
 def _exits(network: Network, lanes: list[str], ring: frozenset[str]) -> list[RingExit]:
-    """The exits once round the ring, which the last of the lanes lies in."""
+    """Return the exits once round the ring, which the last of the lanes lies in."""
     found: list[RingExit] = []
     seen: set[str] = set()
     row = list(lanes)
@@ -102,7 +102,7 @@ def _exits(network: Network, lanes: list[str], ring: frozenset[str]) -> list[Rin
 
 
 def ring_exits(network: Network, edge: str, ring: frozenset[str]) -> tuple[str, ...]:
-    """The roads that leave a ring, in driving order once round from one of its edges on."""
+    """Return the roads that leave a ring, in driving order once round from one of its edges on."""
     found: dict[str, None] = {}
     seen: set[str] = set()
     here: str | None = edge

@@ -51,7 +51,7 @@ class Approach:
 
 
 def lane_end(roads: Roads, lane: str) -> LaneEnd:
-    """Where a lane leads; of an internal lane, nowhere."""
+    """Return where a lane leads; of an internal lane, nowhere."""
     found = roads.ends.get(lane)
     if found is None:
         found = roads.ends[lane] = _lane_end(roads.network, lane)
@@ -59,13 +59,13 @@ def lane_end(roads: Roads, lane: str) -> LaneEnd:
 
 
 def direction_of(roads: Roads, link: Link) -> Direction:
-    """The direction of a link that people would name."""
+    """Return the direction of a link that people would name."""
     leads = lane_end(roads, link.from_lane).leads
     return next(lead.direction for lead in leads if lead.link == link)
 
 
 def straight_on(roads: Roads, lane: str, goal: EgoGoal | None = None) -> Link | Refusal:
-    """The link straight on from a lane, if it needs no giving way and no decision.
+    """Return the link straight on from a lane, if it needs no giving way and no decision.
 
     Args:
         roads: the road network.
@@ -88,7 +88,7 @@ def straight_on(roads: Roads, lane: str, goal: EgoGoal | None = None) -> Link | 
 
 
 def toward(roads: Roads, lane: str, direction: Direction, goal: EgoGoal | None) -> Link | None:
-    """The link from a lane in a direction; of several, the one nearest to the goal."""
+    """Return the link from a lane in a direction; of several, the one nearest to the goal."""
     found = [lead for lead in lane_end(roads, lane).leads if lead.direction == direction]
     if len(found) < 2:
         return found[0].link if found else None
@@ -148,7 +148,7 @@ def _approaches(
 def link_ahead(
     roads: Roads, here: Location, direction: Direction, view: float, goal: EgoGoal | None = None
 ) -> Link | Refusal:
-    """The link in a direction at the junction ahead, or the one that is being driven.
+    """Return the link in a direction at the junction ahead, or the one that is being driven.
 
     Args:
         roads: the road network.
@@ -197,7 +197,7 @@ def onward(
 
 
 def rest_of(network: Network, lane: str) -> tuple[str, ...]:
-    """The lanes from an internal lane to the end of its link; none for any other."""
+    """Return the lanes from an internal lane to the end of its link; none for any other."""
     link = network.link_via(lane)
     return () if link is None else (*link.via[link.via.index(lane) + 1 :], link.to_lane)
 
@@ -245,7 +245,7 @@ def _lead(
 def _joint(
     network: Network, links: tuple[Link, ...], every: list[Link], ring: frozenset[str] | None
 ) -> Link | None:
-    """The only way on, where it is no turn at a junction and leads into no roundabout."""
+    """Return the only way on, where it is no turn at a junction and leads into no roundabout."""
     forward = [link for link in links if link.direction != "turnaround"]
     edges = {network.lanes[x.to_lane].edge for x in every if x.direction != "turnaround"}
     if len(edges) != 1 or not forward or forward[0].yields_to:
@@ -280,7 +280,7 @@ def bearing(network: Network, link: Link) -> float:
 
 
 def way_out(network: Network, ring: frozenset[str]) -> Direction:
-    """The side to which a roundabout is left: where driving is on the right, the right."""
+    """Return the side to which a roundabout is left: where driving is on the right, the right."""
     turned = 0.0
     for lane in network.lanes.values():
         if lane.edge in ring:

@@ -48,7 +48,7 @@ def shifted(points: Array, joints: Array) -> Array:
 
 
 def _middles(points: Array) -> Iterator[int]:
-    """The middles of jogs, in order: of a row of places that would do, the one halfway."""
+    """Yield the middles of jogs, in order: of a row of places that would do, the one halfway."""
     steps = np.diff(points, axis=0)
     heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
     jogs = np.zeros(len(points), np.bool_)

@@ -6,14 +6,14 @@ from sim.scene import Point, VehicleState
 
 
 def middle(state: VehicleState) -> Point:
-    """The middle [m] of a vehicle."""
+    """Return the middle [m] of a vehicle."""
     x, y = state.position
     half = 0.5 * state.length
     return x - half * math.cos(state.heading), y - half * math.sin(state.heading)
 
 
 def between(a: Point, b: Point, body: VehicleState) -> bool:
-    """Whether the line from a to b crosses a body: clipped to it in its own frame."""
+    """Check whether the line from a to b crosses a body: clipped to it in its own frame."""
     (x, y), cos, sin = middle(body), math.cos(body.heading), math.sin(body.heading)
     begin, end = 0.0, 1.0
     for along_x, along_y, size in ((cos, sin, body.length), (-sin, cos, body.width)):

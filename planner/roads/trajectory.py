@@ -68,7 +68,7 @@ class Path:
         return np.interp(np.maximum(arcs - 0.5 * length, 0.0), self.arc, self.heading)
 
     def lane_at(self, arc: float) -> tuple[str, float]:
-        """The lane at `arc` [m], and the arc [m] at which it begins."""
+        """Return the lane at `arc` [m], and the arc [m] at which it begins."""
         found = self.lanes[0]
         for lane, start in self.lanes[1:]:
             if start > arc:
@@ -104,7 +104,7 @@ class Roads:
         self._paths: dict[Any, Path] = {}
 
     def line(self, lanes: tuple[str, ...]) -> Path:
-        """The centreline of a row of connected lanes, from the start of the first one."""
+        """Return the centreline of a row of connected lanes, from the start of the first one."""
         found = self._lines.get(lanes)
         if found is None:
             found = self._lines[lanes] = _sample(self.network, lanes)
@@ -119,7 +119,7 @@ class Roads:
         reach: float,
         least: float = 0.0,
     ) -> Path:
-        """The path from a pose onto the centreline of connected lanes.
+        """Return the path from a pose onto the centreline of connected lanes.
 
         Args:
             lanes: connected lanes; the pose lies beside the first of them, or on it.
@@ -165,7 +165,7 @@ class Roads:
 
 
 def _straightly(line: Path, along: Array, offset: float) -> Path:
-    """The part of a line from `offset` [m] on, at distances `along` [m] from there."""
+    """Return the part of a line from `offset` [m] on, at distances `along` [m] from there."""
     points, heading, curvature, cap = _interpolate(line, along + offset)
     return _path(points, along, heading, curvature, cap, _lanes(line, offset, along, along))
 
@@ -173,7 +173,7 @@ def _straightly(line: Path, along: Array, offset: float) -> Path:
 def _blended(
     line: Path, along: Array, offset: float, lateral: float, slope: float, blend: float
 ) -> Path:
-    """The same, shifted by the quintic that leads `lateral` [m] and `slope` to zero."""
+    """Return the same, shifted by the quintic that leads `lateral` [m] and `slope` to zero."""
     points, heading, bend, cap = _interpolate(line, along + offset)
     u = np.clip(along / blend, 0.0, 1.0)
     aside = lateral * (1.0 - u**3 * (10.0 - 15.0 * u + 6.0 * u**2))
@@ -206,7 +206,7 @@ def _path(
 
 
 def _lanes(line: Path, offset: float, along: Array, arc: Array) -> tuple[tuple[str, float], ...]:
-    """The lanes from `offset` [m] on; `along` is mapped onto `arc`."""
+    """Return the lanes from `offset` [m] on; `along` is mapped onto `arc`."""
     first = max((k for k, (_, start) in enumerate(line.lanes) if start <= offset), default=0)
     name, start = line.lanes[first]
     rest = line.lanes[first + 1 :]
@@ -248,7 +248,7 @@ def _sample(network: Network, lanes: tuple[str, ...]) -> Path:
 
 
 def _along(points: Array) -> Array:
-    """How far [m] [N] points are along a line."""
+    """Return how far [m] [N] points are along a line."""
     return np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))))
 
 

@@ -133,13 +133,13 @@ def is_junction(network: Network, link: Link) -> bool:
 
 
 def rings_of(network: Network, link: Link) -> tuple[frozenset[str] | None, frozenset[str] | None]:
-    """The roundabouts that a link comes from and leads to."""
+    """Return the roundabouts that a link comes from and leads to."""
     start, end = network.lanes[link.from_lane].edge, network.lanes[link.to_lane].edge
     return network.roundabout(start), network.roundabout(end)
 
 
 def steps(roads: Roads, legs: Sequence[Leg]) -> tuple[RouteStep, ...]:
-    """The junctions on the way, a roundabout counting as one; the nearest STEPS of them."""
+    """Return the junctions on the way, a roundabout counting as one; the nearest STEPS of them."""
     network = roads.network
     found: list[RouteStep] = []
     entered: Leg | None = None
@@ -183,7 +183,7 @@ def _roundabout(
     left: Leg | None,
     exits: tuple[str, ...],
 ) -> RouteStep:
-    """A roundabout from its entry, or from within, to where it is left, if it is."""
+    """Return a roundabout from its entry, or from within, to where it is left, if it is."""
     first = entered or left
     assert first is not None
     number = None if left is None else 1 + exits.index(network.lanes[left.link.to_lane].edge)

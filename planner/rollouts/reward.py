@@ -26,7 +26,7 @@ LOST = 100.0
 def components(
     time: float, speed: Array, acceleration: Array, curvature: Array
 ) -> dict[Component, float]:
-    """The components of a trajectory.
+    """Return the components of a trajectory.
 
     Args:
         time: [s] that it took.
@@ -50,7 +50,7 @@ def components(
 
 
 def absent() -> dict[Component, float | None]:
-    """The components of a rollout that did not reach the goal: none is present."""
+    """Return the components of a rollout that did not reach the goal: none is present."""
     return {"time": None, "jerk": None, "angular-acceleration": None, "curvature": None}
 
 

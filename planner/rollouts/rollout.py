@@ -95,7 +95,7 @@ def take(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traf
 
 
 def _matters(plan: ActionPlan, states: Array, first: int, traffic: Traffic) -> bool:
-    """Whether it may matter to who drives along states [S, 4] how the others have reacted.
+    """Check whether it may matter to who drives along states [S, 4] how the others have reacted.
 
     On an open road it does not where those that brake stay behind.
     """
@@ -116,7 +116,7 @@ def _drive(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Tr
 
 
 def _placed(task: Task, plan: ActionPlan, driven: Drive) -> tuple[Array, Array]:
-    """The states [S, 4] of a drive, and the curvature [1/m] [S] at the front."""
+    """Return the states [S, 4] of a drive, and the curvature [1/m] [S] at the front."""
     path, length = plan.path, float(task.size[0])
     return place(path.points, path.arc, path.heading, path.curvature, driven.motion, length)
 
@@ -124,7 +124,7 @@ def _placed(task: Task, plan: ActionPlan, driven: Drive) -> tuple[Array, Array]:
 def _leg(
     task: Task, plan: ActionPlan, driven: Drive, traffic: Traffic, states: Array, curvature: Array
 ) -> Leg:
-    """What came of a drive."""
+    """Return what came of a drive."""
     careless = plan.changes_lane and not task.yielding
     braking = FIRM if task.reacting else 0.0
     hit, who = first_hit(
@@ -175,7 +175,7 @@ def _real(traffic: Traffic, path: Path) -> tuple[Array, Array]:
 
 
 def _leads_on(task: Task, plan: ActionPlan) -> bool:
-    """Whether the goal can still be reached when an action that is under way is over."""
+    """Check whether the goal can still be reached when an action that is under way is over."""
     if plan.stops or plan.goal is not None:
         return True
     lane, begin = plan.path.lane_at(plan.end)
@@ -183,7 +183,7 @@ def _leads_on(task: Task, plan: ActionPlan) -> bool:
 
 
 def _ahead(plan: ActionPlan, arc: float) -> tuple[tuple[str, float], ...]:
-    """The lanes from an arc [m] to the end of a plan, and how much [m] of each that is.
+    """Return the lanes from an arc [m] to the end of a plan, and how much [m] of each that is.
 
     There are none where it reaches the goal or stops.
     """
@@ -207,7 +207,7 @@ def _situation(task: Task, plan: ActionPlan, motion: Motion, step: int) -> Situa
 
 
 def _reachable(task: Task, here: Location) -> bool:
-    """Whether the goal can still be reached along the road network."""
+    """Check whether the goal can still be reached along the road network."""
     network = task.roads.network
     lane = network.lanes[here.lane]
     link = network.link_via(here.lane)
@@ -276,7 +276,7 @@ def hindered(legs: Sequence[Leg], start: float) -> tuple[HeldUp, ...]:
 def _stretch(
     start: float, vehicle: int, first: int, last: int, code: int, speed: float, lowest: float
 ) -> HeldUp:
-    """A stretch of steps `first` to `last` in which a vehicle held one up."""
+    """Return a stretch of steps `first` to `last` in which a vehicle held one up."""
     how: HoldUp = HOW[code]
     if how == "cut-in" and speed - lowest > 2.0:
         how = "leader"

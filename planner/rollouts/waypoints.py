@@ -29,7 +29,7 @@ class LaneCost(NamedTuple):
 
 
 def toll(roads: Roads, lane: str) -> LaneCost:
-    """What driving along a lane takes, at the speed that its limit and its bends allow."""
+    """Return what driving along a lane takes, at the speed that its limit and its bends allow."""
     found = roads.tolls.get(lane)
     if found is None:
         line = roads.line((lane,))
@@ -44,7 +44,7 @@ def toll(roads: Roads, lane: str) -> LaneCost:
 
 
 def waypoint(roads: Roads, here: Location, goal: EgoGoal, aim: float = AIM) -> EgoGoal:
-    """The goal; where it is farther, the place that free driving reaches in `aim` [s].
+    """Return the goal; where it is farther, the place that free driving reaches in `aim` [s].
 
     Where no way leads to the goal, it is the goal.
     """
@@ -72,7 +72,7 @@ def waypoint(roads: Roads, here: Location, goal: EgoGoal, aim: float = AIM) -> E
 
 
 def way(roads: Roads, lanes: tuple[str, ...], goal: EgoGoal) -> tuple[str, ...]:
-    """The edges along connected lanes, and from there on the shortest way to the goal."""
+    """Return the edges along connected lanes, and from there on the shortest way to the goal."""
     network = roads.network
     ahead = [lane for lane in lanes if not network.lanes[lane].internal]
     ahead += [lane for lane in rest_of(network, lanes[-1]) if not network.lanes[lane].internal]
@@ -88,7 +88,7 @@ def way(roads: Roads, lanes: tuple[str, ...], goal: EgoGoal) -> tuple[str, ...]:
 
 
 def time_left(roads: Roads, here: Location, goal: EgoGoal) -> float:
-    """A lower bound of the time [s] to a goal: the distance at the highest speed limit.
+    """Return a lower bound of the time [s] to a goal: the distance at the highest speed limit.
 
     It is 1e6 where no way leads there.
     """
@@ -128,7 +128,7 @@ def cost_left(roads: Roads, here: Location, goal: EgoGoal) -> float:
 def cost_by(
     roads: Roads, here: Location, lanes: tuple[tuple[str, float], ...], goal: EgoGoal
 ) -> float:
-    """What free driving costs [s] along some lanes, and from their end to a goal.
+    """Return what free driving costs [s] along some lanes, and from their end to a goal.
 
     Args:
         roads: to drive on.
@@ -165,7 +165,7 @@ def survey(roads: Roads, goal: EgoGoal) -> None:
 
 
 def _before(roads: Roads) -> Mapping[str, Mapping[str, float]]:
-    """The edges from which each edge is entered, and what crossing over costs [s]."""
+    """Return the edges from which each edge is entered, and what crossing over costs [s]."""
     if roads.before is None:
         network, before = roads.network, dict[str, dict[str, float]]()
         for link in network.links:
@@ -196,13 +196,13 @@ def _search_back(roads: Roads, target: str) -> dict[str, float]:
 
 
 def _at(roads: Roads, edge: str, position: float) -> EgoGoal:
-    """A place on an edge, neither right at its beginning nor beyond its end."""
+    """Return a place on an edge, neither right at its beginning nor beyond its end."""
     length = roads.network.edge_lanes(edge)[0].length
     return EgoGoal(edge, round(min(max(position, LEAST), 0.9 * length), 2), None)
 
 
 def next_link(roads: Roads, edge: str, goal: EgoGoal) -> Link | None:
-    """The link from an edge on the shortest way to the goal."""
+    """Return the link from an edge on the shortest way to the goal."""
     network = roads.network
     links = [x for lane in network.edge_lanes(edge) for x in network.links_from(lane.id)]
     return min(

@@ -51,13 +51,13 @@ def draw(
 
 
 def source_of(phantom: int) -> str:
-    """The name of the generator of one who is imagined."""
+    """Return the name of the generator of one who is imagined."""
     return f"phantom {phantom}"
 
 
 @lru_cache(maxsize=256)
 def _summed(known: tuple[Belief, ...]) -> tuple[list[float], list[list[float]]]:
-    """The running sums of the probabilities of goals, and of the ways to each."""
+    """Return the running sums of the probabilities of goals, and of the ways to each."""
     goals = list(itertools.accumulate(belief.probability for belief in known))
     ways = [
         list(itertools.accumulate(way.probability for way in belief.trajectories))
@@ -138,7 +138,7 @@ _Choices: TypeAlias = list[tuple[Sample | LightSample | PhantomSample, float]]
 
 
 def _comings(index: int, one: Phantom) -> _Choices:
-    """Whether somebody who is imagined comes, the likelier first."""
+    """Return whether somebody who is imagined comes, the likelier first."""
     chance = one.probability
     found: _Choices = [(PhantomSample(index, True), chance)]
     found.append((PhantomSample(index, False), 1.0 - chance))
@@ -146,7 +146,7 @@ def _comings(index: int, one: Phantom) -> _Choices:
 
 
 def _courses(known: LightPrediction) -> _Choices:
-    """How one controller may go on, the likeliest first."""
+    """Return how one controller may go on, the likeliest first."""
     found: _Choices = [
         (LightSample(known.controller, k), course.probability)
         for k, course in enumerate(known.courses)
@@ -156,7 +156,7 @@ def _courses(known: LightPrediction) -> _Choices:
 
 
 def _choices(vehicle: int, known: Sequence[Belief]) -> _Choices:
-    """What one vehicle may do, the likeliest first; what cannot be is left out."""
+    """Return what one vehicle may do, the likeliest first; what cannot be is left out."""
     found: _Choices = [
         (Sample(vehicle, goal, way), belief.probability * trajectory.probability)
         for goal, belief in enumerate(known)

@@ -133,7 +133,7 @@ def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
 
 
 def _crossings_ahead(frame: Frame, moment: Moment) -> tuple[Crossing, ...]:
-    """The crossings for people on the ego's way."""
+    """Return the crossings for people on the ego's way."""
     here, under_way = moment.root.here.location.lane, moment.root.under_way
     lanes: tuple[str, ...] = (here,)
     if under_way is not None:
@@ -147,7 +147,7 @@ def _crossings_ahead(frame: Frame, moment: Moment) -> tuple[Crossing, ...]:
 def prepare(
     frame: Frame, moment: Moment, beliefs: Mapping[int, Sequence[Belief]], salt: str = ""
 ) -> Search:
-    """A search that has not been run yet; `salt` sets its draws apart."""
+    """Return a search that has not been run yet; `salt` sets its draws apart."""
     ego = moment.scene[EGO]
     task = Task(
         frame.roads,
@@ -165,7 +165,7 @@ def prepare(
 
 
 def observed(vehicle: int, track: Track, state: VehicleState) -> Observed:
-    """A recorded track, ready for recognition."""
+    """Return a recorded track, ready for recognition."""
     return Observed(
         vehicle,
         state.length,
@@ -181,7 +181,7 @@ def observed(vehicle: int, track: Track, state: VehicleState) -> Observed:
 def record(
     frame: Frame, moment: Moment, beliefs: Mapping[int, Sequence[Belief]], search: Search
 ) -> PlanTrace:
-    """The trace of a decision."""
+    """Return the trace of a decision."""
     under_way, plan = moment.root.under_way, search.plan()
     view = frame.settings.view_radius
     trace = PlanTrace(
@@ -310,7 +310,7 @@ def _trajectory(way: Trajectory) -> TrajectoryPrediction:
 
 
 def root_at(roads: Roads, ego: VehicleState, time: float) -> Situation | None:
-    """Where the ego is, from its pose alone; None off the road."""
+    """Return where the ego is, from its pose alone; None off the road."""
     found = lanes_at(roads, ego.position, ego.heading)
     if not found:
         return None

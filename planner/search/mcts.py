@@ -130,12 +130,12 @@ class Search:
         return lambda node, options: self.tree.greedy(node, options) if node else first
 
     def _first_actions(self) -> list[Action]:
-        """The first actions that were tried, in a fixed order."""
+        """Return the first actions that were tried, in a fixed order."""
         known = self.tree.edges.get((), {})
         return [action for action in ACTIONS if action in known]
 
     def plan(self) -> tuple[PlannedAction, ...]:
-        """The chosen macro actions."""
+        """Return the chosen macro actions."""
         enough = max(1, int(ENOUGH * self.settings.rollouts))
         if not self.compared:
             return _planned(self.tree.best(enough))
@@ -148,7 +148,7 @@ class Search:
         )
 
     def not_applicable(self) -> tuple[NotApplicable, ...]:
-        """Why actions did not apply, by node in the order of first visit."""
+        """Return why actions did not apply, by node in the order of first visit."""
         return tuple(
             NotApplicable(node, action, reason) for (node, action), reason in self.refusals.items()
         )
@@ -207,7 +207,7 @@ class Search:
         return found
 
     def _invites(self, plan: ActionPlan) -> float:
-        """How soon [s] a plan would lead to the goal if nobody were in the way.
+        """Return how soon [s] a plan would lead to the goal if nobody were in the way.
 
         The search tries actions in this order, and beyond its depth drives on by it.
         """
@@ -222,7 +222,7 @@ class Search:
         return effort + plan.end / pace + cost_left(self.task.roads, end, self.task.goal)
 
     def _left(self, legs: Sequence[Leg]) -> float:
-        """What is left to the goal [s] after these legs, where nobody is in the way.
+        """Return what is left to the goal [s] after these legs, where nobody is in the way.
 
         Out of time within an action, that is the rest of it and the way from its end.
         """
@@ -230,7 +230,7 @@ class Search:
         return cost_by(self.task.roads, end.location, ahead, self.task.goal)
 
     def _options(self, samples: Samples, node: Node, legs: Sequence[Leg]) -> Options:
-        """What can be done at a node that was reached under these samples."""
+        """Return what can be done at a node that was reached under these samples."""
         key = (samples, node) if legs else ((), node)
         found = self._plans.get(key)
         if found is None:
@@ -260,7 +260,7 @@ class Search:
         return found
 
     def _leg(self, samples: Samples, branch: Node, plan: ActionPlan, legs: Sequence[Leg]) -> Leg:
-        """The last action of a branch, driven; the same samples give the same leg."""
+        """Return the last action of a branch, driven; the same samples give the same leg."""
         found = self._legs.get((samples, branch))
         if found is None:
             here, first, traffic = self.root.here, 0, self._traffic(samples)
@@ -274,7 +274,7 @@ class Search:
         return found
 
     def _traffic(self, samples: Samples) -> Traffic:
-        """The others' motions as sampled."""
+        """Return the others' motions as sampled."""
         found = self._motions.get(samples)
         if found is None:
             courses = self.lights.courses(s for s in samples if isinstance(s, LightSample))
@@ -299,7 +299,7 @@ class Search:
         return held_by_hidden(self.phantoms, hindered(legs, start), careful, start)
 
     def _comes(self, phantom: int) -> Obstacle:
-        """How somebody who is imagined would come."""
+        """Return how somebody who is imagined would come."""
         found = self._imagined.get(phantom)
         if found is None:
             steps = self.task.horizon + GAP_HORIZON

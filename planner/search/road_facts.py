@@ -62,13 +62,13 @@ def road_facts(
 
 
 def _lanes_at(roads: Roads, state: VehicleState) -> tuple[Location, ...]:
-    """Where a vehicle may be on lanes for cars; nowhere on one of its own."""
+    """Return where a vehicle may be on lanes for cars; nowhere on one of its own."""
     own, lanes = roads_of(roads, state.kind), roads.network.lanes
     return tuple(x for x in lanes_at(own, state.position, state.heading) if x.lane in lanes)
 
 
 def _ahead(legs: Sequence[Leg], lights: Sequence[LightPrediction]) -> tuple[LightAhead, ...]:
-    """The lights in view on the way, nearest first."""
+    """Return the lights in view on the way, nearest first."""
     known = {one.controller: one for one in lights}
     found = []
     for leg in legs:
@@ -88,7 +88,7 @@ def _ahead(legs: Sequence[Leg], lights: Sequence[LightPrediction]) -> tuple[Ligh
 def _planned(
     roads: Roads, root: Root, plan: Sequence[PlannedAction], goal: EgoGoal, view: float
 ) -> tuple[str, ...]:
-    """The lanes of the manoeuvre that is under way, or else of the first one planned."""
+    """Return the lanes of the manoeuvre that is under way, or else of the first one planned."""
     if root.under_way is not None:
         begun, motion = root.under_way
         current, _ = begun.path.lane_at(motion.arc)
@@ -101,7 +101,7 @@ def _planned(
 
 
 def place(network: Network, location: Location) -> RoadPlace:
-    """Where a place on a lane is, as passengers see it."""
+    """Return where a place on a lane is, as passengers see it."""
     lane, link = network.lanes[location.lane], network.link_via(location.lane)
     inside = link is not None and is_junction(network, link)
     on_ring = link is not None and any(ring is not None for ring in rings_of(network, link))
@@ -142,7 +142,7 @@ def _priority(
     view: float,
     lights: Sequence[LightPrediction],
 ) -> tuple[PriorityFact, ...]:
-    """Who goes first, for each of the others whose way may cross the ego's at a meeting."""
+    """Return who goes first, for each of the others whose way may cross the ego's at a meeting."""
     found = []
     for vehicle in sorted(at.keys() - {EGO}):
         answers = {
@@ -161,7 +161,7 @@ def _priority(
 def _first_now(
     roads: Roads, where: Location, mine: Link, theirs: Link, lights: Sequence[LightPrediction]
 ) -> First | None:
-    """Who goes first as lights show; who is held at red has no right of way now."""
+    """Return who goes first as lights show; who is held at red has no right of way now."""
     first = goes_first(mine, theirs)
     inside = roads.network.lanes[where.lane].internal
     if first is None or not lights:
@@ -203,7 +203,7 @@ def _ways(roads: Roads, location: Location, mine: Link, view: float) -> Iterator
 
 
 def _reached(roads: Roads, location: Location, junction: str, view: float) -> list[Link]:
-    """The links of a junction that a vehicle drives along, or comes to."""
+    """Return the links of a junction that a vehicle drives along, or comes to."""
     network = roads.network
     inside = network.link_via(location.lane)
     if inside is not None and inside.junction == junction:

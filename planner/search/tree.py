@@ -60,7 +60,7 @@ class Tree:
             target = max(e.value for e in self.edges[node].values())
 
     def copy(self) -> "Tree":
-        """An independent copy."""
+        """Return an independent copy."""
         edges = {
             node: {action: Edge(edge.visits, edge.value) for action, edge in known.items()}
             for node, known in self.edges.items()
@@ -68,13 +68,13 @@ class Tree:
         return Tree(edges, self.low, self.high)
 
     def greedy(self, node: Node, actions: Sequence[Action]) -> Action:
-        """The tried action of highest value; where none was tried, the first."""
+        """Return the tried action of highest value; where none was tried, the first."""
         known = self.edges.get(node, {})
         tried = [action for action in actions if action in known]
         return max(tried, key=lambda action: known[action].value, default=actions[0])
 
     def best(self, enough: int, node: Node = ()) -> list[tuple[Action, Edge]]:
-        """The plan from a node on: the action of highest value among those tried enough."""
+        """Return the plan from a node on: the action of highest value among those tried enough."""
         plan: list[tuple[Action, Edge]] = []
         while self.edges.get(node):
             known = self.edges[node]

@@ -43,7 +43,7 @@ class Watched:
 def foresee(
     roads: Roads, watched: Watched, time: float, horizon: float, *, closely: bool
 ) -> LightPrediction:
-    """How a controller may go on.
+    """Return how a controller may go on.
 
     Args:
         roads: the road network.
@@ -76,7 +76,7 @@ def foresee(
 def supposed(
     roads: Roads, known: LightPrediction, place: int, state: str, time: float
 ) -> LightPrediction:
-    """A controller of which one place is supposed to show a state for good.
+    """Return a controller of which one place is supposed to show a state for good.
 
     Where that is green, those whose ways cross its own are red; who was held goes on being held.
     """
@@ -170,7 +170,7 @@ class _Cycle:
         spent: float,
         begun: bool,
     ) -> tuple[float, str]:
-        """How long [s] a state lasts on, and what comes after it.
+        """Return how long [s] a state lasts on, and what comes after it.
 
         Args:
             letters: the state.
@@ -193,7 +193,7 @@ class _Cycle:
         return left, self._with_green(letters, self._stage(letters, held))
 
     def _amber(self, letters: str) -> float:
-        """How long [s] amber lasts."""
+        """Return how long [s] amber lasts."""
         lanes = self._roads.network.lanes
         limits = [
             lanes[link.from_lane].speed_limit
@@ -204,7 +204,7 @@ class _Cycle:
         return REACTION + max(limits, default=self._roads.fastest) / (2.0 * BRAKING)
 
     def _stage(self, letters: str, held: Mapping[int, float]) -> set[int]:
-        """Who goes next: who has been held longest, and the arms beside and opposite.
+        """Return who goes next: who has been held longest, and the arms beside and opposite.
 
         Of these, those that were held last only go with it where it was held no longer. Where a
         crossing has been held longer than any arm, an arm goes with which it can be green; where
@@ -221,7 +221,7 @@ class _Cycle:
         return self._with(order[0], waiting, held) if order else set()
 
     def _with(self, first: int, waiting: Sequence[int], held: Mapping[int, float]) -> set[int]:
-        """An arm that goes, and those beside and opposite that go with it."""
+        """Return an arm that goes, and those beside and opposite that go with it."""
         latest = max(held[k] for k in waiting)
         own = self._links[first][0]
         return {
@@ -232,7 +232,7 @@ class _Cycle:
         }
 
     def _with_green(self, letters: str, going: set[int]) -> str:
-        """A state in which some go, giving way to one another as the junction says."""
+        """Return a state in which some go, giving way to one another as the junction says."""
         ours = [link for k in sorted(going) for link in self._links[k]]
         keys = {(link.junction, link.index) for link in ours}
 
@@ -244,7 +244,7 @@ class _Cycle:
         return self._with_people(now, ours)
 
     def _with_people(self, letters: str, going: Sequence[Link]) -> str:
-        """The same with crossings green, where all that go over them turn and give way."""
+        """Return the same with crossings green, where all that go over them turn and give way."""
         found = list(letters)
         for k, crossing in self._crossings.items():
             met = [x for x in going if x.junction == crossing.junction]
@@ -257,7 +257,7 @@ class _Cycle:
 
 
 def _phases(seen: Sequence[Showing]) -> tuple[Showing, ...]:
-    """The changes since the controller came into view last, but for places that did then."""
+    """Return the changes since the controller came into view last, but for places that did then."""
     found: list[Showing] = []
     for showing in seen:
         if all(letter == UNSEEN for letter in showing.states):
@@ -268,7 +268,7 @@ def _phases(seen: Sequence[Showing]) -> tuple[Showing, ...]:
 
 
 def _alike(one: str, other: str) -> bool:
-    """Whether two states agree wherever both were seen, and that is somewhere."""
+    """Check whether two states agree wherever both were seen, and that is somewhere."""
     pairs = [(a, b) for a, b in zip(one, other, strict=True) if UNSEEN not in (a, b)]
     return bool(pairs) and all(a == b for a, b in pairs)
 
@@ -278,7 +278,7 @@ def _meet(one: Link, other: Link) -> bool:
 
 
 def _parallel(roads: Roads, one: Link, other: Link) -> bool:
-    """Whether two links come from the same side of a junction, or from opposite ones."""
+    """Check whether two links come from the same side of a junction, or from opposite ones."""
     headings = []
     for link in (one, other):
         lane = roads.network.lanes[link.from_lane]
@@ -290,7 +290,7 @@ def _parallel(roads: Roads, one: Link, other: Link) -> bool:
 def watch(
     before: Watched | None, controller: str, shown: Mapping[int, str], time: float, most: int
 ) -> Watched:
-    """What is known of a controller once it has been looked at again.
+    """Return what is known of a controller once it has been looked at again.
 
     Args:
         before: what was known.

@@ -18,7 +18,7 @@ SIGMA = math.log(LONG / SHORT) / (2.0 * 1.645)
 
 
 def residual(quantile: float, spent: float, *, begun: bool) -> float:
-    """How long [s] a green lasts on, by a quantile.
+    """Return how long [s] a green lasts on, by a quantile.
 
     Args:
         quantile: in (0, 1).
@@ -37,7 +37,7 @@ def residual(quantile: float, spent: float, *, begun: bool) -> float:
 
 
 def _survival(time: float) -> float:
-    """The probability that a green lasts longer than some time [s]."""
+    """Return the probability that a green lasts longer than some time [s]."""
     return 1.0 if time <= 0.0 else _normal((math.log(MEDIAN) - math.log(time)) / SIGMA)
 
 

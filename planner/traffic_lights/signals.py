@@ -31,14 +31,14 @@ class Lights:
     meaning: Mapping[Signal, Codes]  # [T] to who comes to the line; the last one stays
 
     def shows(self, signal: Signal, steps: int) -> Codes:
-        """What a light means at each of so many steps, or more [T]."""
+        """Return what a light means at each of so many steps, or more [T]."""
         codes = self.meaning.get(signal, _DARK)
         if len(codes) >= steps:
             return codes
         return np.concatenate((codes, np.full(steps - len(codes), codes[-1])))
 
     def since(self, step: int) -> "Lights":
-        """The same, with a later step as step 0."""
+        """Return the same, with a later step as step 0."""
         return Lights(
             {signal: codes[min(step, len(codes) - 1) :] for signal, codes in self.meaning.items()}
         )
@@ -61,7 +61,7 @@ class Outlook:
         return tuple(one for one in self.known if len(one.courses) > 1)
 
     def courses(self, drawn: Iterable[LightSample]) -> tuple[int, ...]:
-        """The course of every controller; of those that were not drawn, the only one."""
+        """Return the course of every controller; of those that were not drawn, the only one."""
         found = {sample.controller: sample.course for sample in drawn}
         return tuple(found.get(one.controller, 0) for one in self.known)
 
@@ -81,12 +81,12 @@ class Outlook:
         return tuple(one.likeliest for one in self.known)
 
     def lights(self, courses: Sequence[int], steps: int) -> Lights:
-        """What the lights show from now on, where controllers take certain courses."""
+        """Return what the lights show from now on, where controllers take certain courses."""
         ways = zip(self.known, courses, strict=True)
         return self._sampled([one.courses[k].showings for one, k in ways], self.time, steps)
 
     def before(self, elapsed: int, steps: int) -> Lights:
-        """The same from `elapsed` steps ago on: what was seen, and the likeliest course."""
+        """Return the same from `elapsed` steps ago on: what was seen, and the likeliest course."""
         showings = [(*one.seen, *one.courses[one.likeliest].showings) for one in self.known]
         return self._sampled(showings, self.time - elapsed * STEP, steps + elapsed)
 

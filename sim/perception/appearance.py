@@ -32,7 +32,7 @@ _PALETTE = {
 
 
 def colour_name(red: int, green: int, blue: int) -> str:
-    """The word for a colour, by the nearest of a small palette.
+    """Return the word for a colour, by the nearest of a small palette.
 
     Args:
         red, green, blue: 0 to 255.
@@ -46,7 +46,7 @@ def colour_name(red: int, green: int, blue: int) -> str:
 
 
 def kind_of(vehicle_class: str) -> str:
-    """What a vehicle of a SUMO class (vClass) is called: "car" unless it is plainly another.
+    """Return what a vehicle of a SUMO class (vClass) is called: "car" unless it is plainly another.
 
     Trains and ships are a "vehicle".
     """
@@ -54,12 +54,12 @@ def kind_of(vehicle_class: str) -> str:
 
 
 def walker_of(person_class: str) -> str:
-    """What a person of a SUMO class (vClass) outside of vehicles is called."""
+    """Return what a person of a SUMO class (vClass) outside of vehicles is called."""
     return _WALKERS.get(person_class, "pedestrian")
 
 
 def lights(signals: int) -> tuple[str, ...]:
-    """The lights shown, of left, right, brake; hazard lights are both left and right.
+    """Return the lights shown, of left, right, brake; hazard lights are both left and right.
 
     Args:
         signals: SUMO's bit field.

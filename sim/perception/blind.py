@@ -33,7 +33,7 @@ class Blind:
     def stretches(
         self, eye: Point, radius: float, walls: Walls, buildings: Walls = NO_WALLS
     ) -> tuple[Unseen, ...]:
-        """The stretches of lanes within a radius [m] of the eye that are behind walls.
+        """Return the stretches of lanes within a radius [m] of the eye that are behind walls.
 
         Args:
             eye: from where one looks.

@@ -22,7 +22,7 @@ class Walls:
     ends: Rows  # [m] [N, 2]
 
     def between(self, a: Point, b: Point) -> bool:
-        """Whether the straight line from a to b passes through a wall.
+        """Check whether the straight line from a to b passes through a wall.
 
         Two segments cross where the ends of each lie on both sides of the other (de Berg et al.,
         "Computational Geometry", 2008, section 2.1); touching is not crossing.
@@ -39,7 +39,7 @@ class Walls:
         return bool(np.any((one * other < 0.0) & (before * after < 0.0)))
 
     def hide(self, eye: Point, points: Rows) -> NDArray[np.bool_]:
-        """Which of many points [m] [M, 2] are behind a wall, as `between` says."""
+        """Return which of many points [m] [M, 2] are behind a wall, as `between` says."""
         if not len(self.starts) or not len(points):
             return np.zeros(len(points), dtype=bool)
         starts, ends, ways = self.starts - eye, self.ends - eye, points - eye
@@ -52,7 +52,7 @@ class Walls:
         return hidden
 
     def beside(self, boxes: Iterable[Box]) -> "Walls":
-        """These walls, and the sides of boxes."""
+        """Return these walls, and the sides of boxes."""
         starts, ends = [self.starts], [self.ends]
         for box in boxes:
             around = np.array(corners(box))
@@ -86,7 +86,7 @@ class Buildings:
         self._owners = np.array(owners, dtype=np.int64)
 
     def around(self, ego: VehicleState, radius: float) -> Walls:
-        """The walls of which a part may be within a radius [m] of the ego.
+        """Return the walls of which a part may be within a radius [m] of the ego.
 
         A building that the ego is in hides nothing: the road leads through it.
         """
@@ -99,7 +99,7 @@ class Buildings:
         return Walls(self._starts[near], self._ends[near])
 
     def _around(self, point: Point) -> NDArray[np.int64]:
-        """The buildings that a point is in: a ray crosses an odd number of their walls."""
+        """Return the buildings that a point is in: a ray crosses an odd number of their walls."""
         x, y = point
         (ax, ay), (bx, by) = self._starts.T, self._ends.T
         level = (ay > y) != (by > y)

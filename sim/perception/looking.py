@@ -70,7 +70,7 @@ class Perception:
         self._blind = Blind(network)
 
     def look(self, time: float, commanded: VehicleState | None) -> View:
-        """What there is now; every step needs a look, which tells who came and went.
+        """Return what there is now; every step needs a look, which tells who came and went.
 
         Args:
             time: [s] of the scene.
@@ -112,7 +112,7 @@ class Perception:
         return View(scene, {x: body.state for x, body in everybody.items()})
 
     def _on_the_road(self) -> set[str]:
-        """The ids of the vehicles that have departed and not arrived."""
+        """Return the ids of the vehicles that have departed and not arrived."""
         # SUMO's own list takes the longer the more vehicles are still to depart.
         news = self._api.simulation
         self._driving.update(self._call(news.getDepartedIDList))
@@ -124,7 +124,7 @@ class Perception:
         return math.dist(position, ego.position) <= self._radius
 
     def _on_foot(self, person: str) -> bool:
-        """Whether a person is outside of every vehicle."""
+        """Check whether a person is outside of every vehicle."""
         return not self._call(self._api.person.getVehicle, person)
 
     def _body(self, vehicle: str) -> Body[VehicleState]:
@@ -162,7 +162,7 @@ class Perception:
         return angle_between(math.radians(90.0 - self._call(api.getAngle, name)), 0.0)
 
     def _colour(self, vehicle: str) -> str | None:
-        """The word for a colour; None where nobody said how to paint the vehicle."""
+        """Return the word for a colour; None where nobody said how to paint the vehicle."""
         # A vehicle whose width was set has a type of its own, named after both.
         kind = self._call(self._api.vehicle.getTypeID, vehicle).removesuffix(f"@{vehicle}")
         own = self._call(self._api.vehicle.getColor, vehicle)[:3]
@@ -174,7 +174,7 @@ class Perception:
         return None
 
     def _stop_lines(self) -> dict[Signal, tuple[Point, ...]]:
-        """Where the links of each signal begin [m]."""
+        """Return where the links of each signal begin [m]."""
         api = self._api.trafficlight
         found: dict[Signal, tuple[Point, ...]] = {}
         for controller in self._call(api.getIDList):
@@ -186,7 +186,7 @@ class Perception:
         return found
 
     def _polygons(self) -> list[tuple[str, tuple[Point, ...]]]:
-        """The type and outline [m] of every polygon."""
+        """Return the type and outline [m] of every polygon."""
         api = self._api.polygon
         return [
             (self._call(api.getType, x), tuple(self._call(api.getShape, x)))
@@ -195,7 +195,7 @@ class Perception:
 
 
 def _key(person: str) -> str:
-    """What a person is named by: a vehicle may have the same id."""
+    """Return what a person is named by: a vehicle may have the same id."""
     return f"person {person}"
 
 

@@ -27,7 +27,7 @@ class Body(Generic[State]):
 def hidden(
     ego: VehicleState, target: Anybody, others: Iterable[Anybody], buildings: Walls = NO_WALLS
 ) -> bool:
-    """Whether a vehicle or person cannot be seen from the middle of the ego's roof.
+    """Check whether a vehicle or person cannot be seen from the middle of the ego's roof.
 
     It cannot where its middle and its four corners are all behind buildings, or behind tall
     vehicles of which none is lower than itself.
@@ -51,7 +51,7 @@ def hidden(
 
 
 def crosses(a: Point, b: Point, box: Box) -> bool:
-    """Whether the straight line from a to b passes through a box; touching is not passing.
+    """Check whether the straight line from a to b passes through a box; touching is not passing.
 
     The line is clipped by the two pairs of parallel sides (Liang and Barsky, 1984).
     """

@@ -38,7 +38,7 @@ class Signals:
         self._seen: dict[Signal, Light] = {}
 
     def look(self, time: float, ego: VehicleState, radius: float) -> tuple[Light, ...]:
-        """The lights in view, by controller and index.
+        """Return the lights in view, by controller and index.
 
         Args:
             time: [s] of this look, later than that of the last one.
@@ -71,7 +71,7 @@ class Signals:
 
 
 def _circle(lines: Iterable[tuple[Point, ...]]) -> tuple[Point, float]:
-    """A circle around all stop lines of a controller: its middle and radius [m]."""
+    """Return a circle around all stop lines of a controller: its middle and radius [m]."""
     points = [point for line in lines for point in line]
     xs, ys = zip(*points, strict=True)
     middle = ((min(xs) + max(xs)) / 2.0, (min(ys) + max(ys)) / 2.0)
@@ -86,7 +86,7 @@ def _named(letter: str) -> LightState:
 
 
 def _in_view(points: tuple[Point, ...], ego: VehicleState, radius: float) -> bool:
-    """Whether one of several points is within a radius of the ego and not far behind it."""
+    """Check whether one of several points is within a radius of the ego and not far behind it."""
     ahead_x, ahead_y = math.cos(ego.heading), math.sin(ego.heading)
     for x, y in points:
         dx, dy = x - ego.position[0], y - ego.position[1]

@@ -34,11 +34,11 @@ class Lane:
     limits: tuple[tuple[str, float], ...] = ()  # [m/s] by class, where not the speed limit of cars
 
     def offset(self, stated: float) -> float:
-        """The offset [m] along the centreline of a place at an offset [m] by the file."""
+        """Return the offset [m] along the centreline of a place at an offset [m] by the file."""
         return stated * self.length / self.stated_length
 
     def limit_for(self, kind: str) -> float:
-        """The speed limit [m/s] of a class of vehicles."""
+        """Return the speed limit [m/s] of a class of vehicles."""
         return dict(self.limits).get(kind, self.speed_limit)
 
 

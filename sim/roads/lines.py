@@ -43,7 +43,7 @@ def project(line: tuple[Point, ...], position: Point) -> tuple[float, float, flo
 
 
 def angle_between(a: float, b: float) -> float:
-    """The angle [rad] from b to a, in (-pi, pi]."""
+    """Return the angle [rad] from b to a, in (-pi, pi]."""
     difference = math.fmod(a - b, 2.0 * math.pi)
     if difference > math.pi:
         difference -= 2.0 * math.pi
@@ -61,7 +61,7 @@ def cumulative(line: tuple[Point, ...]) -> list[float]:
 
 
 def point_at(line: tuple[Point, ...], offset: float) -> tuple[Point, float]:
-    """The point [m] and heading [rad] at an offset [m] along a polyline (clamped to it)."""
+    """Return the point [m] and heading [rad] at an offset [m] along a polyline (clamped to it)."""
     arc = cumulative(line)
     k = min(max(bisect_right(arc, offset) - 1, 0), len(line) - 2)
     (ax, ay), (bx, by) = line[k], line[k + 1]

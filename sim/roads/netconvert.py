@@ -72,7 +72,7 @@ def compile_plain(folder: Path, name: str, target: Path) -> None:
 
 
 def opendrive_net(source: Path, priority: Mapping[str, int]) -> Path:
-    """The SUMO net of an OpenDRIVE map, converted once and kept in the user's cache.
+    """Return the SUMO net of an OpenDRIVE map, converted once and kept in the user's cache.
 
     Raises:
         NetconvertMissing: netconvert is not installed.
@@ -135,7 +135,7 @@ def generate(arguments: Sequence[str], target: Path) -> None:
 
 
 def program(tool: str = "netconvert") -> str:
-    """Where a program of the extra is.
+    """Return where a program of the extra is.
 
     Raises:
         NetconvertMissing: nowhere.
@@ -148,7 +148,7 @@ def program(tool: str = "netconvert") -> str:
 
 
 def package_folder() -> Path:
-    """Where the extra has SUMO's scripts and networks.
+    """Return where the extra has SUMO's scripts and networks.
 
     Raises:
         NetconvertMissing: it is not installed.

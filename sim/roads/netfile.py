@@ -57,7 +57,7 @@ def read_network(path: Path) -> Network:
 
 @lru_cache(maxsize=KEPT)
 def parse_network(data: bytes, name: str) -> Network:
-    """The network in a SUMO net file; `name` is what errors call the file.
+    """Return the network in a SUMO net file; `name` is what errors call the file.
 
     Raises:
         NetworkError: it cannot be read; see the kinds above.
@@ -90,7 +90,7 @@ def parse_outlines(data: bytes, name: str) -> tuple[tuple[Point, ...], ...]:
 
 
 def _parsed(data: bytes, name: str) -> tuple[str, Read]:
-    """The text of a net file, and what sumolib reads in it."""
+    """Return the text of a net file, and what sumolib reads in it."""
     try:
         text = (gzip.decompress(data) if data.startswith(GZIP) else data).decode()
     except (OSError, EOFError, zlib.error) as error:

@@ -31,7 +31,7 @@ _NOBODY = Request(frozenset(), frozenset(), False)
 
 
 def graph_of(read: Read) -> Network:
-    """The network in what was read, without its hash.
+    """Return the network in what was read, without its hash.
 
     Raises:
         Broken: a lane has no shape, or a junction does not know a lane that leads to it.
@@ -63,12 +63,12 @@ def _open(lane: Lane) -> bool:
 
 
 def _of_type(read: Read, kind: str) -> frozenset[str]:
-    """The junctions of a type."""
+    """Return the junctions of a type."""
     return frozenset(node.getID() for node in read.net.getNodes() if node.getType() == kind)
 
 
 def _lanes(read: Read) -> Iterator[Lane]:
-    """The lanes of edges and of ways through junctions, whoever may use them."""
+    """Yield the lanes of edges and of ways through junctions, whoever may use them."""
     for edge in read.net.getEdges():
         if edge.getFunction() in (CROSSING, WALKING_AREA):
             continue
@@ -103,7 +103,7 @@ def _shape(lane: Any) -> tuple[Point, ...]:
 def _links(
     read: Read, lanes: dict[str, Lane], indices: dict[Any, int]
 ) -> tuple[list[Link], list[Link]]:
-    """The ways of vehicles through junctions, in file order, without their right of way.
+    """Return the ways of vehicles through junctions, in file order, without their right of way.
 
     Returns:
         Those for cars, and those for others only.
@@ -181,7 +181,7 @@ def _link_indices(read: Read) -> dict[Any, int]:
 
 
 def _incoming(read: Read, node: Any) -> Iterator[str]:
-    """The lanes that a junction lists as leading to it."""
+    """Yield the lanes that a junction lists as leading to it."""
     for lane in read.incoming.get(node.getID(), ()):
         edge, _, index = lane.rpartition("_")
         known = read.net.hasEdge(edge) and index.isdigit()
@@ -197,7 +197,7 @@ def _numbered(connection: Any) -> bool:
 
 
 def _crossings(read: Read, indices: dict[Any, int]) -> Iterator[Crossing]:
-    """The crossings for pedestrians, in file order."""
+    """Yield the crossings for pedestrians, in file order."""
     for connection in read.connections:
         lane = connection.getToLane()
         if connection.getTo().getFunction() == CROSSING and connection in indices:
@@ -215,7 +215,7 @@ def _crossings(read: Read, indices: dict[Any, int]) -> Iterator[Crossing]:
 def _with_right_of_way(
     read: Read, cars: list[Link], others: list[Link], crossings: Iterable[Crossing]
 ) -> tuple[tuple[Link, ...], tuple[Link, ...]]:
-    """The same links with the rows of the right-of-way matrices."""
+    """Return the same links with the rows of the right-of-way matrices."""
     for_cars = {(link.junction, link.index) for link in cars}
     aside = {(link.junction, link.index) for link in others}
     aside |= {(crossing.junction, crossing.index) for crossing in crossings}

@@ -54,7 +54,7 @@ def read_sumo_net(text: str) -> Read:
 
 
 def permissions(lane: Any) -> frozenset[str]:
-    """The vehicle classes that may use a lane of sumolib's."""
+    """Return the vehicle classes that may use a lane of sumolib's."""
     allowed = frozenset(lane.getPermissions())
     return frozenset(SUMO_VEHICLE_CLASSES) if "all" in allowed else allowed
 

@@ -59,41 +59,41 @@ class Network:
     crossings: tuple[Crossing, ...] = ()
 
     def roundabout(self, edge: str) -> frozenset[str] | None:
-        """The ring that an edge is part of."""
+        """Return the ring that an edge is part of."""
         return next((ring for ring in self.roundabouts if edge in ring), None)
 
     def signalled(self, signal: Signal) -> tuple[Link, ...]:
-        """The links that a signal controls."""
+        """Return the links that a signal controls."""
         return self._signalled.get(signal, ())
 
     def links_from(self, lane: str) -> tuple[Link, ...]:
-        """The links that begin at the end of a lane (not of an internal one)."""
+        """Return the links that begin at the end of a lane (not of an internal one)."""
         return self._links_from.get(lane, ())
 
     def links_to(self, lane: str) -> tuple[Link, ...]:
-        """The links that end at the beginning of a lane (not of an internal one)."""
+        """Return the links that end at the beginning of a lane (not of an internal one)."""
         return self._links_to.get(lane, ())
 
     def link_via(self, lane: str) -> Link | None:
-        """The link that an internal lane belongs to."""
+        """Return the link that an internal lane belongs to."""
         return self._link_via.get(lane)
 
     def junction_links(self, junction: str) -> Mapping[int, Link]:
-        """The links of a junction by their index."""
+        """Return the links of a junction by their index."""
         return self._junction_links[junction]
 
     def junction_others(self, junction: str) -> Mapping[int, Link | Crossing]:
-        """The links for others only and the crossings of a junction by their index."""
+        """Return the links for others only and the crossings of a junction by their index."""
         return self._junction_others.get(junction, {})
 
     def crossings_on(self, link: Link) -> tuple[Crossing, ...]:
-        """The crossings that a link leads over."""
+        """Return the crossings that a link leads over."""
         beside = self.junction_others(link.junction)
         met = (beside.get(index) for index in link.other_foes)
         return tuple(way for way in met if isinstance(way, Crossing))
 
     def edge_lanes(self, edge: str) -> tuple[Lane, ...]:
-        """The lanes of an edge from right to left.
+        """Return the lanes of an edge from right to left.
 
         Raises:
             KeyError: there is no such edge.
@@ -101,11 +101,11 @@ class Network:
         return self._edge_lanes[edge]
 
     def left_of(self, lane: str) -> Lane | None:
-        """The neighbouring lane on the left in the same direction."""
+        """Return the neighbouring lane on the left in the same direction."""
         return self._neighbour(lane, 1)
 
     def right_of(self, lane: str) -> Lane | None:
-        """The neighbouring lane on the right in the same direction."""
+        """Return the neighbouring lane on the right in the same direction."""
         return self._neighbour(lane, -1)
 
     def distance_to(self, edge: str) -> Mapping[str, float]:
@@ -122,7 +122,7 @@ class Network:
     def locate(
         self, position: Point, heading: float, reach: float = 2.5, turn: float = math.pi / 4
     ) -> tuple[Location, ...]:
-        """The lanes on which a pose may lie, nearest centreline first.
+        """Return the lanes on which a pose may lie, nearest centreline first.
 
         Args:
             position: [m]
@@ -135,7 +135,7 @@ class Network:
     def locate_aside(
         self, position: Point, heading: float, reach: float = 2.5, turn: float = math.pi / 4
     ) -> tuple[Location, ...]:
-        """The lanes that cars may not use on which a pose may lie; otherwise as `locate`."""
+        """Return the lanes that cars may not use on which a pose may lie; otherwise as `locate`."""
         return self._other_places.find(position, heading, reach, turn)
 
     @cached_property

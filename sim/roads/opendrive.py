@@ -45,7 +45,7 @@ class _Pair:
 def conversion_warnings(
     root: ET.Element, network: Network, start: str, priority: Mapping[str, int]
 ) -> tuple[str, ...]:
-    """What looks wrong in a network that was converted from a map.
+    """Return what looks wrong in a network that was converted from a map.
 
     Args:
         root: the map.
@@ -65,7 +65,7 @@ def conversion_warnings(
 
 
 def _turns(root: ET.Element) -> Iterator[_Turn]:
-    """The connections over which cars can drive."""
+    """Yield the connections over which cars can drive."""
     roads = {
         road.get("id", ""): road
         for road in root.iter("road")
@@ -235,7 +235,7 @@ def _told(pair: _Pair, network: Network) -> str:
 
 
 def _road(edge: str) -> str:
-    """The road of the map that an edge comes from."""
+    """Return the road of the map that an edge comes from."""
     return edge.removeprefix("-").split(".")[0]
 
 
@@ -252,14 +252,14 @@ def _links_by_roads(network: Network) -> dict[tuple[str, str], list[Link]]:
 
 
 def _ends(network: Network) -> tuple[set[str], set[str]]:
-    """The edges from which a way leads on, and those to which one leads."""
+    """Return the edges from which a way leads on, and those to which one leads."""
     lanes = network.lanes
     lead_on = {lanes[link.from_lane].edge for link in network.links}
     return lead_on, {lanes[link.to_lane].edge for link in network.links}
 
 
 def _reach(joined: Mapping[str, set[str]], road: str) -> set[str]:
-    """The roads joined with one, itself among them."""
+    """Return the roads joined with one, itself among them."""
     found, frontier = {road}, [road]
     while frontier:
         new = joined.get(frontier.pop(), set()) - found

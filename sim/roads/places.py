@@ -34,7 +34,7 @@ class Places:
     def find(
         self, position: Point, heading: float, reach: float, turn: float
     ) -> tuple[Location, ...]:
-        """The lanes on which a pose may lie, nearest centreline first.
+        """Return the lanes on which a pose may lie, nearest centreline first.
 
         Args:
             position: [m]

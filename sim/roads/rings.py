@@ -18,7 +18,7 @@ FULL_TURN = math.radians(20.0)  # tolerance of once round
 
 
 def find_rings(lanes: Mapping[str, Lane], links: Sequence[Link]) -> tuple[frozenset[str], ...]:
-    """The rings of a network, in the order of its links.
+    """Return the rings of a network, in the order of its links.
 
     Args:
         lanes: by id.
@@ -52,7 +52,7 @@ class _Search:
                 self.out.setdefault(start, {}).setdefault(end, link)
 
     def cycle(self, edge: str, side: float) -> list[Link]:
-        """The links back to an edge, turning to one side (1 left, -1 right); [] if none."""
+        """Return the links back to an edge, turning to one side (1 left, -1 right); [] if none."""
         path: list[Link] = []
         here, length, seen = edge, 0.0, {edge}
         while ways := self.out.get(here):
@@ -68,7 +68,7 @@ class _Search:
         return []
 
     def is_ring(self, cycle: list[Link], side: float) -> bool:
-        """Whether a cycle is a roundabout and no other loop."""
+        """Check whether a cycle is a roundabout and no other loop."""
         edges = {self.lanes[link.from_lane].edge for link in cycle}
         line = self._outline(cycle)
         turns = [side * turn for turn in _turns(line)]
@@ -79,12 +79,12 @@ class _Search:
         return round_once and steady and compact and self._one_way(edges) and self._first(edges)
 
     def _turn(self, link: Link) -> float:
-        """How far a way through a junction and the edge behind it turn left [rad]."""
+        """Return how far a way through a junction and the edge behind it turn left [rad]."""
         start, end = self.lanes[link.from_lane].centreline, self.lanes[link.to_lane].centreline
         return angle_between(_heading(end[0], end[1]), _heading(start[-2], start[-1]))
 
     def _outline(self, cycle: list[Link]) -> list[Point]:
-        """The closed line [m] through the lanes of a cycle."""
+        """Return the closed line [m] through the lanes of a cycle."""
         points: list[Point] = []
         for link in cycle:
             for lane in (link.from_lane, *link.via):
@@ -93,13 +93,13 @@ class _Search:
         return [p for k, p in enumerate(points) if k == 0 or math.dist(p, points[k - 1]) > 0.05]
 
     def _one_way(self, edges: set[str]) -> bool:
-        """Whether no edge outside leads back along one of these."""
+        """Check whether no edge outside leads back along one of these."""
         ways = {(self.ends.get(edge), self.begins.get(edge)) for edge in edges}
         others = self.begins.keys() & self.ends.keys() - edges
         return not any((self.begins[edge], self.ends[edge]) in ways for edge in others)
 
     def _first(self, edges: set[str]) -> bool:
-        """Whether roads join these edges and give way to them wherever the ways meet."""
+        """Check whether roads join these edges and give way to them wherever the ways meet."""
         met = [(entry, along) for entry, along in self._entries(edges) if along]
         return bool(met) and all(along <= set(entry.yields_to) for entry, along in met)
 
@@ -121,11 +121,11 @@ def _heading(a: Point, b: Point) -> float:
 
 
 def _turns(line: list[Point]) -> list[float]:
-    """The turn to the left [rad] at each point of a closed line."""
+    """Return the turn to the left [rad] at each point of a closed line."""
     headings = [_heading(a, b) for a, b in pairwise(line)]
     return [angle_between(b, a) for a, b in pairwise([*headings, headings[0]])]
 
 
 def _area(line: list[Point]) -> float:
-    """The area [m2] within a closed line (shoelace formula)."""
+    """Return the area [m2] within a closed line (shoelace formula)."""
     return abs(sum(ax * by - bx * ay for (ax, ay), (bx, by) in pairwise(line))) / 2.0

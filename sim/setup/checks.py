@@ -90,12 +90,12 @@ def _check_place(file: Path, key: str, vehicle: Departure, network: Network, var
 
 
 def edges_of(network: Network) -> set[str]:
-    """The edges for cars, without those inside junctions."""
+    """Return the edges for cars, without those inside junctions."""
     return {lane.edge for lane in network.lanes.values() if not lane.internal}
 
 
 def one_of(names: Iterable[str]) -> str:
-    """A remedy: what there is to choose from."""
+    """Return a remedy: what there is to choose from."""
     listed = ", ".join(sorted(names))
     return f"choose one of {listed}" if listed else "there is none to choose"
 
@@ -107,7 +107,7 @@ def near(name: str, names: Iterable[str]) -> str:
 
 
 def _followers(network: Network) -> dict[str, set[str]]:
-    """The edges that can be driven to from each edge, lane changes being free."""
+    """Return the edges that can be driven to from each edge, lane changes being free."""
     found: dict[str, set[str]] = {}
     every = {**network.other_lanes, **network.lanes}
     for link in (*network.links, *network.other_links):

@@ -48,13 +48,13 @@ class Inspected:
 
 
 def is_place(text: str) -> bool:
-    """Whether a text is the place of a configuration."""
+    """Check whether a text is the place of a configuration."""
     file = Path(text.partition("?")[0]).expanduser()
     return file.name.endswith(ENDINGS) or (file.suffix in (".xml", ".cfg") and file.is_file())
 
 
 def split_place(place: str) -> tuple[Path, dict[str, str]]:
-    """The file and the wishes of a place.
+    """Return the file and the wishes of a place.
 
     Raises:
         TableError: a wish is unknown, or not written as key=value.
@@ -74,7 +74,7 @@ def split_place(place: str) -> tuple[Path, dict[str, str]]:
 
 
 def place_of(file: Path, rider: Rider) -> str:
-    """The place that `split_place` and `rider_of` read."""
+    """Return the place that `split_place` and `rider_of` read."""
     match rider:
         case Departing(name):
             wishes = {"ego": name}
@@ -86,13 +86,13 @@ def place_of(file: Path, rider: Rider) -> str:
 
 
 def with_wishes(place: str, wishes: dict[str, str]) -> str:
-    """A place with more wishes, which count in the stead of those it has."""
+    """Return a place with more wishes, which count in the stead of those it has."""
     file, _, query = place.partition("?")
     return f"{file}?{urlencode({**dict(parse_qsl(query)), **wishes})}"
 
 
 def with_rider(place: str) -> str:
-    """A place with the first car that departs as the ego, unless it says who that is.
+    """Return a place with the first car that departs as the ego, unless it says who that is.
 
     Raises:
         TableError: SUMO refuses the configuration, or no car departs.
@@ -107,7 +107,7 @@ def with_rider(place: str) -> str:
 
 
 def rider_of(file: Path, wishes: dict[str, str]) -> Rider:
-    """Who is to be the ego.
+    """Return who is to be the ego.
 
     Raises:
         TableError: nobody is, or two are; the message lists who departs.
@@ -151,7 +151,7 @@ def inspect(file: Path, rider: Rider) -> Inspected:
 
 @contextmanager
 def _refused(file: Path) -> Iterator[None]:
-    """What SUMO says of a configuration as an error of it.
+    """Yield what SUMO says of a configuration as an error of it.
 
     Raises:
         TableError: SUMO refuses the configuration.
@@ -263,14 +263,14 @@ class _Inspection:
             raise TableError(self.file, f"vehicle {ego!r}", problem, remedy)
 
     def _of_sumo(self) -> Iterator[str]:
-        """What SUMO itself warns of."""
+        """Yield what SUMO itself warns of."""
         found = warnings_in(self.engine.log)
         yield from (f"{self.file.name}: SUMO warns: {warning}" for warning in found[:SHOWN])
         if len(found) > SHOWN:
             yield f"{self.file.name}: SUMO warns of {len(found) - SHOWN} things more"
 
     def _unmodelled(self, ego: str, network: Network, step: float) -> Iterator[str]:
-        """What of it the planner does not know."""
+        """Yield what of it the planner does not know."""
         if step > STEP:
             yield f"its steps of {step:g} s are shortened to {STEP:g} s"
         if self.engine.call(self.engine.api.vehicle.getStops, ego):
@@ -284,7 +284,7 @@ class _Inspection:
             yield f"{_many(closed)} are closed now, which the planner does not know"
 
     def _classes(self) -> set[str]:
-        """The classes of the vehicle types that the configuration brings."""
+        """Return the classes of the vehicle types that the configuration brings."""
         api = self.engine.api.vehicletype
         types = self.engine.call(api.getIDList)
         return {

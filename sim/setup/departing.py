@@ -57,7 +57,7 @@ def forget_stops(engine: Engine, name: str) -> None:
 
 
 def first_departures(engine: Engine) -> list[str]:
-    """The ids of the cars that depart first; the simulation runs on up to then."""
+    """Return the ids of the cars that depart first; the simulation runs on up to then."""
     found: list[str] = []
     while len(found) < LISTED and not _over(engine):
         step(engine)
@@ -96,7 +96,7 @@ def _await(engine: Engine, file: Path, name: str) -> None:
 
 
 def _over(engine: Engine) -> bool:
-    """Whether nobody departs any more."""
+    """Check whether nobody departs any more."""
     api = engine.api.simulation
     end = float(engine.call(api.getEndTime))
     late = clock(engine) >= (end if end >= 0.0 else LONGEST)
@@ -128,5 +128,5 @@ def _add(engine: Engine, file: Path, rider: Added) -> str:
 
 
 def _free(taken: set[str]) -> str:
-    """An id that nobody has."""
+    """Return an id that nobody has."""
     return next(x for x in chain([EGO_ID], (f"{EGO_ID}_{k}" for k in count(1))) if x not in taken)

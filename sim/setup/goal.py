@@ -56,7 +56,7 @@ def check_place(goal: Goal, top: Table, network: Network) -> None:
 
 
 def _edges(goal: Goal, top: Table, network: Network) -> set[str]:
-    """The edges for cars, of which the goal's must be one."""
+    """Return the edges for cars, of which the goal's must be one."""
     edges = edges_of(network)
     if goal.edge not in edges:
         raise top.wrong("goal.edge", f"there is no edge {goal.edge!r}", one_of(edges))
@@ -64,7 +64,7 @@ def _edges(goal: Goal, top: Table, network: Network) -> set[str]:
 
 
 def _leads_back(network: Network, edge: str) -> bool:
-    """Whether one can come to an edge again after leaving it."""
+    """Check whether one can come to an edge again after leaving it."""
     links = [link for lane in network.edge_lanes(edge) for link in network.links_from(lane.id)]
     return any(network.lanes[x.to_lane].edge in network.distance_to(edge) for x in links)
 

@@ -19,7 +19,7 @@ ALWAYS = {
 
 
 def of_ride(step: float, seed: int, *, sublane: bool) -> dict[str, str]:
-    """The options of a ride beside its files.
+    """Return the options of a ride beside its files.
 
     Args:
         step: [s] of the simulation.

@@ -36,7 +36,7 @@ class Departure:
 
 
 def parse(path: Path) -> ET.Element:
-    """The root element of a route file.
+    """Return the root element of a route file.
 
     Raises:
         RoutesError: it cannot be read, or is not an XML file of routes.
@@ -56,7 +56,7 @@ def parse(path: Path) -> ET.Element:
 
 
 def departures(root: ET.Element) -> tuple[Departure, ...]:
-    """The vehicles and trips of a route file, in file order.
+    """Return the vehicles and trips of a route file, in file order.
 
     Raises:
         RoutesError: a vehicle has no id, or no depart.
@@ -88,18 +88,18 @@ def departures(root: ET.Element) -> tuple[Departure, ...]:
 
 
 def coloured_types(root: ET.Element) -> frozenset[str]:
-    """The vehicle types whose colour the file states."""
+    """Return the vehicle types whose colour the file states."""
     return frozenset(kind.get("id", "") for kind in root.iter("vType") if kind.get("color"))
 
 
 def types(root: ET.Element) -> frozenset[str]:
-    """The vehicle types and their distributions that the file defines."""
+    """Return the vehicle types and their distributions that the file defines."""
     kinds = (*root.iter("vType"), *root.iter("vTypeDistribution"))
     return frozenset(kind.get("id", "") for kind in kinds)
 
 
 def mentioned_edges(root: ET.Element) -> dict[str, str]:
-    """Every edge that a route, trip or flow names, with the id of who names it first."""
+    """Return every edge that a route, trip or flow names, with the id of who names it first."""
     parents = {child: parent for parent in root.iter() for child in parent}
     found: dict[str, str] = {}
     for element in root.iter():
@@ -111,12 +111,12 @@ def mentioned_edges(root: ET.Element) -> dict[str, str]:
 
 
 def vehicles(root: ET.Element) -> list[ET.Element]:
-    """The elements of the vehicles and trips, in file order."""
+    """Return the elements of the vehicles and trips, in file order."""
     return [element for element in root if element.tag in VEHICLES]
 
 
 def number(text: str | None) -> float | None:
-    """The number that an attribute holds; None where it is absent or a word."""
+    """Return the number that an attribute holds; None where it is absent or a word."""
     try:
         return None if text is None else float(text)
     except ValueError:
@@ -124,7 +124,7 @@ def number(text: str | None) -> float | None:
 
 
 def seconds(text: str | None) -> float | None:
-    """The time [s] that an attribute holds, also written as hours:minutes:seconds."""
+    """Return the time [s] that an attribute holds, also written as hours:minutes:seconds."""
     parts = [number(part) for part in (text or "").split(":")]
     if len(parts) not in (1, 3, 4):
         return None

@@ -85,13 +85,13 @@ class Scenario:
 
 
 def available() -> tuple[str, ...]:
-    """The names of the scenarios that come with the package, sorted."""
+    """Return the names of the scenarios that come with the package, sorted."""
     root = files("sim").joinpath("scenarios")
     return tuple(sorted(x.name for x in root.iterdir() if x.joinpath(CONFIG).is_file()))
 
 
 def descriptions() -> dict[str, str]:
-    """What the scenarios that come with the package show, by name.
+    """Return what the scenarios that come with the package show, by name.
 
     Unlike `load` it needs no netconvert, as it leaves their networks alone.
 
@@ -137,7 +137,7 @@ def with_rider(place: str) -> str:
 
 @contextmanager
 def _invalid() -> Iterator[None]:
-    """What is wrong with a file as an error of the scenario."""
+    """Yield what is wrong with a file as an error of the scenario."""
     try:
         yield
     except TableError as error:
@@ -172,7 +172,7 @@ def _read(folder: Path) -> Scenario:
 
 
 def _configured(place: str) -> Scenario:
-    """The scenario in a SUMO configuration."""
+    """Return the scenario in a SUMO configuration."""
     file, wishes = configuration.split_place(place)
     rider = configuration.rider_of(file, wishes)
     found = configuration.inspect(file, rider)
@@ -197,7 +197,7 @@ def _configured(place: str) -> Scenario:
 
 
 def _configured_folder(folder: Path, top: Table) -> Scenario:
-    """A scenario whose folder names a SUMO configuration, and may change what it says."""
+    """Return a scenario whose folder names a SUMO configuration, and may change what it says."""
     top.only((*_CONFIGURED, *_CHANGES))
     file = packaged_file(top, "configuration", folder).resolve()
     found = _configured(configuration.place_of(file, _rider(top)))
@@ -286,7 +286,7 @@ def _network_file(top: Table, folder: Path, priority: Mapping[str, int]) -> Path
 
 
 def _check(scenario: Scenario, top: Table) -> tuple[str, ...]:
-    """Whether the files agree with one another; returns what may be wrong."""
+    """Return whether the files agree with one another; returns what may be wrong."""
     try:
         network = read_network(scenario.network)
     except NetworkError as error:

@@ -42,7 +42,7 @@ EGO_ID = "ego"  # of a car that is added; with a number where it is taken
 
 
 def told(rider: Rider) -> str:
-    """Who the ego is, in words."""
+    """Return who the ego is, in words."""
     match rider:
         case Departing(name):
             return f"vehicle {name!r}"

@@ -61,7 +61,7 @@ class _Start:
 
 
 def with_spawn(root: ET.Element, spawn: Spawn, seed: int, network: Network) -> bytes:
-    """A route file in which the starts at 0 s vary: the same seed gives the same file.
+    """Return a route file in which the starts at 0 s vary: the same seed gives the same file.
 
     Place and speed are drawn uniformly, vehicle by vehicle in file order. SUMO's insertion
     checks are off for these vehicles, since they would delay or slow a start.
@@ -114,7 +114,7 @@ def _kind(element: ET.Element) -> _Kind:
 def _start(
     element: ET.Element, departure: Departure, kinds: Mapping[str, _Kind], network: Network
 ) -> _Start:
-    """Where the file puts a vehicle."""
+    """Return where the file puts a vehicle."""
     index = number(element.get("departLane"))
     every = _lanes(departure, network)
     lanes = tuple(x for x in every if index is None or x.index == index)
@@ -127,20 +127,20 @@ def _start(
 
 
 def _lanes(departure: Departure, network: Network) -> tuple[Lane, ...]:
-    """The lanes of the edge where a vehicle departs."""
+    """Return the lanes of the edge where a vehicle departs."""
     both = (*network.lanes.values(), *network.other_lanes.values())
     return tuple(lane for lane in both if lane.edge == departure.edges[0] and not lane.internal)
 
 
 def _moves(element: ET.Element, departure: Departure, start: _Start, network: Network) -> bool:
-    """Whether a vehicle neither departs at no speed nor where it stops."""
+    """Check whether a vehicle neither departs at no speed nor where it stops."""
     if number(element.get("departSpeed")) == 0.0:
         return False
     return not any(low <= start.front <= high for low, high in _stops(element, departure, network))
 
 
 def _first_stop(element: ET.Element, departure: Departure, network: Network) -> float:
-    """How far [m] a vehicle may come on its first edge: to its first stop there."""
+    """Return how far [m] a vehicle may come on its first edge: to its first stop there."""
     return min((high for _, high in _stops(element, departure, network)), default=math.inf)
 
 
@@ -160,7 +160,7 @@ def _stops(
 
 
 def _along(text: str | None, length: float, default: float) -> float:
-    """A place [m] along a lane, which is written from its end where negative."""
+    """Return a place [m] along a lane, which is written from its end where negative."""
     value = number(text)
     if value is None:
         return default
@@ -170,7 +170,7 @@ def _along(text: str | None, length: float, default: float) -> float:
 def _within(
     front: float, start: _Start, others: Sequence[_Start], lanes: Sequence[Lane], stop: float
 ) -> float:
-    """The place [m] nearest to the one drawn that is on the lane and clear of the others."""
+    """Return the place [m] nearest to the one drawn that is on the lane and clear of the others."""
     low, high = 0.0, min([stop, *(lane.stated_length for lane in lanes)])
     for other in others:
         if not set(other.lanes) & set(start.lanes):

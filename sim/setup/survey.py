@@ -97,7 +97,7 @@ class _Watch:
                 known.company.append(near)
 
     def _company(self, ids: tuple[str, ...]) -> list[int]:
-        """How many others are near each vehicle."""
+        """Return how many others are near each vehicle."""
         api, call = self._engine.api.vehicle, self._engine.call
         places = np.array([call(api.getPosition, vehicle) for vehicle in ids]).reshape(-1, 2)
         apart = np.hypot(*(places[:, None] - places[None, :]).transpose(2, 0, 1))

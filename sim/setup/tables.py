@@ -63,7 +63,7 @@ class Table:
         return value
 
     def check(self, key: str, value: object) -> float:
-        """A finite number, or an error."""
+        """Return a finite number, or an error."""
         if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
             return float(value)
         raise self.wrong(key, f"{value!r} is no number", "write a finite number, unquoted")
@@ -91,7 +91,7 @@ class Table:
 
 
 def read_toml(file: Path) -> Table:
-    """The top table of a TOML file.
+    """Return the top table of a TOML file.
 
     Raises:
         TableError: the file cannot be read, or is not TOML.

@@ -45,7 +45,7 @@ class ComponentEffect:
 
 
 def effects(foil: Intervention, fact: Intervention) -> tuple[ComponentEffect, ...]:
-    """The effects of doing the foil instead of the fact, largest first relative to SCALES.
+    """Return the effects of doing the foil instead of the fact, largest first relative to SCALES.
 
     A component that is absent from all results of one side has no effect: how often it is
     present is the outcome's business. The range is that of the difference sample by sample where
@@ -57,7 +57,7 @@ def effects(foil: Intervention, fact: Intervention) -> tuple[ComponentEffect, ..
 
 
 def quantile(values: NDArray[np.float64], weights: NDArray[np.float64], share: float) -> float:
-    """The smallest value up to which lies at least `share` of the weight."""
+    """Return the smallest value up to which lies at least `share` of the weight."""
     order = np.argsort(values, kind="stable")
     reached = np.cumsum(weights[order]) / np.sum(weights)
     return float(values[order][min(int(np.searchsorted(reached, share - 1e-9)), len(values) - 1)])

@@ -30,7 +30,7 @@ class VehicleHoldUp:
 def hold_ups(
     intervention: Intervention, window: tuple[float, float] | None = None
 ) -> dict[int, VehicleHoldUp]:
-    """The vehicles that hold the ego up under an intervention, by vehicle.
+    """Return the vehicles that hold the ego up under an intervention, by vehicle.
 
     Args:
         intervention: what the ego does.
@@ -50,7 +50,7 @@ def hold_ups(
 
 
 def colliding_choice(intervention: Intervention, vehicle: int) -> Choice | None:
-    """The goal and trajectory under which a vehicle is collided with most."""
+    """Return the goal and trajectory under which a vehicle is collided with most."""
     met = [
         _Meeting(result, weight, [])
         for result, weight in zip(intervention.results, intervention.weights, strict=True)

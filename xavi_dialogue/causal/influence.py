@@ -69,7 +69,7 @@ class Influence:
 def influence(
     model: CausalModel, options: Sequence[Intervention] | None = None
 ) -> tuple[Influence, ...]:
-    """The influence of every vehicle on the choice among options, largest first.
+    """Return the influence of every vehicle on the choice among options, largest first.
 
     Args:
         model: the network of the decision.
@@ -148,7 +148,7 @@ class _Draws:
         return np.asarray(np.repeat(np.arange(len(draws)), draws)[shuffled], dtype=np.int64)
 
     def fit(self, vehicle: int) -> _Fit:
-        """The additive model, with what one vehicle's choices add to the others'."""
+        """Return the additive model, with what one vehicle's choices add to the others'."""
         mean, wanted = float(np.sum(self.root**2 * self.rewards)), self.columns[vehicle]
         if wanted.shape[1] == 1 or not np.ptp(self.rewards):  # it has no choice, or all is one
             return _Fit(mean, np.zeros(wanted.T.shape), np.zeros(len(wanted)))
@@ -164,7 +164,7 @@ class _Draws:
         return _Fit(mean, slopes, residual)
 
     def _others(self, vehicle: int) -> Array:
-        """The choices of the other vehicles [K, M], and a constant."""
+        """Return the choices of the other vehicles [K, M], and a constant."""
         if vehicle not in self._designs:
             others = [columns for name, columns in self.columns.items() if name != vehicle]
             varied = [columns for columns in others if columns.shape[1] > 1]
@@ -241,7 +241,7 @@ def _keys(model: CausalModel, joint: Joint, draws: int) -> Array:
 
 
 def _information(values: Array, prior: Array) -> tuple[Array, Array, Array]:
-    """The mutual information of option and choice in bits [M], p(o | c) and p(o).
+    """Return the mutual information of option and choice in bits [M], p(o | c) and p(o).
 
     Args:
         values: Q(o, c), [M, options, choices].

@@ -106,7 +106,7 @@ class CausalModel:
         return index.priors[index.numbers[joint]]
 
     def options(self, node: Actions = ()) -> Actions:
-        """The actions recorded at a node of the search, in order of first record."""
+        """Return the actions recorded at a node of the search, in order of first record."""
         if not node and not self.given:  # the commonest question, of decisions that are many
             return tuple({r.actions[0].action: None for r in self.trace.rollouts if r.actions})
         reached = self._index.reached if self.given else self._plans
@@ -122,7 +122,7 @@ class CausalModel:
         return found
 
     def recorded(self) -> Iterator[tuple[Actions, Result]]:
-        """Every distinct (actions, sample) with what came of it."""
+        """Yield every distinct (actions, sample) with what came of it."""
         for plan, ended in self._index.ended.items():
             for result in ended.values():
                 yield plan, result
@@ -267,7 +267,7 @@ class _Index:
 
 
 def shared_out(priors: dict[Name, float], draws: int, mass: float = 1.0) -> dict[Name, float]:
-    """The weights of drawn samples, which stand for a population of some prior mass.
+    """Return the weights of drawn samples, which stand for a population of some prior mass.
 
     Args:
         priors: of the samples drawn.
@@ -309,7 +309,7 @@ def _choices(
 
 
 def plan_of(rollout: Rollout) -> Actions:
-    """The macro actions of a rollout."""
+    """Return the macro actions of a rollout."""
     return tuple([timed.action for timed in rollout.actions])
 
 

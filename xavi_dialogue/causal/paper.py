@@ -65,7 +65,7 @@ def _plan(rollout: Rollout) -> tuple[Action, ...]:
 
 
 def _depends_on(outcome: Outcome) -> tuple[Component | None, ...]:
-    """The components whose presence makes an outcome; None: the outcome's own penalty."""
+    """Return the components whose presence makes an outcome; None: the outcome's own penalty."""
     return DONE if outcome == "done" else (None,)
 
 

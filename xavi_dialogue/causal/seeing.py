@@ -28,7 +28,7 @@ class Evidence:
     outcome: Outcome | None = None
 
     def allows(self, result: Result) -> bool:
-        """Whether a result agrees with it."""
+        """Check whether a result agrees with it."""
         plan = plan_of(result.rollout)
         return (
             self.outcome in (None, result.rollout.outcome)
@@ -93,7 +93,7 @@ class Search:
         return {plan: count / sum(found.values()) for plan, count in found.items()}
 
     def see(self, evidence: Evidence | None = None) -> Observation | None:
-        """The network given evidence; None where the evidence has probability 0."""
+        """Return the network given evidence; None where the evidence has probability 0."""
         known = evidence or Evidence()
         rows = [(result, weight) for result, weight in self._rows if known.allows(result)]
         chance = sum(weight for _, weight in rows)

@@ -32,7 +32,7 @@ class SpeechContext:
     max_effects: int = 1
 
     def look(self, vehicle: int, time: float | None = None) -> Look | None:
-        """How a vehicle looks at a time, now where none is given."""
+        """Return how a vehicle looks at a time, now where none is given."""
         at = self.now if time is None else min(time, self.now)
         if isinstance(self.looks, Mapping):
             found = self.looks.get((vehicle, at))

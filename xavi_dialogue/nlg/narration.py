@@ -25,7 +25,7 @@ class Narrator:
         self._begun: Action | None = None
 
     def tell(self, event: Event) -> str | None:
-        """The line for the next event, if any."""
+        """Return the line for the next event, if any."""
         begun = self._begun
         if event.kind == "action-committed":
             self._begun = event.action
@@ -43,7 +43,7 @@ class Teller:
         self._told: dict[int, Event] = {}  # by number
 
     def tell(self, number: int, event: Event) -> str | None:
-        """The line for an event of the ride that has a number, if any."""
+        """Return the line for an event of the ride that has a number, if any."""
         known = self._told.get(number)
         if known == event:
             return None
@@ -55,7 +55,7 @@ class Teller:
 
 
 def story(events: Iterable[Event]) -> str:
-    """All that happened, a line each."""
+    """Return all that happened, a line each."""
     return "\n".join(line for line in map(Narrator().tell, events) if line is not None)
 
 
@@ -66,7 +66,7 @@ def clock(time: float) -> str:
 
 
 def plan_in_words(plan: Iterable[Action]) -> str:
-    """What comes next, such as "change left, then go on"; empty without a plan."""
+    """Return what comes next, such as "change left, then go on"; empty without a plan."""
     phrases = _table()["plan"]
     return ", then ".join(phrases[action] for action in plan)
 

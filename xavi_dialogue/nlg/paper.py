@@ -53,7 +53,7 @@ class PaperCause:
 
 
 def paper_text(answer: Answer | Refusal, context: SpeechContext) -> str | None:
-    """The sentence of a contrast in the paper's words; None for all other answers."""
+    """Return the sentence of a contrast in the paper's words; None for all other answers."""
     contrast = contrast_of(answer)
     if contrast is None:
         return None
@@ -61,7 +61,7 @@ def paper_text(answer: Answer | Refusal, context: SpeechContext) -> str | None:
 
 
 def contrast_of(answer: Answer | Refusal) -> Contrast | None:
-    """The contrast that the paper has a sentence for."""
+    """Return the contrast that the paper has a sentence for."""
     if isinstance(answer, Again | Judged) and answer.answer is not None:
         return contrast_of(answer.answer)
     if isinstance(answer, ChoiceReason | SupposedOfUs):
@@ -71,7 +71,7 @@ def contrast_of(answer: Answer | Refusal) -> Contrast | None:
 
 
 def raw_words(contrast: Contrast, context: SpeechContext) -> tuple[str, ...]:
-    """The words that the grammar gives, before they are smoothed.
+    """Return the words that the grammar gives, before they are smoothed.
 
     Effects are differences between journeys that arrive: other outcomes have none. The paper
     puts them "in decreasing order by the absolute value" (below Equation 8), in their own units.
@@ -96,7 +96,7 @@ def raw_words(contrast: Contrast, context: SpeechContext) -> tuple[str, ...]:
 
 
 def mentioned(text: str) -> tuple[int, ...]:
-    """The vehicles that a sentence names, in order of first mention."""
+    """Return the vehicles that a sentence names, in order of first mention."""
     found = re.findall(r"\bvehicle (\d+)\b", text)
     return tuple(dict.fromkeys(int(number) for number in found))
 

@@ -77,7 +77,7 @@ def _told(said: list[Message], context: SpeechContext) -> tuple[str, tuple[int, 
 
 
 def planned(answer: Answer | Refusal, context: SpeechContext) -> Plan:
-    """The messages of an answer, answers within it planned too."""
+    """Return the messages of an answer, answers within it planned too."""
     plan = PLANNERS.get(type(answer), _unplanned)(answer, context)
     core: list[Message] = []
     details, more, choices = plan.details, plan.more, plan.choices
@@ -94,7 +94,7 @@ def planned(answer: Answer | Refusal, context: SpeechContext) -> Plan:
 
 
 def _picked(answer: Answer | Refusal, plan: Plan, context: SpeechContext) -> list[Message]:
-    """The messages to be said, as much as the passenger wants to hear."""
+    """Return the messages to be said, as much as the passenger wants to hear."""
     parts: list[Part] = list(plan.core)
     if context.detail == "more":
         parts += [*plan.details, *plan.more]

@@ -107,7 +107,7 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
 
 
 def _holds_us_up(such: Proposition | None) -> bool:
-    """Whether it is asked for what or whom we wait, slow down, stop or give way."""
+    """Check whether it is asked for what or whom we wait, slow down, stop or give way."""
     of, negated = unwrapped(such)
     if isinstance(of, Is) and not negated:
         return of.state in ("stuck", "stationary") and is_own(of.thing)
@@ -124,7 +124,7 @@ def _holds_us_up(such: Proposition | None) -> bool:
 
 
 def _over_the_ride(thing: object, such: Proposition | None) -> bool:
-    """Whether it is asked of all who held us up: "which vehicles", or "so far"."""
+    """Check whether it is asked of all who held us up: "which vehicles", or "so far"."""
     of, _ = unwrapped(such)
     asked = of.left if isinstance(of, Compares) else of.event if isinstance(of, Happens) else None
     if asked is None or (isinstance(asked, Event) and asked.action != "block"):
@@ -134,7 +134,7 @@ def _over_the_ride(thing: object, such: Proposition | None) -> bool:
 
 
 def _who_held_up(question: Which, scene: Asked) -> Answer:
-    """Who held us up, and when."""
+    """Return who held us up, and when."""
     of, _ = unwrapped(question.such)
     time = of.left.time if isinstance(of, Compares) else getattr(of, "event", Event("block")).time
     time = WholeRide() if isinstance(time, Unsaid) else time
@@ -186,7 +186,7 @@ def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
 
 
 def _on_our_way(of: Proposition | None) -> bool:
-    """Whether it is asked which way we have to go from here: our route tells."""
+    """Check whether it is asked which way we have to go from here: our route tells."""
     if not isinstance(of, Happens) or of.event.tense != "present" or not is_own(of.event.actor):
         return False
     turning = of.event.action in ("turn", "exit-left", "exit-right", "exit-straight")
@@ -194,14 +194,14 @@ def _on_our_way(of: Proposition | None) -> bool:
 
 
 def _worth(question: Whether, scene: Asked) -> Answer:
-    """Whether it was worth it, spoken of another vehicle: what we did is meant."""
+    """Return whether it was worth it, spoken of another vehicle: what we did is meant."""
     of, _ = unwrapped(question.that)
     tense = of.tense if isinstance(of, Is) else "past"
     return deciding.needed(Whether(Is("worth-it", tense=tense)), scene)
 
 
 def _slowed_for(of: Proposition | None, scene: Asked) -> bool:
-    """Whether it is asked if we slowed for somebody, and we did slow, for whatever reason."""
+    """Check whether it is asked if we slowed for somebody, and we did slow, for whatever reason."""
     if not isinstance(of, Happens) or not is_own(of.event.actor):
         return False
     event = of.event
@@ -215,7 +215,7 @@ def _slowed_for(of: Proposition | None, scene: Asked) -> bool:
 
 
 def _slowed_because(question: Whether, scene: Asked) -> Answer:
-    """Whether we slowed for somebody: the reason, with a word on that vehicle."""
+    """Return whether we slowed for somebody: the reason, with a word on that vehicle."""
     of, _ = unwrapped(question.that)
     assert isinstance(of, Happens)
     event = replace(of.event, object=None)
@@ -239,6 +239,6 @@ def _who_caused(question: Which, scene: Asked) -> Answer:
 
 
 def _reasons(question: Listing, scene: Asked) -> Answer:
-    """The reasons of what was spoken of, or of the last manoeuvre."""
+    """Return the reasons of what was spoken of, or of the last manoeuvre."""
     del question
     return choices.why(None, scene)

@@ -53,7 +53,7 @@ def explain_in(act: GroundedAct, ride: Ride, world: World) -> Result:
 
 
 def _span(act: GroundedAct, ride: Ride) -> Span | None:
-    """The part of the ride that the terms of a question name, where the act names none."""
+    """Return the part of the ride that the terms of a question name, where the act names none."""
     question = act.act.question if isinstance(act.act, Ask) else None
     event = event_of(getattr(question, "of", None))
     for time in (getattr(question, "time", None), None if event is None else event.time):
@@ -66,7 +66,7 @@ def _span(act: GroundedAct, ride: Ride) -> Span | None:
 
 
 def _answer(scene: Asked) -> Answer:
-    """The answer of the explainer that the table names.
+    """Return the answer of the explainer that the table names.
 
     Raises:
         Unanswered: there is no answer, or none yet.

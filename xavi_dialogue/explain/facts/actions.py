@@ -36,12 +36,12 @@ MIRRORED: dict[ActionName, ActionName] = {"block": "wait"}
 
 
 def covered(actions: frozenset[ActionName]) -> Actions:
-    """All actions of episodes that any of some actions may stand for."""
+    """Return all actions of episodes that any of some actions may stand for."""
     return actions | {fine for action in actions for fine in COVERS.get(action, ())}
 
 
 def somebody(thing: Thing | None) -> frozenset[int] | None:
-    """The vehicles that a grounded thing names, 0 being ours; None where it names none."""
+    """Return the vehicles that a grounded thing names, 0 being ours; None where it names none."""
     match thing:
         case Ego():
             return frozenset((0,))
@@ -53,12 +53,12 @@ def somebody(thing: Thing | None) -> frozenset[int] | None:
 
 
 def named(vehicle: int) -> Ego | Vehicle:
-    """The thing that a number names."""
+    """Return the thing that a number names."""
     return Ego() if vehicle == 0 else Vehicle(vehicle)
 
 
 def mirrored(event: Event) -> Event:
-    """The event by its other name, where actor and object change places."""
+    """Return the event by its other name, where actor and object change places."""
     other = MIRRORED.get(event.action)
     if other is None:
         return event

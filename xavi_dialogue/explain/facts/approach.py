@@ -26,7 +26,7 @@ class Closest:
 
 
 def closest(states: States, one: int, other: int, begin: float, end: float) -> Closest | None:
-    """The closest approach of two bodies in an interval [s]; None where they never met."""
+    """Return the closest approach of two bodies in an interval [s]; None where they never met."""
     key = ("closest", one, other, begin, end)
     return states.memo(key, lambda: _closest(states, one, other, begin, end))
 
@@ -76,7 +76,7 @@ class Following:
 
 
 def following(states: States, one: int, other: int, time: float) -> Following | None:
-    """Which of two vehicles is behind the other on one line at a time [s], and the gap.
+    """Return which of two vehicles is behind the other on one line at a time [s], and the gap.
 
     The way is the path that the one ahead has driven, where it came past; else straight on.
     """
@@ -96,7 +96,7 @@ def following(states: States, one: int, other: int, time: float) -> Following | 
 
 
 def _lanes_differ(states: States, one: int, other: int, time: float) -> bool:
-    """Whether both are on one road, and known to be in different lanes of it."""
+    """Check whether both are on one road, and known to be in different lanes of it."""
     a, b = states.place(one, time), states.place(other, time)
     if a is None or b is None or a.lane is None or b.lane is None:
         return False
@@ -104,12 +104,12 @@ def _lanes_differ(states: States, one: int, other: int, time: float) -> bool:
 
 
 def _abreast(seen: Offset) -> bool:
-    """Whether both head the same way and are on different lines."""
+    """Check whether both head the same way and are on different lines."""
     return abs(seen.turn) < ALONG and abs(seen.left) > SAME_LANE and seen.ahead < BEND
 
 
 def _along_path(states: States, behind: int, ahead: int, time: float) -> float | None:
-    """The gap along the way that the one ahead has driven past the one behind it."""
+    """Return the gap along the way that the one ahead has driven past the one behind it."""
     state, leader = states.state(behind, time), states.state(ahead, time)
     motion = states.motion(ahead)
     last = motion.index(time)

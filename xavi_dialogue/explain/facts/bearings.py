@@ -40,7 +40,7 @@ class Offset:
 
 
 def offset(eye: VehicleState, other: VehicleState) -> Offset:
-    """Where `other` is, seen from `eye`."""
+    """Return where `other` is, seen from `eye`."""
     (ex, ey), (ox, oy) = centre(eye), centre(other)
     cos, sin = math.cos(eye.heading), math.sin(eye.heading)
     dx, dy = ox - ex, oy - ey
@@ -55,7 +55,7 @@ def offset(eye: VehicleState, other: VehicleState) -> Offset:
 def bearing(
     seen: Offset, mine: RoadPlace | None = None, theirs: RoadPlace | None = None
 ) -> Bearing:
-    """The word for where a vehicle is.
+    """Return the word for where a vehicle is.
 
     Args:
         seen: where it is in our frame.
@@ -77,7 +77,7 @@ def bearing(
 
 
 def _across(seen: Offset) -> Bearing:
-    """The word for a vehicle that heads across our way: where it comes from, or where it is.
+    """Return the word for a vehicle that heads across our way: where it comes from, or where it is.
 
     It comes from a side while it heads for our line from there; then it is on the other side.
     """
@@ -88,12 +88,12 @@ def _across(seen: Offset) -> Bearing:
 
 
 def oncoming(seen: Offset) -> bool:
-    """Whether a vehicle comes towards us, on our road or one that leads into it."""
+    """Check whether a vehicle comes towards us, on our road or one that leads into it."""
     return seen.opposite and seen.ahead > 0.0 and abs(seen.left) <= max(CORRIDOR, seen.ahead / 2.0)
 
 
 def aside(seen: Offset) -> Bearing:
-    """The direction in which a vehicle is, whichever way it heads."""
+    """Return the direction in which a vehicle is, whichever way it heads."""
     angle = math.degrees(math.atan2(seen.left, seen.ahead))
     straight = abs(seen.left) <= LINE
     if abs(angle) <= AHEAD and straight:
@@ -108,7 +108,7 @@ def aside(seen: Offset) -> Bearing:
 
 
 def lane_side(seen: Offset, mine: RoadPlace | None, theirs: RoadPlace | None) -> int:
-    """Which lane a vehicle that heads our way is in: 0 ours, 1 left of it, -1 right of it.
+    """Return which lane a vehicle that heads our way is in: 0 ours, 1 left of it, -1 right of it.
 
     Lanes count where both are on one road and apart; who is between two lanes is where it is seen.
     """
@@ -121,6 +121,6 @@ def lane_side(seen: Offset, mine: RoadPlace | None, theirs: RoadPlace | None) ->
 
 
 def centre(state: VehicleState) -> tuple[float, float]:
-    """The middle of a vehicle [m]."""
+    """Return the middle of a vehicle [m]."""
     (x, y), half = state.position, state.length / 2.0
     return x - half * math.cos(state.heading), y - half * math.sin(state.heading)

@@ -11,7 +11,7 @@ from xavi_dialogue.explain.history.ride import prediction
 
 
 def belief(states: States, vehicle: int, at: float) -> Belief | None:
-    """What was believed of a vehicle at the last decision up to a time [s] that knew it."""
+    """Return what was believed of a vehicle at the last decision up to a time [s] that knew it."""
     k = states.ride.index(at)
     while k is not None and k >= 0:
         trace = states.ride.traces[k]
@@ -22,7 +22,7 @@ def belief(states: States, vehicle: int, at: float) -> Belief | None:
 
 
 def over(states: States, vehicle: int, begin: float, end: float) -> tuple[Belief, ...]:
-    """What was believed of a vehicle at each decision of an interval [s], oldest first."""
+    """Return what was believed of a vehicle at each decision of an interval [s], oldest first."""
     found = (
         of_trace(states, trace, vehicle)
         for trace in states.ride.traces

@@ -11,7 +11,7 @@ STEP = 0.1  # [s]
 
 
 def distance(a: VehicleState, b: VehicleState) -> float:
-    """The distance [m] between two bodies; 0 where they overlap."""
+    """Return the distance [m] between two bodies; 0 where they overlap."""
     if overlap(a, b):
         return 0.0
     one, other = corners(a), corners(b)
@@ -22,7 +22,7 @@ def distance(a: VehicleState, b: VehicleState) -> float:
 
 
 def at_least(a: VehicleState, b: VehicleState) -> float:
-    """A lower bound [m] of the distance between two bodies, quickly had."""
+    """Return a lower bound [m] of the distance between two bodies, quickly had."""
     reach = math.hypot(a.length, a.width) + math.hypot(b.length, b.width)
     return math.dist(a.position, b.position) - reach
 

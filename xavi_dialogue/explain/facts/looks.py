@@ -29,7 +29,7 @@ def kind_of(state: VehicleState) -> Kind:
 
 
 def look(states: States, vehicle: int, time: float) -> Look | None:
-    """A vehicle as it is seen at a time [s], or was seen last; None where it never was."""
+    """Return a vehicle as it is seen at a time [s], or was seen last; None where it never was."""
     return states.memo(("look", vehicle, round(time, 3)), lambda: _look(states, vehicle, time))
 
 
@@ -90,7 +90,7 @@ def _seen(
 
 
 def _alone(states: States, vehicle: int, time: float) -> bool:
-    """Whether nobody else in view has a vehicle's kind and colour."""
+    """Check whether nobody else in view has a vehicle's kind and colour."""
     mine = _appearance(states, vehicle)
     return all(_appearance(states, v) != mine for v in states.in_view(time) if v != vehicle)
 

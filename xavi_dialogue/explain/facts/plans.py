@@ -17,7 +17,7 @@ def last_choice(ride: Ride, at: float) -> PlanTrace | None:
 
 
 def plan_of(ride: Ride) -> tuple[CausalModel, Intervention] | None:
-    """The plan of the last decision, of as many of its actions as there is evidence for."""
+    """Return the plan of the last decision, of as many of its actions as there is evidence for."""
     if not ride.traces:
         return None
     trace = ride.traces[-1]

@@ -21,7 +21,7 @@ KMH = 3.6  # [km/h] in 1 m/s
 
 
 def holds(states: States, relation: Relation, thing: Thing, to: Thing, at: float) -> Told:
-    """Whether a relation holds at a time [s]; None where that cannot be told."""
+    """Return whether a relation holds at a time [s]; None where that cannot be told."""
     first, second = _number(thing), _number(to)
     if relation == "on":
         return None if first is None else _on(states, first, to, at)
@@ -65,7 +65,7 @@ def _behind(seen: Offset) -> bool:
 
 
 def _alongside(seen: Offset) -> bool:
-    """Whether it drives our way in a lane beside us: neither ahead nor behind."""
+    """Check whether it drives our way in a lane beside us: neither ahead nor behind."""
     return seen.same_way and abs(seen.ahead) <= seen.clear and abs(seen.left) > SAME_LANE
 
 
@@ -79,7 +79,7 @@ def _near(states: States, thing: int, to: int, at: float) -> Told:
 
 
 def _priority(states: States, thing: int, to: int, at: float) -> Told:
-    """Whether the first goes first; None where it depends or is not recorded."""
+    """Return whether the first goes first; None where it depends or is not recorded."""
     other = to if thing == EGO else thing
     road = states.road(at)
     if EGO not in (thing, to) or other == EGO or road is None:
@@ -95,7 +95,7 @@ def _yields(states: States, thing: int, to: int, at: float) -> Told:
 
 
 def _waiting(states: States, thing: int, to: int, at: float) -> Told:
-    """Whether the first stands or gives way for the second."""
+    """Return whether the first stands or gives way for the second."""
     if not states.known(thing, at):
         return None
     now = [
@@ -115,12 +115,12 @@ def _end(states: States, end: float | None) -> float:
 
 
 def _sees(states: States, thing: int, to: int, at: float) -> Told:
-    """Whether the first can see the second: known of the ego alone."""
+    """Return whether the first can see the second: known of the ego alone."""
     return states.visible(to, at) if thing == EGO else None
 
 
 def _in_the_way(states: States, thing: int, to: int, at: float) -> Told:
-    """Whether the first holds the second up."""
+    """Return whether the first holds the second up."""
     trace = states.trace(at)
     if trace is None:
         return None
@@ -138,7 +138,7 @@ def _speeds(sign: float) -> Callable[[States, int, int, float], Told]:
 
 
 def _on(states: States, vehicle: int, where: Thing, at: float) -> Told:
-    """Whether a vehicle is on a lane, a roundabout, inside a junction."""
+    """Return whether a vehicle is on a lane, a roundabout, inside a junction."""
     shape = states.shape(vehicle)
     if shape is not None and shape.kind in ON_FOOT:
         over = crossings(states, vehicle) if isinstance(where, Junction | Road | Lane) else []

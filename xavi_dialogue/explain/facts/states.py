@@ -46,7 +46,7 @@ class States:
         self._memo: dict[Hashable, Any] = {}
 
     def memo(self, key: Hashable, work_out: Callable[[], Kept]) -> Kept:
-        """What was worked out under a name before, or is now."""
+        """Return what was worked out under a name before, or is now."""
         if key not in self._memo:
             self._memo[key] = work_out()
         found: Kept = self._memo[key]
@@ -60,20 +60,20 @@ class States:
         return min(times, default=self.ride.now)
 
     def seen(self, vehicle: int) -> Seen:
-        """What was seen of a vehicle."""
+        """Return what was seen of a vehicle."""
         return self.ride.seen(vehicle)
 
     def motion(self, vehicle: int) -> Motion:
-        """The recorded motion of a vehicle."""
+        """Return the recorded motion of a vehicle."""
         return self.ride.seen(vehicle).motion
 
     def trace(self, time: float) -> PlanTrace | None:
-        """The last decision at or before a time [s]."""
+        """Return the last decision at or before a time [s]."""
         k = self.ride.index(time)
         return None if k is None else self.ride.traces[k]
 
     def shape(self, vehicle: int) -> VehicleState | None:
-        """A vehicle as it looks, at any time."""
+        """Return a vehicle as it looks, at any time."""
         if vehicle not in self._shapes:
             seen = (t.scene[vehicle] for t in reversed(self.ride.traces) if vehicle in t.scene)
             here = None if self.ride.scene is None else self.ride.scene.vehicles.get(vehicle)
@@ -113,15 +113,15 @@ class States:
         return vehicle in trace.unseen or self._seen_since(vehicle, time) is not False
 
     def visible(self, vehicle: int, time: float) -> bool:
-        """Whether a vehicle is in view at a time [s]."""
+        """Check whether a vehicle is in view at a time [s]."""
         return self.known(vehicle, time) and self.hidden(vehicle, time) is None
 
     def in_view(self, time: float) -> tuple[int, ...]:
-        """The other vehicles in view at a time [s], in order of their numbers."""
+        """Return the other vehicles in view at a time [s], in order of their numbers."""
         return tuple(v for v in self.ride.vehicles if self.visible(v, time))
 
     def last_seen(self, vehicle: int, time: float) -> float | None:
-        """When [s] a vehicle was in view last, up to a time; None where it never was."""
+        """Return when [s] a vehicle was in view last, up to a time; None where it never was."""
         if self.visible(vehicle, time):
             return time
         since = self.hidden(vehicle, time)
@@ -140,7 +140,7 @@ class States:
         return self._at(vehicle, time)
 
     def lately(self, vehicle: int, time: float) -> VehicleState | None:
-        """Where a vehicle was when it was in view last, up to a time [s]."""
+        """Return where a vehicle was when it was in view last, up to a time [s]."""
         last = self.last_seen(vehicle, time)
         return None if last is None else self._at(vehicle, last)
 
@@ -172,17 +172,17 @@ class States:
         return None if a is None or b is None else offset(a, b)
 
     def lights(self, vehicle: int, time: float) -> tuple[str, ...] | None:
-        """The lights that a vehicle shows at a time [s]; None where that is not known."""
+        """Return the lights that a vehicle shows at a time [s]; None where that is not known."""
         changes = [c for c in self.seen(vehicle).lights if c.time <= time + EPSILON]
         return changes[-1].shown if changes else None
 
     def road(self, time: float) -> RoadFacts | None:
-        """The road as it was known at a time [s]."""
+        """Return the road as it was known at a time [s]."""
         trace = self.trace(time)
         return None if trace is None else trace.road
 
     def place(self, vehicle: int, time: float) -> RoadPlace | None:
-        """Where on the road a vehicle is at a time [s], from the decision nearest to it."""
+        """Return where on the road a vehicle is at a time [s], from the decision nearest to it."""
         traces, after = self.ride.traces, bisect_left(self.ride.times, time - EPSILON)
         near = [k for k in (after - 1, after) if 0 <= k < len(traces)]
         near.sort(key=lambda k: abs(traces[k].sim_time - time))
@@ -193,7 +193,7 @@ class States:
         return None
 
     def pair(self, eye: int, other: int) -> Pair | None:
-        """One vehicle seen from another over all of the ride; None where they never met."""
+        """Return one vehicle seen from another over all of the ride; None where they never met."""
         if (eye, other) not in self._pairs:
             self._pairs[eye, other] = self._pair(eye, other)
         return self._pairs[eye, other]
@@ -221,11 +221,11 @@ class States:
         return Pair(time, ahead, left, turn, speed, es, (a.length + b.length) / 2.0)
 
     def lost(self, begin: float, end: float) -> bool:
-        """Whether some of the record between two times [s] was lost on its way."""
+        """Check whether some of the record between two times [s] was lost on its way."""
         return any(a <= end + EPSILON and begin <= b + EPSILON for a, b in self.ride.gaps)
 
     def gap(self, vehicle: int, time: float) -> Gap | None:
-        """Why it is not known where a vehicle is at a time [s]; None where it is."""
+        """Return why it is not known where a vehicle is at a time [s]; None where it is."""
         if time > self.ride.now + EPSILON:
             return "in-future"
         if time < self.begin - EPSILON:
@@ -238,7 +238,7 @@ class States:
 
 
 def states_of(ride: Ride) -> States:
-    """The states of a ride; worked out once for each ride object."""
+    """Return the states of a ride; worked out once for each ride object."""
     found = ride.notes.get("states")
     if not isinstance(found, States):
         found = ride.notes["states"] = States(ride)

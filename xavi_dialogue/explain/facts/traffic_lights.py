@@ -168,7 +168,7 @@ def _prediction(trace: PlanTrace, signal: Signal) -> LightPrediction | None:
 def _next(
     known: LightPrediction, signal: Signal, time: float, colour: LightColour
 ) -> Iterator[LightColour]:
-    """What it is expected to show next: in the likeliest course first."""
+    """Yield what it is expected to show next: in the likeliest course first."""
     at = known.places.index(signal.index)
     for course in sorted(known.courses, key=lambda c: -c.probability):
         for change in course.showings:
@@ -181,7 +181,7 @@ def _next(
 def _turns(
     known: LightPrediction, signal: Signal, trace: PlanTrace, to: LightColour
 ) -> Iterator[tuple[float, float]]:
-    """When [s] it shows something in each course within the horizon, with its probability."""
+    """Yield when [s] it shows something in each course within the horizon, with its probability."""
     at, end = known.places.index(signal.index), trace.sim_time + trace.settings.horizon
     for course in known.courses:
         for change in course.showings:
@@ -202,6 +202,6 @@ def _middle(times: Sequence[tuple[float, float]]) -> float | None:
 
 
 def _repeats(known: Sequence[Stretch], now: Stretch, time: float) -> bool:
-    """Whether the light was seen to show the same before, from beginning to end."""
+    """Check whether the light was seen to show the same before, from beginning to end."""
     before = [one for one in known if one.end <= time + ROUNDING and one is not now]
     return any(one.state == now.state and one.begun and one.changed for one in before)

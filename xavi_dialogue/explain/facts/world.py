@@ -44,21 +44,21 @@ class World:
         return self.ride.vehicles
 
     def in_view(self, t: float) -> tuple[int, ...]:
-        """The vehicles in view at a time, in order of their numbers."""
+        """Return the vehicles in view at a time, in order of their numbers."""
         return self.states.memo(("view", t), lambda: self.states.in_view(t))
 
     def look(self, vehicle: int, t: float) -> Look | None:
-        """A vehicle as it is seen at a time, or was seen last; None where it never was."""
+        """Return a vehicle as it is seen at a time, or was seen last; None where it never was."""
         return looks.look(self.states, vehicle, t)
 
     def road(self, t: float) -> RoadFacts | None:
-        """The road as it was known at a time; None where no record keeps it."""
+        """Return the road as it was known at a time; None where no record keeps it."""
         return self.states.road(t)
 
     def measure(
         self, attribute: Attribute, thing: Thing, at: float, to: Thing | None = None
     ) -> Measure:
-        """The value of an attribute at a time; where it has none, why."""
+        """Return the value of an attribute at a time; where it has none, why."""
         return measuring.measure(self.states, attribute, thing, at, to)
 
     def extreme(
@@ -70,7 +70,7 @@ class World:
         end: float,
         to: Thing | None = None,
     ) -> Measure:
-        """The highest, lowest, first, last, mean or total value over an interval."""
+        """Return the highest, lowest, first, last, mean or total value over an interval."""
         return extremes.extreme(self.states, attribute, thing, which, (begin, end), to)
 
     def episodes(
@@ -81,7 +81,7 @@ class World:
         end: float | None = None,
         object: Thing | int | None = None,  # noqa: A002
     ) -> tuple[Episode, ...]:
-        """The episodes that meet an interval, in order of their beginnings.
+        """Return the episodes that meet an interval, in order of their beginnings.
 
         Args:
             actor: who does it; None: anybody.
@@ -106,7 +106,7 @@ class World:
         return tuple(found)
 
     def holds(self, event: Event, begin: float, end: float) -> tuple[Episode, ...]:
-        """The episodes in an interval that are such a grounded event."""
+        """Return the episodes in an interval that are such a grounded event."""
         lit = light_episodes(self.states, event, begin, end)
         if lit is not None:
             return lit
@@ -120,41 +120,41 @@ class World:
         return happening.account(self.episodes(begin=begin, end=end))
 
     def duration(self, episode: Episode) -> float:
-        """How long [s] an episode lasted, or has lasted."""
+        """Return how long [s] an episode lasted, or has lasted."""
         return max((self.now if episode.end is None else episode.end) - episode.begin, 0.0)
 
     def delay(self, episode: Episode) -> Measure:
-        """What an episode of slowing down or standing cost against driving on as before."""
+        """Return what an episode of slowing down or standing cost against driving on as before."""
         return measuring.delay(self.states, episode)
 
     def relation(self, relation: Relation, thing: Thing, to: Thing, at: float) -> bool | None:
-        """Whether a relation holds at a time; None where that cannot be told."""
+        """Check whether a relation holds at a time; None where that cannot be told."""
         return relations.holds(self.states, relation, thing, to, at)
 
     def belief(self, vehicle: int, at: float) -> Belief | None:
-        """What was believed of a vehicle at the last decision up to a time."""
+        """Return what was believed of a vehicle at the last decision up to a time."""
         return beliefs.belief(self.states, vehicle, at)
 
     def beliefs(self, vehicle: int, begin: float, end: float) -> tuple[Belief, ...]:
-        """What was believed of a vehicle at each decision of an interval."""
+        """Return what was believed of a vehicle at each decision of an interval."""
         return beliefs.over(self.states, vehicle, begin, end)
 
     def probability(self, event: Event, at: float) -> float | None:
-        """How probable it was held that another vehicle does something; None: not known."""
+        """Return how probable it was held that another vehicle does something; None: not known."""
         return beliefs.probability(self.states, event, at)
 
     def plan(self, at: float) -> tuple[MacroAction, ...]:
-        """What the last decision up to a time meant to do, in order."""
+        """Return what the last decision up to a time meant to do, in order."""
         trace = self.states.trace(at)
         return () if trace is None else planned(trace)
 
     def decided(self, number: int) -> float | None:
-        """When [s] the decision of a number was taken; None where the record has none."""
+        """Return when [s] the decision of a number was taken; None where the record has none."""
         found = (t.sim_time for t in self.ride.traces if t.decision == number)
         return next(found, None)
 
     def beginnings(self) -> Mapping[ActionName, float]:
-        """When each action of the ego's plan is expected to begin [s]."""
+        """Return when each action of the ego's plan is expected to begin [s]."""
         return plans.beginnings(self.ride)
 
 

@@ -30,7 +30,7 @@ class Seen:
     hidden: tuple[Span, ...] = ()  # when it was behind something, its motion guessed
 
     def until(self, time: float) -> "Seen":
-        """What was known at the time [s] of a decision."""
+        """Return what was known at the time [s] of a decision."""
         lights = tuple(change for change in self.lights if change.time <= time + EPSILON)
         hidden = tuple((a, min(b, time)) for a, b in self.hidden if a < time - EPSILON)
         return Seen(self.motion.until(time), lights, hidden)
@@ -44,7 +44,7 @@ class Joined:
     seen: Mapping[int, Seen] = field(default_factory=dict)
 
     def extended(self, traces: Traces) -> "Joined":
-        """The same with further decisions, all of them given."""
+        """Return the same with further decisions, all of them given."""
         seen = dict(self.seen)
         parts: dict[int, _Part] = {}
         for trace in traces[len(self.traces) :]:
@@ -57,13 +57,13 @@ class Joined:
         return Joined(traces, seen)
 
     def until(self, traces: Traces) -> "Joined":
-        """The same with the first few decisions only."""
+        """Return the same with the first few decisions only."""
         time = traces[-1].sim_time
         seen = {v: known.until(time) for v, known in self.seen.items()}
         return Joined(traces, {v: known for v, known in seen.items() if known.motion.time})
 
     def reaching(self, scene: Scene) -> "Joined":
-        """The same with what was seen after the last decision.
+        """Return the same with what was seen after the last decision.
 
         What lies between is filled in evenly, as each was seen there and here.
         """
@@ -84,7 +84,7 @@ class Joined:
 
 
 def _reaching(motion: Motion, time: float, state: VehicleState) -> Motion:
-    """A motion with one more sample at a time [s], and those that are missing in between."""
+    """Return a motion with one more sample at a time [s], and those that are missing in between."""
     since = motion.time[-1] if motion.time else -math.inf
     count = math.ceil((time - since) / SAMPLE_PERIOD - 0.01) if time - since <= FILLED else 1
     if time <= since + EPSILON or count < 1:
@@ -109,7 +109,7 @@ _kept: list[Joined] = []  # latest first
 
 
 def joined(traces: Traces) -> Joined:
-    """What was seen of everybody in some decisions of a ride, oldest first."""
+    """Return what was seen of everybody in some decisions of a ride, oldest first."""
     if not traces:
         return Joined()
     for known in tuple(_kept):
@@ -177,7 +177,7 @@ class _Part:
                 self._lights.append(change)
 
     def seen(self) -> Seen:
-        """All that is known of it now."""
+        """Return all that is known of it now."""
         motion = self._known.motion
         if self._time:
             motion = Motion(

@@ -69,19 +69,19 @@ class Motion:
     speed: tuple[float, ...]  # [m/s] [N]
 
     def until(self, time: float) -> "Motion":
-        """The part up to a time [s]."""
+        """Return the part up to a time [s]."""
         n = bisect_right(self.time, time + EPSILON)
         if n == len(self.time):
             return self
         return Motion(self.time[:n], self.position[:n], self.heading[:n], self.speed[:n])
 
     def index(self, time: float) -> int | None:
-        """The last sample at or before a time [s]; None where the record begins later."""
+        """Return the last sample at or before a time [s]; None where the record begins later."""
         k = bisect_right(self.time, time + EPSILON) - 1
         return k if k >= 0 else None
 
     def within(self, begin: float, end: float) -> range:
-        """The samples from `begin` to `end` [s]."""
+        """Return the samples from `begin` to `end` [s]."""
         first = bisect_left(self.time, begin - EPSILON)
         return range(first, bisect_right(self.time, end + EPSILON))
 
@@ -100,7 +100,7 @@ class Motion:
         return "slowing" if rate < 0.0 else "speeding-up"
 
     def sightings(self) -> tuple[Sighting, ...]:
-        """What was done, in order of its start."""
+        """Return what was done, in order of its start."""
         return self._sightings
 
     @cached_property
@@ -111,11 +111,11 @@ class Motion:
         return tuple(sorted(found, key=lambda s: (s.start, s.end, s.action)))
 
     def times(self, action: ActionName) -> tuple[Sighting, ...]:
-        """All times that something was done, oldest first."""
+        """Return all times that something was done, oldest first."""
         return tuple(s for s in self.sightings() if s.action in _means(action))
 
     def first(self, action: ActionName) -> float | None:
-        """When [s] something of just this name was first done; None: never.
+        """Return when [s] something of just this name was first done; None: never.
 
         Changes of speed and stops are told without reading lane changes and turns.
         """
@@ -130,7 +130,7 @@ class Motion:
         return min((s.start for s in found), default=None)
 
     def last(self, action: ActionName) -> Sighting | None:
-        """The last time that something was done."""
+        """Return the last time that something was done."""
         return next(reversed(self.times(action)), None)
 
     def _speeds(self) -> list[Sighting]:
@@ -140,7 +140,7 @@ class Motion:
         ]
 
     def _changes_of_speed(self, action: ActionName, sign: float) -> Iterator[Sighting]:
-        """The stretches over which the speed grows, or falls where the sign is -1."""
+        """Yield the stretches over which the speed grows, or falls where the sign is -1."""
         foot = start = best = 0  # where it is measured from; where it leaves that; its end so far
         for k in range(1, len(self.speed) + 1):
             if k == len(self.speed) or sign * (self.speed[k] - self.speed[best]) < -WAVER:
@@ -193,7 +193,7 @@ class Motion:
         return tuple(accumulate(steps, initial=0.0)) if self.time else ()
 
     def parts(self) -> tuple["Motion", ...]:
-        """The stretches over which it was seen without a break."""
+        """Return the stretches over which it was seen without a break."""
         breaks = [k for k in range(1, len(self.time)) if self.time[k] - self.time[k - 1] > BROKEN]
         if not breaks:
             return (self,) if self.time else ()
@@ -248,7 +248,7 @@ def bends(motion: Motion) -> Iterator[Sighting]:
 
 
 def lane_changes(motion: Motion) -> Iterator[Sighting]:
-    """The lane changes of a path: sideways by a lane's width, and on in the same direction.
+    """Yield the lane changes of a path: sideways by a lane's width, and on in the same direction.
 
     Judged along the headings at both ends, so that neither a bend nor a slanted start counts.
     """
@@ -289,12 +289,12 @@ def _sideways(motion: Motion) -> Array:
 
 
 def branches_off(goal: GoalPrediction, way: TrajectoryPrediction) -> bool:
-    """Whether the way to a goal ends on a road that branches off the one that goes on."""
+    """Check whether the way to a goal ends on a road that branches off the one that goes on."""
     return goal.place in BRANCHES.values() and way.actions[-1:] == ("continue",)
 
 
 def steps(goal: GoalPrediction, way: TrajectoryPrediction) -> tuple[ActionName, ...]:
-    """What a vehicle does on the way to a goal; where its road branches off, it leaves."""
+    """Return what a vehicle does on the way to a goal; where its road branches off, it leaves."""
     return (*way.actions[:-1], "leave") if branches_off(goal, way) else way.actions
 
 
@@ -308,7 +308,7 @@ def foretold(goal: GoalPrediction, way: TrajectoryPrediction, action: ActionName
 
 
 def foresees(way: TrajectoryPrediction, action: ActionName) -> bool:
-    """Whether a predicted trajectory contains an action, or a change of speed it describes.
+    """Check whether a predicted trajectory contains an action, or a change of speed it describes.
 
     Who stands already stops if it stays, or stops again. Of a trajectory whose line the trace has
     no room for, the actions alone are known.
@@ -330,7 +330,7 @@ def _halts(speed: Sequence[float]) -> bool:
 
 
 def _means(action: ActionName) -> tuple[ActionName, ...]:
-    """The things seen or predicted that an action of a question may stand for."""
+    """Return the things seen or predicted that an action of a question may stand for."""
     meanings: dict[ActionName, tuple[ActionName, ...]] = {
         "continue": ("continue", "exit-straight"),
         "exit-straight": ("continue", "exit-straight"),

@@ -97,13 +97,13 @@ class Ride:
         return read_deeds(self.events)
 
     def stood(self, deed: Deed) -> float | None:
-        """When [s] the ego came to stand in a deed; None where it did not."""
+        """Return when [s] the ego came to stand in a deed; None where it did not."""
         motion, (_, end) = self.motion(EGO), deed.span
         inside = motion.within(deed.started, end)
         return next((motion.time[k] for k in inside if motion.speed[k] < STANDING), None)
 
     def _given_up(self, deed: Deed) -> bool:
-        """Whether it was a stop that came to no standstill."""
+        """Check whether it was a stop that came to no standstill."""
         over = deed.action == "stop" and deed.ended is not None
         known = len(self.motion(EGO).within(deed.started, deed.span[1])) > 0
         return over and known and self.stood(deed) is None
@@ -125,7 +125,7 @@ class Ride:
         return self.meant(moves, span) or self.meant(self.deeds, span)
 
     def back(self, time: float) -> "Ride":
-        """The ride as it stood at an earlier time [s]."""
+        """Return the ride as it stood at an earlier time [s]."""
         return self if time >= self.now else Ride(replace(self.record, now=time, ended=False))
 
     @cached_property
@@ -134,7 +134,7 @@ class Ride:
         return tuple(sorted(self._joined.seen.keys() - {EGO}))
 
     def model(self, trace: PlanTrace) -> CausalModel:
-        """The causal model of a trace."""
+        """Return the causal model of a trace."""
         if id(trace) not in self._models:
             self._models[id(trace)] = CausalModel(trace)
         return self._models[id(trace)]
@@ -149,7 +149,7 @@ class Ride:
         return self._joined.seen.get(vehicle) or Seen()
 
     def motion(self, vehicle: int) -> Motion:
-        """The recorded motion of a vehicle, joined over all traces."""
+        """Return the recorded motion of a vehicle, joined over all traces."""
         return self.seen(vehicle).motion
 
     @cached_property
@@ -158,12 +158,12 @@ class Ride:
         return [trace.sim_time for trace in self.traces]
 
     def index(self, time: float) -> int | None:
-        """Which of `traces` is the last decision at or before a time [s]."""
+        """Return which of `traces` is the last decision at or before a time [s]."""
         k = bisect_right(self.times, time + ROUNDING) - 1
         return k if k >= 0 else None
 
     def at(self, time: float, vehicle: int = EGO) -> PlanTrace | None:
-        """The last decision at or before a time [s] that knows a vehicle."""
+        """Return the last decision at or before a time [s] that knows a vehicle."""
         last = self.index(time)
         while last is not None and last >= 0:
             if vehicle in self.traces[last].scene:
@@ -172,7 +172,7 @@ class Ride:
         return None
 
     def choice_of(self, deed: Deed) -> PlanTrace:
-        """The last decision for a deed that still had alternatives.
+        """Return the last decision for a deed that still had alternatives.
 
         Where that is not in the record, the first one that decided so again.
 
@@ -190,7 +190,7 @@ class Ride:
         return found[0]
 
     def variants(self, trace: PlanTrace, removed: Collection[int] = ()) -> tuple[PlanTrace, ...]:
-        """The plans made again from a decision, without some vehicles or with all of them.
+        """Return the plans made again from a decision, without some vehicles or with all of them.
 
         Those for which something was supposed of another vehicle, of lights, or of what is hidden
         are left out.
@@ -235,7 +235,7 @@ class Ride:
         )
 
     def cannot_have(self, need: NeedRollout) -> bool:
-        """Whether the planner was asked for something and could not give it."""
+        """Check whether the planner was asked for something and could not give it."""
         return need in self.record.refused
 
     def original(self, trace: PlanTrace) -> PlanTrace:
@@ -291,7 +291,7 @@ class Ride:
 
 
 def _of_other(what_if: WhatIf) -> tuple[object, ...]:
-    """What a request supposes of another vehicle."""
+    """Return what a request supposes of another vehicle."""
     return what_if.vehicle, what_if.goal, what_if.vehicle_actions, what_if.faster
 
 
@@ -304,12 +304,12 @@ def meets(done: tuple[float, float], span: Span) -> bool:
 
 
 def enough(intervention: Intervention) -> bool:
-    """Whether there is enough evidence to speak of an intervention."""
+    """Check whether there is enough evidence to speak of an intervention."""
     return intervention.coverage >= MIN_COVERAGE or len(intervention.results) >= MIN_DISTINCT
 
 
 def thin(actions: Sequence[Action], found: Intervention | None) -> Unanswered:
-    """The refusal where there is not enough evidence."""
+    """Return the refusal where there is not enough evidence."""
     distinct = len(found.results) if found else 0
     asked = tuple(actions)
     return Unanswered(
@@ -318,15 +318,15 @@ def thin(actions: Sequence[Action], found: Intervention | None) -> Unanswered:
 
 
 def chose(trace: PlanTrace, action: Action) -> bool:
-    """Whether a decision chose an action and had alternatives to it."""
+    """Check whether a decision chose an action and had alternatives to it."""
     return trace.under_way is None and bool(trace.plan) and trace.plan[0].action == action
 
 
 def planned(trace: PlanTrace) -> Actions:
-    """The actions of a decision's plan."""
+    """Return the actions of a decision's plan."""
     return tuple(step.action for step in trace.plan)
 
 
 def prediction(trace: PlanTrace, vehicle: int) -> VehiclePrediction | None:
-    """What a decision expects of a vehicle."""
+    """Return what a decision expects of a vehicle."""
     return next((p for p in trace.predictions if p.vehicle == vehicle), None)

@@ -78,7 +78,7 @@ def _joined(ride: Ride, signal: Signal) -> Iterator[Stretch]:
 
 
 def _changes(ride: Ride, signal: Signal) -> dict[float, str]:
-    """The letters that a light changed to, by time [s]; UNSEEN where it went out of view."""
+    """Return the letters that a light changed to, by time [s]; UNSEEN where it went out of view."""
     found: dict[float, str] = {}
     for trace in ride.traces:
         for light in trace.lights:
@@ -93,7 +93,7 @@ def _changes(ride: Ride, signal: Signal) -> dict[float, str]:
 
 
 def _known(ride: Ride, signal: Signal) -> list[float]:
-    """When [s] a light was looked at and in view."""
+    """Return when [s] a light was looked at and in view."""
     found = [
         trace.sim_time
         for trace in ride.traces
@@ -107,7 +107,7 @@ def _known(ride: Ride, signal: Signal) -> list[float]:
 
 
 def _last(known: list[float], time: float) -> float:
-    """The last look [s] up to a time."""
+    """Return the last look [s] up to a time."""
     return max((one for one in known if one <= time + ROUNDING), default=0.0)
 
 

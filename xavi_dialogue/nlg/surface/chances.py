@@ -8,7 +8,7 @@ LEAST = 0.01 - 1e-9  # from which a probability is stated in whole percent
 
 
 def chance(probability: float, form: str) -> str:
-    """A probability in words, or in percent with the form "percent".
+    """Return a probability in words, or in percent with the form "percent".
 
     Raises:
         WordingError: the table has no words of that form.

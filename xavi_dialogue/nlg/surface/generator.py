@@ -56,7 +56,7 @@ Token: TypeAlias = Word | Slot
 
 
 def expand(grammar: Grammar, start: str, *values: object) -> tuple[Token, ...]:
-    """The tokens of rule `start` with `values` for its parameters.
+    """Return the tokens of rule `start` with `values` for its parameters.
 
     Raises:
         ExpansionError: no alternative fits, or a slot has no value.
@@ -75,7 +75,7 @@ def expand(grammar: Grammar, start: str, *values: object) -> tuple[Token, ...]:
 
 
 def fitting(rule: Rule, scope: Mapping[str, object]) -> Iterator[Alternative]:
-    """The alternatives of a rule whose guards hold for the values in its scope, in order."""
+    """Yield the alternatives of a rule whose guards hold for the values in its scope, in order."""
     for alternative in rule.alternatives:
         if all(_holds(comparison, scope) for comparison in alternative.guard):
             yield alternative
@@ -84,7 +84,7 @@ def fitting(rule: Rule, scope: Mapping[str, object]) -> Iterator[Alternative]:
 def filled(
     alternative: Alternative, scope: Mapping[str, object], grammar: Grammar, rule: str
 ) -> tuple[Token, ...]:
-    """The tokens of an alternative of a rule, with the values in its scope."""
+    """Return the tokens of an alternative of a rule, with the values in its scope."""
     return tuple(token for item in alternative.items for token in _fill(item, scope, grammar, rule))
 
 
@@ -172,5 +172,5 @@ def _of_tuple(value: tuple[object, ...], name: str) -> object:
 
 
 def _present(value: object) -> bool:
-    """Whether there is something to speak of: 0 is, but None, False, "" and () are not."""
+    """Check whether there is something to speak of: 0 is, but None, False, "" and () are not."""
     return not (value is None or value is False or value in ("", ()))

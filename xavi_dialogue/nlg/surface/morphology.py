@@ -55,7 +55,7 @@ def inflect(
 
 
 def fill(slot: Slot, speaker: Speaker) -> str:
-    """The words for a value in the form that the slot asks for.
+    """Return the words for a value in the form that the slot asks for.
 
     Raises:
         FormError: the value has no such form.
@@ -97,7 +97,7 @@ def fill(slot: Slot, speaker: Speaker) -> str:
 
 
 def clause(value: Clause, form: str, speaker: Speaker) -> str:
-    """A clause: "I did not turn right"; its question, or its verb phrase in a form.
+    """Return a clause: "I did not turn right"; its question, or its verb phrase in a form.
 
     Raises:
         FormError: a clause has no such form.
@@ -137,7 +137,7 @@ def clause(value: Clause, form: str, speaker: Speaker) -> str:
 
 
 def bare(value: Clause, speaker: Speaker) -> str:
-    """The verb phrase in the form that goes with the auxiliary of the clause before."""
+    """Return the verb phrase in the form that goes with the auxiliary of the clause before."""
     simple = value.tense in ("past", "present") and value.modal is None
     if value.progressive:
         return clause(value, "gerund", speaker)
@@ -157,7 +157,7 @@ def _subject(value: Clause, speaker: Speaker) -> str:
 
 
 def _owned(value: Owned, speaker: Speaker) -> str:
-    """A noun with its owner: "its speed", but "the speed of the blue car ahead of us"."""
+    """Return a noun with its owner: "its speed", but "the speed of the blue car ahead of us"."""
     owner = speaker.refer(value.owner, "possessive")
     if " " not in owner:
         return f"{owner} {value.noun}"

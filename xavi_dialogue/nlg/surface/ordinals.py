@@ -5,7 +5,7 @@ WORDS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eig
 
 
 def ordinal(rank: int) -> str:
-    """An ordinal number; -1 is the last."""
+    """Return an ordinal number; -1 is the last."""
     if rank == -1:
         return "last"
     if 1 <= rank <= len(WORDS):

@@ -19,7 +19,7 @@ def join(words: tuple[str, ...]) -> str:
 
 
 def capitalise(text: str) -> str:
-    """The text with a capital at the start of every sentence."""
+    """Return the text with a capital at the start of every sentence."""
     return _SENTENCE_START.sub(lambda m: m[1] + m[2].upper(), text)
 
 
@@ -29,6 +29,6 @@ def count_sentences(text: str) -> int:
 
 
 def sentence(text: str) -> str:
-    """The text with a full stop at its end, unless it ends in a stop."""
+    """Return the text with a full stop at its end, unless it ends in a stop."""
     text = text.rstrip(" ,;:")
     return text if text.endswith((".", "?", "!", '."', '?"', '!"')) else f"{text}."

@@ -18,7 +18,7 @@ EXACT = ("less ", "over ", "under ", "more ", "half ", "a moment")  # take no "a
 
 
 def quantity(amount: Quantity, form: str = "plain") -> str:
-    """A quantity in words.
+    """Return a quantity in words.
 
     Args:
         amount: the number with its unit.
@@ -45,26 +45,26 @@ def span(amounts: Range, form: str = "to") -> str:
 
 
 def number(amount: Number, form: str = "plain") -> str:
-    """A count with its noun, which fits it: "one car", "two cars", "no cars"."""
+    """Return a count with its noun, which fits it: "one car", "two cars", "no cars"."""
     noun = amount.noun if amount.count == 1 else plural(amount.noun)
     numeral = SMALL[amount.count] if 0 <= amount.count < len(SMALL) else str(amount.count)
     return {"word": numeral, "noun": noun}.get(form, f"{numeral} {noun}")
 
 
 def plural(noun: str) -> str:
-    """The plural of a noun phrase that ends with its noun."""
+    """Return the plural of a noun phrase that ends with its noun."""
     head, _, last = noun.rpartition(" ")
     known = table("vehicles")["plural"].get(last)
     return f"{head} {known or last + 's'}".strip()
 
 
 def nearest(value: float, step: float = 1) -> float:
-    """The nearest multiple of a step, halves upwards."""
+    """Return the nearest multiple of a step, halves upwards."""
     return math.floor(value / step + 0.5) * step
 
 
 def clock(value: float) -> str:
-    """A time of the ride in minutes and full seconds."""
+    """Return a time of the ride in minutes and full seconds."""
     whole = math.floor(max(value, 0.0) + ROUNDING)
     minutes, seconds = divmod(whole, 60)
     if whole < HOUR:

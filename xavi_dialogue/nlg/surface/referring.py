@@ -59,7 +59,7 @@ class Speaker:
     passenger: bool = False  # the words are put into the passenger's mouth: "you" rather than "I"
 
     def refer(self, who: Who, form: str) -> str:
-        """The words for somebody or something, and remember that it was named."""
+        """Return the words for somebody or something, and remember that it was named."""
         thing = who.thing
         if isinstance(thing, Ego):
             words = _ego(who, form)
@@ -86,7 +86,7 @@ class Speaker:
         return _owned(self._named(vehicle, who), form)
 
     def on_foot(self, vehicle: Vehicle, who: Who) -> bool:
-        """Whether a vehicle is somebody on foot, and may be spoken of as such."""
+        """Check whether a vehicle is somebody on foot, and may be spoken of as such."""
         look = self.context.look(vehicle.number, who.time)
         return look is not None and look.kind in ON_FOOT and self.context.style != "paper"
 
@@ -122,11 +122,11 @@ class Speaker:
         return " ".join(f"{article} {_head(look, who)} {place} ({label})".split())
 
     def _brief(self, vehicle: int) -> bool:
-        """Whether the number alone is to tell it apart: it was described before."""
+        """Check whether the number alone is to tell it apart: it was described before."""
         return vehicle in self.context.named
 
     def _place(self, look: Look, who: Who) -> str:
-        """Where it is, or was at the time spoken of, where it is elsewhere now."""
+        """Return where it is, or was at the time spoken of, where it is elsewhere now."""
         now = self.context.now
         if not look.in_view:
             return "that I saw last " + word("vehicles", "place", look.bearing)
@@ -172,7 +172,7 @@ def _owned(words: str, form: str) -> str:
 
 
 def noun(look: Look) -> str:
-    """The noun for a vehicle of that kind."""
+    """Return the noun for a vehicle of that kind."""
     return word("vehicles", "kind", look.kind)
 
 
@@ -273,7 +273,7 @@ def _named_thing(thing: Thing, form: str) -> str:
 
 
 def listed(parts: list[str], last: str = "and") -> str:
-    """The parts as people list them: a, b and c."""
+    """Return the parts as people list them: a, b and c."""
     if len(parts) < 2:
         return "".join(parts)
     return f"{', '.join(parts[:-1])} {last} {parts[-1]}"

@@ -182,7 +182,7 @@ def read_grammar(text: str, name: str = "grammar") -> dict[str, Rule]:
 
 @cache
 def load_grammar(name: str) -> dict[str, Rule]:
-    """The grammar `grammars/<name>.rules`.
+    """Return the grammar `grammars/<name>.rules`.
 
     Raises:
         GrammarError: see `read_grammar`.
@@ -193,7 +193,7 @@ def load_grammar(name: str) -> dict[str, Rule]:
 
 @cache
 def load_grammars(*names: str) -> dict[str, Rule]:
-    """The rules of several grammars as one, whose rules may call each other's.
+    """Return the rules of several grammars as one, whose rules may call each other's.
 
     Raises:
         GrammarError: see `read_grammar`.

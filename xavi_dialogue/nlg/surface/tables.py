@@ -17,7 +17,7 @@ class WordingError(ValueError):
 
 @cache
 def table(name: str) -> Mapping[str, Any]:
-    """The contents of `grammars/<name>.toml`.
+    """Return the contents of `grammars/<name>.toml`.
 
     Raises:
         WordingError: the file is not TOML.
@@ -30,7 +30,7 @@ def table(name: str) -> Mapping[str, Any]:
 
 
 def word(name: str, section: str, key: str) -> str:
-    """The entry `key` of a section of `grammars/<name>.toml`.
+    """Return the entry `key` of a section of `grammars/<name>.toml`.
 
     Raises:
         WordingError: there is none.
@@ -42,6 +42,6 @@ def word(name: str, section: str, key: str) -> str:
 
 
 def afoot(phrase: str) -> str:
-    """The verb phrase for people on foot, where it differs."""
+    """Return the verb phrase for people on foot, where it differs."""
     found = table("doings")["on-foot"].get(phrase, phrase)
     return str(found)

@@ -30,7 +30,7 @@ class Conjugated:
 
 
 def inflect(phrase: str, form: Form) -> str:
-    """The phrase with its verb, which comes first, in a form."""
+    """Return the phrase with its verb, which comes first, in a form."""
     verb, _, rest = phrase.partition(" ")
     return f"{_form(verb, form)} {rest}".strip()
 
@@ -38,7 +38,7 @@ def inflect(phrase: str, form: Form) -> str:
 def conjugate(
     phrase: str, tense: Tense, person: Person, *, progressive: bool, modal: str | None
 ) -> Conjugated:
-    """The parts of a verb phrase in a tense, for a person."""
+    """Return the parts of a verb phrase in a tense, for a person."""
     head, tail = _auxiliaries(tense, person, modal)
     form: Form = "base"
     if tail == "have":
@@ -56,7 +56,7 @@ def conjugate(
 
 
 def _auxiliaries(tense: Tense, person: Person, modal: str | None) -> tuple[str, str]:
-    """The first auxiliary, and what follows: "" (base), "have", or "simple" tense."""
+    """Return the first auxiliary, and what follows: "" (base), "have", or "simple" tense."""
     if modal is not None:
         return modal, "have" if tense in ("past", "perfect", "conditional-perfect") else ""
     match tense:

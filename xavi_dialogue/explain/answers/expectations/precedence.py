@@ -65,7 +65,7 @@ def into_our_road(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
 
 
 def planned_line(trace: PlanTrace) -> Motion | None:
-    """The line that goes farthest of those that drive as planned."""
+    """Return the line that goes farthest of those that drive as planned."""
     plan, known = planned(trace)[:1], lines(trace)
     fitting = [
         known[r.index]
@@ -77,13 +77,13 @@ def planned_line(trace: PlanTrace) -> Motion | None:
 
 
 def _reached(ours: Motion, place: Point) -> float | None:
-    """When [s] we pass a place; None where our line does not lead past it."""
+    """Return when [s] we pass a place; None where our line does not lead past it."""
     best = min((_apart(a, b, place), k) for k, (a, b) in enumerate(pairwise(ours.position)))
     return ours.time[best[1]] if best[0] <= MEETING else None
 
 
 def _apart(a: Point, b: Point, place: Point) -> float:
-    """How far [m] a place is from the line between two others."""
+    """Return how far [m] a place is from the line between two others."""
     (ax, ay), (bx, by), (x, y) = a, b, place
     length = (bx - ax) ** 2 + (by - ay) ** 2
     along = 0.0 if length == 0.0 else ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length

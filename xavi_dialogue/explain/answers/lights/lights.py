@@ -88,7 +88,7 @@ def _asked(found: Explainer) -> Explainer:
 
 
 def _of_fact(question: object) -> Explainer | None:
-    """Who answers what a light is, was, where it is, or why it is so."""
+    """Return who answers what a light is, was, where it is, or why it is so."""
     match question:
         case HowMuch(Measured(attribute="colour" | "kind", thing=Feature(kind="light"))):
             return _asked(lights_seen.colour)

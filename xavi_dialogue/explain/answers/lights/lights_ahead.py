@@ -112,7 +112,7 @@ def expected(question: Any, scene: Asked) -> Answer:
 def _when_expected(
     scene: Asked, light: Feature, wanted: LightColour | None, *, past: bool
 ) -> float | None:
-    """The moment [s] whose expectation is asked about; None: now."""
+    """Return the moment [s] whose expectation is asked about; None: now."""
     if not past:
         return None
     if scene.past is not None and scene.past.said:

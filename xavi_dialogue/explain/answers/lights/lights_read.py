@@ -30,7 +30,7 @@ def things(of: object) -> tuple[object, ...]:
 
 
 def of_showing(of: object) -> tuple[Feature, LightColour | None] | None:
-    """The light of which it is said that it shows, or turns to, a colour."""
+    """Return the light of which it is said that it shows, or turns to, a colour."""
     match of:
         case Has(attribute="colour", value=value, thing=Feature(kind="light") as light):
             return light, SAID.get(value)
@@ -46,7 +46,7 @@ def _object_colour(event: Event) -> str:
 
 
 def passing(of: Proposition | None) -> Event | None:
-    """The event of our passing a light."""
+    """Return the event of our passing a light."""
     inner, negated = unwrapped(of)
     if not isinstance(inner, Happens) or negated or not is_own(inner.event.actor):
         return None
@@ -75,7 +75,7 @@ def of_another(that: Proposition | None) -> bool:
 
 
 def stated(that: Proposition | None) -> Proposition | None:
-    """What is said of a light, where facts tell whether it is so."""
+    """Return what is said of a light, where facts tell whether it is so."""
     of, _ = unwrapped(that)
     match of:
         case Has() | Happens() if of_showing(of) is not None:
@@ -93,7 +93,7 @@ def alike(one: Shown, wanted: LightColour) -> bool:
 
 
 def moment(of: object, scene: Asked, light: Feature) -> tuple[float, bool]:
-    """The moment [s] asked about, and whether it lies behind.
+    """Return the moment [s] asked about, and whether it lies behind.
 
     Spoken of in the past with no time said, it is when we passed the last light's line.
     """
@@ -122,7 +122,7 @@ def within(scene: Asked, begin: float, end: float) -> Passing | None:
 
 
 def place(scene: Asked, light: Feature, time: float) -> dict[str, float | None]:
-    """How far ahead of us a light is at a time [s], or when we passed it."""
+    """Return how far ahead of us a light is at a time [s], or when we passed it."""
     signal = meant(scene.ride, light, time)
     far = (x.distance for x in ahead(scene.ride, time) if _is(signal, x.controller, x.place))
     done = [p.time for p in passings(scene.ride) if p.signal == signal]

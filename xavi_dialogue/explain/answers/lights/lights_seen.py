@@ -99,7 +99,7 @@ def _judged(that: Proposition, scene: Asked, *, claim: bool) -> Answer:
 
 
 def _has_turned(scene: Asked, light: Feature, wanted: LightColour | None) -> bool:
-    """Whether the light was seen to turn to a colour in the time asked about."""
+    """Check whether the light was seen to turn to a colour in the time asked about."""
     past = scene.past
     begin, end = (0.0, scene.now) if past is None else (past.begin, past.end)
     event = Event("turn-colour", light, Feature("light", colour=wanted))
@@ -137,7 +137,7 @@ def seen_any(question: Which, scene: Asked) -> Answer:
 
 
 def ours(question: Which, scene: Asked) -> Answer:
-    """Who has green: that is known of us alone."""
+    """Return who has green: that is known of us alone."""
     return LightTold("colour", shown_at(scene.ride, Feature("light"), scene.now), time=scene.now)
 
 
@@ -163,7 +163,7 @@ def count(question: HowMany, scene: Asked) -> Answer:
 
 
 def when(question: When, scene: Asked) -> Answer:
-    """When it came to show a colour: the last time up to the moment asked about."""
+    """Return when it came to show a colour: the last time up to the moment asked about."""
     found = of_showing(question.of)
     tense = getattr(question.of, "tense", "past")
     one = shown_at(scene.ride, found[0], scene.now) if found is not None else None

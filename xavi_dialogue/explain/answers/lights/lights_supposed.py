@@ -80,7 +80,7 @@ def supposed(question: WhatIf, scene: Asked) -> Answer:
 
 
 def _would(then: Question | None, *, waits: bool) -> bool | None:
-    """The reply where it is asked whether we would have stopped then, or driven on."""
+    """Return the reply where it is asked whether we would have stopped then, or driven on."""
     event = event_of(then.that) if isinstance(then, Whether) else None
     if event is None or not is_own(event.actor):
         return None
@@ -88,7 +88,7 @@ def _would(then: Question | None, *, waits: bool) -> bool | None:
 
 
 def _meant_colour(wanted: LightColour | None, now: Shown | None, *, negated: bool) -> LightColour:
-    """What a light is supposed to show: "green", "not red", "changed", "not changed"."""
+    """Return what a light is supposed to show: "green", "not red", "changed", "not changed"."""
     red = now is not None and now.colour in ("red", "red-amber")
     if wanted is None:
         return "red" if red == negated else "green"
@@ -98,14 +98,14 @@ def _meant_colour(wanted: LightColour | None, now: Shown | None, *, negated: boo
 
 
 def _is_open(now: Shown | None, wanted: LightColour) -> bool:
-    """Whether what is supposed in the past tense may still come: "if it stayed red"."""
+    """Check whether what is supposed in the past tense may still come: "if it stayed red"."""
     return now is not None and now.end is None and now.colour == wanted
 
 
 def _decision(
     scene: Asked, light: Feature, wanted: LightColour, *, past: bool
 ) -> tuple[PlanTrace, Signal | None]:
-    """The decision at which it would have mattered, and the light.
+    """Return the decision at which it would have mattered, and the light.
 
     Supposed green, that is the first at which it held us; else the last before we passed it.
     """
@@ -131,7 +131,7 @@ def _decision(
 
 
 def _held(again: PlanTrace, signal: Signal) -> bool:
-    """Whether the light holds us under what would then be planned."""
+    """Check whether the light holds us under what would then be planned."""
     found = held_at(again, EGO)
     if found is not None and found[0] == signal:
         return True
@@ -143,7 +143,7 @@ def _held(again: PlanTrace, signal: Signal) -> bool:
 
 
 def _passing(ride: Ride, trace: PlanTrace, again: PlanTrace, signal: Signal) -> float | None:
-    """When [s] we would have passed the line, in the drives that are planned then."""
+    """Return when [s] we would have passed the line, in the drives that are planned then."""
     far = [x.distance for x in ahead(ride, trace.sim_time) if _signal(x) == signal]
     if not far:
         return None

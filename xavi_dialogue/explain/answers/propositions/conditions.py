@@ -123,7 +123,7 @@ def _safe(of: Is, asked: Asked) -> Finding:
 
 
 def _is_option(event: Event, asked: Asked) -> bool:
-    """Whether we could do something now that we are not doing."""
+    """Check whether we could do something now that we are not doing."""
     if not is_us(event.actor) or not set(names_of(event)) & MANOEUVRES:
         return False
     return occasion(asked, event) is None

@@ -315,7 +315,7 @@ def _of_kind(asked: Asked, vehicles: tuple[int, ...], kind: Kind, at: float) -> 
 
 
 def _open(event: Event) -> Event:
-    """An event asked of somebody: without a part that is asked for, its actor is."""
+    """Return an event asked of somebody: without a part that is asked for, its actor is."""
     parts = (event.actor, event.object)
     return event if any(_wants(part) for part in parts) else replace(event, actor=Wanted())
 

@@ -145,7 +145,7 @@ def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) 
 
 
 def _goes_first(event: Event) -> bool:
-    """Whether another vehicle is said to go first: its right of way tells why."""
+    """Check whether another vehicle is said to go first: its right of way tells why."""
     going = event.action in GOING and manner_of(event, "first") is not None
     return going and vehicle_in(event.actor) is not None
 
@@ -233,7 +233,7 @@ def _joined(event: Event, scene: Asked, instead: Proposition | None) -> Answer:
 
 
 def _tells_way(event: Event) -> bool:
-    """Whether going is asked about as a way: round a junction, to a side, out of an exit."""
+    """Check whether going is asked about as a way: round a junction, to a side, out of an exit."""
     return isinstance(event.object, Junction | Exit) or bool(event.side or event.where)
 
 
@@ -279,7 +279,7 @@ def _not_joining(event: Event, scene: Asked, instead: Event | None) -> Answer:
 
 
 def _not_going(event: Event, scene: Asked) -> Answer:
-    """Why we did not go: whom we stood or slowed for; else why we did otherwise."""
+    """Return why we did not go: whom we stood or slowed for; else why we did otherwise."""
     speed = speed_at(scene.ride, scene.moment)
     if not is_past(scene, event) and (speed is None or speed < STANDING):
         return motions.motion(Event("stand", tense="present"), scene)

@@ -67,14 +67,14 @@ def why(event: Event | None, scene: Asked, instead: Proposition | None = None) -
 
 
 def _reason(scene: Asked, event: Event | None, found: Premise, against: Contrast) -> ChoiceReason:
-    """The reason for what was chosen, with whom a lane was left for."""
+    """Return the reason for what was chosen, with whom a lane was left for."""
     past = _over(scene, event, found)
     ahead = _left_for(scene, found, against)
     return ChoiceReason("why", deed_of(scene, found), against, past=past, ahead=ahead)
 
 
 def _left_for(scene: Asked, found: Premise, against: Contrast) -> MotionCause | None:
-    """Who stood or crept in the lane that was left, where one was."""
+    """Return who stood or crept in the lane that was left, where one was."""
     first = against.fact[:1]
     if found.node or not first or first[0] not in CHANGES:
         return None
@@ -84,7 +84,7 @@ def _left_for(scene: Asked, found: Premise, against: Contrast) -> MotionCause | 
 
 
 def _beside(scene: Asked, found: Premise, against: Contrast) -> MotionCause | None:
-    """Who is in the lane that was left alone: beside us, or slower than we drive."""
+    """Return who is in the lane that was left alone: beside us, or slower than we drive."""
     if found.node or against.foil[0] not in CHANGES or against.route is not None:
         return None
     return in_lane_beside(scene.ride, scene.world, against.decided, against.foil[0])
@@ -220,7 +220,7 @@ def deed_of(scene: Asked, found: Premise) -> Episode | None:
 
 
 def _over(scene: Asked, event: Event | None, found: Premise) -> bool:
-    """Whether it is stated as past: what was asked so, or has ended."""
+    """Check whether it is stated as past: what was asked so, or has ended."""
     if found.deed is None:
         return is_past(scene, event) and found.trace is not scene.ride.latest
     if found.deed.ended is None and (event is None or event.tense != "future"):
@@ -229,5 +229,5 @@ def _over(scene: Asked, event: Event | None, found: Premise) -> bool:
 
 
 def _lasted(deed: Deed) -> bool:
-    """Whether it was more than given up at once."""
+    """Check whether it was more than given up at once."""
     return deed.ended is None or deed.ended - deed.started >= LEAST

@@ -68,7 +68,7 @@ def sideways(event: Event, scene: Asked) -> Event:
 
 
 def crossed(scene: Asked) -> Deed | None:
-    """The last junction that we went into up to the moment asked about."""
+    """Return the last junction that we went into up to the moment asked about."""
     before = [
         deed
         for deed in scene.ride.deeds
@@ -80,7 +80,7 @@ def crossed(scene: Asked) -> Deed | None:
 
 
 def _lately(scene: Asked, deed: Deed) -> bool:
-    """Whether a deed goes on at the moment asked about, or was over shortly before."""
+    """Check whether a deed goes on at the moment asked about, or was over shortly before."""
     return deed.ended is None or deed.ended >= scene.moment - JUST
 
 

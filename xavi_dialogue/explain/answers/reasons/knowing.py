@@ -260,7 +260,7 @@ def _trace_at(scene: Asked) -> PlanTrace:
 
 
 def _whom(scene: Asked, of: Proposition | None, event: Event | None) -> int | None:
-    """The other vehicle that a proposition is about."""
+    """Return the other vehicle that a proposition is about."""
     if event is not None:
         return check_seen(scene, event.actor)
     thing = getattr(of, "thing", None)
@@ -303,7 +303,7 @@ def _because_of(event: Event, scene: Asked) -> int | None:
 
 
 def _moved(rows: list[Belief], chances: list[float], *, asked: bool) -> tuple[Belief, ...]:
-    """The beliefs where they moved, the first and the last."""
+    """Return the beliefs where they moved, the first and the last."""
     kept: list[int] = []
     for k, row in enumerate(rows):
         if kept and k < len(rows) - 1:
@@ -335,7 +335,7 @@ def _turning(
 
 
 def _meanwhile(scene: Asked, vehicle: int, told: tuple[float, float]) -> Episode | None:
-    """What a vehicle did while the belief moved."""
+    """Return what a vehicle did while the belief moved."""
     seen = scene.world.episodes(Vehicle(vehicle), begin=told[0], end=told[1])
     real = [e for e in seen if e.action not in ("appear", "disappear", "follow", "move")]
     return real[-1] if real else None
@@ -344,7 +344,7 @@ def _meanwhile(scene: Asked, vehicle: int, told: tuple[float, float]) -> Episode
 def _went(
     scene: Asked, vehicle: int, since: float, names: tuple[ActionName, ...]
 ) -> Episode | None:
-    """Where a vehicle went after a time [s], or to which lane where that was asked about."""
+    """Return where a vehicle went after a time [s], or to which lane where that was asked about."""
     kinds = CHANGES if set(names) & set(CHANGES) else EXITS
     found = scene.world.episodes(Vehicle(vehicle), tuple(kinds), begin=since)
     return next((one for one in found if since <= one.begin <= since + FORESEEN), None)

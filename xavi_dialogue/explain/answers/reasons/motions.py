@@ -297,7 +297,7 @@ def _speaks(contrast: Contrast, *, somebody: bool) -> bool:
 
 
 def _given_up(scene: Asked, deed: Episode) -> bool:
-    """Whether a stop that had been decided was given up before we stood."""
+    """Check whether a stop that had been decided was given up before we stood."""
     if deed.action in STILL or chose(scene.ride.latest, "stop"):
         return False
     return deed.speed_to is None or deed.speed_to > CREEPING
@@ -316,7 +316,7 @@ def _state(scene: Asked, event: Event, named: ActionName) -> Answer:
 
 
 def _denied(scene: Asked, event: Event, rows: tuple[tuple[ActionName, ...], ...]) -> Unanswered:
-    """The refusal where we did not drive so; with when we did, or what we did instead."""
+    """Return the refusal where we did not drive so; with when we did, or what we did instead."""
     for kinds in rows:
         others = scene.world.episodes(Ego(), kinds)
         near = when.pick(_loose(scene), others, lambda e: (e.begin, e.end))
@@ -328,5 +328,5 @@ def _denied(scene: Asked, event: Event, rows: tuple[tuple[ActionName, ...], ...]
 
 
 def _loose(scene: Asked) -> Span | None:
-    """The span as one that was only inferred, so that the nearest is found."""
+    """Return the span as one that was only inferred, so that the nearest is found."""
     return None if scene.span is None else replace(scene.span, said=False)

@@ -46,12 +46,12 @@ def mattered(scene: Asked, found: Answer) -> Answer:
 
 
 def _away(trace: PlanTrace, vehicle: int) -> float:
-    """How far [m] away a vehicle was."""
+    """Return how far [m] away a vehicle was."""
     return math.dist(trace.scene[vehicle].position, trace.scene[EGO].position)
 
 
 def _decision(scene: Asked, names: tuple[str, ...]) -> PlanTrace | None:
-    """The recorded decision that a reason rests on."""
+    """Return the recorded decision that a reason rests on."""
     return next((t for t in scene.ride.traces if t.trace_id in names), None)
 
 

@@ -107,7 +107,7 @@ def believed(content: Proposition, scene: Asked) -> Answer:
 
 
 def _standing(event: Event, scene: Asked, vehicle: int) -> Answer:
-    """Why it does not go: it stands, or slows, and for whom; else it goes."""
+    """Return why it does not go: it stands, or slows, and for whom; else it goes."""
     still = Event("stand", event.actor, tense=event.tense, time=event.time)
     try:
         return _asked(_braking(still, scene, vehicle), event)
@@ -122,7 +122,7 @@ def _asked(found: Answer, event: Event) -> Answer:
 
 
 def _braking(event: Event, scene: Asked, vehicle: int) -> Answer:
-    """Why it brakes, stands or waits: who is in its way."""
+    """Return why it brakes, stands or waits: who is in its way."""
     yielded = _yielded(event, scene, vehicle)
     if yielded is not None:
         return yielded
@@ -184,13 +184,13 @@ def _yielded(event: Event, scene: Asked, vehicle: int) -> Answer | None:
 
 
 def _hardly_moves(scene: Asked, vehicle: int) -> bool:
-    """Whether it is so slow that it may be said to stand."""
+    """Check whether it is so slow that it may be said to stand."""
     speeds = scene.ride.motion(vehicle).until(scene.moment).speed
     return bool(speeds) and speeds[-1] < CREEPING
 
 
 def _deed(event: Event, scene: Asked, vehicle: int) -> Answer:
-    """Why it did something else than brake: where it was going."""
+    """Return why it did something else than brake: where it was going."""
     past = is_past(scene, event)
     begin, end = (0.0, scene.now) if scene.past is None else (scene.past.begin, scene.past.end)
     done = scene.world.holds(event, begin, end)
@@ -219,7 +219,7 @@ def _at_present(event: Event, scene: Asked, vehicle: int) -> Answer:
 
 
 def _signalled(scene: Asked, vehicle: int, event: Event) -> Answer:
-    """What its indicator means.
+    """Return what its indicator means.
 
     Raises:
         Unanswered: it does not indicate.
@@ -247,7 +247,7 @@ def placed(of: Related, scene: Asked) -> Answer:
 
 
 def _why_not(event: Event, scene: Asked, vehicle: int) -> Answer:
-    """Why it did not do something: what it did instead, and what we expected of it."""
+    """Return why it did not do something: what it did instead, and what we expected of it."""
     begin = scene.past.begin if scene.past is not None else 0.0
     end = scene.past.end if scene.past is not None else scene.now
     did = scene.world.holds(event, begin, end)
@@ -338,7 +338,7 @@ def _chance(scene: Asked, vehicle: int, event: Event) -> float:
 
 
 def _denied(scene: Asked, vehicle: int, event: Event) -> Unanswered:
-    """The refusal where it did not do so: with when it did, or what it did instead."""
+    """Return the refusal where it did not do so: with when it did, or what it did instead."""
     ever = scene.world.holds(event, 0.0, scene.now)
     if ever and scene.past is not None:
         return Unanswered(DidNotHappen(event, ever[-1:], elsewhen=ever[-1].begin))

@@ -96,7 +96,7 @@ def _aside(event: Event, scene: Asked) -> ActionName | None:
 
 
 def _change(scene: Asked) -> Deed | None:
-    """The change of lanes at the moment asked about, or shortly before it."""
+    """Return the change of lanes at the moment asked about, or shortly before it."""
     made = [d for d in scene.ride.deeds if d.action in CHANGES]
     before = [d for d in made if d.time <= scene.moment + 1.0]
     late = [d for d in before if d.ended is None or d.ended >= scene.moment - LATELY]
@@ -128,7 +128,7 @@ def _done(event: Event, scene: Asked) -> Answer:
 
 
 def _undone(event: Event, scene: Asked) -> Answer:
-    """Why we did not, where no junction and no other lane is in question."""
+    """Return why we did not, where no junction and no other lane is in question."""
     vehicle = vehicle_in(event.object)
     if vehicle is not None and event.action in ("let-go", "give-way", "wait"):
         past = scene.past or Span(scene.now, scene.now)

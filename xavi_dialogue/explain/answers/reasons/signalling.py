@@ -35,7 +35,7 @@ def why_signal(side: Side | None, scene: Asked, *, past: bool) -> Answer:
 
 
 def _aim(scene: Asked, shown: Episode) -> MacroAction | None:
-    """What was planned towards that side while the indicator was on, first of all."""
+    """Return what was planned towards that side while the indicator was on, first of all."""
     assert shown.side is not None
     end = scene.now if shown.end is None else shown.end
     aims = ANNOUNCES.get(shown.side, ())
@@ -50,7 +50,7 @@ def _aim(scene: Asked, shown: Episode) -> MacroAction | None:
 
 
 def _came(scene: Asked, shown: Episode, aim: MacroAction | None) -> bool | None:
-    """Whether we did what the indicator announced; None where it may still come."""
+    """Check whether we did what the indicator announced; None where it may still come."""
     if aim is None:
         return None
     end = scene.now if shown.end is None else shown.end

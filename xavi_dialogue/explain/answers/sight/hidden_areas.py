@@ -162,7 +162,7 @@ def _supposed(question: WhatIf, scene: Asked) -> Answer:
 
 
 def _duration(drive: Any) -> float:
-    """The expected time [s] of a drive."""
+    """Return the expected time [s] of a drive."""
     known = drive.present("time")
     mass = sum(weight for _, weight, _ in known)
     return sum(weight * abs(value) for _, weight, value in known) / mass if mass else 0.0
@@ -184,14 +184,14 @@ def _hiding(scene: Asked, about: Thing | None, past: bool) -> list[PlanTrace]:
 
 
 def _first(found: list[PlanTrace], about: Thing | None) -> PlanTrace:
-    """The first decision at which the hidden part made us slower; else the first of all."""
+    """Return the first decision at which the hidden part made us slower; else the first of all."""
     held = [t for t in found if any(one in _fitting(t, about) for one in holding(t))]
     free = [t for t in held if t.under_way is None]
     return (free or held or found)[0]
 
 
 def _fitting(trace: PlanTrace, about: Thing | None) -> tuple[Phantom, ...]:
-    """Who is imagined behind a vehicle, behind a building, or behind anything."""
+    """Return who is imagined behind a vehicle, behind a building, or behind anything."""
     match about:
         case Vehicle(number=number):
             return tuple(x for x in trace.phantoms if number in (x.behind, *x.beyond))
@@ -213,7 +213,7 @@ def _seen(trace: PlanTrace, about: Thing | None) -> tuple[int, ...]:
 def _hiders(
     trace: PlanTrace, phantoms: tuple[Phantom, ...], about: Thing | None
 ) -> tuple[Hider, ...]:
-    """What hides the road on which side, with the chance that somebody is there."""
+    """Return what hides the road on which side, with the chance that somebody is there."""
     nobody: dict[tuple[Any, Any], float] = {}
     for one in phantoms:
         hider = one.behind
@@ -245,7 +245,7 @@ def _first_seen(scene: Asked, vehicle: int) -> float:
 
 
 def _seen_past(supposed: Proposition) -> Thing | None:
-    """What is supposed to be seen past, or not to be there: a building."""
+    """Return what is supposed to be seen past, or not to be there: a building."""
     of, negated = unwrapped(supposed)
     match of:
         case Related("sees-past", thing, to) if is_us(thing) and not negated:
@@ -273,7 +273,7 @@ def _is_blind(thing: Thing | None) -> bool:
 
 
 def _comes_from(that: Proposition | None) -> Thing | None:
-    """What somebody, not known, is said to be behind, or to come from behind."""
+    """Return what somebody, not known, is said to be behind, or to come from behind."""
     of, _ = unwrapped(that)
     if isinstance(of, Believed):
         of, _ = unwrapped(of.content)

@@ -72,7 +72,7 @@ def needed(question: Whether, scene: Asked) -> Answer:
 
 
 def _moved(event: Event, scene: Asked) -> Answer:
-    """Why we drove so: at the time meant, or at whatever time we did where none was said.
+    """Return why we drove so: at the time meant, or at whatever time we did where none was said.
 
     Raises:
         Unanswered: we did not; or rollouts are needed.
@@ -173,7 +173,7 @@ def how_avoid(question: HowAvoid, scene: Asked) -> Answer:
 
 
 def _mishap(scene: Asked, event: Event | None) -> tuple[ActionName, float]:
-    """What happened and when [s]: what the question names, else the worst.
+    """Return what happened and when [s]: what the question names, else the worst.
 
     Raises:
         Unanswered: it did not happen.
@@ -198,7 +198,7 @@ def _mishap(scene: Asked, event: Event | None) -> tuple[ActionName, float]:
 
 
 def _factor(event: Event | None, scene: Asked, *, negated: bool) -> Answer:
-    """The first cause of a deed; where no vehicle is, what the choice turned on."""
+    """Return the first cause of a deed; where no vehicle is, what the choice turned on."""
     chosen = event is not None and (choices.is_choice(event) or event.action == "stop")
     undone = event is not None and chosen and not _was_done(scene, event)
     if event is not None and (negated or undone):
@@ -217,7 +217,7 @@ def _factor(event: Event | None, scene: Asked, *, negated: bool) -> Answer:
 
 
 def _motive(event: Event, scene: Asked, *, most: bool = False) -> Answer:
-    """What a way of driving hung on: without whom it would not have come about."""
+    """Return what a way of driving hung on: without whom it would not have come about."""
     found = motions.motion(event, scene)
     if not isinstance(found, MotionReason):
         return found
@@ -246,7 +246,7 @@ def _was_done(scene: Asked, event: Event) -> bool:
 def _sides(
     scene: Asked, events: list[Event]
 ) -> tuple[Premise, tuple[MacroAction, ...], tuple[MacroAction, ...]]:
-    """The decision, what was done, and the foil, of one or two options named."""
+    """Return the decision, what was done, and the foil, of one or two options named."""
     done = next((event for event in events if _was_done(scene, event)), None)
     others = [event for event in events if event is not done]
     if done is not None and others:
@@ -269,7 +269,7 @@ def _named(
     fact: tuple[MacroAction, ...],
     foil: tuple[MacroAction, ...],
 ) -> tuple[Proposition | Thing, Proposition | Thing]:
-    """The two options as they are to be named, in the order of the question."""
+    """Return the two options as they are to be named, in the order of the question."""
     if len(named) > 1:
         return named[0], named[1]
     ours = fact[0] if fact and not _is_fact(events[0], fact) else None
@@ -281,7 +281,7 @@ def _named(
 def _better(
     by: str, against: Contrast, *, swapped: bool
 ) -> Literal["first", "second", "same", "unknown"]:
-    """Which of fact (first) and foil is better by a measure."""
+    """Return which of fact (first) and foil is better by a measure."""
     gain = _gain(by, against)
     if gain is None:
         return "unknown"

@@ -87,7 +87,7 @@ def _ahead_of(event: Event) -> int | None:
 
 
 def _letting(scene: Asked, vehicle: int) -> Episode | None:
-    """The slowing or waiting for a vehicle that we let go first."""
+    """Return the slowing or waiting for a vehicle that we let go first."""
     gave = scene.world.episodes(Ego(), ("give-way", "wait"), object=Vehicle(vehicle))
     if not gave:
         return None
@@ -110,7 +110,7 @@ def _now(event: Event, scene: Asked) -> Episode | None:
 
 
 def _cause(event: Event, scene: Asked) -> Answer | None:
-    """Why we slowed or waited then; None where we did not."""
+    """Return why we slowed or waited then; None where we did not."""
     name: ActionName = event.action if event.action in motions.KINDS else "slow-down"
     asked = structs.replace(
         event, action=name, object=None, manner=(), where=None, tense="past", modal=None
@@ -144,7 +144,7 @@ def _met(
 
 
 def _let_go(scene: Asked, deed: Episode) -> set[int | None]:
-    """Whom we gave way to about then."""
+    """Return whom we gave way to about then."""
     end = scene.now if deed.end is None else deed.end
     gave = scene.world.episodes(Ego(), ("give-way", "wait"), deed.begin - 1.0, end)
     near = [e for e in gave if e.begin <= deed.begin + NEAR]

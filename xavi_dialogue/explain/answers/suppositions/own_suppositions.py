@@ -234,7 +234,7 @@ def arrival(scene: Asked, against: Contrast) -> float | None:
 
 
 def _stopped(scene: Asked) -> bool:
-    """Whether a stop was chosen, so that driving on was the other choice."""
+    """Check whether a stop was chosen, so that driving on was the other choice."""
     trace = scene.ride.at(scene.moment)
     return trace is not None and "stop" in planned(trace)[:1]
 

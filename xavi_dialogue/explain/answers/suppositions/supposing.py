@@ -212,7 +212,7 @@ def _of_several(question: WhatIf, scene: Asked, several: Joint) -> Answer:
 
 
 def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> SupposedOfOther:
-    """What would have been planned, had vehicles done otherwise, or not been there."""
+    """Return what would have been planned, had vehicles done otherwise, or not been there."""
     then, event = _then(question.then), of.event
     drove = driven(scene, then)
     at = moment(scene, then, drove, past=past)
@@ -259,7 +259,7 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
 
 
 def _then(question: Question | None) -> Event | None:
-    """What is asked of the supposed world: whether we would still have done something."""
+    """Return what is asked of the supposed world: whether we would still have done something."""
     if isinstance(question, Whether):
         slow = question.that
         if isinstance(slow, Is) and slow.state == "slow" and is_own(slow.thing):
@@ -271,7 +271,7 @@ def _then(question: Question | None) -> Event | None:
 
 
 def _still(found: Supposed, then: Event | None, driven: Episode | None) -> bool | None:
-    """Whether what is asked about would have come about."""
+    """Check whether what is asked about would have come about."""
     if then is None:
         return None
     names = names_of(then)
@@ -284,7 +284,7 @@ def _still(found: Supposed, then: Event | None, driven: Episode | None) -> bool 
 
 
 def _comes_anyway(found: Supposed, then: Event) -> bool:
-    """Whether the plan, as things were, comes to drive so as well."""
+    """Check whether the plan, as things were, comes to drive so as well."""
     if not set(names_of(then)) & DRIVING:
         return False
     share = share_of(found.trace, found.here, _mark(then.action, None))
@@ -292,7 +292,7 @@ def _comes_anyway(found: Supposed, then: Event) -> bool:
 
 
 def _slows(found: Supposed) -> bool | None:
-    """Whether we would have to slow down for it where we do not as things are."""
+    """Check whether we would have to slow down for it where we do not as things are."""
     there = share_of(found.again, found.there, "slow-down")
     here = share_of(found.trace, found.here, "slow-down")
     if there is None or here is None:
@@ -301,7 +301,7 @@ def _slows(found: Supposed) -> bool | None:
 
 
 def _mark(action: ActionName, driven: Episode | None) -> ActionName:
-    """The change of speed by which a way of driving is told in a rollout."""
+    """Return the change of speed by which a way of driving is told in a rollout."""
     if action in ("stop", "stand") or (driven is not None and driven.standing):
         return "stop"
     return "speed-up" if action == "speed-up" else "slow-down"
@@ -310,7 +310,7 @@ def _mark(action: ActionName, driven: Episode | None) -> ActionName:
 def _past(
     scene: Asked, of: Proposition | None, then: Event | None, vehicle: int, *, now: bool
 ) -> bool:
-    """Whether it is supposed of what has been: "if he braked now" is not.
+    """Check whether it is supposed of what has been: "if he braked now" is not.
 
     "If he stopped" may be either: it is of now as long as it can still come about.
     """
@@ -332,7 +332,7 @@ def _past(
 
 
 def _asks_now(question: Question | None) -> bool:
-    """Whether what is asked of the supposed world is what we would do, not have done."""
+    """Check whether what is asked of the supposed world is what we would do, not have done."""
     event = event_of(question.that) if isinstance(question, Whether) else None
     if event is not None:
         return event.tense != "past"

@@ -52,7 +52,7 @@ def in_lane_beside(ride: Ride, world: World, time: float, change: Action) -> Mot
 
 
 def _slow_beside(ride: Ride, world: World, time: float, change: Action, speed: float) -> bool:
-    """Whether somebody ahead in the lane to one side is no faster than a speed [m/s]."""
+    """Check whether somebody ahead in the lane to one side is no faster than a speed [m/s]."""
     reach = HORIZON * (speed_at(ride, time) or 0.0)
     ahead = [look for look in _beside(ride, world, time, change) if look.ahead > 0.0]
     return any(look.distance <= reach and look.speed <= speed for look in ahead)

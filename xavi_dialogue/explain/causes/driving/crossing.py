@@ -73,7 +73,7 @@ def crossing(
 def _meeting(
     ours: list[Point], along: list[float], theirs: list[Passing]
 ) -> tuple[float, float] | None:
-    """How far [m] along our way a vehicle first comes to it, and when [s]."""
+    """Return how far [m] along our way a vehicle first comes to it, and when [s]."""
     met = [
         (far, math.dist(here, place), time)
         for here, far in zip(ours, along, strict=True)
@@ -87,7 +87,7 @@ def _meeting(
 
 
 def _our_way(ride: Ride, begin: float) -> list[Point]:
-    """Our way from a time on: as driven up to now, then as planned."""
+    """Return our way from a time on: as driven up to now, then as planned."""
     motion = ride.motion(EGO)
     driven = [motion.position[k] for k in motion.within(begin, ride.now)]
     ahead = _planned_way(ride.latest, ride.now)
@@ -110,7 +110,7 @@ def _planned_way(trace: PlanTrace, now: float) -> tuple[Point, ...]:
 
 
 def _their_ways(ride: Ride, vehicle: int, begin: float) -> list[list[Passing]]:
-    """The ways of a vehicle that are possible: as driven, and then as each may go on."""
+    """Return the ways of a vehicle that are possible: as driven, and then as each may go on."""
     motion = ride.motion(vehicle)
     driven = [
         (motion.time[k], motion.position[k], motion.speed[k])
@@ -136,14 +136,14 @@ def _their_ways(ride: Ride, vehicle: int, begin: float) -> list[list[Passing]]:
 
 
 def _limit(ride: Ride, time: float) -> float:
-    """The speed [m/s] allowed where we are at a time."""
+    """Return the speed [m/s] allowed where we are at a time."""
     trace = ride.at(time)
     place = None if trace is None or trace.road is None else trace.road.places.get(EGO)
     return LIMIT if place is None else max(place.limit, STANDING)
 
 
 def _setting_off(speed: float, far: float, limit: float) -> float:
-    """The time [s] that so many metres take, speeding up to the limit on the way."""
+    """Return the time [s] that so many metres take, speeding up to the limit on the way."""
     run_up = max(limit * limit - speed * speed, 0.0) / (2.0 * ACCELERATION)
     if far <= run_up:
         return (math.sqrt(speed * speed + 2.0 * ACCELERATION * far) - speed) / ACCELERATION

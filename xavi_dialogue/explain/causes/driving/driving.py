@@ -199,7 +199,7 @@ def as_of(ride: Ride, causes: tuple[MotionCause, ...], time: float) -> tuple[Mot
 
 
 def _waited(ride: Ride, world: World, deed: Episode, end: float) -> RideEvent | None:
-    """The giving way within an episode, or shortly before it."""
+    """Return the giving way within an episode, or shortly before it."""
     if deed.action == "speed-up":
         return None
     waits = [event for event in ride.events if event.kind == "gave-way"]
@@ -214,7 +214,7 @@ def _waited(ride: Ride, world: World, deed: Episode, end: float) -> RideEvent | 
 def _decision(
     ride: Ride, deed: Episode, end: float, wait: RideEvent | None, at: float
 ) -> PlanTrace:
-    """The decision under which it happened.
+    """Return the decision under which it happened.
 
     That is the one for a stop that was begun with it, or the last one before way was given; else,
     of those taken meanwhile, the one whose plan is held up most, or the last one before the middle
@@ -265,7 +265,7 @@ def _held(ride: Ride, trace: PlanTrace, window: tuple[float, float]) -> float:
 def _first(
     model: CausalModel, causes: tuple[Cause, ...], waited_for: int | None
 ) -> tuple[Cause, ...]:
-    """The vehicle that was given way to goes first."""
+    """Return the vehicle that was given way to goes first."""
     if waited_for is None:
         return causes
     mechanism = Mechanism("right-of-way", None, None, None, 1.0)  # as the events tell

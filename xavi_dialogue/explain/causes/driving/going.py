@@ -27,7 +27,7 @@ def bystanders(ride: Ride, world: World, time: float) -> tuple[Bystander, ...]:
 
 
 def _parts(world: World, wait: RideEvent, time: float) -> bool:
-    """Whether one that was given way to is farther from us at a time [s] than it was then."""
+    """Check whether one that was given way to is farther from us at a time [s] than it was then."""
     assert wait.vehicle is not None
     first, last = world.look(wait.vehicle, wait.sim_time), world.look(wait.vehicle, time)
     if first is None or last is None:

@@ -107,7 +107,7 @@ def lit_too(
 
 
 def _within(start: float, end: float) -> Callable[[HeldUp], bool]:
-    """Whether a stretch lies between two times [s], at least in part."""
+    """Return whether a stretch lies between two times [s], at least in part."""
     low, high = start - LEEWAY, end + LEEWAY
     return lambda stretch: stretch.since <= high and stretch.until >= low
 
@@ -153,7 +153,7 @@ def _meetings(
 def _stretches(
     trace: PlanTrace, vehicle: int, choice: Choice, relevant: Callable[[HeldUp], bool]
 ) -> dict[int, tuple[HeldUp, ...]]:
-    """Who holds a vehicle up on one of its ways, and when."""
+    """Return who holds a vehicle up on one of its ways, and when."""
     known = prediction(trace, vehicle)
     if known is None:
         return {}
@@ -175,13 +175,13 @@ def _cause(ride: Ride, trace: PlanTrace, other: int, met: Sequence[_Meeting]) ->
 
 
 def _share(met: Iterable[_Meeting]) -> float:
-    """The probability of all ways met with, each counted once."""
+    """Return the probability of all ways met with, each counted once."""
     ways = {(one.start, one.choice): one.weight for one in met}
     return min(sum(ways.values()), 1.0)
 
 
 def _kind(met: Iterable[_Meeting]) -> HoldUp:
-    """The way of holding up that lasts longest, in the mean."""
+    """Return the way of holding up that lasts longest, in the mean."""
     lasted: dict[HoldUp, float] = {}
     for one in met:
         for s in one.stretches:

@@ -55,12 +55,12 @@ def ready_for(
 
 
 def _on_foot(trace: PlanTrace, name: int) -> bool:
-    """Whether somebody is no vehicle, and so is in no rule of a junction."""
+    """Check whether somebody is no vehicle, and so is in no rule of a junction."""
     return name in trace.scene and trace.scene[name].kind in ON_FOOT
 
 
 def _held(ride: Ride, trace: PlanTrace, deed: Episode, end: float) -> list[VehicleHoldUp]:
-    """Who holds up the plan of a decision meanwhile, or at any time what a stop puts off."""
+    """Return who holds up the plan of a decision meanwhile, or at any time what a stop puts off."""
     model = ride.model(trace)
     try:
         found = [*hold_ups(factual(model, trace), (deed.begin - AHEAD, end)).values()]

@@ -123,7 +123,7 @@ def _slowest(motion: Motion, distance: float) -> float | None:
 
 
 def _bend(ride: Ride, trace: PlanTrace, deed: Episode) -> list[MotionCause]:
-    """A bend of the road that was driven through after slowing down, or is planned to be."""
+    """Return a bend of the road that was driven through after slowing down, or is planned to be."""
     end = ride.now if deed.end is None else deed.end
     drawn = _drawn(ride, trace, deed)
     for motion in (ride.motion(EGO), *(() if drawn is None else drawn[1:])):
@@ -135,7 +135,7 @@ def _bend(ride: Ride, trace: PlanTrace, deed: Episode) -> list[MotionCause]:
 
 
 def _lower_limit(ride: Ride, deed: Episode) -> list[MotionCause]:
-    """A limit that came to be lower than the speed that was driven."""
+    """Return a limit that came to be lower than the speed that was driven."""
     end = ride.now if deed.end is None else deed.end
     before, after = limit_at(ride, deed.begin - 1.0), limit_at(ride, end + 1.0)
     if before is None or after is None or deed.speed_from is None:
@@ -145,7 +145,7 @@ def _lower_limit(ride: Ride, deed: Episode) -> list[MotionCause]:
 
 
 def _junction(trace: PlanTrace, deed: Episode) -> list[MotionCause]:
-    """The junction that the ego was in or came to, and what it had to do there."""
+    """Return the junction that the ego was in or came to, and what it had to do there."""
     if trace.road is None:
         return [MotionCause("turn")] if is_turning(trace) else []
     place = trace.road.places.get(EGO)
@@ -188,6 +188,6 @@ def is_turning(trace: PlanTrace) -> bool:
 
 
 def _reach(deed: Episode) -> float:
-    """How far [m] ahead lies what one slows down for."""
+    """Return how far [m] ahead lies what one slows down for."""
     speed = deed.speed_from if deed.speed_from is not None else 10.0
     return speed * speed / (2.0 * BRAKING) + MARGIN

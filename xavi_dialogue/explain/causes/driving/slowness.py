@@ -148,7 +148,7 @@ def _in_front(look: Look, reach: float) -> bool:
 
 
 def _same_lane(ride: Ride, look: Look, time: float) -> bool:
-    """Whether a vehicle is on our lane, as far as the road is recorded."""
+    """Check whether a vehicle is on our lane, as far as the road is recorded."""
     trace = ride.at(time)
     if trace is None or trace.road is None:
         return abs(look.left) <= ASIDE

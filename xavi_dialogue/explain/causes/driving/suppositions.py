@@ -219,7 +219,7 @@ def _acting(
 
 
 def _given(ride: Ride, model: CausalModel, supposed: dict[int, frozenset[Choice]]) -> Supposed:
-    """The ego's best plan given what is supposed of others, against what was decided."""
+    """Return the ego's best plan given what is supposed of others, against what was decided."""
     trace, chance = model.trace, 1.0
     for vehicle, choices in supposed.items():  # each chooses by itself
         chances = model.choices(vehicle)
@@ -231,7 +231,7 @@ def _given(ride: Ride, model: CausalModel, supposed: dict[int, frozenset[Choice]
 
 
 def _best(given: CausalModel, plan: Actions) -> Intervention:
-    """The best of the plans that there is evidence for; of equals, what is planned anyway.
+    """Return the best of the plans that there is evidence for; of equals, what is planned anyway.
 
     Raises:
         Unanswered: there is too little evidence, if only of what is planned.

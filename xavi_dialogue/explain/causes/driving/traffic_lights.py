@@ -120,7 +120,7 @@ def with_light(ride: Ride, trace: PlanTrace, signal: Signal, state: str) -> Plan
 
 
 def _queue(world: World, trace: PlanTrace) -> Iterable[MotionCause]:
-    """Who stands right before us at the light."""
+    """Yield who stands right before us at the light."""
     for vehicle, how in top_holders(world.states, trace, EGO)[:1]:
         if how == "leader":
             yield MotionCause("leader", vehicle, speed=trace.scene[vehicle].speed)

@@ -61,7 +61,7 @@ def _consistent(causation: Causation | None, found: Sequence[Cause]) -> Causatio
 
 
 def _owed(trace: PlanTrace, cause: Cause) -> bool:
-    """Whether we have to let a vehicle go first, that holds us up by that."""
+    """Check whether we have to let a vehicle go first, that holds us up by that."""
     how = None if cause.mechanism is None else cause.mechanism.how
     return how == "right-of-way" and goes_first(trace, cause.vehicle)
 

@@ -128,7 +128,7 @@ def _ways(ride: Ride, trace: PlanTrace, occurs: Occurs) -> list[_Way] | None:
 
 
 def _risk(plan: Intervention, occurs: Occurs, known: Mapping[int, Motion]) -> float | None:
-    """The probability that it happens under a plan; None where too little is recorded."""
+    """Return the probability that it happens under a plan; None where too little is recorded."""
     bad = total = 0.0
     for result, weight in zip(plan.results, plan.weights, strict=True):
         there = occurs(result.rollout, known.get(result.rollout.index))
@@ -144,7 +144,7 @@ def _chance(mishap: ActionName, share: float) -> float:
 
 
 def _sound(way: _Way) -> bool:
-    """Whether an option is no worse a choice: it neither collides nor loses the way."""
+    """Check whether an option is no worse a choice: it neither collides nor loses the way."""
     return all(
         way.there.outcomes[name] <= max(way.here.outcomes[name], 0.05)
         for name in ("collision", "dead")

@@ -147,12 +147,12 @@ def _rival(ride: Ride, trace: PlanTrace, node: Actions) -> Contrast | None:
 
 
 def _expected(good: int, tried: int) -> float:
-    """The probability that what was not tried goes well, by Jeffreys' prior."""
+    """Return the probability that what was not tried goes well, by Jeffreys' prior."""
     return (good + 0.5) / (tried + 1.0)
 
 
 def _bound(share: float, n: int, proven: float) -> float:
-    """The lower bound of a probability, of which a part is proven by exhaustion.
+    """Return the lower bound of a probability, of which a part is proven by exhaustion.
 
     What comes of a situation is certain once it was tried, so the prior mass of those tried with
     success is a bound too, however few they are.

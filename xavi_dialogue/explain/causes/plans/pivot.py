@@ -48,7 +48,7 @@ def towards(ride: Ride, found: Premise, foil: Actions) -> Pivot:
 
 
 def _conduct(model: CausalModel, foil: Actions, node: Actions, contrast: Contrast) -> Pivot | None:
-    """The likeliest conduct of one vehicle under which the foil is the best option."""
+    """Return the likeliest conduct of one vehicle under which the foil is the best option."""
     blamed = {cause.vehicle for cause in contrast.causes}
     pivots = [
         Pivot("conduct", contrast, vehicle, actions, chance)
@@ -63,7 +63,7 @@ def _conduct(model: CausalModel, foil: Actions, node: Actions, contrast: Contras
 def _conducts(
     model: CausalModel, vehicle: int
 ) -> Mapping[Actions, tuple[frozenset[Choice], float]]:
-    """What a vehicle may do: the choices with the same actions, and their probability."""
+    """Return what a vehicle may do: the choices with the same actions, and their probability."""
     known = prediction(model.trace, vehicle)
     found: dict[Actions, tuple[frozenset[Choice], float]] = {}
     if known is None:
@@ -95,7 +95,7 @@ def _wins(
 def _removal(
     ride: Ride, found: Premise, foil: Actions, causes: tuple[Cause, ...], contrast: Contrast
 ) -> Pivot:
-    """The first of the causes without which the plan begins with the foil."""
+    """Return the first of the causes without which the plan begins with the foil."""
     for cause in causes[:TRIED]:
         again = ride.without(found.trace, cause.vehicle)
         if again is not None and planned(again)[: len(foil)] == foil:

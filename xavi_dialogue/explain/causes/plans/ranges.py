@@ -120,7 +120,7 @@ def group_errors(errors: Sequence[Error], coverage: float = COVERAGE) -> tuple[G
 
 @cache
 def table() -> Ranges:
-    """The table that comes with the program.
+    """Return the table that comes with the program.
 
     Raises:
         ValueError: it is not one.

@@ -91,7 +91,7 @@ def differences(model: CausalModel, foil: Intervention, fact: Intervention) -> D
 def _paired(
     model: CausalModel, foil: Intervention, fact: Intervention
 ) -> tuple[dict[Term, float], float] | None:
-    """What the foil costs more [s] where both were tried, and its standard error [s].
+    """Return what the foil costs more [s] where both were tried, and its standard error [s].
 
     None where that is too small a part of either side, or leaves a fatal outcome out.
     """
@@ -151,7 +151,7 @@ def told(difference: Difference) -> tuple[Share, ...]:
 
 
 def _grouped(terms: Mapping[Term, float]) -> list[tuple[Term, ...]]:
-    """The terms as they are told: those of steering as one, the larger first."""
+    """Return the terms as they are told: those of steering as one, the larger first."""
     steering = sorted((t for t in terms if t in STEERING), key=lambda t: -abs(terms[t]))
     single: list[tuple[Term, ...]] = [(t,) for t in terms if t not in STEERING]
     return [*single, tuple(steering)] if steering else single
@@ -181,7 +181,7 @@ class _Case:
 
 
 def _split(there: _Case, here: _Case) -> dict[Term, float]:
-    """What one case costs more than another, by term.
+    """Return what one case costs more than another, by term.
 
     Where one of them is fatal, all that it makes of a difference is that outcome's; where one is
     out of time, all but the effort is.
@@ -202,7 +202,7 @@ def _split(there: _Case, here: _Case) -> dict[Term, float]:
 
 
 def _independent(costs: Costs, foil: Intervention, fact: Intervention) -> dict[Term, float]:
-    """What the foil costs more where the two sides vary independently."""
+    """Return what the foil costs more where the two sides vary independently."""
     there, here = _by_outcome(costs, foil), _by_outcome(costs, fact)
     return _sum((w * v, _split(one, other)) for w, one in there for v, other in here)
 
@@ -236,7 +236,7 @@ def _own_error(costs: Costs, plan: Intervention) -> float:
 
 
 def _chances(foil: Mixture, fact: Mixture) -> dict[Term, tuple[float, float]]:
-    """How probable the outcomes other than arriving are, under foil and fact."""
+    """Return how probable the outcomes other than arriving are, under foil and fact."""
     there, here = chances(foil), chances(fact)
     names: dict[Outcome, Term] = {**FATAL, "termination": "late"}
     return {term: (there.of(outcome), here.of(outcome)) for outcome, term in names.items()}
@@ -256,7 +256,7 @@ def _mass(plan: Intervention, among: set[object]) -> float:
 
 
 def _parts(costs: Costs, result: Result) -> dict[Term, float]:
-    """What a rollout costs [s] by term: as recorded, else by the costs of its trace.
+    """Return what a rollout costs [s] by term: as recorded, else by the costs of its trace.
 
     Of a planner that reckons otherwise, and does not tell how, all that it holds is time.
     """

@@ -86,7 +86,7 @@ def names_of(event: Event) -> tuple[ActionName, ...]:
 
 
 def _plain(action: ActionName, thing: Thing | None) -> ActionName:
-    """The name without what its object tells already."""
+    """Return the name without what its object tells already."""
     if action in LANE_WORDS or (action in ("enter", "leave") and isinstance(thing, Lane)):
         return "change-lane"
     same_as: dict[ActionName, ActionName] = {

@@ -166,5 +166,5 @@ def _distinct(pairs: Iterable[tuple[int, int]]) -> Iterator[tuple[int, int]]:
 
 
 def _cleared(known: dict[tuple[int, ...], Trial]) -> tuple[int, ...]:
-    """Those without whom, each by itself, the deed comes about as well."""
+    """Return those without whom, each by itself, the deed comes about as well."""
     return tuple(group[0] for group, one in known.items() if len(group) == 1 and one.gone is False)

@@ -53,7 +53,7 @@ def announced(
 def _possible(
     trace: PlanTrace | None, vehicle: int, meant: tuple[ActionName, ...]
 ) -> tuple[ActionName, ...]:
-    """Which of a change of lanes and a turn the road allows there."""
+    """Return which of a change of lanes and a turn the road allows there."""
     road = None if trace is None else trace.road
     place = None if road is None else road.places.get(vehicle)
     if road is None or place is None:

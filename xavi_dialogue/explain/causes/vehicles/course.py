@@ -78,7 +78,7 @@ class Lines(Mapping[int, Motion]):
 
 
 def lines(trace: PlanTrace) -> Lines:
-    """The motion of the ego in each rollout whose line is recorded."""
+    """Return the motion of the ego in each rollout whose line is recorded."""
     return Lines(trace)
 
 
@@ -125,31 +125,31 @@ def begins(
 
 
 def speed_mark(motion: Motion, action: ActionName) -> float | None:
-    """When [s] a change of speed begins; of a stop, when the vehicle stands."""
+    """Return when [s] a change of speed begins; of a stop, when the vehicle stands."""
     wanted = "stop" if action == "give-way" else action
     return motion.first(wanted)
 
 
 def moves_on(_: Rollout, motion: Motion) -> float | None:
-    """When [s] the ego, standing at first, drives on."""
+    """Return when [s] the ego, standing at first, drives on."""
     return next(
         (t for t, speed in zip(motion.time, motion.speed, strict=True) if speed >= MOVING), None
     )
 
 
 def stands(motion: Motion) -> bool:
-    """Whether a vehicle comes to stand."""
+    """Check whether a vehicle comes to stand."""
     return bool(motion.speed) and min(motion.speed) < STANDING
 
 
 def brakes(motion: Motion) -> float:
-    """The hardest braking [m/s2], over two samples so that rounding does not count."""
+    """Return the hardest braking [m/s2], over two samples so that rounding does not count."""
     drops = [a - b for a, b in zip(motion.speed, motion.speed[2:], strict=False)]
     return max(drops, default=0.0) / (2.0 * SAMPLE_PERIOD)
 
 
 def hard_braking(motion: Motion) -> float | None:
-    """When [s] a vehicle last began to brake hard."""
+    """Return when [s] a vehicle last began to brake hard."""
     drops = [a - b for a, b in zip(motion.speed, motion.speed[2:], strict=False)]
     hard = [k for k, drop in enumerate(drops) if drop >= HARD * 2.0 * SAMPLE_PERIOD - 1e-9]
     if not hard:
@@ -161,14 +161,14 @@ def hard_braking(motion: Motion) -> float | None:
 
 
 def _stretches(rollout: Rollout, motion: Motion) -> Iterator[tuple[float, float, Action]]:
-    """The actions of a rollout with their start and end [s]."""
+    """Yield the actions of a rollout with their start and end [s]."""
     ends = [*(timed.start for timed in rollout.actions[1:]), motion.time[-1]]
     for timed, end in zip(rollout.actions, ends, strict=True):
         yield timed.start, end, timed.action
 
 
 def _turning(motion: Motion, start: float, end: float) -> float:
-    """When [s] the turn itself begins within an action that leads up to it."""
+    """Return when [s] the turn itself begins within an action that leads up to it."""
     inside = [k for k, time in enumerate(motion.time) if start - 1e-6 <= time <= end + 1e-6]
     if len(inside) < 2:
         return start
@@ -209,7 +209,7 @@ class Headings(Sequence[float]):
 
 
 def _headings(path: tuple[Point, ...]) -> tuple[float, ...]:
-    """The heading [rad] at each position; where nothing moves, that of the last stride."""
+    """Return the heading [rad] at each position; where nothing moves, that of the last stride."""
     found: list[float] = []
     anchor, heading = 0, 0.0
     for k, (x, y) in enumerate(path):

@@ -67,7 +67,7 @@ def _expected(ride: Ride, trace: PlanTrace, vehicle: int) -> tuple[ActionName, .
 
 
 def _done(ride: Ride, vehicle: int, names: Sequence[ActionName]) -> float | None:
-    """When [s] a vehicle had done what is asked about; None if it has not."""
+    """Return when [s] a vehicle had done what is asked about; None if it has not."""
     seen = [s for name in names if (s := ride.motion(vehicle).last(name)) is not None]
     return max((s.start if s.action == "stop" else s.end for s in seen), default=None)
 
@@ -75,7 +75,7 @@ def _done(ride: Ride, vehicle: int, names: Sequence[ActionName]) -> float | None
 def _belief(
     ride: Ride, trace: PlanTrace, vehicle: int, names: tuple[ActionName, ...], stays: bool
 ) -> float:
-    """How probable it is that a vehicle does so, or that it stays where it is."""
+    """Return how probable it is that a vehicle does so, or that it stays where it is."""
     model, known = ride.model(trace), prediction(trace, vehicle)
     if known is None:
         return 0.0
@@ -124,7 +124,7 @@ def _grounds(
 def _meant(
     ride: Ride, trace: PlanTrace, vehicle: int, names: tuple[ActionName, ...]
 ) -> tuple[ActionName, ...]:
-    """What is believed: of several macro actions that a name may mean, the likeliest.
+    """Return what is believed: of several macro actions that a name may mean, the likeliest.
 
     What is no choice of the planner, such as a change of speed, keeps its name.
     """
@@ -147,7 +147,7 @@ def to_macro(names: Sequence[ActionName]) -> Actions:
 
 
 def _moves(known: Sequence[PlanTrace], beliefs: Sequence[float]) -> tuple[tuple[float, float], ...]:
-    """The probabilities over time where they moved, and the last."""
+    """Return the probabilities over time where they moved, and the last."""
     kept: list[tuple[float, float]] = []
     for trace, belief in zip(known, beliefs, strict=True):
         if not kept or abs(belief - kept[-1][1]) >= 0.05 or trace is known[-1]:
@@ -220,5 +220,5 @@ def _light(trace: PlanTrace, vehicle: int) -> Literal["left", "right"] | None:
 
 
 def _contains(goal: GoalPrediction, names: tuple[ActionName, ...]) -> bool:
-    """Whether a vehicle with that goal may do one of these."""
+    """Check whether a vehicle with that goal may do one of these."""
     return any(foresees(way, name) for way in goal.trajectories for name in names)

@@ -144,7 +144,7 @@ def _slowed(
 def _longer(
     model: CausalModel, foil: Intervention, fact: Intervention, measured: _Measured
 ) -> list[Cause]:
-    """Those who hold the ego up longer under the foil, longest first."""
+    """Return those who hold the ego up longer under the foil, longest first."""
     before = hold_ups(fact)
     gains = [
         (held.expected - (before[vehicle].expected if vehicle in before else 0.0), held)
@@ -156,7 +156,7 @@ def _longer(
 
 
 def _deciding(model: CausalModel, measured: Iterable[Influence]) -> list[Cause]:
-    """Those whose behaviour decides between fact (option 0) and foil."""
+    """Return those whose behaviour decides between fact (option 0) and foil."""
     found = []
     for influenced in measured:
         if not influenced.significant:
@@ -179,7 +179,7 @@ def _by_hold_up(model: CausalModel, held: VehicleHoldUp, measured: Influence | N
 
 
 def _how(held: VehicleHoldUp, actions: Actions) -> HoldUp:
-    """How it holds up, as one would say it: who goes straight on does not cut in.
+    """Return how it holds up, as one would say it: who goes straight on does not cut in.
 
     In rollouts it does as well where the ego moves in behind it.
     """

@@ -73,7 +73,7 @@ def _held(trace: PlanTrace, vehicle: int) -> dict[int, float]:
 
 
 def _passed(trace: PlanTrace, vehicle: int) -> dict[int, float]:
-    """Whom a vehicle leaves its lane for, as was predicted: the nearest ahead in it."""
+    """Return whom a vehicle leaves its lane for, as was predicted: the nearest ahead in it."""
     lane = _lane(trace, vehicle)
     share = leaves(trace, vehicle)
     if lane is None or share <= 0.0:
@@ -95,7 +95,7 @@ def leaves(trace: PlanTrace, vehicle: int) -> float:
 
 
 def _ways(trace: PlanTrace, vehicle: int) -> Iterator[tuple[TrajectoryPrediction, float]]:
-    """The ways that a vehicle may take, as was predicted, with their probabilities."""
+    """Yield the ways that a vehicle may take, as was predicted, with their probabilities."""
     known = prediction(trace, vehicle)
     for goal in () if known is None else known.goals:
         for way in goal.trajectories:
@@ -108,6 +108,6 @@ def _lane(trace: PlanTrace, vehicle: int) -> tuple[str, int | None] | None:
 
 
 def _is_ahead(one: VehicleState, other: VehicleState) -> bool:
-    """Whether another is ahead of a vehicle, along its heading."""
+    """Check whether another is ahead of a vehicle, along its heading."""
     dx, dy = (b - a for a, b in zip(one.position, other.position, strict=True))
     return dx * math.cos(one.heading) + dy * math.sin(one.heading) > 0.0

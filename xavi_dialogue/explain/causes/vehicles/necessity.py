@@ -137,7 +137,7 @@ class _Tests:
         return tuple(sorted(away, key=lambda vehicle: (away[vehicle], vehicle)))
 
     def changes(self, *vehicles: int) -> bool | None:
-        """Whether another action is chosen without vehicles; None where that is not known."""
+        """Check whether another action is chosen without vehicles; None where that is not known."""
         again = self.ride.without(self.decision, *vehicles)
         return None if again is None else planned(again)[:1] != planned(self.decision)[:1]
 
@@ -245,7 +245,7 @@ class _Tests:
         return Trial(matters and float(np.max(free - theirs)) <= LEFT * lost, instead)
 
     def _chosen(self, again: PlanTrace) -> Intervention | None:
-        """The plan that is then chosen, weighed as the others turned out to drive."""
+        """Return the plan that is then chosen, weighed as the others turned out to drive."""
         other = self.ride.model(again)
         found = _again(other, planned(again))
         return None if found is None else in_hindsight(self.ride, other, found)
@@ -260,7 +260,7 @@ class _Tests:
 
 
 def _again(other: CausalModel, wanted: Intervention | Actions) -> Intervention | None:
-    """The same plan, or at least its beginning, where vehicles are not there."""
+    """Return the same plan, or at least its beginning, where vehicles are not there."""
     plan = wanted.plan if isinstance(wanted, Intervention) else wanted
     for length in dict.fromkeys((len(plan), 1)):
         found = other.intervene(plan[:length])
@@ -276,7 +276,7 @@ def _at_work(plan: Intervention) -> tuple[int, ...]:
 
 
 def _in_the_way_around(model: CausalModel) -> tuple[int, ...]:
-    """Who makes it worse to leave the lane: who is hit, or holds the ego up, on doing so."""
+    """Return who makes it worse to leave the lane: who is hit, or holds the ego up, on doing so."""
     found: dict[int, float] = {}
     for action in CHANGES:
         there = model.intervene((action,))

@@ -92,7 +92,7 @@ TOLD_BY: dict[ActionName, Names] = {
 def happening(
     states: States, actors: frozenset[int] | None, wanted: Names | None
 ) -> tuple[Episode, ...]:
-    """The episodes of some actors and actions, in order of their beginnings."""
+    """Return the episodes of some actors and actions, in order of their beginnings."""
     everybody = (EGO, *states.ride.vehicles)
     found: list[Episode] = []
     for vehicle in everybody:
@@ -139,12 +139,12 @@ def actors_of(states: States, event: Event) -> frozenset[int] | None:
 
 
 def such(found: Sequence[Episode], event: Event, begin: float) -> tuple[Episode, ...]:
-    """Those of some episodes, in an interval from `begin` on, that are such an event."""
+    """Return those of some episodes, in an interval from `begin` on, that are such an event."""
     return tuple(episode for episode in found if _is(episode, event, begin))
 
 
 def _is(episode: Episode, event: Event, begin: float) -> bool:
-    """Whether an episode of the right actor and action is the event, in what else it says."""
+    """Check whether an episode of the right actor and action is the event, in what else it says."""
     if event.side is not None and (episode.side or SIDES.get(episode.action)) != event.side:
         return False
     if "hard" in event.manner and (episode.peak or 0.0) < HARD:
@@ -156,7 +156,7 @@ def _is(episode: Episode, event: Event, begin: float) -> bool:
 
 
 def _concerns(episode: Episode, thing: Thing | None) -> bool:
-    """Whether an episode concerns what an event says it does."""
+    """Check whether an episode concerns what an event says it does."""
     if thing is None or isinstance(thing, Wanted):
         return True
     wanted = somebody(thing)

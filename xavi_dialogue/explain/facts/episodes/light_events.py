@@ -78,7 +78,7 @@ def _passing(states: States, light: Feature, begin: float, end: float) -> Iterat
 
 
 def _held(states: States, event: Event, begin: float, end: float) -> Iterator[Episode]:
-    """What somebody does for a light: standing or braking while it holds him."""
+    """Yield what somebody does for a light: standing or braking while it holds him."""
     actors = happening.actors_of(states, event)
     ride = states.ride
     for one in happening.happening(states, actors, covered(frozenset((event.action,)))):

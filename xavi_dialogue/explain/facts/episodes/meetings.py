@@ -39,13 +39,13 @@ BESIDE = 3.0  # [s] around a lane change within which it is judged who was cut o
 
 
 def passings(states: States, vehicle: int) -> list[Episode]:
-    """Who of another vehicle and the ego went past whom."""
+    """Return who of another vehicle and the ego went past whom."""
     pair = states.pair(EGO, vehicle)
     return [] if pair is None else list(_passing(pair, vehicle))
 
 
 def crossings(states: States, vehicle: int) -> list[Episode]:
-    """Where another vehicle crossed the ego's way."""
+    """Return where another vehicle crossed the ego's way."""
     pair = states.pair(EGO, vehicle)
     if pair is None:
         return []
@@ -56,7 +56,7 @@ def crossings(states: States, vehicle: int) -> list[Episode]:
 
 
 def followings(states: States, vehicle: int) -> list[Episode]:
-    """When one of another vehicle and the ego followed the other."""
+    """Return when one of another vehicle and the ego followed the other."""
     key = ("followings", vehicle)
     pair = states.pair(EGO, vehicle)
     if pair is None:
@@ -65,13 +65,13 @@ def followings(states: States, vehicle: int) -> list[Episode]:
 
 
 def movings_in(states: States, vehicle: int) -> list[Episode]:
-    """When one of another vehicle and the ego moved in ahead of the other."""
+    """Return when one of another vehicle and the ego moved in ahead of the other."""
     pair = states.pair(EGO, vehicle)
     return [] if pair is None else list(_moving_in(states, pair, vehicle))
 
 
 def _runs(mask: Flags, time: Array) -> Iterator[tuple[int, int]]:
-    """The stretches of samples in which something holds, first and last."""
+    """Yield the stretches of samples in which something holds, first and last."""
     edges = np.flatnonzero(np.diff(np.concatenate(([0], mask.astype(np.int8), [0]))))
     for first, after in zip(edges[::2], edges[1::2], strict=True):
         yield int(first), int(after) - 1
@@ -104,7 +104,7 @@ def _passing(pair: Pair, vehicle: int) -> Iterator[Episode]:
 
 
 def _crossing(pair: Pair, vehicle: int) -> Iterator[Episode]:
-    """Where somebody crossed our line ahead of us, or we crossed his."""
+    """Yield where somebody crossed our line ahead of us, or we crossed his."""
     across = (np.abs(pair.turn) > SAME_WAY) & (np.abs(pair.turn) < OPPOSITE)
     across &= (pair.ahead > 0.0) & (pair.ahead <= CROSSING) & (pair.speed >= MOVING)
     signs = np.sign(pair.left)
@@ -127,7 +127,7 @@ def _crossing(pair: Pair, vehicle: int) -> Iterator[Episode]:
 
 
 def _walking_across(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:
-    """Where somebody on foot walked across our lane ahead of us, from one side of it on."""
+    """Yield where somebody on foot walked across our lane ahead of us, from one side of it on."""
     across = (np.abs(pair.turn) > SAME_WAY) & (np.abs(pair.turn) < OPPOSITE)
     across &= (pair.ahead > 0.0) & (pair.ahead <= CROSSING) & (pair.speed >= WALKING)
     across &= np.abs(pair.left) <= STEPPED_OUT
@@ -158,7 +158,7 @@ def _following(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:
 
 
 def _closed(mask: Flags, time: Array) -> Flags:
-    """The same with breaks of up to a second closed, as where a road winds."""
+    """Return the same with breaks of up to a second closed, as where a road winds."""
     closed = mask.copy()
     for first, last in _runs(~mask, time):
         inner = first > 0 and last + 1 < len(mask)
@@ -168,7 +168,7 @@ def _closed(mask: Flags, time: Array) -> Flags:
 
 
 def _between(states: States, vehicle: int, time: float, ours: bool) -> bool:
-    """Whether somebody else is between the ego and a vehicle on its line."""
+    """Check whether somebody else is between the ego and a vehicle on its line."""
     own = states.offset(EGO, vehicle, time)
     if own is None:
         return False
@@ -182,7 +182,7 @@ def _between(states: States, vehicle: int, time: float, ours: bool) -> bool:
 
 
 def _moving_in(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:
-    """Who moved in close ahead of whom: by a lane change, or out of a side road."""
+    """Yield who moved in close ahead of whom: by a lane change, or out of a side road."""
     for episode in ways(states, vehicle):
         if episode.action in ("change-left", "change-right"):
             yield from _cut_in(states, pair, episode, vehicle, ours=False)
@@ -214,7 +214,7 @@ def _cut_in(
 
 
 def _into_lane_of(states: States, change: Episode, eye: int, vehicle: int, *, ours: bool) -> bool:
-    """Whether a lane change leads into the lane that the other had when it began."""
+    """Check whether a lane change leads into the lane that the other had when it began."""
     mover, other = (eye, vehicle) if ours else (vehicle, eye)
     end = change.begin + BESIDE if change.end is None else change.end
     there, his = states.place(mover, end + 0.5), states.place(other, change.begin)
@@ -244,6 +244,6 @@ def _pulled_out(pair: Pair, turn: Episode, vehicle: int) -> Iterator[Episode]:
 
 
 def _sample(pair: Pair, time: float) -> int | None:
-    """The sample nearest to a time [s]; None where there is none near."""
+    """Return the sample nearest to a time [s]; None where there is none near."""
     k = int(np.argmin(np.abs(pair.time - time)))
     return k if abs(pair.time[k] - time) <= 0.6 else None

@@ -37,14 +37,14 @@ def _told(states: States) -> Iterator[Episode]:
 
 
 def _driving_on(states: States) -> Iterator[Episode]:
-    """The stretches in which the ego just drove on."""
+    """Yield the stretches in which the ego just drove on."""
     for deed in states.ride.deeds:
         if deed.action == "continue":
             yield Episode(named(EGO), "continue", deed.time, deed.ended)
 
 
 def _bearing(states: States) -> Iterator[Episode]:
-    """The stretches in which the ego bore to one side, in no turn and no change of lanes."""
+    """Yield the stretches in which the ego bore to one side, in no turn and no change of lanes."""
     others = [deed.span for deed in states.ride.deeds if deed.action not in ALONG]
     for bend in bends(states.motion(EGO)):
         if not any(a - AROUND <= bend.end and bend.start <= b + AROUND for a, b in others):
@@ -53,7 +53,7 @@ def _bearing(states: States) -> Iterator[Episode]:
 
 
 def _changed_plans(states: States) -> Iterator[Episode]:
-    """Where the next thing to be done beside driving on was not what had been planned."""
+    """Yield where the next thing to be done beside driving on was not what had been planned."""
     traces = states.ride.traces
     for before, after in itertools.pairwise(traces):
         if changed(states, before, after):
@@ -61,7 +61,7 @@ def _changed_plans(states: States) -> Iterator[Episode]:
 
 
 def changed(states: States, before: PlanTrace, after: PlanTrace) -> bool:
-    """Whether a decision means to do something else first than the one before it.
+    """Check whether a decision means to do something else first than the one before it.
 
     That is to take another turn at a junction ahead, or another action beside turns. What has
     been begun in between is no change, nor is a turn that comes within reach of the plan.
@@ -85,7 +85,7 @@ def changed(states: States, before: PlanTrace, after: PlanTrace) -> bool:
 
 
 def _turns_elsewhere(before: RoadFacts, after: RoadFacts, way: float) -> bool:
-    """Whether at the first junction that is on both routes another way is taken."""
+    """Check whether at the first junction that is on both routes another way is taken."""
     if any(EGO in road.places and road.places[EGO].roundabout for road in (before, after)):
         return False
     for old in before.route:

@@ -11,7 +11,7 @@ from xavi_dialogue.explain.history.motion import EPSILON
 
 
 def sights(states: States, vehicle: int) -> list[Episode]:
-    """When a vehicle came into view, and when it was lost from view."""
+    """Return when a vehicle came into view, and when it was lost from view."""
     if vehicle == EGO:
         return []
     here, ours = named(vehicle), named(EGO)
@@ -25,7 +25,7 @@ def sights(states: States, vehicle: int) -> list[Episode]:
 
 
 def _views(states: States, vehicle: int) -> Iterator[tuple[float, float | None]]:
-    """The stretches [s] in which a vehicle was in view; the last may go on."""
+    """Yield the stretches [s] in which a vehicle was in view; the last may go on."""
     hidden = states.seen(vehicle).hidden
     parts = states.motion(vehicle).parts()
     for number, part in enumerate(parts):
@@ -42,7 +42,7 @@ def _views(states: States, vehicle: int) -> Iterator[tuple[float, float | None]]
 
 
 def signals(states: States, vehicle: int) -> list[Episode]:
-    """When a vehicle showed an indicator."""
+    """Return when a vehicle showed an indicator."""
     found = []
     changes = states.seen(vehicle).lights
     motion = states.motion(vehicle)

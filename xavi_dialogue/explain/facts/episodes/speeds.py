@@ -18,7 +18,7 @@ GROWS = 0.2  # [m/s] in a second from which a speed grows
 
 
 def speeds(states: States, vehicle: int) -> list[Episode]:
-    """What a vehicle did with its speed."""
+    """Return what a vehicle did with its speed."""
     return states.memo(("speeds", vehicle), lambda: _speeds(states, vehicle))
 
 
@@ -35,7 +35,7 @@ def _speeds(states: States, vehicle: int) -> list[Episode]:
 
 
 def _lit(states: States) -> Iterator[Episode]:
-    """The braking of the ego that the brake light shows and the speed hardly shows yet."""
+    """Yield the braking of the ego that the brake light shows and the speed hardly shows yet."""
     scene = states.ride.scene
     if scene is None or states.ride.ended or "brake" not in scene.ego.signals:
         return
@@ -99,7 +99,7 @@ def _changed(states: States, vehicle: int, motion: Motion, sighting: Sighting) -
 
 
 def _continues(states: States, vehicle: int, motion: Motion, *, slower: bool) -> bool:
-    """Whether the speed still changes at the end of the record, as far as it is seen now."""
+    """Check whether the speed still changes at the end of the record, as far as it is seen now."""
     if motion.speed[-1] < STANDING:
         return False
     rate, now = motion.rate[-1], _rate_now(states, vehicle)
@@ -117,7 +117,7 @@ def _rate_now(states: States, vehicle: int) -> float:
 
 
 def _open(states: States, vehicle: int, end: float) -> bool:
-    """Whether what was seen up to a time [s] may go on: it is the end of the record."""
+    """Check whether what was seen up to a time [s] may go on: it is the end of the record."""
     motion = states.motion(vehicle)
     over = states.ride.ended or not motion.time or end < motion.time[-1] - EPSILON
     return not over and states.known(vehicle, states.ride.now)
@@ -143,7 +143,7 @@ def _standstills(states: States, vehicle: int, motion: Motion) -> Iterator[Episo
 
 
 def _setting_off(states: States, vehicle: int, motion: Motion, start: float) -> Episode:
-    """The setting off that ends a standstill, up to where the speed grows no more."""
+    """Return the setting off that ends a standstill, up to where the speed grows no more."""
     k, last = motion.index(start), len(motion.speed) - 1
     assert k is not None
     while k + 1 < len(motion.speed) and motion.speed[min(k + 5, last)] > motion.speed[k] + GROWS:
@@ -154,7 +154,7 @@ def _setting_off(states: States, vehicle: int, motion: Motion, start: float) -> 
 
 
 def _still(motion: Motion) -> Iterator[tuple[float, float | None, bool]]:
-    """The standstills: from when to when [s], and whether it stood when it was seen first."""
+    """Yield the standstills: from when to when [s], and whether it stood when it was seen first."""
     begin: float | None = None
     last = 0
     for k, speed in enumerate(motion.speed):
@@ -175,7 +175,7 @@ def _still(motion: Motion) -> Iterator[tuple[float, float | None, bool]]:
 
 
 def moves(states: States, vehicle: int) -> list[Episode]:
-    """The stretches in which a vehicle was in motion."""
+    """Return the stretches in which a vehicle was in motion."""
     motion = states.motion(vehicle)
     found, start = [], motion.time[0] if motion.time else None
     for begin, end, _ in _still(motion):

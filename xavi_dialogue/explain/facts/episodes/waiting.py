@@ -71,7 +71,7 @@ def _until_past(states: States, vehicle: int, wait: Episode) -> Episode | None:
 
 
 def _past(states: States, vehicle: int, other: int, time: float) -> bool:
-    """Whether another one is behind a vehicle, or drives away from it with its back to it."""
+    """Check whether another one is behind a vehicle, or drives away from it with its back to it."""
     ours, theirs = states.offset(vehicle, other, time), states.offset(other, vehicle, time)
     if ours is None or theirs is None:
         return False
@@ -79,7 +79,7 @@ def _past(states: States, vehicle: int, other: int, time: float) -> bool:
 
 
 def _merged(given: Iterator[Episode]) -> list[Episode]:
-    """The same, with what was told twice of one vehicle told once."""
+    """Return the same, with what was told twice of one vehicle told once."""
     found: list[Episode] = []
     for one in given:
         if not any(one.object == other.object and _meet(one, other) for other in found):
@@ -155,7 +155,7 @@ def _end(states: States, episode: Episode) -> float:
 
 
 def _stood_for(states: States, vehicle: int, still: Episode) -> Iterator[Episode]:
-    """The parts of a standstill, each with whom it was for."""
+    """Yield the parts of a standstill, each with whom it was for."""
     end = _end(states, still)
     runs: list[tuple[Holder, float]] = []
     for trace in states.ride.traces:
@@ -183,7 +183,7 @@ def _stood_for(states: States, vehicle: int, still: Episode) -> Iterator[Episode
 
 
 def _let_us_go(states: States, vehicle: int, still: Episode) -> Iterator[Episode]:
-    """The part of a standstill in which the ego went first by the rules, where it is its end.
+    """Yield the part of a standstill in which the ego went first by the rules, where it is its end.
 
     Where it was predicted that it waits for us, that tells it already.
     """
@@ -250,7 +250,7 @@ def _of_other(trace: PlanTrace, vehicle: int) -> dict[Holder, float]:
 
 
 def _leader(states: States, vehicle: int, time: float) -> int | None:
-    """Who stands right ahead of a vehicle at a time [s]."""
+    """Return who stands right ahead of a vehicle at a time [s]."""
     found: list[tuple[float, int]] = []
     for other in (EGO, *states.ride.vehicles):
         if other == vehicle:

@@ -31,7 +31,7 @@ class Stay:
 
 
 def ways(states: States, vehicle: int) -> list[Episode]:
-    """Where a vehicle went."""
+    """Return where a vehicle went."""
     return states.memo(("ways", vehicle), lambda: _ways(states, vehicle))
 
 
@@ -53,7 +53,7 @@ def _ways(states: States, vehicle: int) -> list[Episode]:
 
 
 def _own(states: States, stays: list[Stay]) -> list[Episode]:
-    """What the ego carried out, by its own events."""
+    """Return what the ego carried out, by its own events."""
     found = []
     for deed in states.ride.deeds:
         if deed.action in ("continue", "stop"):
@@ -67,7 +67,7 @@ def _own(states: States, stays: list[Stay]) -> list[Episode]:
 
 
 def _crossing(deed: Deed, stays: list[Stay]) -> Junction | None:
-    """The junction at which a deed of the ego was done."""
+    """Return the junction at which a deed of the ego was done."""
     if deed.action in ("change-left", "change-right"):
         return None
     begin, end = deed.span
@@ -90,7 +90,7 @@ def _speeds(motion: Motion, begin: float, end: float) -> tuple[float | None, flo
 
 
 def _stays(states: States, vehicle: int) -> Iterator[Stay]:
-    """Where a vehicle was on roundabouts and inside junctions, as the decisions have it."""
+    """Yield where a vehicle was on roundabouts and inside junctions, as the decisions have it."""
     inside: tuple[float, bool, RoadPlace | None] | None = None
     last: tuple[float, RoadPlace] | None = None
     for trace in states.ride.traces:
@@ -143,7 +143,7 @@ def _exit_taken(states: States, stay: Stay) -> tuple[int | None, None]:
 def _changed_lane(
     states: States, vehicle: int, sighting: Sighting, rings: list[tuple[float, float]]
 ) -> Iterator[Episode]:
-    """A lane change, unless the lanes on record say otherwise."""
+    """Yield a lane change, unless the lanes on record say otherwise."""
     if any(a - ASIDE <= sighting.end and sighting.start <= b + ASIDE for a, b in rings):
         return
     motion = states.motion(vehicle)
@@ -163,7 +163,7 @@ def _changed_lane(
 
 
 def _moved_over(motion: Motion, sighting: Sighting) -> float:
-    """When [s] a vehicle began to move sideways."""
+    """Return when [s] a vehicle began to move sideways."""
     inside = motion.within(sighting.start, sighting.end)
     first = inside[0]
     (x, y), heading = motion.position[first], motion.heading[first]
@@ -177,7 +177,7 @@ def _moved_over(motion: Motion, sighting: Sighting) -> float:
 def _turned(
     states: States, vehicle: int, sighting: Sighting, rings: list[tuple[float, float]]
 ) -> Iterator[Episode]:
-    """A turn, unless the road itself bends, or goes round."""
+    """Yield a turn, unless the road itself bends, or goes round."""
     if any(a - ASIDE <= sighting.end and sighting.start <= b + ASIDE for a, b in rings):
         return
     roads = [
@@ -206,7 +206,7 @@ def _turned(
 def _straight(
     states: States, vehicle: int, stays: list[Stay], others: list[Episode]
 ) -> list[Episode]:
-    """The junctions that a vehicle came through without a turn."""
+    """Return the junctions that a vehicle came through without a turn."""
     found = []
     for stay in stays:
         end = stay.end

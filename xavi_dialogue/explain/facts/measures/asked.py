@@ -52,16 +52,16 @@ class Asked:
     def found(
         self, value: float | None, word: str | None = None, time: float | None = None
     ) -> Measure:
-        """The measure with a value or word."""
+        """Return the measure with a value or word."""
         at = self.time if time is None else time
         return Measure(self.attribute, self.thing, at, value, word, self.to)
 
     def none(self, gap: Gap) -> Measure:
-        """The measure without a value, and why."""
+        """Return the measure without a value, and why."""
         return Measure(self.attribute, self.thing, self.at, to=self.to, gap=gap)
 
     def gap(self) -> Gap | None:
-        """Why the things are not known at that time; None where they are."""
+        """Return why the things are not known at that time; None where they are."""
         first = self.states.gap(self.vehicle, self.at)
         if first is not None or self.other is None:
             return first

@@ -20,7 +20,7 @@ STEERED = math.radians(3.0)  # change of heading from which a vehicle turns
 
 
 def leader(states: States, vehicle: int, time: float) -> int | None:
-    """Who is next ahead of a vehicle on its line, in view or known."""
+    """Return who is next ahead of a vehicle on its line, in view or known."""
     found: list[tuple[float, int]] = []
     for other in (EGO, *states.ride.vehicles):
         if other == vehicle or not states.known(other, time):
@@ -35,7 +35,7 @@ def leader(states: States, vehicle: int, time: float) -> int | None:
 
 
 def _following(asked: Asked) -> tuple[Following | None, Asked]:
-    """The two on one line; where nobody is named, with who is ahead."""
+    """Return the two on one line; where nobody is named, with who is ahead."""
     if asked.other is None and not _is_place(asked.to):
         ahead = leader(asked.states, asked.vehicle, asked.at)
         if ahead is None:
@@ -48,13 +48,13 @@ def _following(asked: Asked) -> tuple[Following | None, Asked]:
 
 
 def gap(asked: Asked) -> Measure:
-    """The gap along the way between two of whom one is behind the other."""
+    """Return the gap along the way between two of whom one is behind the other."""
     found, asked = _following(asked)
     return asked.none("not-applicable") if found is None else asked.found(round(found.gap, 1))
 
 
 def headway(asked: Asked) -> Measure:
-    """The gap in seconds of the follower; none where it stands."""
+    """Return the gap in seconds of the follower; none where it stands."""
     found, asked = _following(asked)
     if found is None:
         return asked.none("not-applicable")
@@ -65,7 +65,7 @@ def headway(asked: Asked) -> Measure:
 
 
 def distance(asked: Asked) -> Measure:
-    """The distance between two bodies, or along the road to a place."""
+    """Return the distance between two bodies, or along the road to a place."""
     if _is_place(asked.to) or _is_place(asked.thing):
         return to_place(asked, asked.to if _is_place(asked.to) else asked.thing)
     if asked.other is None:
@@ -78,7 +78,7 @@ def distance(asked: Asked) -> Measure:
 
 
 def to_place(asked: Asked, place: Thing | None) -> Measure:
-    """How far along the road a place is ahead of the ego."""
+    """Return how far along the road a place is ahead of the ego."""
     trace = asked.states.trace(asked.at)
     road = None if trace is None else trace.road
     if trace is None or road is None or asked.at - trace.sim_time > 2.0 * STALE:
@@ -100,7 +100,7 @@ def to_place(asked: Asked, place: Thing | None) -> Measure:
 
 
 def time_to_collision(asked: Asked) -> Measure:
-    """The time to a collision if both go on as they do; none where they part."""
+    """Return the time to a collision if both go on as they do; none where they part."""
     if asked.other is None:
         found, asked = _following(asked)
         if found is None:
@@ -129,7 +129,7 @@ def time_to_touch(states: States, one: int, other: int, time: float) -> float | 
 
 
 def _turns(states: States, vehicle: int, time: float) -> bool:
-    """Whether the heading of a vehicle changes within TREND_TIME of a time [s]."""
+    """Check whether the heading of a vehicle changes within TREND_TIME of a time [s]."""
     now = states.state(vehicle, time)
     near = (states.state(vehicle, time + by) for by in (-TREND_TIME, TREND_TIME))
     return now is not None and any(
@@ -140,7 +140,7 @@ def _turns(states: States, vehicle: int, time: float) -> bool:
 
 
 def place(asked: Asked) -> Measure:
-    """The word for where a vehicle is, seen from the other one."""
+    """Return the word for where a vehicle is, seen from the other one."""
     eye = EGO if asked.other is None else asked.other
     seen = asked.states.offset(eye, asked.vehicle, asked.at)
     if seen is None or asked.vehicle == eye:

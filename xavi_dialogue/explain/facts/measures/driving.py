@@ -9,7 +9,7 @@ from xavi_dialogue.explain.history.thresholds import SMOOTHED
 
 
 def speed(asked: Asked) -> Measure:
-    """The speed, beside the limit."""
+    """Return the speed, beside the limit."""
     state = asked.states.state(asked.vehicle, asked.at)
     if state is None:
         return asked.none("out-of-view")
@@ -17,13 +17,13 @@ def speed(asked: Asked) -> Measure:
 
 
 def limit(asked: Asked) -> Measure:
-    """The speed limit where the thing is."""
+    """Return the speed limit where the thing is."""
     value = limit_at(asked)
     return asked.none("not-recorded") if value is None else asked.found(value)
 
 
 def limit_at(asked: Asked) -> float | None:
-    """The limit [m/s] in force for a vehicle; None where it is not recorded."""
+    """Return the limit [m/s] in force for a vehicle; None where it is not recorded."""
     place = asked.states.place(asked.vehicle, asked.time)
     return None if place is None else place.limit
 
@@ -37,26 +37,26 @@ def excess(asked: Asked) -> Measure:
 
 
 def acceleration(asked: Asked) -> Measure:
-    """How the speed changes."""
+    """Return how the speed changes."""
     motion = asked.states.motion(asked.vehicle)
     k = motion.index(asked.at)
     return asked.none("out-of-view") if k is None else asked.found(round(motion.rate[k], 2))
 
 
 def deceleration(asked: Asked) -> Measure:
-    """How hard it brakes; 0 where it does not."""
+    """Return how hard it brakes; 0 where it does not."""
     found = acceleration(asked)
     return found if found.value is None else replace(found, value=max(-found.value, 0.0))
 
 
 def jerk(asked: Asked) -> Measure:
-    """How fast the acceleration changes."""
+    """Return how fast the acceleration changes."""
     value = jerk_at(asked.states, asked.vehicle, asked.at)
     return asked.none("not-recorded") if value is None else asked.found(round(value, 2))
 
 
 def jerk_at(states: States, vehicle: int, time: float) -> float | None:
-    """The jerk [m/s3] over SMOOTHED seconds around a time, its sign that of the change."""
+    """Return the jerk [m/s3] over SMOOTHED seconds around a time, its sign that of the change."""
     motion = states.motion(vehicle)
     last = motion.time[-1] if motion.time else time
     end = min(time + SMOOTHED / 2.0, last)
@@ -68,7 +68,7 @@ def jerk_at(states: States, vehicle: int, time: float) -> float | None:
 
 
 def indicator(asked: Asked) -> Measure:
-    """Which indicator is on."""
+    """Return which indicator is on."""
     shown = asked.states.lights(asked.vehicle, asked.at)
     if shown is None:
         return asked.none("not-recorded")
@@ -78,7 +78,7 @@ def indicator(asked: Asked) -> Measure:
 
 
 def brake_lights(asked: Asked) -> Measure:
-    """Whether the brake lights are on."""
+    """Return whether the brake lights are on."""
     shown = asked.states.lights(asked.vehicle, asked.at)
     if shown is None:
         return asked.none("not-recorded")

@@ -29,7 +29,7 @@ def extreme(
     span: Span,
     to: Thing | None,
 ) -> Measure:
-    """The extreme of an attribute over an interval; `time` is when it was reached."""
+    """Return the extreme of an attribute over an interval; `time` is when it was reached."""
     begin, end = max(span[0], states.begin), min(span[1], states.ride.now)
     asked = Asked(states, attribute, thing, begin, None if to == thing else to)
     if end < begin - 1e-6:
@@ -51,7 +51,7 @@ def extreme(
 
 
 def _why_not(asked: Asked, begin: float, end: float) -> Gap:
-    """Why there is no value in all of an interval: as it is where most is known."""
+    """Return why there is no value in all of an interval: as it is where most is known."""
     gaps = [
         measure(asked.states, asked.attribute, asked.thing, time, asked.to).gap
         for time in (end, (begin + end) / 2.0, begin)
@@ -75,7 +75,7 @@ def _of(asked: Asked, series: list[tuple[float, float]], which: Extreme) -> Meas
 
 
 def _edge(asked: Asked, which: Extreme, begin: float, end: float) -> Measure:
-    """The first or last value there is."""
+    """Return the first or last value there is."""
     times = _times(asked, begin, end)
     ordered = times if which == "first" else list(reversed(times))
     for time in (ordered[0], *ordered[1:]) if ordered else ():
@@ -86,7 +86,7 @@ def _edge(asked: Asked, which: Extreme, begin: float, end: float) -> Measure:
 
 
 def _total(asked: Asked, begin: float, end: float) -> Measure:
-    """What adds up over an interval."""
+    """Return what adds up over an interval."""
     states, vehicle = asked.states, asked.vehicle
     match asked.attribute:
         case "distance-driven" | "distance":
@@ -108,12 +108,12 @@ def _total(asked: Asked, begin: float, end: float) -> Measure:
 
 
 def _met(states: States, vehicle: int, begin: float, end: float) -> bool:
-    """Whether a vehicle was in view in an interval [s]."""
+    """Check whether a vehicle was in view in an interval [s]."""
     return len(states.motion(vehicle).within(begin, end)) > 0
 
 
 def _closest(asked: Asked, begin: float, end: float) -> Measure | None:
-    """The closest approach of two bodies; to anybody, where nobody is named."""
+    """Return the closest approach of two bodies; to anybody, where nobody is named."""
     others = [asked.other] if asked.other is not None else list(asked.states.ride.vehicles)
     if asked.to is not None and asked.other is None:
         return None
@@ -132,14 +132,14 @@ def _closest(asked: Asked, begin: float, end: float) -> Measure | None:
 
 
 def _times(asked: Asked, begin: float, end: float) -> list[float]:
-    """The moments of the record in an interval, and its end."""
+    """Return the moments of the record in an interval, and its end."""
     motion = asked.states.motion(asked.vehicle)
     times = [motion.time[k] for k in motion.within(begin, end)]
     return times or [end]
 
 
 def _measured(asked: Asked, begin: float, end: float) -> Series:
-    """An attribute at each moment at which it has a value."""
+    """Return an attribute at each moment at which it has a value."""
     for time in _times(asked, begin, end):
         found = measure(asked.states, asked.attribute, asked.thing, time, asked.to)
         if found.value is not None:

@@ -20,7 +20,7 @@ AIMS = ("exit-left", "exit-right", "exit-straight", "continue-next-exit", "stop"
 
 
 def colour(asked: Asked) -> Measure:
-    """The colour of a vehicle."""
+    """Return the colour of a vehicle."""
     shape = asked.states.shape(asked.vehicle)
     if shape is None:
         return asked.none("out-of-view")
@@ -28,13 +28,13 @@ def colour(asked: Asked) -> Measure:
 
 
 def kind(asked: Asked) -> Measure:
-    """What a vehicle is."""
+    """Return what a vehicle is."""
     shape = asked.states.shape(asked.vehicle)
     return asked.none("out-of-view") if shape is None else asked.found(None, kind_of(shape))
 
 
 def size(asked: Asked) -> Measure:
-    """The length of a vehicle."""
+    """Return the length of a vehicle."""
     shape = asked.states.shape(asked.vehicle)
     if shape is None:
         return asked.none("out-of-view")
@@ -43,12 +43,12 @@ def size(asked: Asked) -> Measure:
 
 
 def name(asked: Asked) -> Measure:
-    """The number of a vehicle."""
+    """Return the number of a vehicle."""
     return asked.found(float(asked.vehicle))
 
 
 def origin(asked: Asked) -> Measure:
-    """Where a vehicle came from, as seen from us: when it was seen first."""
+    """Return where a vehicle came from, as seen from us: when it was seen first."""
     if asked.vehicle == EGO:
         return asked.none("not-recorded")
     motion = asked.states.motion(asked.vehicle)
@@ -117,7 +117,7 @@ def visibility(asked: Asked) -> Measure:
 
 
 def turn(asked: Asked) -> Measure:
-    """Which way the ego goes at the next junction; `value`: how far that is."""
+    """Return which way the ego goes at the next junction; `value`: how far that is."""
     road = asked.states.road(asked.at)
     if road is None:
         return asked.none("not-recorded")

@@ -21,12 +21,12 @@ delay = trip.delay
 
 
 def _comfort(asked: Asked) -> Measure:
-    """How hard it brakes at that time."""
+    """Return how hard it brakes at that time."""
     return replace(driving.deceleration(asked), attribute="comfort")
 
 
 def _value(asked: Asked) -> Measure:
-    """The expected reward of what was chosen."""
+    """Return the expected reward of what was chosen."""
     ride = asked.states.ride
     trace = last_choice(ride, asked.at)
     plan = () if trace is None else planned(trace)
@@ -37,7 +37,7 @@ def _value(asked: Asked) -> Measure:
 
 
 def _count(asked: Asked) -> Measure:
-    """How many vehicles are in view."""
+    """Return how many vehicles are in view."""
     return asked.found(float(len(asked.states.in_view(asked.at))))
 
 
@@ -108,7 +108,7 @@ LACKING: Mapping[Attribute, Gap] = {
 def measure(
     states: States, attribute: Attribute, thing: Thing, at: float, to: Thing | None
 ) -> Measure:
-    """The value of an attribute at a time [s]; where it has none, why."""
+    """Return the value of an attribute at a time [s]; where it has none, why."""
     asked = Asked(states, attribute, thing, at, None if to == thing else to)
     if attribute in LACKING:
         return asked.none(LACKING[attribute])

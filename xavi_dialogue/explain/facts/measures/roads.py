@@ -12,7 +12,7 @@ from xavi_dialogue.explain.history.nearing import still_to
 
 
 def lane(asked: Asked) -> Measure:
-    """The lane from the right, 1 the rightmost; `count`: how many there are."""
+    """Return the lane from the right, 1 the rightmost; `count`: how many there are."""
     place = asked.states.place(asked.vehicle, asked.time)
     if place is None:
         return asked.none("not-recorded")
@@ -27,13 +27,13 @@ def lane(asked: Asked) -> Measure:
 
 
 def lane_count(asked: Asked) -> Measure:
-    """How many lanes there are in that direction."""
+    """Return how many lanes there are in that direction."""
     place = asked.states.place(asked.vehicle, asked.time)
     return asked.none("not-recorded") if place is None else asked.found(float(place.lanes))
 
 
 def right_of_way(asked: Asked) -> Measure:
-    """Who goes first of the ego and another; without another, the rule at the next junction.
+    """Return who goes first of the ego and another; without another, the rule at the next junction.
 
     `rule` is that of `thing`: priority, give-way, equal, depends. `word` names who goes first.
     """
@@ -58,7 +58,7 @@ def _ruled(asked: Asked, step: RouteStep) -> Measure:
 
 
 def _next(asked: Asked) -> RouteStep | None:
-    """The step of the route that is asked about; the next one unless said."""
+    """Return the step of the route that is asked about; the next one unless said."""
     road = asked.states.road(asked.at)
     places = [p for p in (asked.thing, asked.to) if isinstance(p, Junction)]
     steps = [] if road is None else list(road.route)
@@ -90,11 +90,11 @@ def exit_number(asked: Asked) -> Measure:
 
 
 def _rings(asked: Asked) -> list[Episode]:
-    """The roundabouts that the ego entered and left, in order."""
+    """Return the roundabouts that the ego entered and left, in order."""
     return [e for e in ways(asked.states, EGO) if e.action in ("enter", "leave")]
 
 
 def route(asked: Asked) -> Measure:
-    """How many junctions are on the way to the destination; `World.road` has them."""
+    """Return how many junctions are on the way to the destination; `World.road` has them."""
     road = asked.states.road(asked.at)
     return asked.none("not-recorded") if road is None else asked.found(float(len(road.route)))

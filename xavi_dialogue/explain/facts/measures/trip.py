@@ -22,18 +22,18 @@ from xavi_dialogue.explain.history.thresholds import STANDING
 
 
 def distance_to_go(asked: Asked) -> Measure:
-    """How far it is to the destination."""
+    """Return how far it is to the destination."""
     return asked.found(0.0) if _there(asked) else to_place(asked, None)
 
 
 def distance_driven(asked: Asked) -> Measure:
-    """How far a vehicle has driven since it was seen first."""
+    """Return how far a vehicle has driven since it was seen first."""
     value = driven(asked.states.motion(asked.vehicle), asked.states.begin, asked.at)
     return asked.found(round(value, 1))
 
 
 def clock(asked: Asked) -> Measure:
-    """The time of the ride."""
+    """Return the time of the ride."""
     return asked.found(asked.at, time=asked.at)
 
 
@@ -91,7 +91,7 @@ def _quantiles(plan: Intervention) -> tuple[float, float, float] | None:
 
 
 def _through_waypoint(asked: Asked, trace: PlanTrace, plan: Intervention, passed: float) -> Measure:
-    """The time to the place that the plan goes to, and from there on freely."""
+    """Return the time to the place that the plan goes to, and from there on freely."""
     road = trace.road
     if road is None or road.free_time is None or road.distance is None:
         return asked.none("not-recorded")
@@ -110,7 +110,7 @@ def _through_waypoint(asked: Asked, trace: PlanTrace, plan: Intervention, passed
 
 
 def _beyond(asked: Asked, trace: PlanTrace, plan: Intervention) -> Measure | None:
-    """A bound where most drives are still under way at the horizon, as at a red light."""
+    """Return a bound where most drives are still under way at the horizon, as at a red light."""
     if plan.likeliest != "termination":
         return None
     freely = _freely(asked).value or 0.0
@@ -128,7 +128,7 @@ def _length(trace: PlanTrace, rollout: Rollout) -> float | None:
 
 
 def _freely(asked: Asked) -> Measure:
-    """The time to the destination where nobody is in the way."""
+    """Return the time to the destination where nobody is in the way."""
     trace = asked.states.trace(asked.at)
     if trace is None or trace.road is None or trace.road.free_time is None:
         return asked.none("not-recorded")
@@ -137,7 +137,7 @@ def _freely(asked: Asked) -> Measure:
 
 
 def arrival_time(asked: Asked) -> Measure:
-    """When we arrived or are expected to."""
+    """Return when we arrived or are expected to."""
     arrived = _arrived(asked)
     if arrived is not None:
         return asked.found(arrived, time=arrived)
@@ -150,7 +150,7 @@ def arrival_time(asked: Asked) -> Measure:
 
 
 def waiting_time(asked: Asked) -> Measure:
-    """How long a vehicle has stood so far; for another one, where that is named."""
+    """Return how long a vehicle has stood so far; for another one, where that is named."""
     states, vehicle, at = asked.states, asked.vehicle, asked.at
     named = None if asked.to is None else somebody(asked.to)
     episodes = waits(states, vehicle) if named else speeds(states, vehicle)
@@ -163,7 +163,7 @@ def waiting_time(asked: Asked) -> Measure:
 
 
 def standing_within(states: States, vehicle: int, begin: float, end: float) -> float:
-    """How long [s] a vehicle stood between two times."""
+    """Return how long [s] a vehicle stood between two times."""
     motion = states.motion(vehicle)
     inside = motion.within(begin, end)
     total = 0.0

@@ -32,6 +32,6 @@ _AGREEING = {
 
 
 def verbs(past: bool, many: bool) -> dict[str, str]:
-    """The verbs for a tense, and for one thing or for many; we are many."""
+    """Return the verbs for a tense, and for one thing or for many; we are many."""
     words = {name: pair[past] for name, pair in _WORDS.items()}
     return words | {name: row[2 * many + past] for name, row in _AGREEING.items()}

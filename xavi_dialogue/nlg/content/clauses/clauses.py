@@ -39,7 +39,7 @@ def doing(
     roundabout: bool = False,
     has_object: bool = False,
 ) -> str:
-    """The verb phrase for an action, with {} where its object goes."""  # fmt: skip
+    """Return the verb phrase for an action, with {} where its object goes."""  # fmt: skip
     section = table("doings")
     entry: Any = section["roundabout"].get(action) if roundabout else None
     entry = entry or section["action"][action]
@@ -62,7 +62,7 @@ def verb_phrase(
     roundabout: bool = False,
     time: float | None = None,
 ) -> tuple[str, tuple[object, ...]]:
-    """The verb and what follows it, with the object in its place."""  # fmt: skip
+    """Return the verb and what follows it, with the object in its place."""  # fmt: skip
     if isinstance(target, Junction | Exit) and roundabout and action == "continue-next-exit":
         target = None
     if isinstance(target, Junction) and roundabout:
@@ -93,7 +93,7 @@ def verb_phrase(
 
 
 def subject_of(actor: Thing, action: ActionName | None = None, time: float | None = None) -> Who:
-    """The subject of a clause: "we" where our car is taken along rather than acts."""
+    """Return the subject of a clause: "we" where our car is taken along rather than acts."""
     ride = action is not None and bool(table("doings")["action"][action].get("ride"))
     return Who(actor, time, ride=ride, placed=action != "come")
 
@@ -101,7 +101,7 @@ def subject_of(actor: Thing, action: ActionName | None = None, time: float | Non
 def event_clause(
     event: Event, now: float, *, tense: Tense | None = None, negated: bool = False
 ) -> Clause:
-    """An event as a clause, in its own tense where no other is given."""
+    """Return an event as a clause, in its own tense where no other is given."""
     told, modal = event_tense(event, now)
     if tense is not None:
         told, modal = tense, None
@@ -165,7 +165,7 @@ def denied(part: object) -> object:
 def episode_clause(
     episode: Episode, now: float, *, tense: Tense | None = None, negated: bool = False
 ) -> Clause:
-    """An episode as a clause: past, or under way where it goes on."""
+    """Return an episode as a clause: past, or under way where it goes on."""
     over = episode.end
     going_on = over is None or (goes_on(episode, now) and over > episode.begin)
     told: Tense = tense or ("past" if not going_on or episode.begin > now else "present")
@@ -193,7 +193,7 @@ def episode_clause(
 
 
 def relative_clause(event: Event, now: float) -> Clause:
-    """An event as a relative clause: "that cut in", "that I waited for"."""
+    """Return an event as a relative clause: "that cut in", "that I waited for"."""
     clause = event_clause(event, now)
     if not isinstance(event.actor, Ego):
         return replace(clause, subject="that")
@@ -203,6 +203,6 @@ def relative_clause(event: Event, now: float) -> Clause:
 
 
 def state_word(state: str, too: bool = False) -> str:
-    """The adjective for a state."""
+    """Return the adjective for a state."""
     adjective = word("doings", "state", state)
     return f"too {adjective}" if too else adjective

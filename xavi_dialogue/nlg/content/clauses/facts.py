@@ -156,7 +156,7 @@ def belief_message(belief: Belief, context: SpeechContext) -> Message:
 
 
 def _by_words(expected: Sequence[Expectation], *, ring: bool) -> list[Expectation]:
-    """What is expected, with what is said in the same words told once; likeliest first."""
+    """Return what is expected, with what is said in the same words told once; likeliest first."""
     found: dict[tuple[Clause, ...], Expectation] = {}
     for one in expected:
         words = verbs_of(one.actions, ring=ring)
@@ -185,7 +185,7 @@ def besides_of(others: Sequence[Expectation], *, past: bool) -> dict[str, object
 def verbs_of(
     actions: tuple[str, ...], ego: bool = False, *, ring: bool = False, walks: bool = False
 ) -> tuple[Clause, ...]:
-    """The verb phrases of a row of actions, to be inflected; `ring`: in a roundabout."""
+    """Return the verb phrases of a row of actions, to be inflected; `ring`: in a roundabout."""
     if walks:
         return tuple(Clause("it", afoot(doing(a))) for a in actions)  # type: ignore[arg-type]
     passed = actions.count("continue-next-exit")
@@ -234,5 +234,5 @@ def option_message(option: OptionValue, *, risk: bool = False) -> Message:
 
 
 def asked_of(event: Event) -> Who:
-    """The actor of an event, to be referred to."""
+    """Return the actor of an event, to be referred to."""
     return Who(event.actor, ride=isinstance(event.actor, Ego))

@@ -64,7 +64,7 @@ def plan_staying(answer: Staying, context: SpeechContext) -> Plan:
 
 
 def _range(speeds: list[Measure]) -> Message:
-    """The speeds of many as from the slowest to the fastest."""
+    """Return the speeds of many as from the slowest to the fastest."""
     slow, fast = (pick(speeds, key=lambda m: m.value or 0.0) for pick in (min, max))
     return message(
         "ALL_SPEEDS", low=Quantity(slow.value or 0.0, "m/s"),
@@ -104,7 +104,7 @@ def measure_messages(measures: tuple[Measure, ...], context: SpeechContext) -> l
 
 
 def _place_of_peak(one: Measure, measures: tuple[Measure, ...]) -> bool:
-    """Whether it tells where another value was reached: so far before a junction."""
+    """Check whether it tells where another value was reached: so far before a junction."""
     if one.attribute != "distance" or not isinstance(one.to, Junction) or one.value is None:
         return False
     return any(m.extreme is not None and m.time == one.time for m in measures)
@@ -117,7 +117,7 @@ def _placed(first: Message, where: Measure) -> Message:
 
 
 def _seen_last(one: Measure, measures: tuple[Measure, ...]) -> bool:
-    """Whether the value when it was seen last stands beside a gap."""
+    """Check whether the value when it was seen last stands beside a gap."""
     gone = one.gap in ("out-of-view", "hidden")
     return gone and any(
         m.attribute == one.attribute and m.thing == one.thing and m.gap is None for m in measures
@@ -125,14 +125,14 @@ def _seen_last(one: Measure, measures: tuple[Measure, ...]) -> bool:
 
 
 def _seen_last_of(one: Measure, measures: tuple[Measure, ...]) -> bool:
-    """Whether it is the value when a thing was seen last that is not in view."""
+    """Check whether it is the value when a thing was seen last that is not in view."""
     if one.gap is not None or not isinstance(one.thing, Vehicle):
         return False
     return any(_seen_last(m, (one,)) for m in measures)
 
 
 def _seconds_beside(one: Measure, measures: tuple[Measure, ...]) -> float | None:
-    """The gap in seconds that stands beside the same gap in metres."""
+    """Return the gap in seconds that stands beside the same gap in metres."""
     if one.attribute != "gap" or one.value is None or one.extreme is not None:
         return None
     alike = (m for m in measures if m.attribute == "headway" and _same(m, one))
@@ -144,7 +144,7 @@ def _same(one: Measure, two: Measure) -> bool:
 
 
 def _merged(measures: tuple[Measure, ...]) -> tuple[Measure, ...]:
-    """The measures without the gaps in seconds that are said beside the gap in metres."""
+    """Return the measures without the gaps in seconds that are said beside the gap in metres."""
     gaps = [m for m in measures if _seconds_beside(m, measures) is not None]
     return tuple(
         m for m in measures if m.attribute != "headway" or not any(_same(m, g) for g in gaps)

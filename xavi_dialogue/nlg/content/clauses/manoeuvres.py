@@ -17,7 +17,7 @@ _BACK = {"change-left": "change-right", "change-right": "change-left"}
 
 
 def plain(actions: Iterable[str]) -> tuple[str, ...]:
-    """The actions without repetition, and without going on as an afterthought."""
+    """Return the actions without repetition, and without going on as an afterthought."""
     kept: list[str] = []
     for action in actions:
         if not kept or kept[-1] != action:
@@ -28,7 +28,7 @@ def plain(actions: Iterable[str]) -> tuple[str, ...]:
 
 
 def own_verbs(actions: Iterable[str], against: Iterable[str] = ()) -> tuple[Clause, ...]:
-    """What we do as verb phrases to be inflected.
+    """Return what we do as verb phrases to be inflected.
 
     Args:
         actions: the row of actions.
@@ -39,7 +39,7 @@ def own_verbs(actions: Iterable[str], against: Iterable[str] = ()) -> tuple[Clau
 
 
 def other_verbs(actions: Iterable[str]) -> tuple[Clause, ...]:
-    """What another vehicle does as verb phrases to be inflected."""
+    """Return what another vehicle does as verb phrases to be inflected."""
     row = plain(actions)
     telling = tuple(action for action in row if action != "continue")
     return _row(telling or row, (), ego=False)
@@ -74,7 +74,7 @@ def _phrase(action: str, *, ego: bool, lanes: bool) -> str:
 def deed_clause(
     deed: Episode, now: float, *, past: bool | None = None, against: Iterable[str] = ()
 ) -> Clause:
-    """What we did or do, with going on told as staying in the lane beside a lane change."""
+    """Return what we did or do, with going on told as staying in the lane beside a lane change."""
     tense: Tense | None = None if past is None else "past" if past else "present"
     if past is False and deed.begin > now + 1.0:
         tense = "future"
@@ -86,7 +86,7 @@ def deed_clause(
 
 
 def planned_clause(actions: Iterable[str], *, past: bool, against: Iterable[str] = ()) -> Clause:
-    """That we decided, or plan, to do something."""
+    """Return that we decided, or plan, to do something."""
     first, *others = own_verbs(actions, against) or (Clause(Who(), doing("continue", ego=True)),)
     rest: tuple[object, ...] = (f"to {first.verb}",)
     rest += tuple(part for one in others for part in (f"and then {one.verb}",))
@@ -96,7 +96,7 @@ def planned_clause(actions: Iterable[str], *, past: bool, against: Iterable[str]
 
 
 def denial(action: ActionName, *, past: bool) -> Clause:
-    """That we did not, or are not doing, something."""
+    """Return that we did not, or are not doing, something."""
     ride = action in ("stand", "move")
     verb = doing(action, ego=True)
     tense: Tense = "past" if past else "present"

@@ -68,7 +68,7 @@ def measure_message(
 
 
 def _has_value(one: Measure) -> bool:
-    """Whether there is what the sentence of the attribute is about."""
+    """Check whether there is what the sentence of the attribute is about."""
     if one.attribute in UNSEEN:
         return False
     if one.attribute in ("indicator", "brake-lights", "name"):
@@ -83,7 +83,7 @@ def _has_value(one: Measure) -> bool:
 
 
 def _common(one: Measure, context: SpeechContext, when: bool) -> dict[str, Any]:
-    """The slots that every attribute has: who, when, and verbs that go with them."""
+    """Return the slots that every attribute has: who, when, and verbs that go with them."""
     past = context.now - one.time > since(context) and one.extreme is None
     past = past and one.attribute != "visibility"
     ego = isinstance(one.thing, Ego)
@@ -133,7 +133,7 @@ def _last_seen(one: Measure, context: SpeechContext) -> Moment | None:
 
 
 def _valued(one: Measure, context: SpeechContext) -> dict[str, Any]:
-    """The slots of a measure that has a value."""
+    """Return the slots of a measure that has a value."""
     value = one.value
     unit = UNITS.get(one.attribute, "count")
     slots: dict[str, Any] = {
@@ -151,7 +151,7 @@ def _valued(one: Measure, context: SpeechContext) -> dict[str, Any]:
 
 
 def _judged(one: Measure, value: float | None) -> dict[str, Any]:
-    """What a number amounts to: over or under, hard or gentle, faster or slower."""
+    """Return what a number amounts to: over or under, hard or gentle, faster or slower."""
     if value is None:
         return {}
     slots: dict[str, Any] = {"total": one.extreme == "total", "none": value <= 0.0}
@@ -198,12 +198,12 @@ def _judged(one: Measure, value: float | None) -> dict[str, Any]:
 
 
 def _is_bound(one: Measure) -> bool:
-    """Whether a time is only known to be longer than its value."""
+    """Check whether a time is only known to be longer than its value."""
     return one.low is not None and one.high is None
 
 
 def degree(acceleration: float) -> str:
-    """What a passenger calls a deceleration or acceleration [m/s2]."""
+    """Return what a passenger calls a deceleration or acceleration [m/s2]."""
     size = abs(acceleration)
     if size < GENTLE:
         return "gentle"
@@ -211,7 +211,7 @@ def degree(acceleration: float) -> str:
 
 
 def _particular(one: Measure, value: float | None, context: SpeechContext) -> dict[str, Any]:
-    """The slots that a single attribute needs."""
+    """Return the slots that a single attribute needs."""
     match one.attribute:
         case "lane" if value is not None and one.count is not None:
             return {"leftmost": int(value) == one.count}
@@ -255,7 +255,7 @@ def _peak(one: Measure) -> Moment | None:
 
 
 def _lit(one: Measure) -> str | None:
-    """What indicators or brake lights show."""
+    """Return what indicators or brake lights show."""
     shown = set(one.lights)
     if one.attribute == "brake-lights":
         return "on" if "brake" in shown or one.word == "on" else None

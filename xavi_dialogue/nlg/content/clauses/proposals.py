@@ -34,7 +34,7 @@ def about_cause(answer: Answer) -> tuple[str, ...]:
 
 
 def _first(answer: Any) -> int | None:
-    """The vehicle that an answer names first as a cause; ours is none."""
+    """Return the vehicle that an answer names first as a cause; ours is none."""
     match answer:
         case ChoiceReason(contrast=contrast) | SupposedOfUs(contrast=contrast):
             named = [cause.vehicle for cause in contrast.causes]
@@ -48,18 +48,18 @@ def _first(answer: Any) -> int | None:
 
 
 def always(context: SpeechContext, most: int = 2) -> tuple[str, ...]:
-    """What can be asked at any time and was not proposed lately."""
+    """Return what can be asked at any time and was not proposed lately."""
     fresh = [one for one in ALWAYS if one not in context.suggested]
     return tuple(fresh[:most])
 
 
 def about_vehicle(vehicle: int) -> tuple[str, ...]:
-    """What can be asked about a vehicle that is known."""
+    """Return what can be asked about a vehicle that is known."""
     return (f"What is vehicle {vehicle} doing?",)
 
 
 def fresh(proposed: tuple[str, ...], context: SpeechContext) -> tuple[str, ...]:
-    """Those that were not proposed lately."""
+    """Return those that were not proposed lately."""
     return tuple(one for one in proposed if one not in context.suggested)
 
 

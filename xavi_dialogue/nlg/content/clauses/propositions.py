@@ -47,7 +47,7 @@ _WE = frozenset(("present", "safe", "stationary", "moving", "fast", "slow", "clo
 def clause_of(
     that: Proposition, now: float, *, negated: bool = False, tense: Tense | None = None
 ) -> Clause:
-    """A proposition as a clause, in its own tense where no other is given."""
+    """Return a proposition as a clause, in its own tense where no other is given."""
     match that:
         case Happens(event=event):
             return event_clause(event, now, tense=tense, negated=negated)
@@ -272,7 +272,7 @@ def _caused(that: Caused, now: float, negated: bool, tense: Tense | None) -> Cla
 
 
 def eventful(that: Proposition) -> Event | None:
-    """The event of a proposition that one happens, or not."""
+    """Return the event of a proposition that one happens, or not."""
     if isinstance(that, Not):
         return eventful(that.content)
     return that.event if isinstance(that, Happens) else None

@@ -19,7 +19,7 @@ NAMED = 0.3  # [s] ... unless that time was named
 
 
 def since(context: SpeechContext) -> float:
-    """How long ago [s] something is to be past."""
+    """Return how long ago [s] something is to be past."""
     return NAMED if context.then else PRESENT
 
 
@@ -49,7 +49,7 @@ def began(episode: Episode, context: SpeechContext) -> Moment | None:
 
 
 def tense_at(time: float, now: float, present: float = PRESENT) -> Tense:
-    """The tense in which a state at a time of the ride is stated."""
+    """Return the tense in which a state at a time of the ride is stated."""
     if time > now + PRESENT:
         return "future"
     return "past" if now - time > present else "present"
@@ -74,7 +74,7 @@ def tense_of(tense: terms.Tense, time: Time, now: float) -> Tense:
 
 
 def moment_of(time: Time) -> float | None:
-    """The time of the ride at which things are as they are described."""
+    """Return the time of the ride at which things are as they are described."""
     match time:
         case At(at=at):
             return at
@@ -84,7 +84,7 @@ def moment_of(time: Time) -> float | None:
 
 
 def event_tense(event: Event, now: float) -> tuple[Tense, str | None]:
-    """The tense and the modal verb in which an event is told."""
+    """Return the tense and the modal verb in which an event is told."""
     tense = tense_of(event.tense, event.time, now)
     match event.modal:
         case None | "will":

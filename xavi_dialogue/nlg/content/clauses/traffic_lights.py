@@ -68,7 +68,7 @@ def _counted(answer: LightTold) -> Plan:
 
 
 def shown_slots(one: Shown | None, answer: LightTold, context: SpeechContext) -> dict[str, object]:
-    """The slots of what a light showed, at the moment asked about."""
+    """Return the slots of what a light showed, at the moment asked about."""
     slots: dict[str, object] = {
         "far": None if answer.distance is None else Quantity(answer.distance, "m"),
         "passed": None if answer.passed is None else Moment(answer.passed),
@@ -96,7 +96,7 @@ def shown_slots(one: Shown | None, answer: LightTold, context: SpeechContext) ->
 
 
 def _when(one: Shown, answer: LightTold) -> Moment | None:
-    """When it came to show it; of its state in the past, the moment asked about."""
+    """Return when it came to show it; of its state in the past, the moment asked about."""
     if answer.asked in ("when", "how-long"):
         return Moment(one.begin)
     return None if answer.time is None or not answer.past else Moment(answer.time)
@@ -178,7 +178,7 @@ def plan_passed(answer: LightPassed, context: SpeechContext) -> Plan:
 
 
 def crossed_slots(one: Crossed) -> dict[str, object]:
-    """The slots of how we passed a line."""
+    """Return the slots of how we passed a line."""
     spent = one.since if one.since is not None and one.since >= SPENT else None
     return {
         "unseen": one.shown is None,

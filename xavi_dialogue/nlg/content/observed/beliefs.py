@@ -86,7 +86,7 @@ def _knew(answer: Beliefs, share: float, context: SpeechContext) -> Message:
 
 
 def _moved(answer: Beliefs, context: SpeechContext) -> Message | None:
-    """How the belief changed most, and what the vehicle did meanwhile."""
+    """Return how the belief changed most, and what the vehicle did meanwhile."""
     if answer.turning is None or len(answer.history) < 2:
         return None
     begin, end = answer.turning
@@ -104,7 +104,7 @@ def _moved(answer: Beliefs, context: SpeechContext) -> Message | None:
 
 
 def _gone(after: Belief, answer: Beliefs) -> tuple[Clause, ...] | None:
-    """The conduct asked about, where it was no longer possible in the end."""
+    """Return the conduct asked about, where it was no longer possible in the end."""
     wanted = _actions(answer.of)
     if not wanted or any(_within(wanted, e.actions) for e in after.expectations):
         return None
@@ -116,7 +116,7 @@ def _when(belief: Belief) -> float:
 
 
 def _share(belief: Belief, answer: Beliefs, latest: Belief) -> float | None:
-    """The probability of the conduct asked about, or of the likeliest one in the end."""
+    """Return the probability of the conduct asked about, or of the likeliest one in the end."""
     if not latest.expectations:
         return None
     wanted = _actions(answer.of) or latest.expectations[0].actions
@@ -210,7 +210,7 @@ _DECIDED = ("first", "second")
 
 
 def _because(answer: Compared, context: SpeechContext) -> Message | None:
-    """What would have come of the worse option in all, where that is what was not done."""
+    """Return what would have come of the worse option in all, where that is what was not done."""
     against = answer.contrast
     if against is None or answer.by != "best" or answer.better not in _DECIDED:
         return None
@@ -230,7 +230,7 @@ def _by(answer: Compared) -> Quantity | None:
 
 
 def _compared(thing: Thing | Proposition, context: SpeechContext) -> tuple[object, str]:
-    """The subject of a comparison and its "be": a thing, or a manoeuvre as a gerund."""
+    """Return the subject of a comparison and its "be": a thing, or a manoeuvre as a gerund."""
     event = eventful(thing) if not isinstance(thing, get_args(Thing)) else None  # type: ignore[arg-type]
     if event is not None:
         clause = event_clause(event, context.now)

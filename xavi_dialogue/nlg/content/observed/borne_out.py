@@ -25,7 +25,7 @@ TELLING = frozenset(("brake", "slow-down", "speed-up"))
 
 
 def telling(answer: Verdict) -> tuple[Fact, ...]:
-    """The facts that say something beside the verdict, as much as one sentence holds."""
+    """Return the facts that say something beside the verdict, as much as one sentence holds."""
     that, event = bare(answer.that), eventful(answer.that)
     holds = answer.holds != isinstance(answer.that, Not)
     placed = isinstance(that, Related) and that.relation in PLACES
@@ -64,7 +64,7 @@ def _said_by_other(fact: Fact, facts: tuple[Fact, ...]) -> bool:
 
 
 def _said_by_verdict(fact: Fact, answer: Verdict) -> bool:
-    """Whether it is the speed of what is said to stand still."""
+    """Check whether it is the speed of what is said to stand still."""
     that = bare(answer.that)
     if not isinstance(that, Is):
         return False
@@ -82,7 +82,7 @@ def bare(that: Proposition) -> Proposition:
 
 
 def tells_it(answer: Verdict, context: SpeechContext) -> bool:
-    """Whether the first fact by itself says what the verdict says."""
+    """Check whether the first fact by itself says what the verdict says."""
     if not answer.facts:
         return False
     fact, event = answer.facts[0], eventful(answer.that)
@@ -120,7 +120,7 @@ def within_limit(answer: Verdict) -> Measure | None:
 
 
 def _other_value(that: Proposition, fact: Fact) -> bool:
-    """Whether a fact gives the value that is so instead of the one asked for."""
+    """Check whether a fact gives the value that is so instead of the one asked for."""
     if isinstance(that, Compares) and isinstance(fact, Measure):
         number = isinstance(that.right, terms.Quantity)
         return number and (that.left.attribute, that.left.thing) == (fact.attribute, fact.thing)
@@ -130,7 +130,7 @@ def _other_value(that: Proposition, fact: Fact) -> bool:
 
 
 def _alike(episode: Episode, event: Event) -> bool:
-    """Whether an episode, said as it is, affirms an event by its own name."""
+    """Check whether an episode, said as it is, affirms an event by its own name."""
     place = isinstance(event.object, terms.Junction)
     if event.object is not None and not place and event.object != episode.object:
         return False

@@ -91,7 +91,7 @@ def _speed(answer: Activity) -> Quantity | None:
 
 
 def _deeds(answer: Activity) -> list[Episode]:
-    """What it does, the most telling first."""
+    """Return what it does, the most telling first."""
     standing = answer.trend == "standing"
     deeds = [
         e for e in answer.doing
@@ -166,7 +166,7 @@ def _far(ring: Ring) -> Quantity | None:
 
 
 def _begun(answer: PlanAhead, ring: Ring | None) -> Clause | None:
-    """What is under way before the first step."""
+    """Return what is under way before the first step."""
     first = answer.steps[0][0]
     straight = answer.begun == "exit-straight" and first == "continue"
     if answer.begun is None or answer.begun == first or straight:
@@ -177,7 +177,7 @@ def _begun(answer: PlanAhead, ring: Ring | None) -> Clause | None:
 
 
 def _same_turn(answer: PlanAhead) -> Measure | None:
-    """The turn at the next junction, where it is what the first step is about."""
+    """Return the turn at the next junction, where it is what the first step is about."""
     moves = [action for action, _ in answer.steps if action != "continue"]
     action = moves[0] if moves else "continue" if answer.steps else None
     for one in answer.measures:
@@ -191,7 +191,7 @@ def _same_turn(answer: PlanAhead) -> Measure | None:
 def _elsewhere(
     answer: PlanAhead, turn: Measure | None, ring: Ring | None, context: SpeechContext
 ) -> tuple[Message, ...]:
-    """The next turn, where the first step is none and says nothing of it."""
+    """Return the next turn, where the first step is none and says nothing of it."""
     actions = {action for action, _ in answer.steps}
     if turn is not None or ring is not None or actions & TURNS:
         return ()

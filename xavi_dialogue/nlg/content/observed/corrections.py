@@ -45,7 +45,7 @@ def _recent(episode: Episode, context: SpeechContext) -> bool:
 
 
 def _denied(event: Event, context: SpeechContext) -> Clause:
-    """The denial: of the past as past, of what goes on as present."""
+    """Return the denial: of the past as past, of what goes on as present."""
     tense: Tense = "present" if event.tense == "present" and event.modal is None else "past"
     return event_clause(event, context.now, tense=tense, negated=True)
 
@@ -56,7 +56,7 @@ def _bare(event: Event, context: SpeechContext) -> Clause:
 
 
 def _same(event: Event, episode: Episode, context: SpeechContext) -> bool:
-    """Whether an episode is what was asked about, if at another time."""
+    """Check whether an episode is what was asked about, if at another time."""
     if event.actor != episode.actor:
         return False
     if event.action == episode.action:

@@ -107,13 +107,13 @@ def _weightiest(episodes: tuple[Episode, ...], most: int) -> list[Episode]:
 
 
 def weight(episode: Episode) -> float:
-    """How much an episode matters to a passenger."""
+    """Return how much an episode matters to a passenger."""
     own = 0.5 if isinstance(episode.actor, Ego) else 0.0
     return WEIGHTS.get(episode.action, 0.0) + (own if episode.action in WEIGHTS else 0.0)
 
 
 def _rows(episodes: list[Episode], context: SpeechContext) -> list[list[Episode]]:
-    """The episodes by sentence: those of one actor in a row, a few at a time."""
+    """Return the episodes by sentence: those of one actor in a row, a few at a time."""
     rows: list[list[Episode]] = []
 
     def subject(episode: Episode) -> tuple[object, ...]:
@@ -151,7 +151,7 @@ def _alike(episode: Episode) -> tuple[object, ...]:
 
 
 def _together(episodes: list[Episode]) -> Episode:
-    """One episode for several that are alike, which tells no more than they share."""
+    """Return one episode for several that are alike, which tells no more than they share."""
     first = episodes[0]
     if len(episodes) == 1:
         return first
@@ -169,7 +169,7 @@ def _tense(episode: Episode, context: SpeechContext) -> Tense:
 
 
 def _ride(measures: tuple[Measure, ...]) -> tuple[Message, ...]:
-    """How long and how far the ride has gone."""
+    """Return how long and how far the ride has gone."""
     known = {m.attribute: m for m in measures if m.value is not None}
     time = known.get("time") or known.get("duration")
     distance = known.get("distance-driven")
@@ -236,7 +236,7 @@ def _how_long(answer: Happenings, context: SpeechContext) -> Plan:
 
 
 def _so_far(one: Measure, context: SpeechContext) -> bool:
-    """Whether it is how long somebody has waited, and not how long it still takes."""
+    """Check whether it is how long somebody has waited, and not how long it still takes."""
     return one.attribute == "waiting-time" and (one.until is None or one.until <= context.now)
 
 

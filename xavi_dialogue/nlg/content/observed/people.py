@@ -89,7 +89,7 @@ def _by_kind(looks: tuple[Look, ...], context: SpeechContext) -> Plan:
 
 
 def _telling(facts: tuple[Fact, ...]) -> tuple[Fact, ...]:
-    """The facts without what says again that a vehicle stands."""
+    """Return the facts without what says again that a vehicle stands."""
     stands = any(
         isinstance(f, Measure) and f.attribute == "speed" and (f.value or 0.0) < STANDING
         for f in facts
@@ -179,14 +179,14 @@ def _past(look: Look, context: SpeechContext) -> bool:
 
 
 def _did(such: Proposition | None, look: Look, context: SpeechContext) -> Clause | None:
-    """The condition that was asked for, with the vehicle in the place of "who"."""
+    """Return the condition that was asked for, with the vehicle in the place of "who"."""
     if such is None:
         return None
     return clause_of(with_wanted(such, Vehicle(look.vehicle)), context.now)
 
 
 def _nobody(such: Proposition, now: float) -> Clause:
-    """A clause that the condition holds of nobody: "I did not wait for anybody"."""
+    """Return a clause that the condition holds of nobody: "I did not wait for anybody"."""
     clause = clause_of(with_wanted(such, Nobody()), now)
     if isinstance(clause.subject, Who) and isinstance(clause.subject.thing, Nobody):
         return clause
@@ -202,7 +202,7 @@ _TIMES = {1: "once", 2: "twice"}
 
 
 def times(count: int) -> str:
-    """How often: "once", "twice", "three times"."""
+    """Return how often: "once", "twice", "three times"."""
     return _TIMES.get(count) or number(Number(count, "time"))
 
 
@@ -266,7 +266,7 @@ def _only_there(that: Proposition) -> bool:
 
 
 def _occasions(answer: Counted) -> tuple[Message, ...] | None:
-    """When it happened, each time once, with whom it concerned where that was left open."""
+    """Return when it happened, each time once, with whom it concerned where that was left open."""
     assert isinstance(answer.of, Event)
     rows: list[tuple[float, list[Thing]]] = []
     for fact in answer.facts:
@@ -295,7 +295,7 @@ def _listed(facts: tuple[Message, ...]) -> tuple[Message, ...]:
 
 
 def _which(of: Thing, context: SpeechContext) -> dict[str, object]:
-    """Where the things that were counted are, and what they do."""
+    """Return where the things that were counted are, and what they do."""
     if not isinstance(of, Described):
         return {}
     place = word("vehicles", "place", of.bearing) if of.bearing is not None else None
@@ -321,7 +321,7 @@ def _span(answer: Counted, context: SpeechContext) -> dict[str, object]:
 
 
 def span_slots(begin: float | None, end: float | None, context: SpeechContext) -> dict[str, object]:
-    """The slots of an interval: all of the ride so far, or between two times."""
+    """Return the slots of an interval: all of the ride so far, or between two times."""
     if begin is None and end is None:
         return {}
     first, last = begin or 0.0, context.now if end is None else end

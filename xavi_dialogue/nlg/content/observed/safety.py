@@ -166,7 +166,7 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
 
 
 def _lead(answer: Closeness) -> str | None:
-    """The answer to the question itself, where the numbers bear it out."""
+    """Return the answer to the question itself, where the numbers bear it out."""
     metres = answer.closest.value if answer.closest is not None else None
     left = answer.ttc.value if answer.ttc is not None else None
     risk = answer.risk or 0.0
@@ -192,7 +192,7 @@ def _lead(answer: Closeness) -> str | None:
 
 
 def calming(answer: Closeness, context: SpeechContext) -> tuple[Message, ...]:
-    """What a worried passenger is told of it: the distance or the risk, as a plain fact."""
+    """Return what a worried passenger is told of it: the distance or the risk, as a plain fact."""
     closest = answer.closest.value if answer.closest is not None else None
     if closest is None:
         if answer.risk is None:

@@ -90,7 +90,7 @@ def plan_verdict(answer: Verdict, context: SpeechContext) -> Plan:
 
 
 def _now_and_then(answer: Verdict) -> dict[str, object] | None:
-    """The value now and at the other time that it is compared with."""
+    """Return the value now and at the other time that it is compared with."""
     values = [f for f in answer.facts if isinstance(f, Measure) and f.value is not None]
     if len(values) < 2:
         return None
@@ -101,12 +101,12 @@ def _now_and_then(answer: Verdict) -> dict[str, object] | None:
 
 
 def _settled(answer: Verdict) -> bool:
-    """Whether it is a matter of fact by now, not of expectation."""
+    """Check whether it is a matter of fact by now, not of expectation."""
     return answer.holds is not None and any(isinstance(f, Episode) for f in answer.facts)
 
 
 def _facts(facts: tuple[Fact, ...], answer: Verdict, context: SpeechContext) -> tuple[Message, ...]:
-    """The messages of facts that are stated together."""
+    """Return the messages of facts that are stated together."""
     measures = tuple(f for f in facts if isinstance(f, Measure))
     if measures:
         if _by_number(answer.that):  # the reference is the number that was asked about
@@ -121,7 +121,7 @@ def _by_number(that: Proposition) -> bool:
 
 
 def together(facts: tuple[Fact, ...]) -> list[tuple[Fact, ...]]:
-    """The facts in rows: measures in a row are stated together."""
+    """Return the facts in rows: measures in a row are stated together."""
     return [tuple(row) for _, row in groupby(facts, key=lambda f: isinstance(f, Measure))]
 
 
@@ -144,14 +144,14 @@ def _told(fact: Fact, answer: Verdict, context: SpeechContext) -> Message:
 
 
 def _since(fact: Episode, answer: Verdict, context: SpeechContext) -> bool:
-    """Whether something that was asked of the past has been going on since."""
+    """Check whether something that was asked of the past has been going on since."""
     event = eventful(answer.that)
     past = event is not None and event.tense in ("past", "perfect")
     return past and fact.end is None and fact.action in ON and context.now - fact.begin > PRESENT
 
 
 def _coming(one: Episode, context: SpeechContext) -> Message:
-    """What is done now, or will be done in a moment."""
+    """Return what is done now, or will be done in a moment."""
     if one.begin <= context.now:
         return episode_message(one, context, when=False)
     clause = episode_clause(one, context.now, tense="future")
@@ -227,7 +227,7 @@ def _likelihood(answer: Verdict, context: SpeechContext) -> Plan:
 
 
 def _likelier(answer: Verdict) -> dict[str, object]:
-    """What is expected of a vehicle of which something unlikely was asked."""
+    """Return what is expected of a vehicle of which something unlikely was asked."""
     belief = next((b for b in answer.believed if b.expectations), None)
     if belief is None or answer.probability is None:
         return {}

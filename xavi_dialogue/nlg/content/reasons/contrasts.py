@@ -64,7 +64,7 @@ def time_effect(contrast: Contrast) -> Effect | None:
 
 
 def _astray(contrast: Contrast) -> Chance | None:
-    """How probable it is that the foil leads off the way, where that weighs against it."""
+    """Return how probable it is that the foil leads off the way, where that weighs against it."""
     found = (s for s in contrast.told if s.term == "dead" and s.cost > 0.0)
     share = next(found, None)
     return None if share is None or not share.chance else Chance(share.chance)
@@ -120,7 +120,7 @@ def consequence_slots(
 
 
 def _adds_risk(contrast: Contrast) -> bool:
-    """Whether the foil carries a risk of a collision, and more than the fact."""
+    """Check whether the foil carries a risk of a collision, and more than the fact."""
     return contrast.collision >= RISK and contrast.collision > contrast.fact_collision
 
 
@@ -163,7 +163,7 @@ def tells_risk(contrast: Contrast) -> bool:
 
 
 def told_cause(contrast: Contrast) -> Cause | None:
-    """The cause that goes with the reason: who makes the foil worse, or has us drive so."""
+    """Return the cause that goes with the reason: who makes the foil worse, or has us drive so."""
     kind = kind_of(contrast)
     told = {s.term for s in contrast.told if s.cost > 0.0}
     decides = contrast.verdict == "close" and any(c.decision_changes for c in contrast.causes)
@@ -213,12 +213,12 @@ def cause_message(
 
 
 def telling(actions: tuple[str, ...]) -> bool:
-    """Whether actions say more than going on."""
+    """Check whether actions say more than going on."""
     return bool(actions) and set(actions) - {"continue"} != set()
 
 
 def chances(probability: float, context: SpeechContext) -> dict[str, object]:
-    """How surely something was expected, in words and in percent where that is wanted."""
+    """Return how surely something was expected, in words and in percent where that is wanted."""
     simple = context.detail == "simpler"
     return {
         "some": probability < EVEN,
@@ -229,7 +229,7 @@ def chances(probability: float, context: SpeechContext) -> dict[str, object]:
 
 
 def _expected(cause: Cause, seen: float | None, *, slows: bool, simple: bool) -> tuple[Clause, ...]:
-    """What the vehicle was expected to do: how it gets in the way, and where it goes."""
+    """Return what the vehicle was expected to do: how it gets in the way, and where it goes."""
     mechanism = cause.mechanism
     actions = other_verbs(cause.actions) if cause.actions else ()
     if mechanism is None or mechanism.how in ("right-of-way", "collision"):

@@ -16,7 +16,7 @@ ASIDE = ("ahead-left", "ahead-right")  # where one sets the pace for a lane that
 
 
 def speed_told(value: float | None, context: SpeechContext) -> Quantity | None:
-    """The speed to be told; None where no numbers are wanted."""
+    """Return the speed to be told; None where no numbers are wanted."""
     if value is None or context.detail == "simpler":
         return None
     return Quantity(value, "m/s")
@@ -68,7 +68,7 @@ def motion_cause(
 
 
 def _shown(cause: MotionCause, *, past: bool) -> dict[str, object]:
-    """The slots of what the traffic light shows that holds us."""
+    """Return the slots of what the traffic light shows that holds us."""
     shown = cause.shown
     if shown is None:
         return {}
@@ -77,7 +77,7 @@ def _shown(cause: MotionCause, *, past: bool) -> dict[str, object]:
 
 
 def _gone(cause: MotionCause, context: SpeechContext) -> bool:
-    """Whether who had to be let go first has gone: out of view, behind, or past our way."""
+    """Check whether who had to be let go first has gone: out of view, behind, or past our way."""
     if cause.kind != "right-of-way" or cause.vehicle is None:
         return False
     look = context.look(cause.vehicle)

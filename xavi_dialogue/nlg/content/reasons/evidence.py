@@ -23,7 +23,7 @@ NAMED = 4  # vehicles that are causes together only, up to which each is named
 
 
 def further(contrast: Contrast, context: SpeechContext, *, past: bool) -> tuple[Message, ...]:
-    """What is told beside the reason, most telling first."""
+    """Return what is told beside the reason, most telling first."""
     first = told_cause(contrast)
     others = [c for c in contrast.causes if c != first][:MOST]
     found = [
@@ -79,7 +79,7 @@ def _also(cause: Cause, contrast: Contrast, context: SpeechContext, *, past: boo
 
 
 def _needed(cause: Cause, contrast: Contrast, *, past: bool) -> Message | None:
-    """Whether we would have decided so without the first cause."""
+    """Return whether we would have decided so without the first cause."""
     if cause.decision_changes is None:
         return None
     who = Who(Vehicle(cause.vehicle), contrast.decided)

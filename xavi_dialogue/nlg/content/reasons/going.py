@@ -60,7 +60,7 @@ def _free(one: Bystander, time: float | None, *, past: bool) -> Message:
 
 
 def _waiting(answer: GoReason, context: SpeechContext) -> Message | None:
-    """What waiting would have cost."""
+    """Return what waiting would have cost."""
     if answer.contrast is None or answer.contrast.verdict != "better":
         return None
     if kind_of(answer.contrast) not in ("time", "late", "collision"):

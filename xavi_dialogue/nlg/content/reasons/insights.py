@@ -82,7 +82,7 @@ def _is_open(answer: Grounds, latest: float | None) -> bool:
 
 
 def _fit(answer: Grounds, context: SpeechContext) -> Message | None:
-    """How much better its path fits what is believed than the likeliest thing else."""
+    """Return how much better its path fits what is believed than the likeliest thing else."""
     if answer.fit is None or answer.fit < BETTER or not answer.rival:
         return None
     simple = context.detail == "simpler"
@@ -95,7 +95,7 @@ def _fit(answer: Grounds, context: SpeechContext) -> Message | None:
 
 
 def _times(fit: float) -> str:
-    """How many times better, as one would say it."""
+    """Return how many times better, as one would say it."""
     if fit >= 20.0:
         return "more than 20"
     return f"{fit:.0f}" if fit >= 3.0 else f"{fit:.1f}".removesuffix(".0")
@@ -205,7 +205,7 @@ def _when(contrast: Contrast | None) -> float | None:
 def _because(
     contrast: Contrast | None, context: SpeechContext, *, past: bool
 ) -> tuple[Message, ...]:
-    """How the alternative would have turned out, as things were."""
+    """Return how the alternative would have turned out, as things were."""
     if contrast is None or kind_of(contrast) == "alone":
         return ()
     return (Message("AS_THINGS_WERE", consequence_slots(contrast, context, past=past)),)
@@ -247,7 +247,7 @@ def plan_avoidance(answer: Avoidance, context: SpeechContext) -> Plan:
 
 
 def _cost(contrast: Contrast | None, context: SpeechContext) -> tuple[Message, ...]:
-    """What the option that avoids it would have cost in time."""
+    """Return what the option that avoids it would have cost in time."""
     if contrast is None:
         return ()
     slots = consequence_slots(contrast, context, past=True)

@@ -142,7 +142,7 @@ def _placed(cause: MotionCause, *, past: bool) -> MotionCause:
 
 
 def _nobody(answer: MotionReason) -> bool:
-    """Whether it is asked who makes the difference, and it was found that nobody does."""
+    """Check whether it is asked who makes the difference, and it was found that nobody does."""
     found = answer.causation is not None and answer.causation.kind == "none"
     return found and answer.of_causes
 
@@ -158,7 +158,7 @@ def _misnamed(answer: MotionReason) -> bool:
 
 
 def _at_limit(answer: MotionReason) -> bool:
-    """Whether we drove at the limit, but for rounding."""
+    """Check whether we drove at the limit, but for rounding."""
     speed, limit = answer.deed.speed_to, answer.limit
     return speed is not None and limit is not None and abs(speed - limit) <= AT_LIMIT * limit
 
@@ -179,7 +179,7 @@ def _followed(answer: MotionReason) -> dict[str, object]:
 
 
 def _deed(answer: MotionReason, context: SpeechContext, past: bool) -> Clause:
-    """What we did; whom it was for is told by the reason."""
+    """Return what we did; whom it was for is told by the reason."""
     deed = answer.deed
     if isinstance(deed.object, Vehicle) and any(cause.vehicle for cause in answer.causes[:1]):
         deed = replace(deed, object=None)
@@ -208,7 +208,7 @@ def _only(deed: Clause, answer: MotionReason) -> Clause:
 def _expectation(
     cause: MotionCause, answer: MotionReason, context: SpeechContext, *, past: bool
 ) -> Message | None:
-    """What we expected of the vehicle, and whether it did so."""
+    """Return what we expected of the vehicle, and whether it did so."""
     if cause.vehicle is None or cause.probability is None or not telling(cause.actions):
         return None
     if cause.kind == "leader" and set(cause.actions) <= {"continue", "exit-straight"}:

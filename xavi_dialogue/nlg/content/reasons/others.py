@@ -72,7 +72,7 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
 
 
 def _walks(vehicle: int, context: SpeechContext) -> bool:
-    """Whether it is somebody on foot, who has no driver."""
+    """Check whether it is somebody on foot, who has no driver."""
     look = context.look(vehicle)
     return look is not None and look.kind in ON_FOOT
 
@@ -121,13 +121,13 @@ def _it(clause: Clause) -> Clause:
 
 
 def _hedge(cause: MotionCause) -> Chance | None:
-    """How surely it is the reason, where that needs saying."""
+    """Return how surely it is the reason, where that needs saying."""
     surely = cause.probability is None or cause.probability >= CERTAIN
     return None if surely or cause.probability is None else Chance(cause.probability)
 
 
 def _their_deed(deed: Episode, answer: OtherReason, context: SpeechContext) -> Clause:
-    """What it did; for whom, is told by the reason."""
+    """Return what it did; for whom, is told by the reason."""
     if deed.action == "move" and deed.speed_to is not None:
         speed = Quantity(deed.speed_to, "m/s")
         return Clause(Who(deed.actor, deed.begin), "drive", ("at", speed), "present", True)
@@ -140,7 +140,7 @@ def _their_deed(deed: Episode, answer: OtherReason, context: SpeechContext) -> C
 
 
 def _not_asked(answer: OtherReason, context: SpeechContext) -> Clause | None:
-    """That it did not do what was asked about, where it did otherwise."""
+    """Return that it did not do what was asked about, where it did otherwise."""
     event, deed = answer.asked, answer.deed
     if event is None or deed is None or event.action == deed.action or event.action in OPEN:
         return None
@@ -174,7 +174,7 @@ def _their_cause(
 
 
 def _goal(answer: OtherReason, context: SpeechContext) -> Message | None:
-    """Where it was thought to be going."""
+    """Return where it was thought to be going."""
     if answer.goal is None or not answer.goal.expectations:
         return None
     first = answer.goal.expectations[0]

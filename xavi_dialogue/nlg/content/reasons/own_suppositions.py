@@ -81,7 +81,7 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
 
 
 def _both_late(contrast: Contrast) -> Chance | None:
-    """How sure it is that neither plan gets there in time, where that is likely of both."""
+    """Return how sure it is that neither plan gets there in time, where that is likely of both."""
     foil, fact = contrast.outcome, contrast.fact_outcome
     if foil is None or fact is None or not foil.name == fact.name == "termination":
         return None
@@ -90,7 +90,7 @@ def _both_late(contrast: Contrast) -> Chance | None:
 
 
 def _troubles(contrast: Contrast) -> bool:
-    """Whether the lane changes that a foil takes more decided against it."""
+    """Check whether the lane changes that a foil takes more decided against it."""
     changes = any(action in CHANGES for action in (*contrast.foil, *contrast.continued))
     return changes and any(s.term == "effort" and s.cost > 0.0 for s in contrast.told)
 
@@ -107,7 +107,7 @@ def _held_against(claimed: float | None, size: float) -> str | None:
 
 
 def _asked(answer: SupposedOfUs, slots: dict[str, Any]) -> dict[str, Any]:
-    """The slots for whether we could, would have collided, or when we would be there."""
+    """Return the slots for whether we could, would have collided, or when we would be there."""
     contrast = answer.contrast
     worse = contrast.value is None or contrast.value > 0.0
     risk = contrast.collision

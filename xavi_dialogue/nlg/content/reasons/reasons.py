@@ -104,7 +104,7 @@ def _jointly(answer: ChoiceReason) -> bool:
 
 
 def _silent(rule: str, slots: Mapping[str, object]) -> bool:
-    """Whether a reason tells of the way or of who was ahead, and nothing of the foil."""
+    """Check whether a reason tells of the way or of who was ahead, and nothing of the foil."""
     if rule in ("WHY", "WHY_NOT") and slots["ahead"] is not None and slots["weak"]:
         return True
     due = {"WHY_NOT": slots["kind"] == "late", "NECESSARY": slots["need"] == "way"}
@@ -122,7 +122,7 @@ def _without_cause(said: Message) -> Message:
 
 
 def _deed(answer: ChoiceReason, context: SpeechContext) -> Clause:
-    """What we did, or what we decided to do."""
+    """Return what we did, or what we decided to do."""
     against = answer.contrast.foil
     if answer.deed is None:
         steps = answer.contrast.fact[: max(len(against), 1)]
@@ -138,7 +138,7 @@ def _told_past(answer: ChoiceReason, context: SpeechContext) -> bool:
 
 
 def _weak(answer: ChoiceReason) -> bool:
-    """Whether who was ahead in the lane that we left is the better reason to tell."""
+    """Check whether who was ahead in the lane that we left is the better reason to tell."""
     kind, ahead = kind_of(answer.contrast), answer.ahead
     if ahead is None:
         return False
@@ -159,7 +159,7 @@ def _weak(answer: ChoiceReason) -> bool:
 
 
 def _names(answer: ChoiceReason, vehicle: int | None) -> bool:
-    """Whether the reason names a vehicle."""
+    """Check whether the reason names a vehicle."""
     cause = told_cause(answer.contrast)
     if answer.ahead is not None and _weak(answer):
         return answer.ahead.vehicle == vehicle
@@ -169,7 +169,7 @@ def _names(answer: ChoiceReason, vehicle: int | None) -> bool:
 
 
 def _ahead(answer: ChoiceReason, context: SpeechContext) -> Message | None:
-    """Who stood or crept in the lane that we left."""
+    """Return who stood or crept in the lane that we left."""
     if answer.ahead is None:
         return None
     if answer.ahead.vehicle == answer.contrast.collided_with and not _weak(answer):
@@ -180,7 +180,7 @@ def _ahead(answer: ChoiceReason, context: SpeechContext) -> Message | None:
 
 
 def _differs(cause: MotionCause, context: SpeechContext) -> bool:
-    """Whether a vehicle drives at another speed by now than when it was reckoned with."""
+    """Check whether a vehicle drives at another speed by now than when it was reckoned with."""
     look = None if cause.vehicle is None else context.look(cause.vehicle)
     if look is None or cause.speed is None:
         return False
@@ -188,7 +188,7 @@ def _differs(cause: MotionCause, context: SpeechContext) -> bool:
 
 
 def _denied(contrast: Contrast, *, past: bool) -> Clause:
-    """That we did not, or do not, do what the foil is."""
+    """Return that we did not, or do not, do what the foil is."""
     verbs = own_verbs(contrast.foil, contrast.fact) or (Clause(Who(), "do otherwise"),)
     rest = tuple(part for one in verbs[1:] for part in (f"and then {one.verb}",))
     tense: Literal["past", "present"] = "past" if past else "present"
@@ -202,14 +202,14 @@ def cause_of(contrast: Contrast, context: SpeechContext, *, past: bool) -> Messa
 
 
 def _leads(contrast: Contrast) -> bool:
-    """Whether the cause is told before what the foil would have come to."""
+    """Check whether the cause is told before what the foil would have come to."""
     cause = told_cause(contrast)
     how = None if cause is None or cause.mechanism is None else cause.mechanism.how
     return how not in OF_FOIL
 
 
 def _need(contrast: Contrast) -> Need:
-    """Whether we had to: what the best alternative would have come to."""
+    """Return whether we had to: what the best alternative would have come to."""
     kind = kind_of(contrast)
     if contrast.way and kind in ("alone", "dead"):
         return "way"

@@ -66,7 +66,7 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
 
 
 def _timed(answer: SupposedOfOther, context: SpeechContext) -> dict[str, Any] | None:
-    """The slots for when we would be there, where that is what is asked."""
+    """Return the slots for when we would be there, where that is what is asked."""
     if answer.form not in ("arrival", "quicker") or answer.contrast is None:
         return None
     contrast = answer.contrast
@@ -86,7 +86,7 @@ def _timed(answer: SupposedOfOther, context: SpeechContext) -> dict[str, Any] | 
 
 
 def _crash(answer: SupposedOfOther) -> Contrast | None:
-    """The comparison, where nothing that was tried would keep us from colliding."""
+    """Return the comparison, where nothing that was tried would keep us from colliding."""
     found = answer.contrast
     return found if found is not None and answer.same and found.collision >= LIKELY else None
 
@@ -101,7 +101,7 @@ def _time(answer: SupposedOfOther) -> float | None:
 
 
 def _who(answer: SupposedOfOther) -> Who:
-    """All of whom the same is supposed."""
+    """Return all of whom the same is supposed."""
     numbers = (answer.vehicle, *answer.others)
     thing = Vehicles(numbers) if answer.others else Vehicle(answer.vehicle)
     return Who(thing, _time(answer))
@@ -117,7 +117,7 @@ def _left_out(answer: SupposedOfOther) -> tuple[Message, ...]:
 
 
 def _condition(answer: SupposedOfOther, context: SpeechContext) -> Clause | None:
-    """What is supposed, as the clause of an "if"; None where the vehicle were not there."""
+    """Return what is supposed, as the clause of an "if"; None where the vehicle were not there."""
     tense: Tense = "past-perfect" if answer.past else "past"
     if answer.everybody:
         return Clause("nobody else", "be", ("around",), tense)
@@ -131,7 +131,7 @@ def _condition(answer: SupposedOfOther, context: SpeechContext) -> Clause | None
 
 
 def _outcome(answer: SupposedOfOther, context: SpeechContext) -> Message | None:
-    """What we would have had of it: a collision, or so much time."""
+    """Return what we would have had of it: a collision, or so much time."""
     contrast: Contrast | None = answer.contrast
     if contrast is None:
         return None
@@ -159,7 +159,7 @@ def _outcome(answer: SupposedOfOther, context: SpeechContext) -> Message | None:
 
 
 def _prior(answer: SupposedOfOther, context: SpeechContext) -> Message | None:
-    """How probable what is supposed was thought to be."""
+    """Return how probable what is supposed was thought to be."""
     if answer.supposed is None or answer.prior is None or context.detail == "simpler":
         return None
     return message(

@@ -27,7 +27,7 @@ _OUTCOMES = {"collision": "collision", "dead": "dead", "late": "termination"}
 
 
 def foil_verbs(contrast: Contrast) -> tuple[Clause, ...]:
-    """What was not done as verb phrases, with the further manoeuvres that it holds."""
+    """Return what was not done as verb phrases, with the further manoeuvres that it holds."""
     further = contrast.further
     if contrast.foil[-1:] == ("continue",) and further and further[0] in CHANGES:
         first = own_verbs(contrast.foil, contrast.fact)
@@ -94,7 +94,7 @@ def chance_of(contrast: Contrast) -> float:
 
 
 def timed(contrast: Contrast, context: SpeechContext, *, more: bool) -> dict[str, object]:
-    """The slots for a difference in time, where one of that sign is recorded."""
+    """Return the slots for a difference in time, where one of that sign is recorded."""
     effect = next((e for e in contrast.effects if e.component == "time"), None)
     if effect is None or (effect.delta > 0.0) != more:
         return {"delta": None, "mean": False, "much": False, "little": False}
@@ -162,7 +162,7 @@ def _term(share: Share, contrast: Contrast, context: SpeechContext, *, past: boo
 
 
 def effort(contrast: Contrast) -> dict[str, Any]:
-    """What the foil takes more of, or less: lane changes, stops."""
+    """Return what the foil takes more of, or less: lane changes, stops."""
     whole, fact = (*contrast.foil, *contrast.continued), contrast.fact
     changes = _count(whole, CHANGES) - _count(fact, CHANGES)
     stops = _count(whole, ("stop",)) - _count(fact, ("stop",))

@@ -69,7 +69,7 @@ def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
 
 
 def _anyway(answer: Declined, context: SpeechContext) -> Message | None:
-    """What the car is going to do."""
+    """Return what the car is going to do."""
     unable = not answer.able or answer.request.event.action in BEYOND
     if answer.ahead is None or unable:
         return None

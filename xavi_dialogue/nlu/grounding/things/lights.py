@@ -73,7 +73,7 @@ def _meant(part: Any, g: Grounder) -> Any:
 
 
 def _event(event: Event, g: Grounder) -> Event:
-    """An event at a light as what is done with the light; "it changed" as said of one."""
+    """Return an event at a light as what is done with the light; "it changed" as said of one."""
     time: Any = rewrite(event.time, lambda part: _meant(part, g))
     event = event if time is event.time else replace(event, time=time)
     if event.action in SHOWING and isinstance(event.actor, Pronoun):
@@ -117,7 +117,7 @@ def _light(thing: Thing | None) -> Feature | None:
 
 
 def _shown(thing: Thing, g: Grounder) -> Thing:
-    """What is said to be red: a light, where one leads, or nobody has been spoken of."""
+    """Return what is said to be red: a light, where one leads, or nobody has been spoken of."""
     if isinstance(thing, Pronoun) and thing.form in _OPEN and _leads(g, unsaid=True):
         return LIGHT
     return _one(thing, g)
