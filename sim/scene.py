@@ -23,7 +23,7 @@ class VehicleState:
     length: float  # [m] from front to rear bumper
     width: float  # [m]
     kind: str = "car"  # what it looks like: car, truck, bus, motorcycle, bicycle, tram, vehicle
-    colour: str | None = None  # in words, None where it cannot be told
+    colour: str | None = None  # in words, None where it cannot be known
     signals: tuple[str, ...] = ()  # lights shown: left, right, brake
 
 

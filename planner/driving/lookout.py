@@ -30,7 +30,7 @@ def lookout(
         time: [s] now.
         horizon: [s] for which that is needed.
         edges: along which the ego drives; of the controller that it comes to next, several
-            courses are told apart.
+            courses are distinguished.
     """
     known = {one.controller for one in watched}
     coming = next((name for name in _along(roads, edges) if name in known), None)

@@ -10,7 +10,7 @@ from sim.scene import PersonState, Scene, VehicleState
 
 
 def everybody_in(scene: Scene) -> dict[int, VehicleState]:
-    """Vehicles and people by name, in increasing order; people are told by their kind."""
+    """Vehicles and people by name, in increasing order; people are known by their kind."""
     people = {name: _as_traffic(state) for name, state in scene.people.items()}
     return dict(sorted({**scene.vehicles, **people}.items()))
 

@@ -1,6 +1,6 @@
 """The roads as others than cars may use them: bicycle and bus lanes, rails, and shared lanes.
 
-Links keep their indices, so the right of way between a car and a bicycle can be told from either.
+Links keep their indices, so the right of way between a car and a bicycle can be seen from either.
 """
 
 from collections.abc import Iterable

@@ -13,7 +13,7 @@ from planner.roads.trajectory import Roads
 from planner.rollouts.waypoints import next_link, toll, way
 from sim.roads.network import Direction, Link, Location, Network, angle_between, point_at
 
-STEPS = 8  # junctions ahead that are told at most
+STEPS = 8  # junctions ahead that are stated at most
 BEARING = 20.0  # [m] from a roundabout at which the bearing of a road is taken
 STRAIGHT = math.radians(45.0)  # up to which the road after a roundabout leads straight on
 BACK = 2.6  # [rad] from which it leads back

@@ -1,7 +1,7 @@
 """Which traffic lights a passenger sees, and since when they show what they show.
 
 All lights of a junction count whose stop line is near and not behind: what the other arms are
-shown can be told from how the junction is worked, and from who goes.
+shown can be seen from how the junction is worked, and from who goes.
 """
 
 import math

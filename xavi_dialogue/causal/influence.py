@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 RATIONALITY = 1.0  # [1/s] beta of the softmax; rewards count in seconds
 PERMUTATIONS = 499
-FALSE_ALARMS = 0.05  # probability that any vehicle without influence is told to have one
+FALSE_ALARMS = 0.05  # probability that any vehicle without influence is stated to have one
 MIN_BITS = 0.01  # a measure below this is none at all
 SMOOTHING = 1e-3  # added to every probability of a divergence
 RANK = 1e-6  # singular values below this share of the largest count as zero

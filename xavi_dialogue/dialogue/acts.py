@@ -200,7 +200,7 @@ def _again(now: Situation, how: Literal["repeat", "simpler", "shorter", "longer"
 
 
 def _previous(now: Situation) -> Turn | None:
-    """Return the turn that is to be told otherwise: the last that told something."""
+    """Return the turn that is to be stated otherwise: the last that told something."""
     for turn in reversed(now.memory.turns):
         if any(isinstance(r, Again) for r in turn.results) or turn is now.memory.last:
             return turn
@@ -248,7 +248,7 @@ def _to_repeat(now: Situation, acts: tuple[GroundedAct, ...]) -> Turn | None:
 
 
 def _parts(understood: Understood, done: tuple[Results, ...]) -> tuple[Part, ...]:
-    """Return acts and results in the order in which they are told."""
+    """Return acts and results in the order in which they are stated."""
     replied = tuple(
         Part(act, result)
         for act, results in zip(understood.acts, done, strict=True)

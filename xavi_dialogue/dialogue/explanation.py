@@ -65,7 +65,7 @@ class Contrastive(msgspec.Struct, frozen=True, kw_only=True):
     aim: Aim | None = None
     verdict: Weighing | None = None  # whether the factual is better by the record
     terms: tuple[Share, ...] = ()  # the difference of the rewards, taken apart
-    told: tuple[Share, ...] = ()  # of these, what is told, the decisive one first
+    told: tuple[Share, ...] = ()  # of these, what is stated, the decisive one first
     error: float | None = None  # [s] standard error of the difference
 
 

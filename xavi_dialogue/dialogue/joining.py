@@ -58,7 +58,7 @@ def _once(sentence: str) -> str:
 
 
 def _new(sentence: str, known: set[str]) -> str:
-    """Give a sentence without the clauses at its end that were told before; "" if all were."""
+    """Give a sentence without the clauses at its end that were stated before; "" if all were."""
     pieces = _CLAUSES.split(sentence.rstrip("."))
     if not known or _gist(sentence) - {"no"} <= known:
         return "" if known else sentence

@@ -13,7 +13,7 @@ from xavi_dialogue.domain.terms import Event, Happens, Is, Measured, Vehicle, Ve
 from xavi_dialogue.domain.vocabulary import ActionName
 
 EACH: Final = 4  # occasions of which each has its reason told
-MOST: Final = 3  # vehicles of whom each is told by itself
+MOST: Final = 3  # vehicles of whom each is shown by itself
 #: Of what each may have another way, or none.
 OWN: Final = frozenset[ActionName]((
     "go", "leave", "turn", "exit-left", "exit-right", "exit-straight", "continue",

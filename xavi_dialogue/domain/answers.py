@@ -200,7 +200,7 @@ class WhichOne(Value, frozen=True):
     """Several readings or several vehicles: which one is meant (a clarification)."""
 
     readings: tuple[Proposition | Thing, ...]
-    looks: tuple[Look, ...] = ()  # where vehicles are to be told apart
+    looks: tuple[Look, ...] = ()  # where vehicles are to be distinguished
     between: Literal["vehicles", "meanings", "times"] = "vehicles"
     acts: tuple[Act, ...] = ()  # the readings whole, as grounded, where they are meanings
 

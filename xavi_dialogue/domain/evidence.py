@@ -143,7 +143,7 @@ class Contrast(Value, frozen=True):
     """A fact and a foil compared: the heart of causal answers about our own choice.
 
     Raises:
-        ValueError: what is told of the terms does not bear the verdict out.
+        ValueError: what is stated of the terms does not bear the verdict out.
     """
 
     fact: tuple[MacroAction, ...]  # the whole plan
@@ -164,7 +164,7 @@ class Contrast(Value, frozen=True):
     way: bool = False  # the fact is the way to the destination, and no other way is known to be
     verdict: Weighing = "alone"
     terms: tuple[Share, ...] = ()  # the difference of the rewards, taken apart; largest first
-    told: tuple[Share, ...] = ()  # those that are told, the decisive one first
+    told: tuple[Share, ...] = ()  # those that are stated, the decisive one first
     error: float = 0.0  # [s] standard error of the difference
     likely: TimeRange | None = None  # None: what was calibrated does not reach this
     route: MacroAction | None = None  # what comes next on our way, where the foil misses it

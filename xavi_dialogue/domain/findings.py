@@ -30,9 +30,9 @@ class Verdict(Value, frozen=True):
     """Whether something holds or held: the answer to a yes or no question, or to a claim."""
 
     that: Proposition  # grounded
-    holds: bool | None  # None: cannot be told
+    holds: bool | None  # None: cannot be known
     facts: tuple[Fact, ...] = ()  # what is or was so instead, or what bears it out
-    gap: Gap | None = None  # why it cannot be told
+    gap: Gap | None = None  # why it cannot be known
     claim: bool = False  # it answers a claim
     challenge: bool = False  # ... that disputes what the car said
     believed: tuple[Belief, ...] = ()  # prediction beside fact: what was expected then

@@ -27,7 +27,7 @@ class Course(Value, frozen=True):
     holds: bool | None = None  # of a yes or no question
     left: float | None = None  # [m] to the destination
     soon: float | None = None  # [s] to it
-    then: bool = False  # it is asked what comes after what was told
+    then: bool = False  # it is asked what comes after what was stated
 
 
 class Summit(Value, frozen=True):

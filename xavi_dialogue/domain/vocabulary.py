@@ -152,7 +152,7 @@ State: TypeAlias = Literal[
     "upset",  # how a driver feels: angry, glad, afraid
 ]  # fmt: skip
 
-#: What a passenger sees a vehicle to be. "vehicle": not said, or cannot be told.
+#: What a passenger sees a vehicle to be. "vehicle": not said, or cannot be known.
 Kind: TypeAlias = Literal[
     "vehicle", "car", "truck", "bus", "van", "motorcycle", "bicycle", "pedestrian", "tram", "taxi",
     "emergency", "wheelchair", "scooter",

@@ -1,4 +1,4 @@
-"""What the realiser is told besides the answer, and what it hands back."""
+"""What the realiser is stated besides the answer, and what it hands back."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -10,7 +10,7 @@ Style: TypeAlias = Literal["passenger", "paper"]
 Detail: TypeAlias = Literal["less", "usual", "more", "simpler"]
 #: How a vehicle looks at a time: by a function, or by a table for tests and stored turns.
 Looks: TypeAlias = Callable[[int, float], Look | None] | Mapping[tuple[int, float], Look]
-#: Causes that were told: vehicles with what was expected of them.
+#: Causes that were stated: vehicles with what was expected of them.
 Told: TypeAlias = frozenset[tuple[int, tuple[str, ...]]]
 
 

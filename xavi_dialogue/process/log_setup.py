@@ -2,9 +2,9 @@
 
 Code logs with `logging.getLogger(__name__)`, a short constant message, and values in `extra`. What
 a passenger said is in neither: values named like it are left out unless that is asked for, and of
-an exception its kind and place are told, since its words may quote what was typed.
+an exception its kind and place are stated, since its words may quote what was typed.
 
-Whoever logs never waits for who reads: lines go through a queue that a thread empties, and what
+Anyone who logs never waits for who reads: lines go through a queue that a thread empties, and what
 does not fit into it is counted and told later.
 """
 

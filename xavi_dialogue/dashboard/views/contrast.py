@@ -59,7 +59,7 @@ def _decided(trace: PlanTrace) -> bool:
 
 
 def _alone(said: Contrastive, models: Sequence[CausalModel]) -> Iterator[ContrastSide]:
-    """Yield the plan, where there is nothing beside it; of its outcome as it was told."""
+    """Yield the plan, where there is nothing beside it; of its outcome as it was stated."""
     outcome = said.outcome
     for model in models:
         if not _decided(model.trace):

@@ -24,7 +24,7 @@ from xavi_dialogue.nlg.surface.orthography import capitalise, join, sentence
 from xavi_dialogue.nlg.surface.realiser import grammar
 from xavi_dialogue.nlg.surface.values import Clause, Quantity, Range, Who
 
-POSSIBLE = 0.3  # what is expected with less is told as what might be
+POSSIBLE = 0.3  # what is expected with less is stated as what might be
 
 
 @cache

@@ -123,7 +123,7 @@ class ClientSession:
     def put(self, packed: EncodedMessage) -> None:
         """Queue a message; disconnect the browser if too much waits already.
 
-        What all are told before it is greeted is part of the greeting.
+        What is sent to all before the greeting is part of the greeting.
         """
         if self.leave is not None or not self._greeted:
             return

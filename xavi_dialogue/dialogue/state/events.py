@@ -104,7 +104,7 @@ class Cancelled:
 
 @dataclass(frozen=True, slots=True)
 class Resumed:
-    """A conversation of before goes on; to be told before its first question."""
+    """A conversation of before goes on; to be stated before its first question."""
 
     session: str
     turns: tuple[Turn, ...]  # oldest first

@@ -40,7 +40,7 @@ class Memory:
 
     @property
     def told(self) -> Told:
-        """Return the causes that the passenger was told of, and did not get wrong since."""
+        """Return the causes that were stated to the passenger, who has not got them wrong since."""
         causes = {
             cause for turn in self.turns for result in turn.results for cause in causes_of(result)
         }

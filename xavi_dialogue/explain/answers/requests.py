@@ -34,7 +34,7 @@ from xavi_dialogue.explain.answers.reference.occasions import occasion
 from xavi_dialogue.explain.answers.talk import speed_of
 from xavi_dialogue.explain.causes.plans.options import options_at
 
-#: Requests to be told how fast we are, and those to be told when we are there.
+#: Requests to be stated how fast we are, and those to be stated when we are there.
 SPEEDS: frozenset[ActionName] = frozenset(("slow-down", "speed-up", "brake"))
 ENDING: frozenset[ActionName] = frozenset(("stop", "pull-over", "drop-off", "park", "open"))
 STAYING: frozenset[ActionName] = frozenset(("continue", "keep-lane", "follow"))

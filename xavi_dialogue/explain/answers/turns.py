@@ -1,6 +1,6 @@
 """Turns: who all goes before us at a junction and who after, and who has to move so that we can.
 
-The rules are those of the record of the road. Who goes before us is told in the order in which
+The rules are those of the record of the road. Who goes before us is stated in the order in which
 they are near; at the head of a row that stands, who has to move first.
 """
 
@@ -42,7 +42,7 @@ from xavi_dialogue.explain.answers.ride.priority import priority_at
 
 GOING: Final = frozenset[ActionName](("go", "move", "enter", "cross", "turn", "continue", "pass"))
 WAITS: Final[tuple[ActionName, ...]] = ("give-way", "wait")
-BOTH: Final = 2  # vehicles from which their order is told
+BOTH: Final = 2  # vehicles from which their order is stated
 
 
 def who(question: Which, asked: Asked) -> Answer:

@@ -23,7 +23,7 @@ COVERS: dict[ActionName, tuple[ActionName, ...]] = {
     "swerve": ("change-left", "change-right"),
     "see": ("appear",),
 }
-#: Actions that follow from others: each with what it is told by.
+#: Actions that follow from others: each with what it is shown by.
 SIDES: dict[ActionName, Side] = {
     "change-left": "left",
     "change-right": "right",

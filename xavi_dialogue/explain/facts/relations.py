@@ -21,7 +21,7 @@ KMH = 3.6  # [km/h] in 1 m/s
 
 
 def holds(states: States, relation: Relation, thing: Thing, to: Thing, at: float) -> Told:
-    """Return whether a relation holds at a time [s]; None where that cannot be told."""
+    """Return whether a relation holds at a time [s]; None where that cannot be known."""
     first, second = _number(thing), _number(to)
     if relation == "on":
         return None if first is None else _on(states, first, to, at)
@@ -132,7 +132,7 @@ def _speeds(sign: float) -> Callable[[States, int, int, float], Told]:
         a, b = states.state(thing, at), states.state(to, at)
         if a is None or b is None:
             return None
-        return sign * (round(KMH * a.speed) - round(KMH * b.speed)) > 0  # as they are told
+        return sign * (round(KMH * a.speed) - round(KMH * b.speed)) > 0  # as they are stated
 
     return read
 

@@ -128,7 +128,7 @@ class World:
         return measuring.delay(self.states, episode)
 
     def relation(self, relation: Relation, thing: Thing, to: Thing, at: float) -> bool | None:
-        """Check whether a relation holds at a time; None where that cannot be told."""
+        """Check whether a relation holds at a time; None where that cannot be known."""
         return relations.holds(self.states, relation, thing, to, at)
 
     def belief(self, vehicle: int, at: float) -> Belief | None:

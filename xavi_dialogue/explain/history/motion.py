@@ -1,6 +1,6 @@
 """Motion: what a vehicle has been seen to do, read off its recorded positions and speeds.
 
-Lane changes and turns are told by the shape of the path alone: a vehicle that moves over by a
+Lane changes and turns are shown by the shape of the path alone: a vehicle that moves over by a
 lane's width and heads the same way again has changed lanes; one that heads elsewhere has turned.
 """
 
@@ -117,7 +117,7 @@ class Motion:
     def first(self, action: ActionName) -> float | None:
         """Return when [s] something of just this name was first done; None: never.
 
-        Changes of speed and stops are told without reading lane changes and turns.
+        Changes of speed and stops are stated without reading lane changes and turns.
         """
         found: Iterable[Sighting]
         if action in ("slow-down", "speed-up"):

@@ -1,4 +1,4 @@
-"""Thresholds: from where on a motion is called by a name. One table for all that is told."""
+"""Thresholds: from where on a motion is called by a name. One table for all that is stated."""
 
 import math
 

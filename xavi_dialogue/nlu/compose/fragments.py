@@ -113,7 +113,7 @@ class Fragments(BareQuestions):
         if judged is not None:
             return judged
         found = self.noun_asked(sem, clause)
-        if found is None:  # what is told behind a name or a time has no place in what is elliptic
+        if found is None:  # what is stated behind a name or a time has no place in what is elliptic
             found = self.elliptic(unit, clause) if clause.that is None else []
         return [(acts, cost + _unused(clause)) for acts, cost in found]
 

@@ -260,5 +260,5 @@ def _wavers(value: Any) -> bool:
 
 
 def wavers(clause: Clause, value: Any) -> bool:
-    """Say whether we are told that we cannot make up our mind."""
+    """Check whether the passenger says that we cannot make up our mind."""
     return _wavers(value) and clause.negated and isinstance(clause.subject, Ego)

@@ -241,7 +241,7 @@ def _tagged(unit: Node) -> bool:
 
 
 def _is_needless(of: Proposition) -> bool:
-    """Say whether it is told of a deed that there is no need or point, and not of room for it."""
+    """Check whether a deed is said to have no need or point, and not of room for it."""
     inner = of.content if isinstance(of, Not) else of
     return isinstance(of, Not | Is) and not (isinstance(inner, Is) and inner.state == "roomy")
 

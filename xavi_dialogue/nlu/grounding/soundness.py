@@ -37,7 +37,7 @@ def is_sound(value: object) -> bool:
 
 
 def _arrives_nowhere(event: Event) -> bool:
-    """Say whether somebody else arrives at no place that is told: only we have a destination."""
+    """Say whether somebody else arrives at no place that is stated: only we have a destination."""
     others = not isinstance(event.actor, Ego | Passenger)
     return event.action == "arrive" and others and event.object is None and event.where is None
 

@@ -38,7 +38,7 @@ class World(Protocol):
         """List what was done, by begin."""
 
     def relation(self, relation: Relation, thing: Thing, to: Thing, at: float) -> bool | None:
-        """Tell whether a relation holds at a time; None: it cannot be told."""
+        """Tell whether a relation holds at a time; None: it cannot be known."""
 
     def holds(self, event: Event, begin: float, end: float) -> tuple[Episode, ...]:
         """List the episodes that are such an event."""

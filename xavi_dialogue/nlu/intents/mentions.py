@@ -53,7 +53,7 @@ def at_time_of(acts: tuple[Act, ...], reading: Reading) -> tuple[Act, ...]:
 def mentioned(reading: Reading) -> Thing | None:
     """Give the vehicle that a text is most likely about; None where it names none.
 
-    One that is asked about goes before one that is only told of, a description before a pronoun.
+    One that is asked about goes before one that is only spoken of, a description before a pronoun.
     """
     asked = [t for act in reading.acts if isinstance(act, Ask | Request) for t in _things(act)]
     told = [t for act in reading.acts for t in _things(act)]

@@ -25,7 +25,7 @@ _POINTING: Final = frozenset(("it", "that", "this"))
 
 
 def asking_acts(acts: Sequence[Act]) -> tuple[Act, ...]:
-    """Give the acts that want something to be told or done; all of them where none does."""
+    """Give the acts that want something to be stated or done; all of them where none does."""
     found = tuple(act for act in acts if isinstance(act, Ask | Request | Elliptic))
     return found or tuple(acts)
 

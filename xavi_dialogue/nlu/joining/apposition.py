@@ -67,7 +67,7 @@ def _vague(value: Any) -> Pronoun | Described | None:
 
 
 def _merged(vague: Pronoun | Described, thing: Described | Vehicle) -> Thing:
-    """Give the thing that is named, with the place that was told before."""
+    """Give the thing that is named, with the place that was stated before."""
     if isinstance(vague, Pronoun) or isinstance(thing, Vehicle):
         return structs.replace(thing, definite=True) if isinstance(thing, Described) else thing
     return structs.replace(

@@ -90,7 +90,7 @@ def why_held(acts: Sequence[Act | None]) -> list[Act | None]:
 
 
 def is_clear(that: Proposition) -> bool:
-    """Say whether it is only told that there is room, or nobody: for that, nobody asks why."""
+    """Check whether only room, or nobody, is stated: nobody asks why of that."""
     return isinstance(that, Is) and that.state == "free" and isinstance(that.thing, Lane | Road)
 
 
@@ -130,7 +130,7 @@ def _coloured(question: object) -> Described | None:
 
 
 def _told(first: Act) -> Proposition | None:
-    """Give what is told before "is that because of him?"."""
+    """Give what is stated before "is that because of him?"."""
     match first:
         case Request(event=event, negated=False):  # "stop at 26.7"
             return Happens(event)

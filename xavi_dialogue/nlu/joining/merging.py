@@ -176,7 +176,7 @@ def _of_reason(before: Act, later: Act) -> Act | None:
 
 
 def _of_told(before: Act, later: Act) -> Act | None:
-    """Ask why what was told is so: "you did not brake, why not?"."""
+    """Ask why what was stated is so: "you did not brake, why not?"."""
     match before, later:
         case Claim(that=Not() as that), Elliptic(
             thing=None, event=None, time=Unsaid(), negated=True, form="why-not"
@@ -237,7 +237,7 @@ def _of_world(before: Act, later: Act) -> Act | None:
 
 
 def _of_claim(before: Act, later: Act) -> Act | None:
-    """Ask whether that is so which was told, or do what it makes room for."""
+    """Ask whether that is so which was stated, or do what it makes room for."""
     match before, later:
         case Claim(that=Is(state="roomy" | "free", thing=thing)), Request(
             event=Event(

@@ -91,7 +91,7 @@ def _guessed(asked: Question | None, later: Question | None) -> Question | None:
 
 
 def _changed(told: Proposition, later: Question | None) -> Question | None:
-    """Read "so it went left. When did your belief change?" as asked of what is told."""
+    """Read "so it went left. When did your belief change?" as asked of what is stated."""
     match told, later:
         case Happens(event=event), HowSure(of=None, changed=True) if not isinstance(
             event.actor, Ego

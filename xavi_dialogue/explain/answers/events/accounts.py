@@ -57,7 +57,7 @@ _WAITING = {"give-way", "wait"}
 _SHIFTING = ("cut-in", "change-left", "change-right")
 _HALTS = ("wait", "stop", "stand")
 BRIEF = 0.8  # [s] of a halt below which it is not told
-DEED = 2.0  # weight from which something is told of another vehicle
+DEED = 2.0  # weight from which something is stated of another vehicle
 #: How much an episode matters in a summary.
 WEIGHT: dict[ActionName, float] = {
     "collide": 20.0, "nearly-collide": 12.0, "arrive": 6.0, "give-way": 6.0, "cut-in": 6.0,

@@ -9,8 +9,8 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import window
 from xavi_dialogue.explain.history.ride import planned
 
-MOVED = 0.15  # by which a probability has to move to be told
-TOLD = 2  # beliefs that are told
+MOVED = 0.15  # by which a probability has to move to be stated
+TOLD = 2  # beliefs that are stated
 BEFORE = 0.01  # [s]
 AFTER = 0.5  # [s] after a decision in which what we do is still of it
 

@@ -287,7 +287,7 @@ def _blocks(asked: Asked, event: Event) -> Finding:
 
 
 def _lost(asked: Asked, event: Event, about: Window) -> Finding | None:
-    """Tell that it cannot be told, as it was not in view or the record has a hole there."""
+    """Tell that it cannot be known, as it was not in view or the record has a hole there."""
     for begin, end in asked.ride.gaps:
         if begin <= about.end and end >= about.begin:
             return unknown("gap-in-record")

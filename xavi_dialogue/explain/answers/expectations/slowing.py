@@ -17,7 +17,7 @@ from xavi_dialogue.explain.history.thresholds import STANDING
 HALTS: frozenset[ActionName] = frozenset(("stop", "stand", "wait"))
 SLOWS: frozenset[ActionName] = HALTS | {"brake", "slow-down", "give-way", "let-go"}
 POSSIBLE = 0.1  # share of the drives from which somebody may hold us up
-SURE = 0.8  # probability from which it is told who comes first
+SURE = 0.8  # probability from which it is stated who comes first
 SLOWER = 1.5  # [m/s] by which one is slower to passengers
 
 

@@ -1,7 +1,7 @@
 """Lights: who answers questions about traffic lights.
 
 Who asks of a thing that is a traffic light is answered here, whatever the form of the question;
-why we stopped for one is told with the other reasons.
+why we stopped for one is stated with the other reasons.
 """
 
 from collections.abc import Callable

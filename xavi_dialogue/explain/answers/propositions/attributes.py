@@ -65,7 +65,7 @@ from xavi_dialogue.explain.answers.ride.priority import right_of_way, where_rule
 from xavi_dialogue.explain.causes.plans.options import options_at
 
 GOING: frozenset[ActionName] = frozenset(("move", "go", "follow", "continue"))
-#: What is chosen, and whose cost is told by what else could have been chosen.
+#: What is chosen, and whose cost is shown by what else could have been chosen.
 CHOSEN: frozenset[ActionName] = frozenset(
     ("change-left", "change-right", "change-lane", "overtake")
 )

@@ -60,7 +60,7 @@ from xavi_dialogue.explain.answers.reference.occasions import PLAIN, occasion, o
 from xavi_dialogue.explain.answers.ride.places import locate
 
 Term = TypeVar("Term", bound=Value)
-MOST = 4  # vehicles of whom it is told what they do
+MOST = 4  # vehicles of whom it is stated what they do
 BESIDE = 2.0  # [m] sideways from which somebody is in another lane
 STRAIGHT: dict[Relation, Bearing] = {"ahead-of": "ahead", "behind": "behind"}
 REACH = 30.0  # [m] behind us from which somebody is about to pass

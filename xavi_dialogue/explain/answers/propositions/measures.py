@@ -52,7 +52,7 @@ NUMBERS: frozenset[Attribute] = frozenset(
 )  # fmt: skip
 #: Whose least value says nothing: it is always there.
 UPWARDS: frozenset[Attribute] = frozenset(("deceleration", "jerk", "excess"))
-PAIRS = 3  # of vehicles between which a distance is told
+PAIRS = 3  # of vehicles between which a distance is stated
 #: Gaps of who was out of sight then.
 UNSEEN = ("out-of-view", "hidden")
 #: Of two: the other one is ours where none is said.

@@ -133,7 +133,7 @@ def _affirmed(that: Proposition) -> Proposition:
 
 
 def claim(act: Claim, asked: Asked) -> Answer:
-    """Tell whether a claim is right: agreed, denied with what was so, or not to be told.
+    """Tell whether a claim is right: agreed, denied with what was so, or not known.
 
     Raises:
         Unanswered: it is of what is unknown, or rollouts are needed.

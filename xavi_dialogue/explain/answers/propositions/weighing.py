@@ -190,7 +190,7 @@ def _open_to_all(found: Finding) -> Finding:
 def either(of: Both, asked: Asked) -> Finding | None:
     """Tell which of several holds: a place or a value as such, else the one that does.
 
-    None where none of them does, or it cannot be told.
+    None where none of them does, or it cannot be known.
     """
     first = of.contents[0] if of.contents else None
     match first:

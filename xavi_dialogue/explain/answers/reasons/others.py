@@ -1,6 +1,6 @@
 """Others: why another vehicle does or did something, or did not: who is in its way, and its goal.
 
-What drivers think is not known. What is told is whom a vehicle gave way to or had in its way, as
+What drivers think is not known. What is stated is whom a vehicle gave way to or had in its way, as
 far as its predicted ways show, and where we thought it was going.
 """
 

@@ -13,7 +13,7 @@ ANNOUNCES: dict[Side, tuple[MacroAction, ...]] = {
     "left": ("change-left", "exit-left"),
     "right": ("change-right", "exit-right"),
 }
-ON = 1.0  # [s] since when an indicator that went out is still on for whoever asks
+ON = 1.0  # [s] since when an indicator that went out is still on for anyone who asks
 
 
 def why_signal(side: Side | None, scene: Asked, *, past: bool) -> Answer:

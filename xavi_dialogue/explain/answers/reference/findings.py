@@ -43,7 +43,7 @@ class Finding:
 
 
 def unknown(gap: Gap, *facts: Fact) -> Finding:
-    """Say that nothing can be told, for a reason."""
+    """Say that nothing can be known, for a reason."""
     return Finding(None, facts, gap)
 
 

@@ -17,8 +17,8 @@ from xavi_dialogue.explain.causes.vehicles.when import LEEWAY
 PAUSE = 0.5  # [s] between two of one kind, by which the second is another one
 CHANGED: frozenset[ActionName] = frozenset(("change-left", "change-right"))
 GOING = 0.5  # [s] since when something still counts as going on
-TOLD = 2  # episodes that are told in place of what did not happen
-#: What goes on most of the time, and is told only where nothing else is there.
+TOLD = 2  # episodes that are stated in place of what did not happen
+#: What goes on most of the time, and is stated only where nothing else is there.
 PLAIN: frozenset[ActionName] = frozenset(
     ("continue", "move", "follow", "keep-lane", "keep-distance", "approach", "head", "see", "come",
      "appear", "disappear", "signal", "go")

@@ -1,6 +1,6 @@
 """Priority: who has or had right of way, who went first, and the facts behind a question of fault.
 
-The rule follows from the road (`RoadFacts`), and from whom way was given to in fact. It is told
+The rule follows from the road (`RoadFacts`), and from whom way was given to in fact. It is stated
 who had to yield and who did; whose fault something is, is not.
 """
 

@@ -262,7 +262,7 @@ def undone(event: Event, scene: Asked, form: Asking, struck: int | None) -> Answ
     """Tell what would have been had we not done what we did: the best alternative.
 
     Raises:
-        Unanswered: it cannot be told; or rollouts are needed.
+        Unanswered: it cannot be known; or rollouts are needed.
     """
     names = names_of(event)
     if happened(scene.ride, names, scene.span) is None and set(names) & DRIVING:

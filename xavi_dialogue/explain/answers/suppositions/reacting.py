@@ -29,7 +29,7 @@ SUDDEN = frozenset[ActionName](
 #: What it is sudden not to do.
 DUTIES = frozenset[ActionName](("wait", "give-way", "let-go", "stop", "brake", "see", "slow-down"))
 IN_LANE = frozenset[ActionName](("stop", "brake", "slow-down", "stand", "go", "move", "speed-up"))
-#: What is sudden of whoever stands or was about to stop.
+#: What is sudden of anyone who stands or was about to stop.
 STARTING = frozenset[ActionName](("go", "move", "enter", "cross"))
 HALTING = frozenset[ActionName](("stop", "brake", "slow-down", "avoid", "swerve"))
 COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))

@@ -301,7 +301,7 @@ def _slows(found: Supposed) -> bool | None:
 
 
 def _mark(action: ActionName, driven: Episode | None) -> ActionName:
-    """Return the change of speed by which a way of driving is told in a rollout."""
+    """Return the change of speed by which a way of driving is stated in a rollout."""
     if action in ("stop", "stand") or (driven is not None and driven.standing):
         return "stop"
     return "speed-up" if action == "speed-up" else "slow-down"

@@ -1,6 +1,6 @@
 """Driving: why the ego slowed down, stood, waited or gave way: who held it up under its own plan.
 
-Whose way was given, and who stood or drove in the way, is told by the rollouts of the decision
+Whose way was given, and who stood or drove in the way, is shown by the rollouts of the decision
 that was in force, and by the events; each vehicle is tried by planning without it. Where nobody
 was in the way, the road tells: a turn, a line to give way at, the end of the trip.
 """

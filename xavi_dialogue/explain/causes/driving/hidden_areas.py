@@ -1,6 +1,6 @@
 """What cannot be seen, as a cause: the ego is slower since somebody might come out of there.
 
-That it is so is told by the drives imagined at a decision. Whether it matters is tried by planning
+That it is so is shown by the drives imagined at a decision. Whether it matters is tried by planning
 that decision again as if one could see past what hides it: it does where this saves time.
 """
 

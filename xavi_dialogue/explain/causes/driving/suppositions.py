@@ -140,7 +140,7 @@ def together(
 ) -> Supposed | None:
     """Compare a decision with what it would be if several vehicles did, or did not do, something.
 
-    That is told from the samples of the decision in which all of them do; None where there are
+    That is read off the samples of the decision in which all of them do; None where there are
     too few, since it can be planned again with the conduct of one vehicle alone.
     """
     trace = decision_for(ride, vehicles[0], moment)
@@ -164,7 +164,7 @@ def otherwise(
 ) -> Supposed:
     """Compare a decision with what it would be if a vehicle did, or did not do, something.
 
-    That is told from the samples of the decision itself; where they are too few, it is planned
+    That is read off the samples of the decision itself; where they are too few, it is planned
     again with the vehicle acting so.
 
     Raises:

@@ -1,4 +1,4 @@
-"""Traffic lights as causes: that one holds us is told by the drives imagined at a decision.
+"""Traffic lights as causes: that one holds us is shown by the drives imagined at a decision.
 
 Whether it matters is tried by planning that decision again with the light green for good: it does
 where this saves time. Who stands before us in the queue is stated beside it.

@@ -51,7 +51,7 @@ def kept(
 
 
 def _consistent(causation: Causation | None, found: Sequence[Cause]) -> Causation | None:
-    """Leave those that are told out of those that make no difference."""
+    """Leave the causes that are stated out of those that make no difference."""
     told = {cause.vehicle for cause in found}
     if causation is None or not told & set(causation.cleared):
         return causation

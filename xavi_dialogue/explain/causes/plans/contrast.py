@@ -103,7 +103,7 @@ def factual(model: CausalModel, trace: PlanTrace) -> Intervention:
 def decided(ride: Ride, model: CausalModel) -> Intervention:
     """Find the plan of a decision by its own rollouts, or by further ones where these do not do.
 
-    So what is told of the plan is the same whatever it is compared with.
+    So what is stated of the plan is the same whatever it is compared with.
 
     Raises:
         Unanswered: there is not enough evidence for it in either.

@@ -1,4 +1,4 @@
-"""Lateness: what can be told of the time of a plan that does not arrive while it is simulated.
+"""Lateness: what can be known of the time of a plan that does not arrive while it is simulated.
 
 Rollouts end after the time that is looked ahead (the horizon). How long a plan takes whose
 rollouts end so is not known, only that it is longer; those that arrive all the same are the quick

@@ -1,7 +1,7 @@
 """Ranges of times and chances of outcomes that hold: calibrated on foils driven in SUMO.
 
 `xavi bench fidelity --learn` makes the table, ranges.json, which says what it was made of. Cases
-are told apart by the kind of foil and of road (Mondrian conformal prediction, Vovk et al. 2005).
+are distinguished by the kind of foil and of road (Mondrian conformal prediction, Vovk et al. 2005).
 Where a kind of road had too few rides, those of all roads stand for it; where there are too few
 of these, or nothing like it was tried, no range is given.
 """

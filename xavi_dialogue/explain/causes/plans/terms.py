@@ -1,6 +1,6 @@
 """Terms: what the planner's reward holds for or against a plan, in seconds, term by term.
 
-A contrast tells components in natural units. Which of them the choice turned on is told by the
+A contrast tells components in natural units. Which of them the choice turned on is shown by the
 planner's own reckoning: its reward, taken apart as the trace has it. The terms of a difference
 sum to the difference of the expected rewards.
 """
@@ -72,7 +72,7 @@ def differences(model: CausalModel, foil: Intervention, fact: Intervention) -> D
     count, each by its prior: so the planner compares, and what one side met by chance alone
     tells nothing of the choice. Else the two sides vary independently; so they do where a fatal
     outcome was met in a situation that was tried with one side only, since it weighs too much to
-    be left out, and where the pairs contradict the chances that are told of such an outcome.
+    be left out, and where the pairs contradict the chances that are stated of such an outcome.
 
     The standard error is that of the weighted mean (Hajek 1971), of the differences by situation
     where there are such, in the share of the prior mass that was not tried.
@@ -121,9 +121,9 @@ def _contradicted(terms: Mapping[Term, float], foil: Mixture, fact: Mixture) -> 
 
 
 def told(difference: Difference) -> tuple[Share, ...]:
-    """Choose the terms that are told, the decisive one first: they outweigh what they must.
+    """Choose the terms that are stated, the decisive one first: they outweigh what they must.
 
-    Of what speaks against, the largest is told where it is worth telling and more than effort or
+    Of what speaks against, the largest is stated where it is worth telling and more than effort or
     steering, and a collision always; of what speaks for, as much as outweighs that, and time
     beside comfort where it does. Where it is close, the largest of either side. What steering
     costs goes together.
@@ -151,7 +151,7 @@ def told(difference: Difference) -> tuple[Share, ...]:
 
 
 def _grouped(terms: Mapping[Term, float]) -> list[tuple[Term, ...]]:
-    """Return the terms as they are told: those of steering as one, the larger first."""
+    """Return the terms as they are stated: those of steering as one, the larger first."""
     steering = sorted((t for t in terms if t in STEERING), key=lambda t: -abs(terms[t]))
     single: list[tuple[Term, ...]] = [(t,) for t in terms if t not in STEERING]
     return [*single, tuple(steering)] if steering else single

@@ -1,7 +1,7 @@
 """Announced: what an indicator of another vehicle means, and how it came to be where it is.
 
 An indicator announces a change of lanes or a turn to that side; who drives in front of a vehicle
-is no reason for it. Where a vehicle is, seen from us, is told by who let whom go, or went past.
+is no reason for it. Where a vehicle is, seen from us, is shown by who let whom go, or went past.
 """
 
 from planner.record.trace import PlanTrace

@@ -18,7 +18,7 @@ from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.thresholds import STANDING
 
 TURNS: tuple[ActionName, ...] = ("exit-left", "exit-right")
-#: What is told by the speed, and not by the actions.
+#: What is shown by the speed, and not by the actions.
 SPEED_MARKS: tuple[ActionName, ...] = ("slow-down", "speed-up", "stop", "give-way")
 BEGUN = 0.15  # share of its whole angle from which a turn has begun
 SLIGHT = math.radians(20.0)  # an angle that is no turn

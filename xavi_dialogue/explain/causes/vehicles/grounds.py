@@ -23,7 +23,7 @@ from xavi_dialogue.explain.history.thresholds import CHANGED
 
 EVEN = 0.5  # probability from which something is more probable than not
 CERTAIN = 1e-3  # of probability, within which odds are not told apart
-SPEAKS = 3.0  # times by which its lights must fit a goal better to be told
+SPEAKS = 3.0  # times by which its lights must fit a goal better to be stated
 LEAST_FIT = 1e-3  # relative likelihood below which a path does not fit at all
 #: What predicted ways tell though the planner does not choose it.
 DRIVEN = frozenset[ActionName](("slow-down", "speed-up"))

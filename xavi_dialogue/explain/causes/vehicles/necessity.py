@@ -1,6 +1,6 @@
 """Necessity: whether the vehicles that are blamed matter, by planning again without them.
 
-Whoever holds the ego up in the rollouts of a foil may be one of many: without it, the next one
+Anyone who holds the ego up in the rollouts of a foil may be one of many: without it, the next one
 would. So the decision is taken again without the vehicle, where that shows nothing without two,
 and last without all others (`actual`). A choice hangs on vehicles without which it is made
 otherwise, or most of what spoke for it is gone. A way of driving hangs on those without which most
@@ -84,7 +84,7 @@ def proven(
         return Proven(kept, found)
     known = {cause.vehicle: cause for cause in causes}
     blamed = found.vehicles[:1] if found.kind == "pre-empted" else found.vehicles
-    if found.kind == "several":  # of whom those at work are told of, as far as each was tried
+    if found.kind == "several":  # those at work are stated, as far as each was tried
         at_work = tuple(v for v in suspects[:SINGLES] if v in found.vehicles)
         blamed = at_work or (found.vehicles if found.minimal else ())
     told = [
@@ -146,7 +146,7 @@ class _Tests:
 
         Args:
             found: on whom it hangs.
-            causes: those of them that are told.
+            causes: those of them that are stated.
         """
         if self.foil is None or not found.vehicles:
             return True

@@ -1,7 +1,7 @@
 """Who is held at a traffic light, and when: by the drives imagined and predicted at each decision.
 
 Of the ego, the drives that do not stop of their own accord tell; of another vehicle, the ways that
-were predicted of it. What is told of another is never sure.
+were predicted of it. What is stated of another is never sure.
 """
 
 from collections.abc import Iterable, Iterator

@@ -1,7 +1,7 @@
 """Episodes of waiting: for whom somebody stands, and to whom the ego gave way.
 
 Whom the ego waits for stands in its imagined drives: who holds it up from the moment of a decision
-on. Whom another one waits for is told by what was predicted of it, and is never sure.
+on. Whom another one waits for is shown by what was predicted of it, and is never sure.
 """
 
 from collections.abc import Iterator
@@ -79,7 +79,7 @@ def _past(states: States, vehicle: int, other: int, time: float) -> bool:
 
 
 def _merged(given: Iterator[Episode]) -> list[Episode]:
-    """Return the same, with what was told twice of one vehicle told once."""
+    """Return the same, with what was stated twice of one vehicle told once."""
     found: list[Episode] = []
     for one in given:
         if not any(one.object == other.object and _meet(one, other) for other in found):

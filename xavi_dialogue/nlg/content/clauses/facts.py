@@ -138,7 +138,7 @@ def belief_message(belief: Belief, context: SpeechContext) -> Message:
     who = Who(Vehicle(belief.vehicle), belief.time if past else None)
     second = others[0] if others else None
     third = others[1] if len(others) > 1 else None
-    if third is not None:  # the last of three is told behind "or"
+    if third is not None:  # the last of three is stated behind "or"
         second, third = third, second
     return message(
         "BELIEF",

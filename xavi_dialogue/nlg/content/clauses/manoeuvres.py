@@ -111,7 +111,7 @@ def performed(rule: str, done: Performed) -> Message:
 
 
 def last_open(time: float | None) -> tuple[Message, ...]:
-    """Return when [s] something could last be done; () where that need not be told."""
+    """Return when [s] something could last be done; () where that need not be stated."""
     return () if time is None else (Message("LAST_OPEN", {"when": Moment(time)}),)
 
 

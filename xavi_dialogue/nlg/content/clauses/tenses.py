@@ -1,4 +1,4 @@
-"""Tenses: in which tense something is told, from when it is and what is asked."""
+"""Tenses: in which tense something is stated, from when it is and what is asked."""
 
 from xavi_dialogue.domain import terms
 from xavi_dialogue.domain.facts import Episode
@@ -32,7 +32,7 @@ def goes_on(episode: Episode, now: float) -> bool:
 def dated(clause: Clause, episode: Episode, context: SpeechContext) -> Clause:
     """Add when it was to a clause of slowing, waiting or turning that is past, and not just over.
 
-    It may not be the one that was meant, so that is told even where a time or place was named.
+    It may not be the one that was meant, so that is stated even where a time or place was named.
     """
     begun = began(episode, context)
     if begun is None or clause.tense != "past":
@@ -84,7 +84,7 @@ def moment_of(time: Time) -> float | None:
 
 
 def event_tense(event: Event, now: float) -> tuple[Tense, str | None]:
-    """Return the tense and the modal verb in which an event is told."""
+    """Return the tense and the modal verb in which an event is stated."""
     tense = tense_of(event.tense, event.time, now)
     match event.modal:
         case None | "will":

@@ -23,7 +23,7 @@ COLOURS: dict[LightColour, str] = {
     "flashing": "flashing amber", "off": "off",
 }  # fmt: skip
 STATED = ("colour", "whether", "claim")  # asked of what it shows
-SPENT = 0.75  # [s] for which something has been so to be told
+SPENT = 0.75  # [s] for which something has been so to be stated
 SAVED = 1.0  # [s] that make a difference
 AT_ONCE = 0.75  # [s] within which it came at once
 EXACT = 2.0  # [s] between the earliest and the latest time within which they are one

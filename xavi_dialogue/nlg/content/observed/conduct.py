@@ -23,7 +23,7 @@ from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
 
 #: What says less than anything else that somebody does at the same time.
 AT_HAND = 4.0  # [m] below which a place is just ahead
-TOLD = 0.4  # probability from which an expectation is told beside what somebody does
+TOLD = 0.4  # probability from which an expectation is stated beside what somebody does
 PLAIN = frozenset(("continue", "move", "keep-lane", "go", "continue-next-exit"))
 _STOPPING = frozenset(("stop", "brake", "slow-down", "stand", "follow"))
 CHANGES = frozenset(("slow-down", "speed-up"))

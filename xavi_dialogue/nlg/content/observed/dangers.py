@@ -10,9 +10,9 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import message
 from xavi_dialogue.nlg.surface.values import Chance, Number, Quantity, Who
 
-LIKELY = 0.5  # probability from which a chance is told beside a rule
+LIKELY = 0.5  # probability from which a chance is stated beside a rule
 SOME = 0.5  # [m] of braking below which it hardly needs any
-CERTAIN = 0.95  # probability from which what we plan is told as such
+CERTAIN = 0.95  # probability from which what we plan is stated as such
 AT_ONCE = 1.0  # [s] within which something comes at once
 
 

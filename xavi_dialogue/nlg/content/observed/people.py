@@ -113,7 +113,7 @@ def _one(
         if conduct:
             return Plan((message("DID_CONDUCT", it=did, **conduct),))
         told = () if isinstance(answer.such, Has) else facts
-        if event is not None and event.action in TOWARDS:  # it is told for whom it waits
+        if event is not None and event.action in TOWARDS:  # it is stated for whom it waits
             told = _besides(Vehicle(look.vehicle), answer.facts, facts)
         return Plan((message("PLAIN", it=did),), told)
     lost = Moment(look.seen) if not look.in_view and look.seen is not None else None

@@ -1,6 +1,6 @@
 """Contrasts: how the foil would have turned out, what of that is the reason, and who causes it.
 
-What is told are the terms that decided in the planner's own reckoning, and what speaks against
+What is stated are the terms that decided in the planner's own reckoning, and what speaks against
 them; see `terms`. Where the record tells no difference, it was close.
 """
 

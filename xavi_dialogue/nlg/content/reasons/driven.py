@@ -16,7 +16,7 @@ ASIDE = ("ahead-left", "ahead-right")  # where one sets the pace for a lane that
 
 
 def speed_told(value: float | None, context: SpeechContext) -> Quantity | None:
-    """Return the speed to be told; None where no numbers are wanted."""
+    """Return the speed to be stated; None where no numbers are wanted."""
     if value is None or context.detail == "simpler":
         return None
     return Quantity(value, "m/s")

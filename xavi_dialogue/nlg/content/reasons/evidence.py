@@ -18,12 +18,12 @@ from xavi_dialogue.nlg.surface.values import Moment, Number, Quantity, Range, Wh
 
 NARROW = 1.0  # [s] a range that is not worth giving
 NOTHING = 0.25  # [s] a difference that is none
-MOST = 2  # causes beside the first that are told
+MOST = 2  # causes beside the first that are stated
 NAMED = 4  # vehicles that are causes together only, up to which each is named
 
 
 def further(contrast: Contrast, context: SpeechContext, *, past: bool) -> tuple[Message, ...]:
-    """Return what is told beside the reason, most telling first."""
+    """Return what is stated beside the reason, most telling first."""
     first = told_cause(contrast)
     others = [c for c in contrast.causes if c != first][:MOST]
     found = [

@@ -26,9 +26,9 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Qua
 EVEN = 0.45  # probability below which we are not sure at all
 CLOSE = 0.65  # probability below which it was close
 AGREEING = 0.2  # of probability, within which a count of situations goes with it
-BETTER = 1.2  # times by which a path must fit better to be told
+BETTER = 1.2  # times by which a path must fit better to be stated
 UNFORESEEN = 0.25  # probability up to which something was not to be foreseen
-MOVED = 0.02  # change of probability from which it is told
+MOVED = 0.02  # change of probability from which it is stated
 DOUBTED = 0.1  # probability below which something is not believed
 SETTLED = 0.65  # probability from which something is believed
 EQUAL = 2.0  # times by which what fits better still fits about as well
@@ -132,7 +132,7 @@ def plan_certainty(answer: Certainty, context: SpeechContext) -> Plan:
         told = consequence_slots(contrast, context, past=past)
         slots = told | slots | {"foil": own_verbs(foil, fact), "verdict": contrast.verdict}
     held: tuple[Message, ...] = (Message("CERTAIN_OF", slots),)
-    counted = share is None or slots["verdict"] == "close"  # where no figure is told
+    counted = share is None or slots["verdict"] == "close"  # where no figure is stated
     details = held if counted else ()
     if slots["verdict"] == "better" and slots["fair"]:
         details = (*_because(contrast, context, past=past), *details)

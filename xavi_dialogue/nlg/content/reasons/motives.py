@@ -179,7 +179,7 @@ def _followed(answer: MotionReason) -> dict[str, object]:
 
 
 def _deed(answer: MotionReason, context: SpeechContext, past: bool) -> Clause:
-    """Return what we did; whom it was for is told by the reason."""
+    """Return what we did; whom it was for is shown by the reason."""
     deed = answer.deed
     if isinstance(deed.object, Vehicle) and any(cause.vehicle for cause in answer.causes[:1]):
         deed = replace(deed, object=None)

@@ -127,7 +127,7 @@ def _hedge(cause: MotionCause) -> Chance | None:
 
 
 def _their_deed(deed: Episode, answer: OtherReason, context: SpeechContext) -> Clause:
-    """Return what it did; for whom, is told by the reason."""
+    """Return what it did; for whom, is shown by the reason."""
     if deed.action == "move" and deed.speed_to is not None:
         speed = Quantity(deed.speed_to, "m/s")
         return Clause(Who(deed.actor, deed.begin), "drive", ("at", speed), "present", True)

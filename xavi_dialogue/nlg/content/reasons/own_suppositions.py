@@ -67,7 +67,7 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
         asked = _asked(answer, slots)
         told = Message("IF_ASKED", {**slots, **asked})
         named = slots["kind"] == "collision" or (answer.form == "could" and asked["riskier"])
-        untold = answer.form in TIMED and not named  # times alone are told
+        untold = answer.form in TIMED and not named  # times alone are stated
         if told_risk and (untold or (named and contrast.fact_collision >= RISK)):
             risk = risks(contrast, context, past=past, unsaid=True)
         beside = () if risk is None or answer.form in OF_RISKS else (risk,)

@@ -35,7 +35,7 @@ DECIDED = 0.95  # [s] after a decision, from which another one is in force
 Need = Literal["forced", "needed", "not-strictly", "close", "worse", "no-choice", "way"]
 #: Terms that who was in our way accounts for.
 DELAYS = frozenset(("time", "late"))
-#: How a vehicle makes the foil worse only where it is done: no reason to be told before it.
+#: How a vehicle makes the foil worse only where it is done: no reason to be stated before it.
 OF_FOIL = ("right-of-way", "collision", None)
 
 
@@ -74,7 +74,7 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
         told=_names(answer, answer.suspect) or context.detail == "less",
     )
     more = further(contrast, context, past=past)
-    core = core if risk is None else (risk, *core)  # a risk is told, and first
+    core = core if risk is None else (risk, *core)  # a risk is stated, and first
     core = (*core, *last_open(answer.open_at), *performed_later(answer.later))
     hangs = hangs_on(contrast.causation, contrast.decided, past=past)
     if hangs is not None and _jointly(answer):
@@ -86,7 +86,7 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
 
 
 def _of_vehicles(contrast: Contrast) -> bool:
-    """Whether the reason is told of vehicles, so that whether it hangs on them belongs to it."""
+    """Whether the reason is stated of vehicles, so that whether it hangs on them belongs to it."""
     hangs = contrast.causation is not None and contrast.causation.kind != "none"
     return hangs and not contrast.way and told_cause(contrast) is not None
 
@@ -112,7 +112,7 @@ def _silent(rule: str, slots: Mapping[str, object]) -> bool:
 
 
 def _superseded(contrast: Contrast, context: SpeechContext) -> bool:
-    """Whether chances are to be told that are of an earlier decision than the one in force."""
+    """Whether chances are to be stated that are of an earlier decision than the one in force."""
     risky = max(contrast.collision, contrast.fact_collision) >= RISK
     return (risky or told_cause(contrast) is not None) and context.now - contrast.decided > DECIDED
 
@@ -202,7 +202,7 @@ def cause_of(contrast: Contrast, context: SpeechContext, *, past: bool) -> Messa
 
 
 def _leads(contrast: Contrast) -> bool:
-    """Check whether the cause is told before what the foil would have come to."""
+    """Check whether the cause is stated before what the foil would have come to."""
     cause = told_cause(contrast)
     how = None if cause is None or cause.mechanism is None else cause.mechanism.how
     return how not in OF_FOIL

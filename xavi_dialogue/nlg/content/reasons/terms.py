@@ -1,4 +1,4 @@
-"""Terms: what is told of a difference, each a verb phrase of what was not done.
+"""Terms: what is stated of a difference, each a verb phrase of what was not done.
 
 What speaks for the verdict goes first, a risk of a collision before all else; what speaks against
 it follows after "though".
@@ -68,7 +68,7 @@ def _leading(told: Iterable[Share]) -> list[Share]:
 def not_worth_it(contrast: Contrast) -> dict[str, object]:
     """Make the slots for a foil that gains too little for its trouble, where that is all.
 
-    That is a foil of more lane changes or stops, against which nothing is told but these and
+    That is a foil of more lane changes or stops, against which nothing is stated but these and
     what they do to the ride, and for which nothing is but time.
     """
     needs = effort(contrast)

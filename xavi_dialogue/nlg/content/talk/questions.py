@@ -39,7 +39,7 @@ class Asking:
     time: float | None = None  # [s] of the ride, where one is meant
 
     def message(self, rule: str, *, timed: bool = False) -> Message:
-        """Return the message of a rule, with the time where it is to be told."""
+        """Return the message of a rule, with the time where it is to be stated."""
         when = Moment(self.time) if timed and self.time is not None else None
         slots = {"kind": self.kind, "it": self.clause, "past": self.past, "noun": self.noun}
         return Message(rule, {**slots, "who": self.who, "other": self.other, "when": when})

@@ -32,7 +32,7 @@ def about_whom(clause: Clause) -> Thing | None:
 
 
 def judged_so(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
-    """Read a judgement of a deed, or of whoever did it; None for anything else."""
+    """Read a judgement of a deed, or of anyone who did it; None for anything else."""
     about = about_whom(clause)
     match of:
         case Is(state="dangerous" | "safe", thing=Pronoun("that" | "it"), event=None) if (

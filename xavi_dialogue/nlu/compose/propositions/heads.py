@@ -48,7 +48,7 @@ from xavi_dialogue.nlu.compose.verbs.lights import light_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
-PEAKS = 3  # of "the hardest brakings" that are told
+PEAKS = 3  # of "the hardest brakings" that are stated
 _PLACES: dict[str, Thing] = {
     "destination": Destination(),
     "own-lane": Lane("own"),

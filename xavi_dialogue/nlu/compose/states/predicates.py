@@ -138,7 +138,7 @@ def _same(clause: Clause, thing: Thing | None, subject: Thing, time: Time) -> li
 
 
 def _kept(clause: Clause, sem: Measure, subject: Thing) -> Thing | None:
-    """Find to whom it is told that the distance is a safe one: "a safe distance from him"."""
+    """Find to whom the distance is said to be a safe one: "a safe distance from him"."""
     safe = {"safe", "safety"} & {*words_of(clause.objects[0][1]).split()}
     if sem.of.attribute not in ("gap", "distance") or not safe:
         return None

@@ -172,7 +172,7 @@ def _modal(clause: Clause, actor: Thing) -> str | None:
 
 
 def _thither(actor: Thing, clause: Clause) -> bool:
-    """Say whether it is told where we are going: "that is where we are going", "down there"."""
+    """Check whether it says where we are going: "that is where we are going", "down there"."""
     there = any(key == "there" for key, _ in clause.bearings)
     to_come = clause.tense in ("present", "future") and clause.modal is None
     off = bool(clause.particles) or any(

@@ -81,7 +81,7 @@ def believed(of: Measured) -> Proposition | None:
 
 
 def nearness(clause: Clause, left: Measured) -> Measured:
-    """Tell to whom a distance is, and whether it is told in metres or seconds."""
+    """Tell to whom a distance is, and whether it is stated in metres or seconds."""
     if left.attribute != "distance":
         return left
     to = next((t for c in clause.complements if (t := as_thing(c.sem)) is not None), None)

@@ -85,7 +85,7 @@ def meanwhile(clause: Clause, event: Event | None) -> Any:
 
 
 def _round(clause: Clause) -> bool:
-    """Say whether it is told of a bend: "how fast did we go round there?"."""
+    """Check whether a bend is meant: "how fast did we go round there?"."""
     places = [c for c in clause.complements if c.key == "bearing-around"]
     bends = all(c.sem is None or isinstance(as_thing(c.sem), Feature | Unknown) for c in places)
     around = any(leaf.key == "around" for leaf in clause.particles)

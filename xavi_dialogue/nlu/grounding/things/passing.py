@@ -29,7 +29,7 @@ def placed(thing: Described) -> Described:
 
 
 def goes_past(event: Event | None) -> bool:
-    """Tell whether somebody is told by his going past us."""
+    """Tell whether somebody is described by his going past us."""
     return event is not None and event.action in PASSING and event.object == Ego()
 
 

@@ -26,7 +26,7 @@ from xavi_dialogue.nlu.grounding.things import looks
 
 STANDING: Final = 0.5  # [m/s]
 LATELY: Final = 3.0  # [s] in which something counts as being done
-UNTOLD: Final = 0.4  # cost where it cannot be told
+UNTOLD: Final = 0.4  # cost where it cannot be known
 GAP: Final = Vehicle(-1)
 
 
