@@ -1,8 +1,4 @@
-"""Answers: one type for each kind of answer. No text; `nlg` puts them into words.
-
-Each type stands once in the table of explainers that computes it and once in the table of the
-realiser that words it. Nothing looks at which optional fields are set to tell what it is.
-"""
+"""Answers: one type for each kind of answer; `nlg` puts them into words."""
 
 from typing import Literal, TypeAlias
 

@@ -208,11 +208,15 @@ def test_what_it_was_before_we_decided_otherwise_does_not_count(
     monkeypatch.setattr(
         supposed_when, "probability", lambda ride, trace, v, names: chances[trace.sim_time]
     )
+    monkeypatch.setattr(supposed_when, "prediction", lambda trace, vehicle: seen[0])
+    seen: list[object] = [object()]
     asked = Given(looks={1: look(1)}, traces=traces).asked()
     assert supposed_when.open_until(asked, 1, TURN, 10.0) == 10.0
     assert supposed_when.open_until(asked, 1, TURN, 8.0) == 8.0
     chances[10.0] = 0.5
     assert supposed_when.open_until(asked, 1, TURN, 12.0) == 10.0
+    chances[10.0], seen[0] = 1.0, None  # out of view since: as long as it could have done it
+    assert supposed_when.open_until(asked, 1, TURN, 12.0) == 8.0
 
 
 def test_keeping_the_lane_is_what_a_change_of_lanes_did_not_do() -> None:

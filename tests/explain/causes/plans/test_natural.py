@@ -21,7 +21,7 @@ def road(*steps):
     return RoadFacts(places={}, route=steps)
 
 
-@pytest.mark.parametrize(("name", "now"), [("s2-0", 9.0), ("s2-2", 9.0), ("town-0", 60.0)])
+@pytest.mark.parametrize(("name", "now"), [("s2-0", 9.0), ("s2-2", 9.0), ("town-0", 30.0)])
 def test_a_turn_is_told_against_another_direction_and_never_against_a_stop(name, now):
     found = told(recorded(name), Why(Happens(Event("turn", tense="past"))), now)
     assert isinstance(found, ChoiceReason)

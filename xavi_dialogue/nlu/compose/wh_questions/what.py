@@ -152,25 +152,26 @@ class What:
                 return Doing(subject, then, "future" if name != "decide" else "past")
         return reasoned(clause, value)
 
+    def _of_change(self, wh: Wh, clause: Clause, event: Event) -> Question | None:
+        """Ask what would change a plan, or what changed it: "what made you change your mind?"."""
+        plan = event.action == "change-plan"
+        if plan and event.modal in ("would", "could"):
+            return WhatWouldChange()
+        if event.modal == "must":
+            governed = clause.that or clause.infinitive
+            return WhatWouldChange(None if governed is None else self.propositions.plain(governed))
+        if plan and wh.kind == "what":
+            return Why(Happens(with_fields(event, actor=Ego())))
+        return None
+
     def _what_holds(self, wh: Wh, clause: Clause, value: Proposition) -> Question:
         wanted = _wanted(wh)
         match value:
             case Is(state="at-fault"):
                 return Fault()
-            case Happens(
-                event=Event(action="change-plan", actor=Wanted(), modal="would" | "could")
-            ):
-                return WhatWouldChange()
-            case Happens(
-                event=Event(action="change-plan" | "change-lane", actor=Wanted(), modal="must")
-            ):
-                governed = clause.that or clause.infinitive
-                hangs = None if governed is None else self.propositions.plain(governed)
-                return WhatWouldChange(hangs)
-            case Happens(event=Event(action="change-plan", actor=Wanted()) as event) if (
-                wh.kind == "what"
-            ):
-                return Why(Happens(with_fields(event, actor=Ego())))
+            case Happens(event=Event(action="change-plan" | "change-lane", actor=Wanted()) as event):
+                if (changing := self._of_change(wh, clause, event)) is not None:
+                    return changing
             case Related(relation="with", thing=Wanted(), to=to) if is_vehicle(to):
                 return Doing(to, clause.time, "present")  # "what is up with that van"
             case Is(state="wrong", thing=Wanted()) if (who := with_whom(clause)) is not None:

@@ -125,9 +125,8 @@ def _whether(spoken: Whether, g: Grounder) -> Whether:
 
 
 def _which(spoken: Which, g: Grounder) -> Which:
-    such, thing = spoken.such, spoken.thing
-    if such is not None:
-        such = g.proposition(such, "asked")
+    thing = spoken.thing
+    such = None if spoken.such is None else g.proposition(spoken.such, "asked")
     event = first(such, Event)
     if isinstance(thing, Described) and such is not None:
         thing = replace(thing, plural=True)
