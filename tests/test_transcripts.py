@@ -40,10 +40,10 @@ import sys
 from pathlib import Path
 import msgspec
 from xavi_dialogue.transcripts.replay import recording, replay_recorded, transcripts_in
-from xavi_dialogue.service.in_process import make_mind
+from xavi_dialogue.service.in_process import make_pipeline
 from xavi_dialogue.transcripts.transcript import write
 for one in transcripts_in(Path(sys.argv[1])):
-    played = replay_recorded(one.transcript, recording(one.ride), make_mind())
+    played = replay_recorded(one.transcript, recording(one.ride), make_pipeline())
     sys.stdout.write(write(played.transcript))
     sys.stderr.buffer.write(msgspec.json.encode(played.replies) + b"\\n")
 """

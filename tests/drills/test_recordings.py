@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from tests.fakes import s1_moments
-from tests.recording.test_player import Listeners, recorded
+from tests.recording.test_player import Listeners, recorded_in
 from tests.recording.test_recorder import FakeCar, turn
 from xavi_dialogue.bus.interface import Keys, call
 from xavi_dialogue.bus.link import Link
@@ -146,7 +146,7 @@ def test_a_full_disk_is_told_in_one_line(hub: Hub, tmp_path: Path) -> None:
 
 def test_a_recording_is_played_to_others(hub: Hub, tmp_path: Path) -> None:
     path = tmp_path / "ride.mcap"
-    recorded(path, s1_moments())
+    recorded_in(path, s1_moments())
     listeners = Listeners(hub.bus)
     player = hub.start("replay", str(path), "--speed", "0")
     hub.await_alive("car")
@@ -209,8 +209,8 @@ def test_past_its_end_a_recording_is_asked_about_its_last_moment(
     hub: Hub, tmp_path: Path, root: Path
 ) -> None:
     path, whole = tmp_path / "ride.mcap", tmp_path / "whole.mcap"
-    recorded(path, iter(list(s1_moments())[:5]))
-    recorded(whole, s1_moments())
+    recorded_in(path, iter(list(s1_moments())[:5]))
+    recorded_in(whole, s1_moments())
     question = "What are you doing?\n"
     said, notes = asked(hub, root, f"@ 2.0s\n{question}@ 15s\n{question}", str(path))
     first, second = said.splitlines()
@@ -226,7 +226,7 @@ def test_past_its_end_a_recording_is_asked_about_its_last_moment(
 
 def test_lines_that_are_no_orders_are_told(hub: Hub, tmp_path: Path) -> None:
     path = tmp_path / "ride.mcap"
-    recorded(path, iter(list(s1_moments())[:5]))
+    recorded_in(path, iter(list(s1_moments())[:5]))
     player = hub.start("replay", str(path), "--log", "off")
     _, told = player.communicate("bogus\nspeed -3\nseek 15\nquit\n", timeout=PATIENCE)
     assert player.returncode == 0
