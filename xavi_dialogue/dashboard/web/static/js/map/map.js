@@ -271,7 +271,7 @@ class LiveMap {
     const { store } = this;
     if (!store.latest) return null;
     if (store.live) return this.motion.live(now) ?? store.latest;
-    if (store.at >= store.latest.t) return store.latest;
+    if (!store.past.length || store.at >= store.latest.t) return store.latest;
     const index = Math.max(lastUpTo(store.past, store.at), 0);
     return sceneAt([store.past[index], store.past[index + 1] ?? store.latest], store.at);
   }
