@@ -169,7 +169,9 @@ class What:
         match value:
             case Is(state="at-fault"):
                 return Fault()
-            case Happens(event=Event(action="change-plan" | "change-lane", actor=Wanted()) as event):
+            case Happens(
+                event=Event(action="change-plan" | "change-lane", actor=Wanted()) as event
+            ):
                 if (changing := self._of_change(wh, clause, event)) is not None:
                     return changing
             case Related(relation="with", thing=Wanted(), to=to) if is_vehicle(to):
