@@ -58,7 +58,7 @@ def measure(seeds: int, jobs: int, note: Callable[[str], None]) -> Reproduction:
 
 
 def reproduction(told: Sequence[Told], seeds: int) -> Reproduction:
-    """Return what was told, beside the rows of the paper."""
+    """Return our answers beside the rows of the paper."""
     foils = compare(told)
     once = [found for found in foils if found.table < 3]
     return Reproduction(

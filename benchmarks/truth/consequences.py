@@ -49,7 +49,7 @@ def time_of_foil(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
 
 
 def _stretch(match: re.Match[str], decision: Decision) -> Iterator[Fault]:
-    """Return whether the drives compared take about as long as is told, and end at a waypoint."""
+    """Check whether the drives take about as long as the answer says, and end at a waypoint."""
     if not match["stretch"]:
         return
     known = [time for side in decision.drives() if (time := side.mean("time")) is not None]

@@ -101,7 +101,7 @@ def _meant(
 
 
 def _no_term(decision: Decision) -> Iterator[Fault]:
-    """Return whether the plan is better where only who or what was in the way is told."""
+    """Check whether the plan is better, where the answer names only what was in the way."""
     whole = decision.values(decision.asked)
     if whole and max(whole) < -EPSILON:
         yield Fault("plan worse than the foil", f"{seconds(whole)} over {_named(decision.asked)}")

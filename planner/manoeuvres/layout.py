@@ -215,7 +215,7 @@ def _foe(roads: Roads, link: Link, first: bool) -> Foe:
 
 
 def _any_lane(network: Network, name: str) -> Lane:
-    """Return a lane, whoever may use it."""
+    """Return a lane, also one that is not for cars."""
     return network.lanes[name] if name in network.lanes else network.other_lanes[name]
 
 

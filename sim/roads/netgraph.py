@@ -68,7 +68,7 @@ def _of_type(read: Read, kind: str) -> frozenset[str]:
 
 
 def _lanes(read: Read) -> Iterator[Lane]:
-    """Yield the lanes of edges and of ways through junctions, whoever may use them."""
+    """Yield all lanes of edges and of ways through junctions, also those not for cars."""
     for edge in read.net.getEdges():
         if edge.getFunction() in (CROSSING, WALKING_AREA):
             continue

@@ -37,7 +37,7 @@ def test_what_is_new_is_no_more_than_that(supposed: Event | None) -> None:
 
 
 def test_a_gain_that_is_too_small_does_not_read_as_the_reason_for_it() -> None:
-    """Time saved is told as too little, before what it would have taken."""
+    """An answer says first that too little time is saved, then what it would take."""
     terms = tuple(
         replace_struct(LATER.told[0], term=term, cost=cost, chance=None, fact_chance=None)
         for term, cost in (("effort", 3.0), ("time", -2.0))

@@ -259,7 +259,7 @@ class Assurance(Value, frozen=True):
 class Slowing(Value, frozen=True):
     """Whether we stop or slow down for somebody, as foreseen."""
 
-    others: tuple[int, ...]  # whom it is asked for; of those, who holds us up where anybody does
+    others: tuple[int, ...]  # the vehicles asked about, or those of them that hold us up
     stops: bool  # we come to a standstill
     held: float  # share of the drives foreseen in which they hold us up
     slows: bool = False  # it is asked whether we slow down, not whether we stop

@@ -4,7 +4,7 @@ from planner.record.trace import PlanTrace, Rollout
 from xavi_dialogue.domain.answers import Slowing
 from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.answers.expectations.foreseen import EXPECTED
+from xavi_dialogue.explain.answers.expectations.foreseen import EXPECTED, HALTS
 from xavi_dialogue.explain.answers.expectations.plans import current_plan, foreseen, slowest_ahead
 from xavi_dialogue.explain.answers.expectations.precedence import First, first
 from xavi_dialogue.explain.answers.reference.asked import Asked
@@ -14,7 +14,6 @@ from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import prediction
 from xavi_dialogue.explain.history.thresholds import STANDING
 
-HALTS: frozenset[ActionName] = frozenset(("stop", "stand", "wait"))
 SLOWS: frozenset[ActionName] = HALTS | {"brake", "slow-down", "give-way", "let-go"}
 POSSIBLE = 0.1  # share of the drives from which somebody may hold us up
 SURE = 0.8  # probability from which it is stated who comes first
@@ -53,7 +52,7 @@ def slowing(asked: Asked, event: Event) -> Slowing | None:
 
 
 def _others(asked: Asked, thing: Thing | None) -> tuple[int, ...]:
-    """Name whom it is asked for."""
+    """Return the numbers of the vehicles and people that a term stands for."""
     if thing is None:
         return ()
     found = somebodies(asked, thing, asked.now)

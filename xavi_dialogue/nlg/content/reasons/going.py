@@ -16,7 +16,7 @@ TOGETHER = 1.2  # [s] within which two are at a place at the same time
 TIGHT = 3.0  # [s] within which one of two would have to brake for the other
 LEAST = 0.5  # [s] that is worth naming
 FAR = 60.0  # [m] from which somebody is far away
-#: Who is stated of first: whom we let go, then who had right of way, then who had not.
+#: Who is named first: whom we let go, then who had right of way, then who had not.
 _ORDER = {"vehicle": 1, "depends": 2, "ego": 3, "ahead": 4, "none": 5}
 
 
