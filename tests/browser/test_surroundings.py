@@ -26,6 +26,14 @@ BEGIN = 10.0  # [s]
 STEP = 0.2  # [s] of the ride, between scenes
 PERIOD = 0.05  # [s] between scenes, shorter than between updates of the page
 MOMENTS = 200
+LOSE_THE_PAST = """() => {
+  const store = window.xavi.store;
+  store.past.splice(0, 9999);
+  store.holes = true;
+  const few = store.past.length;
+  store.seek(20);
+  return few;
+}"""
 SOMEBODY = Phantom(
     ("south_in_1",), 73.9, 88.6, (1.6, -30.0), 1.57, 13.9, 0.0, 14.7, 0.08, 0.3,
     "J", 8, (5,), (9.0,),
@@ -104,9 +112,8 @@ def test_what_was_missed_while_the_ride_went_fast_is_fetched(
 ) -> None:
     screen = visit(junction.address)
     screen.until_at(BEGIN + STEP * MOMENTS)
-    screen.ask_page("window.xavi.store.past.splice(0, 9999); window.xavi.store.holes = true")
-    few = screen.ask_page("window.xavi.store.past.length")
-    screen.ask_page("window.xavi.store.seek(20)")
+    screen.until("() => window.xavi.store.past.length > 20")  # what it asked for when it opened
+    few = screen.ask_page(LOSE_THE_PAST)
     screen.until("few => window.xavi.store.past.length > few + 20", few)
     times = screen.ask_page("window.xavi.store.past.map((one) => one.t)")
     later = [time for time in times if time >= BEGIN]  # not what decisions remember
