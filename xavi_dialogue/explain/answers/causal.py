@@ -81,6 +81,8 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
             and isinstance(event.actor, Vehicle | Vehicles | Everyone)
         ):
             return owing.before_us
+        case Why(of=of, suspect=None) | HowKnow(of=of) if owing.is_rule(of):
+            return owing.why_rule
         case Why(of=of, suspect=None, instead=None) if owing.is_owed(of):
             return owing.why_owed
         case Why(of=Happens(event=event), suspect=Ego()) if event.action in HELD and isinstance(

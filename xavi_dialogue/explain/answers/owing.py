@@ -8,14 +8,15 @@ from planner.record.places import RoadFacts
 from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import Answer, Priority
 from xavi_dialogue.domain.facts import Look
-from xavi_dialogue.domain.meaning import Why
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Proposition, Vehicle, Vehicles
+from xavi_dialogue.domain.meaning import HowKnow, Why
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Proposition, Related, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.propositions import reasons
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import Window, is_past, window
 from xavi_dialogue.explain.answers.reference.naming import number, somebodies
-from xavi_dialogue.explain.answers.ride.priority import goes_first, priority_at
+from xavi_dialogue.explain.answers.reference.reading import unwrapped
+from xavi_dialogue.explain.answers.ride.priority import goes_first, priority_at, right_of_way
 
 Grounds: TypeAlias = Literal["right", "across", "beside", "on-foot", "road"]
 LETTING: Final = frozenset[ActionName](("wait", "give-way", "let-go"))
@@ -51,6 +52,25 @@ def is_owed(of: Proposition) -> bool:
             named = isinstance(other, Vehicle | Vehicles)
             return named and action in LETTING and modal in DUTIES
     return False
+
+
+def is_rule(of: Proposition | None) -> bool:
+    """Tell whether it is said who of two has right of way."""
+    plain, _ = unwrapped(of)
+    return isinstance(plain, Related) and plain.relation in ("has-priority-over", "must-yield-to")
+
+
+def why_rule(question: Why | HowKnow, asked: Asked) -> Answer:
+    """Tell who has right of way, and on what that rests.
+
+    Raises:
+        Unanswered: a vehicle is unknown, or the record does not hold the rule.
+    """
+    of, _ = unwrapped(question.of)
+    assert isinstance(of, Related)
+    told = right_of_way(asked, of.thing, of.to, window(asked, of.time, of.tense))
+    told = reason(asked, told)
+    return replace(told, grounds=told.why is None)
 
 
 def why_owed(question: Why, asked: Asked) -> Answer:

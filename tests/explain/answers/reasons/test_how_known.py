@@ -23,7 +23,6 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import HowDecide, HowKnow
 from xavi_dialogue.domain.terms import (
-    At,
     Ego,
     Event,
     Happens,
@@ -55,7 +54,6 @@ def told(monkeypatch: pytest.MonkeyPatch) -> pytest.MonkeyPatch:
         "grounds": grounds,
         "since_when": lambda _, event: ("since", event),
         "how_decide": lambda question, _: ("decide", question),
-        "right_of_way": lambda _, thing, to, about: YIELD,
         "priority_at": lambda *_: Priority(20.0, "priority", 1),
         "motion": lambda event, _: MotionReason(did(event.action, 5.0), ()),
     }
@@ -96,20 +94,6 @@ def test_how_we_know_is_told_of_whom_it_is_about(told: Any, of: Any, answer: Any
 def test_of_a_moment_gone_by_the_grounds_of_then_count(told: Any) -> None:
     assert known(Event("brake", IT), SAID) == ("grounds", 1, ("slow-down",), 5.0, True)
     assert isinstance(known(Event("brake", Vehicle(9))), NoSuchVehicle)
-
-
-@pytest.mark.parametrize("relation", ["has-priority-over", "must-yield-to"])
-def test_right_of_way_is_known_by_the_rule(told: Any, relation: Any) -> None:
-    asked: list[Any] = []
-
-    def right_of_way(_: Any, *args: Any) -> Priority:
-        asked.extend(args)
-        return YIELD
-
-    told.setattr(room, "right_of_way", right_of_way)
-    of = Related(relation, US, IT, time=At(5.0))
-    assert known(of) == Priority(20.0, "give-way", 1, grounds=True)
-    assert asked == [US, IT, Window(5.0, 5.0, True)]
 
 
 @pytest.mark.parametrize(

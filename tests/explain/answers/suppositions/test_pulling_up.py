@@ -45,7 +45,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> Any:
         met = None if rule is None else (NOW, rule)
         monkeypatch.setattr(pulling_up, "rule_between", lambda *args: met)
         monkeypatch.setattr(pulling_up, "collision_chance", lambda *args: 0.01)
-        monkeypatch.setattr(pulling_up, "chance", lambda *args: 0.9)
+        monkeypatch.setattr(pulling_up, "chance", lambda *args: values.get("chance", 0.9))
         scene: Any = SimpleNamespace(now=NOW, past=None, span=None, world=Given(**values))
         found = pulling_up.pulls_up(scene, event)
         return None if found is None else found.answer
@@ -76,6 +76,12 @@ def test_who_brakes_to_a_standstill_soon_stops_whatever_the_rule(asked: Any) -> 
         found = asked(STOPS, rule="give-way", deeds=(BRAKES,), deceleration=rate)
         assert found.how == how
     assert asked(STOPS, rule="give-way", deceleration=9.0).how == "goes-first"
+
+
+def test_who_goes_first_may_brake_without_stopping_for_us(asked: Any) -> None:
+    for chance, how in ((0.09, "goes-first"), (0.1, "brakes"), (None, "brakes")):
+        found = asked(STOPS, rule="give-way", deeds=(BRAKES,), deceleration=9.0, chance=chance)
+        assert found.how == how
 
 
 def test_it_is_asked_of_who_moves_and_concerns_us(asked: Any) -> None:

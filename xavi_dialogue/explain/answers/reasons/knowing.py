@@ -33,7 +33,7 @@ from xavi_dialogue.explain.answers.reasons import choices, others
 from xavi_dialogue.explain.answers.reasons.motions import motion
 from xavi_dialogue.explain.answers.reference import foils
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.reference.moments import Window, window
+from xavi_dialogue.explain.answers.reference.moments import Window
 from xavi_dialogue.explain.answers.reference.reading import (
     check_seen,
     event_of,
@@ -44,7 +44,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
     unwrapped,
     vehicle_in,
 )
-from xavi_dialogue.explain.answers.ride.priority import priority_at, right_of_way
+from xavi_dialogue.explain.answers.ride.priority import priority_at
 from xavi_dialogue.explain.causes.plans import certainty, options
 from xavi_dialogue.explain.causes.plans.premise import Premise, about_foil, premise
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, EXITS, HALTS, YIELDS, to_macros
@@ -74,9 +74,6 @@ def how_know(question: HowKnow, scene: Asked) -> Answer:
         Unanswered: nothing was believed of it; or the record lacks it.
     """
     of, _ = unwrapped(question.of)
-    if isinstance(of, Related) and of.relation in ("has-priority-over", "must-yield-to"):
-        about = window(scene, of.time, of.tense)
-        return replace(right_of_way(scene, of.thing, of.to, about), grounds=True)
     event = event_of(of)
     vehicle = _whom(scene, of, event)
     yields = event is not None and event.action in YIELDS | {"wait"}

@@ -23,6 +23,7 @@ from xavi_dialogue.explain.facts.measures.between import leader
 from xavi_dialogue.explain.history.thresholds import STANDING
 
 HALTS: frozenset[ActionName] = frozenset(("stop", "brake", "stand"))
+HARDLY = 0.1  # probability below which who has right of way is not expected to let us go
 SOON = 2.5  # [s] within which who brakes on comes to a standstill
 
 
@@ -96,7 +97,8 @@ def _crossing(asked: Asked, found: PullingUp) -> PullingUp:
     rule = None if met is None else met[1]
     share = chance(asked, Event("let-go", Vehicle(found.vehicle), Ego()), asked.now)
     found = replace(found, chance=share)
-    if _halts_soon(asked, found):
+    goes = rule == "give-way" and share is not None and share < HARDLY
+    if not goes and _halts_soon(asked, found):  # who goes first may brake for a bend
         return replace(found, how="brakes")
     if rule == "give-way":
         return replace(found, how="goes-first")
