@@ -42,6 +42,11 @@ _TURNS = frozenset({"turn", "exit-left", "exit-right", "exit-straight"})
 _SEEING = frozenset({"see", "look", "watch", "know", "track", "notice"})
 
 
+def left_over(event: Event | None) -> bool:
+    """Say whether it is "left" that stands as a verb: "how much time have we left"."""
+    return event is not None and event.action == "leave" and event.object is None
+
+
 def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -> HowMuch:
     """Ask for an attribute of a thing at the time of the clause."""
     extreme = more.pop("extreme", None)
@@ -95,6 +100,8 @@ def _round(clause: Clause) -> bool:
 
 def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
     """Ask how long something lasts, or how long it is until it happens."""
+    if left_over(event) and clause.tense == "perfect":
+        return HowMuch(Measured("time-to-go"))  # "how much time have we left"
     place = _passed_through(clause, event or _deed_in(value), actor)
     if place is not None:
         return HowLong(Related("on", Ego(), place, tense=cast(Any, clause.tense)))
