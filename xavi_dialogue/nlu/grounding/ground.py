@@ -54,6 +54,7 @@ READINGS: Final = 8  # looked at, at most
 DEAF: Final = 1.0  # cost of an act of which the main word is unknown
 #: Of whom the next act speaks where it is asked who is in that place.
 _NEIGHBOURS: Final = ("behind", "ahead-of")
+_IN_LINE: Final = ("behind", "ahead")  # who is there rather than in another lane
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,7 +168,7 @@ def _neighbour(question: Question, context: Context) -> Vehicle | None:
     there = [
         look for look in looks if world.relation(of.relation, Vehicle(look.vehicle), Ego(), now)
     ]
-    nearest = min(there, key=lambda look: look.distance, default=None)
+    nearest = min(there, key=lambda x: (x.bearing not in _IN_LINE, x.distance), default=None)
     return None if nearest is None else Vehicle(nearest.vehicle)
 
 

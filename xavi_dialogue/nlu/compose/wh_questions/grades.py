@@ -34,7 +34,6 @@ from xavi_dialogue.domain.terms import (
     Relative,
     That,
     Thing,
-    Time,
     Unsaid,
     Wanted,
 )
@@ -80,8 +79,6 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
         case "hard" if isinstance(clause.subject, Event):
             deed = clause.subject
             return measured("deceleration", clause, deed.actor, event=deed)
-        case "hard" if event is not None and event.action == "brake" and _before_place(event.time):
-            return measured("deceleration", clause, actor, time=event.time, extreme="highest")
         case "hard":
             return measured("deceleration", clause, actor, event=event)
         case "far":
@@ -271,12 +268,6 @@ def remaining(clause: Clause, actor: Thing | None) -> bool:
     leaving |= bare and clause.side == "left"
     named = [getattr(node, "words", ()) for bearing, node in clause.bearings if bearing == "left"]
     return leaving or ("left",) in named
-
-
-def _before_place(time: Time) -> bool:
-    """Say whether a stretch before a place is meant: all braking there, not one time of it."""
-    before = isinstance(time, Relative) and time.relation == "before"
-    return before and isinstance(cast(Relative, time).anchor, Feature | Junction)
 
 
 def _close(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
