@@ -68,7 +68,7 @@ def test_what_happened_beats_what_did_not() -> None:
 
 
 class InLine(FakeWorld):
-    """A world in which every car is ahead of us in line, or behind us."""
+    """A world in which every car is ahead of us or behind us."""
 
     def relation(self, relation: Relation, thing: Thing, to: Thing, at: float) -> bool | None:
         assert isinstance(thing, Vehicle)
@@ -77,11 +77,14 @@ class InLine(FakeWorld):
 
 @pytest.mark.parametrize(("relation", "he"), [("ahead-of", 1), ("behind", 2)])
 def test_he_is_who_was_asked_for_by_his_place(relation: Relation, he: int) -> None:
-    world = InLine({1: Car(20.0), 2: Car(-10.0), 3: Car(-30.0)})
+    cars = {1: Car(20.0), 2: Car(-10.0), 3: Car(-30.0), 4: Car(9.0, 3.5), 5: Car(-9.0, 3.5)}
+    world = InLine(cars)
     who = Ask(Which(Wanted(), Related(relation, Wanted())))
     fast = Ask(HowMuch(Measured("speed", Pronoun("he"))))
-    found = grounded(reading(who, fast), world=world)
-    assert found.acts[-1].act == Ask(HowMuch(Measured("speed", Vehicle(he))))
+    found = grounded(reading(who, fast), world=world).acts[-1].act
+    assert isinstance(found, Ask)
+    assert isinstance(found.question, HowMuch)
+    assert found.question.of.thing == Vehicle(he)
 
 
 def test_two_that_are_as_good_are_asked_about() -> None:

@@ -100,8 +100,6 @@ def _round(clause: Clause) -> bool:
 
 def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
     """Ask how long something lasts, or how long it is until it happens."""
-    if left_over(event) and clause.tense == "perfect":
-        return HowMuch(Measured("time-to-go"))  # "how much time have we left"
     place = _passed_through(clause, event or _deed_in(value), actor)
     if place is not None:
         return HowLong(Related("on", Ego(), place, tense=cast(Any, clause.tense)))
