@@ -17,6 +17,7 @@ from xavi_dialogue.domain.meaning import (
     Social,
     TokenShare,
     Whether,
+    Which,
     Why,
 )
 from xavi_dialogue.domain.terms import (
@@ -28,10 +29,13 @@ from xavi_dialogue.domain.terms import (
     Lane,
     Measured,
     Pronoun,
+    Related,
+    Thing,
     Unknown,
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.domain.vocabulary import Relation
 from xavi_dialogue.nlu.grounding import Grounding, ground
 
 RING = Junction("roundabout", time=12.0)
@@ -61,6 +65,26 @@ def test_what_happened_beats_what_did_not() -> None:
     assert grounded(left, slowed).reading == left  # words that are so much likelier decide
     near = reading(slowed.acts[0], cost=0.1)
     assert grounded(left, near).reading == near
+
+
+class InLine(FakeWorld):
+    """A world in which every car is ahead of us or behind us."""
+
+    def relation(self, relation: Relation, thing: Thing, to: Thing, at: float) -> bool | None:
+        assert isinstance(thing, Vehicle)
+        return (self.cars[thing.number].place(at)[0] > 0.0) == (relation == "ahead-of")
+
+
+@pytest.mark.parametrize(("relation", "he"), [("ahead-of", 1), ("behind", 2)])
+def test_he_is_who_was_asked_for_by_his_place(relation: Relation, he: int) -> None:
+    cars = {1: Car(20.0), 2: Car(-10.0), 3: Car(-30.0), 4: Car(9.0, 3.5), 5: Car(-9.0, 3.5)}
+    world = InLine(cars)
+    who = Ask(Which(Wanted(), Related(relation, Wanted())))
+    fast = Ask(HowMuch(Measured("speed", Pronoun("he"))))
+    found = grounded(reading(who, fast), world=world).acts[-1].act
+    assert isinstance(found, Ask)
+    assert isinstance(found.question, HowMuch)
+    assert found.question.of.thing == Vehicle(he)
 
 
 def test_two_that_are_as_good_are_asked_about() -> None:

@@ -20,12 +20,25 @@ from xavi_dialogue.domain.meaning import (
     Beyond,
     Claim,
     Listing,
+    Question,
     Reading,
     Request,
     Social,
+    Whether,
+    Which,
 )
 from xavi_dialogue.domain.rewriting import first, substitute
-from xavi_dialogue.domain.terms import Described, Everyone, Exists, Nobody, Unsaid, Vehicle
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Everyone,
+    Exists,
+    Nobody,
+    Related,
+    Unsaid,
+    Vehicle,
+    Wanted,
+)
 from xavi_dialogue.nlu.grounding import clarify, doubts, quoting
 from xavi_dialogue.nlu.grounding.acts.acts import act as ground_act
 from xavi_dialogue.nlu.grounding.acts.acts import completed
@@ -39,6 +52,9 @@ from xavi_dialogue.nlu.grounding.world import World
 
 READINGS: Final = 8  # looked at, at most
 DEAF: Final = 1.0  # cost of an act of which the main word is unknown
+#: Of whom the next act speaks where it is asked who is in that place.
+_NEIGHBOURS: Final = ("behind", "ahead-of")
+_IN_LINE: Final = ("behind", "ahead")  # who is there rather than in another lane
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,6 +144,8 @@ def _anchored(discourse: Discourse, spoken: Act, context: Context) -> Discourse:
         g = TermGrounder(context)  # "who are all those people, and where do they go?"
         those = Described(several.kind, plural=True)
         return naming(discourse, g.thing(those, g.window(Unsaid(), "present")))
+    if isinstance(spoken, Ask) and (near := _neighbour(spoken.question, context)) is not None:
+        return naming(discourse, near)  # "who is behind us, and is he too close?"
     sought = first(spoken, Exists)
     thing = None if sought is None else sought.thing
     thing = thing.described if isinstance(thing, Nobody) else thing
@@ -135,6 +153,23 @@ def _anchored(discourse: Discourse, spoken: Act, context: Context) -> Discourse:
         return discourse
     g = TermGrounder(context)
     return naming(discourse, g.thing(thing.of, g.window(Unsaid(), "present")))
+
+
+def _neighbour(question: Question, context: Context) -> Vehicle | None:
+    """Give the nearest of whom "who is behind us", "is somebody in front of us" is about."""
+    of = question.such if isinstance(question, Which) else None
+    of = question.that if isinstance(question, Whether) else of
+    if not isinstance(of, Related) or of.relation not in _NEIGHBOURS or of.tense != "present":
+        return None
+    if of.thing not in (Wanted(), Described(definite=False)) or of.to != Ego():
+        return None
+    world, now = context.world, context.now
+    looks = [look for v in world.in_view(now) if (look := world.look(v, now)) is not None]
+    there = [
+        look for look in looks if world.relation(of.relation, Vehicle(look.vehicle), Ego(), now)
+    ]
+    nearest = min(there, key=lambda x: (x.bearing not in _IN_LINE, x.distance), default=None)
+    return None if nearest is None else Vehicle(nearest.vehicle)
 
 
 def _part(reading: Reading, index: int, judged: doubts.Doubts, context: Context) -> Part:

@@ -51,7 +51,7 @@ from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.nominal import asked_of, event_in
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
-from xavi_dialogue.nlu.compose.propositions.tally import counts, exits_passed, tallied
+from xavi_dialogue.nlu.compose.propositions.tally import counts, exits_passed, how_often, tallied
 from xavi_dialogue.nlu.compose.states.pacing import not_rather, permitted
 from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
 from xavi_dialogue.nlu.compose.verbs.sheltering import concealed
@@ -207,6 +207,8 @@ class Polar(Comparing):
             return asked
         of = counts(clause) or tallied(clause, self.propositions.joined(clause, fact(value)))
         of = not_rather(clause, of, self.propositions)
+        if (often := how_often(clause, of)) is not None:
+            return often
         if (avoidable := self._avoidable(clause, of)) is not None:
             return avoidable
         way = way_asked(of) or self._either_way(clause, of)

@@ -24,7 +24,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.domain.vocabulary import Extreme
-from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
+from xavi_dialogue.nlu.compose.clauses.adoption import next_to_us, with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.clauses.nominal import asked_of
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Sem, as_thing, is_thing
@@ -148,7 +148,13 @@ MUTUAL = frozenset({"gap", "headway", "distance", "time-to-collision"})
 def of_rival(found: list[tuple[Question, float]], clause: Clause) -> Question | None:
     """Ask for the same of whom it is compared to: "what is our speed compared to his"."""
     question, other = found[0][0] if found else None, clause.than
-    if not isinstance(question, HowMuch) or question.of.attribute not in _OF_EACH:
+    if not isinstance(question, HowMuch):
+        return None
+    near = [next_to_us(phrase.key, as_thing(phrase.sem)) for phrase in clause.complements]
+    if question.of.to in near and question.of.to is not None:  # "in front of us and behind us"
+        rest = [one for one in near if one not in (None, question.of.to)]
+        return HowMuch(with_fields(question.of, to=rest[0])) if rest else None
+    if question.of.attribute not in _OF_EACH:
         return None
     differs = question.of.to is not None or clause.comparisons
     if differs or isinstance(other, Clause | Quantity | None):

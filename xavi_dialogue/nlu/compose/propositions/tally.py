@@ -4,6 +4,7 @@ from typing import Any, cast
 
 from msgspec.structs import replace
 
+from xavi_dialogue.domain.meaning import HowMany
 from xavi_dialogue.domain.terms import (
     Compares,
     Described,
@@ -26,6 +27,10 @@ from xavi_dialogue.nlu.grammar.chart import Node, Part
 #: What is done to each of several: "we waited for four cars".
 _DONE_TO = frozenset({"wait", "give-way", "let-go", "overtake", "pass", "follow", "stop"})
 _OFTEN = {"twice": 2, "thrice": 3}
+_MANY = frozenset({"many", "several"})
+_TURNS = frozenset(
+    {"turn", "exit-left", "exit-right", "change-left", "change-right", "change-lane"}
+)
 
 
 def tallied(clause: Clause, of: Proposition) -> Proposition:
@@ -96,8 +101,21 @@ def frequency(node: Node, clause: Clause) -> None:
     many = leaf_of(node, "DET")
     if many is not None and many.words[-1] == "most":
         clause.objects.append((Moment("s"), node))
+    elif many is not None and many.words[-1] in _MANY:
+        clause.focus.add("often")
     else:
         clause.times = None if said is None else int(number_of(said))
+
+
+def how_often(clause: Clause, of: Proposition) -> HowMany | None:
+    """Take "do we turn many times" for how many turns are to come, "did we" for how many were."""
+    if "often" not in clause.focus or not isinstance(of, Happens):
+        return None
+    event = of.event
+    if event.tense in ("past", "perfect"):
+        return HowMany(event)
+    ours = isinstance(event.actor, Ego) and event.action in _TURNS
+    return HowMany(replace(event, tense="future", modal=None)) if ours else None
 
 
 def _compared(measured: Measured, number: int) -> Compares:

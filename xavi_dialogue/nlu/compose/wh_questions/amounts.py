@@ -32,11 +32,11 @@ from xavi_dialogue.nlu.compose.wh_questions.grades import (
     CHANGING,
     WAYS,
     far_to,
-    reference,
     remaining,
     sure_of,
 )
-from xavi_dialogue.nlu.compose.wh_questions.lasting import long_lasting, measured, until
+from xavi_dialogue.nlu.compose.wh_questions.lasting import left_over, long_lasting, measured, until
+from xavi_dialogue.nlu.compose.wh_questions.towards import reference
 
 
 def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -> Question:
@@ -110,11 +110,6 @@ def _changes(clause: Clause, event: Event | None) -> bool:
     return clause.verb is not None and clause.verb.key in _GAINING
 
 
-def _left_over(event: Event | None) -> bool:
-    """Say whether it is "left" that stands as a verb: "how much time have we left"."""
-    return event is not None and event.action == "leave" and event.object is None
-
-
 def _stretch(clause: Clause, value: Any, actor: Thing | None, event: Event | None) -> Question:
     if isinstance(clause.time, Relative) and clause.time.relation == "until":
         return until(clause.time.anchor)
@@ -122,7 +117,7 @@ def _stretch(clause: Clause, value: Any, actor: Thing | None, event: Event | Non
         by = value.match.phrases.get("by")
         deed = with_fields(by, tense=clause.tense) if isinstance(by, Event) else None
         return measured("delay", clause, actor, event=deed)
-    if _left_over(event):
+    if left_over(event):
         return HowMuch(Measured("time-to-go"))  # "how much time have we left"
     if event is not None and event.action in WAYS and event.tense in ("present", "future"):
         return When(Happens(with_fields(event, tense="future")))  # "in how many seconds"

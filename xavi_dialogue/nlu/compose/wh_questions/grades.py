@@ -28,24 +28,20 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Next,
     Not,
-    Passenger,
     Pronoun,
     Proposition,
     Related,
     Relative,
-    Road,
     That,
     Thing,
     Unsaid,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.clauses.adoption import next_to_us, with_fields
+from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import (
-    Group,
     Measure,
-    Sem,
     as_thing,
     between,
     each_other,
@@ -53,7 +49,13 @@ from xavi_dialogue.nlu.compose.clauses.sem import (
 )
 from xavi_dialogue.nlu.compose.clauses.times import is_moment
 from xavi_dialogue.nlu.compose.states.predicates import tense_of
-from xavi_dialogue.nlu.compose.wh_questions.lasting import long_lasting, meanwhile, measured
+from xavi_dialogue.nlu.compose.wh_questions.lasting import (
+    left_over,
+    long_lasting,
+    meanwhile,
+    measured,
+)
+from xavi_dialogue.nlu.compose.wh_questions.towards import reference
 
 _PACES = frozenset({"faster", "slower", "quicker"})
 _PASSING = frozenset({"avoid", "nearly-collide", "pass", "overtake"})
@@ -268,35 +270,6 @@ def remaining(clause: Clause, actor: Thing | None) -> bool:
     return leaving or ("left",) in named
 
 
-def reference(clause: Clause) -> Thing | None:
-    """Find the thing up to which it is measured."""
-    for phrase in clause.complements:
-        thing = _reached(phrase.sem)
-        near = next_to_us(phrase.key, thing)
-        if near is not None and (clause.there or isinstance(clause.subject, Ego | None)):
-            return near  # "what gap do we have behind us", but "how far behind us is it"
-        inside = phrase.key in ("in", "on") and isinstance(thing, Feature | Junction | Road)
-        if thing is not None and phrase.key not in ("at", "by") and not inside:
-            return thing
-    for sem, _ in clause.objects:
-        thing = _reached(sem)
-        if thing is not None:
-            return thing
-    if isinstance(clause.than, Clause) or clause.than is None:
-        return None
-    return as_thing(clause.than)
-
-
-def _reached(sem: Sem | None) -> Thing | None:
-    """Take "the next turn" for the place where it is."""
-    if isinstance(sem, Event) and sem.action in ("turn", "exit-left", "exit-right"):
-        return Junction("junction", 1)
-    if isinstance(sem, Group):  # "between you and the bus"
-        things = [as_thing(member) for member in sem.members]
-        return next((t for t in things if t not in (None, Ego(), Passenger())), None)
-    return as_thing(sem)
-
-
 def _close(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
     to = reference(clause) or (event.object if event is not None else None)
     if to is None and remaining(clause, actor):
@@ -310,6 +283,8 @@ def _close(clause: Clause, event: Event | None, value: Any, actor: Thing | None)
     past = clause.tense in ("past", "perfect") and not owned
     at_once = clause.verb is None and is_moment(clause.time)  # "how close was it when we set off"
     extreme = "lowest" if (past and not at_once) or event is not None else None
+    if left_over(event) and clause.tense == "perfect":
+        return HowMuch(Measured("distance", actor or Ego(), to))  # "how much room have you left"
     return measured("distance", clause, actor, to=to, extreme=extreme)
 
 

@@ -42,6 +42,11 @@ _TURNS = frozenset({"turn", "exit-left", "exit-right", "exit-straight"})
 _SEEING = frozenset({"see", "look", "watch", "know", "track", "notice"})
 
 
+def left_over(event: Event | None) -> bool:
+    """Say whether it is "left" that stands as a verb: "how much time have we left"."""
+    return event is not None and event.action == "leave" and event.object is None
+
+
 def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -> HowMuch:
     """Ask for an attribute of a thing at the time of the clause."""
     extreme = more.pop("extreme", None)

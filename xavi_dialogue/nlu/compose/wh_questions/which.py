@@ -42,8 +42,8 @@ from xavi_dialogue.nlu.compose.clauses.nominal import asked_of
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, SideOf, as_thing
 from xavi_dialogue.nlu.compose.propositions.severally import MUTUAL
 from xavi_dialogue.nlu.compose.verbs.others import nearest, placed
-from xavi_dialogue.nlu.compose.wh_questions.grades import reference
 from xavi_dialogue.nlu.compose.wh_questions.lasting import meanwhile, measured
+from xavi_dialogue.nlu.compose.wh_questions.towards import reference
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, actor_of, content_of, fact, time_of
 
 

@@ -281,6 +281,8 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
             return _of_visits(visits(g.context, "roundabout"), ahead=tense != "past")
         case Destination():
             return None
+        case Feature(kind="line"):  # where a junction begins
+            return _of_visits(visits(g.context), ahead=tense != "past")
         case Feature(kind="light") as light:
             held = g.context.holds(Event("wait", Ego(), light), *whole.search)
             past = held or g.context.holds(Event("pass", Ego(), light), *whole.search)
