@@ -46,3 +46,8 @@ def test_the_basis_for_entering_beside_somebody_is_who_goes_first() -> None:
     told = Talk("s3-0", 8.0).hear("On what basis are you entering with the blue car there?")
     assert "the blue car" in told
     assert "simulated" not in told
+
+
+def test_overtaking_where_the_only_lane_is_the_oncoming_one_says_so() -> None:
+    told = Talk("bend-0", 5.0).hear("Why don't you just overtake it?")
+    assert told.endswith("and I do not use an oncoming lane.")
