@@ -71,7 +71,7 @@ def nobody_at_all(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 
 @claim(
-    rf"{OTHERS}; without "
+    rf"{OTHERS}, and without "
     r"(?:all (?P<count>\d+) of them|(?P<who>(?:V\d+|it)(?:(?:,| and|, and) (?:V\d+|it))*)), "
     r"I would (?:have )?do(?:ne)? (?P<how>otherwise|the same, but with less reason)"
 )
@@ -93,7 +93,7 @@ def several(said: Said, match: re.Match[str]) -> Iterator[Fault]:
         yield Fault("differs without", match[0])
 
 
-@claim(rf"{OTHERS}(?!;)")
+@claim(rf"{OTHERS}(?!, and)")
 def several_unnamed(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     """Check that it was planned again without three vehicles or more."""
     if said.decision is None:
