@@ -8,6 +8,11 @@ from benchmarks.truth.context import Fault, Said, claim
 from benchmarks.truth.decision import Decision
 from planner.record.trace import PlanTrace
 
+OTHERS = (
+    r"[Oo]thers count(?:ed)?, too: without any one of them alone, "
+    r"it would (?:have )?come to the same"
+)
+
 
 def tried(decision: Decision, who: tuple[int, ...]) -> list[PlanTrace]:
     """Return the plans that were made again without just these vehicles."""
@@ -66,9 +71,9 @@ def nobody_at_all(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 
 @claim(
-    r"[Nn]o single vehicle ma(?:kes|de) the difference to that, only several together: without "
+    rf"{OTHERS}, and without "
     r"(?:all (?P<count>\d+) of them|(?P<who>(?:V\d+|it)(?:(?:,| and|, and) (?:V\d+|it))*)), "
-    r"I would (?:have )?do(?:ne)? (?P<how>otherwise|the same, but for less of a reason)"
+    r"I would (?:have )?do(?:ne)? (?P<how>otherwise|the same, but with less reason)"
 )
 def several(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     """Check that it was planned again without so many vehicles, and had the stated result."""
@@ -88,7 +93,7 @@ def several(said: Said, match: re.Match[str]) -> Iterator[Fault]:
         yield Fault("differs without", match[0])
 
 
-@claim(r"[Nn]o single vehicle ma(?:kes|de) the difference to that, only several together(?!:)")
+@claim(rf"{OTHERS}(?!, and)")
 def several_unnamed(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     """Check that it was planned again without three vehicles or more."""
     if said.decision is None:
@@ -100,7 +105,7 @@ def several_unnamed(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 @claim(
     r"[Bb]oth (?P<who>V\d+|it) and (?P<other>V\d+|it) (?:ha(?:d|ve) to be there|count(?:ed)?)"
     r": without one of them, I would (?:have )?do(?:ne)? "
-    r"(?:otherwise|the same, but for less of a reason)",
+    r"(?:otherwise|the same, but with less reason)",
 )
 def both(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     """Check that it was planned again without one of two vehicles by itself."""

@@ -79,11 +79,11 @@ def test_several_that_no_one_of_them_accounts_for_are_told_together(
 ) -> None:
     found = Causation("several", (1, 2, 3), decides=decides)
     text = told(LEADER, causation=found, of_causes=asked)
-    assert "No single vehicle made the difference to that, only several together: without" in text
+    assert ("Others counted, too: without any one of them alone" in text) is (asked or decides)
     assert ("I would have done otherwise" in text) is decides
-    assert ("done the same, but for less of a reason" in text) is not decides
+    assert ("done the same, but with less reason" in text) is (asked and not decides)
     crowd = told(LEADER, causation=Causation("several", (1, 2, 3, 4, 5)), of_causes=asked)
-    assert "only several together: without all 5 of them, I would" in crowd
+    assert "would have come to the same, and without all 5 of them, I would" in crowd
 
 
 @pytest.mark.parametrize("asked", [True, False])
@@ -113,7 +113,7 @@ def test_one_that_is_taken_for_the_only_cause_is_told_with_the_others() -> None:
     assert "would have been enough" in either
     several = only(LEADER, causation=Causation("several", (2, 3, 4)), part="beside", besides=(3, 4))
     assert several.startswith("No, also because of ")
-    assert "only several together" in several
+    assert "thers counted, too" in several
     one = only(LEADER, causation=Causation("one", (2,)), part="alone", besides=())
     assert one.startswith("Yes, only because of ")
 
@@ -136,19 +136,19 @@ def test_one_cause_needs_no_such_sentence() -> None:
     text = told(LEADER, causation=Causation("one", (2,)))
     assert "enough" not in text
     assert "just as well" not in text
-    assert "single vehicle" not in text
+    assert "thers counted" not in text
     assert "other vehicle" not in text
 
 
 def test_where_the_same_would_be_done_that_is_said() -> None:
     text = told(LEADER, OTHER, causation=Causation("both", (2, 3), decides=False))
     assert "counted" in text
-    assert "I would have done the same, but for less of a reason" in text
+    assert "I would have done the same, but with less reason" in text
     assert "done otherwise" not in text
 
 
 def test_where_not_all_of_several_may_be_needed_nobody_is_named() -> None:
     several = Causation("several", (2, 3, 4), minimal=False)
     text = told(LEADER, causation=several)
-    assert text.endswith("only several together.")
+    assert text.endswith("would have come to the same.")
     assert "4" not in text

@@ -150,8 +150,8 @@ def test_what_comes_without_a_vehicle_was_planned_again() -> None:
 
 
 NONE = "No other vehicle makes the difference to that, not even all of them together."
-SEVERAL = "No single vehicle makes the difference to that, only several together"
-ALL_NAMED = f"{SEVERAL}: without all 3 of them, I would do the same, but for less of a reason."
+SEVERAL = "Others count, too: without any one of them alone, it would come to the same"
+ALL_NAMED = f"{SEVERAL}, and without all 3 of them, I would do the same, but with less reason."
 
 
 @pytest.mark.parametrize(

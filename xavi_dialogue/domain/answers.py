@@ -226,6 +226,7 @@ class NotApplicable(Value, frozen=True):
     asked: tuple[MacroAction, ...]
     reason: str  # as the trace has it
     time: float | None = None  # [s] of the decision
+    overtaking: bool = False  # it was asked of overtaking
 
 
 class TooLittle(Value, frozen=True):

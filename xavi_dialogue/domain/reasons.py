@@ -40,6 +40,7 @@ class ChoiceReason(Value, frozen=True):
     later: Performed | None = None  # "why-not": it was done after that decision, or is planned
     besides: tuple[int, ...] = ()  # who else is the cause, where the suspect was taken for all
     open_at: float | None = None  # [s] when it could last be done, before the decision in force
+    behind: "MotionCause | None" = None  # behind whom we stay, where it is asked why we do
 
 
 class MotionCause(Value, frozen=True):
@@ -102,6 +103,7 @@ class MotionReason(Value, frozen=True):
     causation: Causation | None = None  # None: nobody was suspected
     of_causes: bool = False  # it was asked who or what causes it
     besides: tuple[int, ...] = ()  # who else is the cause, where the suspect was taken for all
+    peak: float | None = None  # [m/s2] of braking, where it is asked why so hard
 
 
 class Bystander(Value, frozen=True):

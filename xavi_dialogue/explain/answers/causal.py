@@ -31,6 +31,7 @@ from xavi_dialogue.domain.terms import (
     Is,
     Not,
     Proposition,
+    Related,
     Unsaid,
     Vehicle,
     Vehicles,
@@ -96,6 +97,8 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
         case Which(Wanted() | Vehicles(), such) if _holds_us_up(such):
             return _what_for
         case HowKnow(Is(state="safe" | "possible", event=Event() as event)) if is_own(event.actor):
+            return _why_safe
+        case HowKnow(Happens(Event(actor=Ego(), where=Related("with", to=Vehicle())))):
             return _why_safe
         case Which(such=such) if such is not None and isinstance(unwrapped(such)[0], Caused):
             return _who_caused

@@ -4,12 +4,12 @@ from itertools import pairwise
 from typing import Final
 
 from planner.record.trace import Action, PlanTrace
-from xavi_dialogue.domain.answers import Answer, Wavered
+from xavi_dialogue.domain.answers import Answer, DidNotHappen, Wavered
 from xavi_dialogue.domain.journeys import Waver
 from xavi_dialogue.domain.meaning import Why
-from xavi_dialogue.domain.terms import Happens
+from xavi_dialogue.domain.terms import Ego, Happens
 from xavi_dialogue.explain.answers.propositions import reasons
-from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, window
 from xavi_dialogue.explain.answers.reference.reading import unwrapped
 from xavi_dialogue.explain.causes.plans.options import of_trace
@@ -38,6 +38,8 @@ def wavered(question: Why, asked: Asked) -> Answer:
         and (turn := _turn(asked, after, plan)) is not None
     ]
     if not given:
+        if not asked.world.episodes(Ego(), ("change-plan",), asked.world.begin, asked.now):
+            raise Unanswered(DidNotHappen(of.event))
         return reasons.why(question, asked)
     plan = given[-1][0]
     turns = tuple(turn for given_up, turn in given if given_up == plan)

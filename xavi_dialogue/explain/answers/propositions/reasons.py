@@ -260,7 +260,13 @@ def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     instead = None if question is None else event_of(question.instead)
     if event.action in JOINING:
         return _not_joining(event, scene, instead)
-    return choices.why_not(event, scene, instead)
+    try:
+        return choices.why_not(event, scene, instead)
+    except Unanswered as unanswered:
+        thin = unanswered.result
+        if event.action not in ("overtake", "pass") or not isinstance(thin, NotApplicable):
+            raise
+        raise Unanswered(structs.replace(thin, overtaking=True)) from None
 
 
 def _not_joining(event: Event, scene: Asked, instead: Event | None) -> Answer:

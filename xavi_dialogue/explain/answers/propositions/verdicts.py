@@ -84,7 +84,7 @@ def _stays_behind(that: Proposition, asked: Asked) -> Vehicle | None:
     """Find the vehicle ahead behind which we are asked to be about to stay."""
     match that:
         case Happens(
-            event=Event(action="follow", actor=Ego(), object=Vehicle() as leader) as event
+            event=Event(action="follow" | "move", actor=Ego(), object=Vehicle() as leader) as event
         ):
             if event.modal not in (None, "will", "want"):
                 return None
@@ -201,6 +201,10 @@ def _disputed(that: Proposition, asked: Asked) -> Answer | None:
             slow = "slowly" in event.manner and event.action in DRIVING
             judged = bool(set(event.manner) & JUDGED) and occasion(asked, event) is not None
             return handed(Why(that), asked) if slow or judged else None
+        case Compares(left=Measured(attribute="count", event=Event(modal="could") as event)) if (
+            is_us(event.actor)
+        ):  # "you could have overtaken him twice by now"
+            return handed(Whether(that), asked)
         case Compares(left=Measured(attribute="delay") as left, right=None | Quantity(unit="s")):
             return claimed(_cost(HowMuch(left), asked), claimed_in(that))
         case Compares(left=Measured(attribute="duration") as left, right=None):

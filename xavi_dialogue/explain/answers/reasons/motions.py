@@ -19,6 +19,7 @@ from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Compares, Ego, Event, Measured
 from xavi_dialogue.domain.vocabulary import ActionName, Manner
+from xavi_dialogue.explain.answers.reasons.kept import peak, with_yielding
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import is_own, is_past, vehicle_in
 from xavi_dialogue.explain.causes.driving.driving import Reasons, as_of, reasons_for
@@ -131,6 +132,10 @@ def slow(scene: Asked, manner: Manner = "slowly", event: Event | None = None) ->
     found = slowness(scene.ride, scene.world, _time(scene, event))
     speed = found.deed.speed_to
     found = _picking_up(scene, found)
+    if speed is not None and speed < CREEPING:
+        time = found.deed.begin
+        kept = with_yielding(scene, found.reasons, time - when.RECENT, time)
+        found = dataclasses.replace(found, reasons=kept)
     rising = found.reasons.causes[:1] == (MotionCause("picking-up"),)
     if (
         not rising
@@ -246,6 +251,9 @@ def _preferring(found: list[Episode], kinds: tuple[ActionName, ...]) -> list[Epi
 
 def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premise: bool) -> Answer:
     reasons = reasons_for(scene.ride, scene.world, deed, scene.moment)
+    if deed.action in (*STILL, "give-way"):
+        end = scene.moment if deed.end is None else deed.end
+        reasons = with_yielding(scene, reasons, deed.begin, end)
     ours = [cause for cause in reasons.causes if cause.vehicle is not None]
     lit = any(cause.kind == "light" for cause in reasons.causes)
     if not lit and deed.action in (*STILL, *SLOWING) and chose(reasons.trace, "stop"):
@@ -268,6 +276,7 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
         causation=reasons.causation,
         past=(event.tense == "past" and deed.end is not None) or _before(scene),
         halted=_halted(scene, deed, reasons),
+        peak=peak(scene, event, deed),
     )
 
 

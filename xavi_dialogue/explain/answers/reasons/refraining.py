@@ -8,8 +8,10 @@ from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.answers import (
     Answer,
     Bystander,
+    ChoiceReason,
     DidNotHappen,
     GoReason,
+    MotionCause,
     MotionReason,
     NeedRollout,
 )
@@ -185,12 +187,16 @@ def is_refraining(event: Event) -> bool:
 
 def not_passed(event: Event, scene: Asked) -> Answer | None:
     """Tell why we stay behind a vehicle that we could overtake; None: we could not."""
-    ahead = event.action == "follow" and vehicle_in(event.object) is not None
-    if not ahead or is_past(scene, event):
+    leader = vehicle_in(event.object)
+    if event.action != "follow" or leader is None or is_past(scene, event):
         return None
     try:
-        return choices.why_not(Event("overtake", object=event.object, tense="present"), scene)
+        found = choices.why_not(Event("overtake", object=event.object, tense="present"), scene)
     except Unanswered as unanswered:
         if isinstance(unanswered.result, NeedRollout):
             raise
-    return None
+        return None
+    speed = scene.world.measure("speed", Vehicle(leader), scene.now).value
+    if not isinstance(found, ChoiceReason) or not leads(scene.world, leader, scene.now):
+        return found
+    return structs.replace(found, behind=MotionCause("leader", vehicle=leader, speed=speed))

@@ -70,6 +70,12 @@ def form_of(then: Question | None) -> Asking:
             return "safer"
         case Compare(by="time" | "speed"):
             return "quicker"
+        case Whether(
+            that=Compares(
+                left=Measured(attribute="distance", thing=Ego(), to=None), comparator="more"
+            )
+        ):
+            return "quicker"  # "would we be further along?"
         case Whether(that=Is(state="possible", event=None)):
             return "could"
         case Whether(

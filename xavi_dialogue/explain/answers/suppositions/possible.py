@@ -4,7 +4,16 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, DidNotHappen
 from xavi_dialogue.domain.meaning import Whether
-from xavi_dialogue.domain.terms import Event, Happens, Is, Proposition
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Event,
+    Happens,
+    Is,
+    Measured,
+    Now,
+    Proposition,
+    Unsaid,
+)
 from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
 from xavi_dialogue.explain.answers.reasons import motions
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -25,12 +34,22 @@ FASTER = frozenset[ActionName](("speed-up",))
 
 def is_could(of: Proposition | None) -> bool:
     """Tell whether it is asked of what we could have done."""
-    of, _ = unwrapped(of)
+    of = _uncounted(of)
     event = event_of(of)
     if not isinstance(of, Happens) or event is None or not is_own(event.actor):
         return False
     driving = event.action not in NOT_DRIVING and event.action not in BEYOND
     return driving and event.modal == "could" and event.tense in ("past", "perfect")
+
+
+def _uncounted(of: Proposition | None) -> Proposition | None:
+    """Take "could have overtaken twice by now" for that it could have been done."""
+    of, _ = unwrapped(of)
+    match of:
+        case Compares(left=Measured(attribute="count", event=Event() as event)):
+            time = Unsaid() if isinstance(event.time, Now) else event.time
+            return Happens(replace(event, time=time))
+    return of
 
 
 def is_must(of: Proposition | None) -> bool:
@@ -50,7 +69,7 @@ def could(question: Whether, scene: Asked) -> Answer:
     Raises:
         Unanswered: it could not be done; or rollouts are needed.
     """
-    event = event_of(question.that)
+    event = event_of(_uncounted(question.that))
     assert event is not None
     if "late" in event.manner and event.action in BRAKING:
         return _braked(replace(event, modal=None, manner=()), scene)

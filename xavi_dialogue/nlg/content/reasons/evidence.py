@@ -106,6 +106,14 @@ def hangs_on(causation: Causation | None, time: float, *, past: bool) -> Message
     )
 
 
+def is_joint(causation: Causation | None, *, asked: bool) -> bool:
+    """Tell whether a reason that names one vehicle must tell of the others.
+
+    Where the same would be done without them, only who asks about causes needs it.
+    """
+    return causation is not None and causation.is_joint and (causation.decides or asked)
+
+
 def is_next(causation: Causation | None) -> bool:
     """Tell whether another would have been the cause: who names the first one says so, too."""
     return causation is not None and causation.kind == "pre-empted"

@@ -15,6 +15,7 @@ from xavi_dialogue.nlg.content.reasons.driven import STANDING, motion_cause, spe
 from xavi_dialogue.nlg.content.reasons.evidence import (
     cleared,
     hangs_on,
+    is_joint,
     is_needed,
     is_next,
     rests_on,
@@ -57,7 +58,7 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
     others = [c for c in answer.causes[1:] if c.vehicle is not None and c.vehicle != first_of]
     alone = not answer.causes and _nobody(answer)  # which the reason itself tells then
     hangs = None if alone else hangs_on(answer.causation, answer.deed.begin, past=past)
-    if hangs is not None and answer.causation is not None and answer.causation.is_joint:
+    if hangs is not None and is_joint(answer.causation, asked=answer.of_causes):
         core, hangs = (*core, hangs), None  # one of them alone is no reason
     others = list(answer.causes[1:]) if answer.suspected == "beside" else others
     named = answer.of_causes or is_next(answer.causation)
@@ -105,6 +106,7 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
         "limit": None if answer.limit is None else Quantity(answer.limit, "m/s"),
         "at_limit": _at_limit(answer),
         "led": causes[0].kind == "leader" and causes[0].vehicle is not None,
+        "peak": None if answer.peak is None else Quantity(answer.peak, "m/s2"),
         "halted": None if answer.halted is None else Moment(answer.halted),
     }
     if answer.form == "why" and slots["yields"] and answer.asked in ("let-go", "give-way"):

@@ -131,6 +131,7 @@ def _asked(answer: SupposedOfUs, slots: dict[str, Any]) -> dict[str, Any]:
         "risk": Chance(risk),
         "fact_risk": Chance(contrast.fact_collision),
         "risky": max(risk, contrast.fact_collision) >= RISK,
+        "even": effect is None and any(e.component == "time" for e in contrast.effects),
         "afterwards": own_verbs(later, contrast.fact) if later else None,
         "cause": None,
     }

@@ -24,7 +24,7 @@ from xavi_dialogue.nlg.content.reasons.contrasts import (
     told_cause,
 )
 from xavi_dialogue.nlg.content.reasons.driven import STANDING, motion_cause
-from xavi_dialogue.nlg.content.reasons.evidence import further, hangs_on, is_next
+from xavi_dialogue.nlg.content.reasons.evidence import further, hangs_on, is_joint, is_next
 from xavi_dialogue.nlg.content.reasons.suspects import suspected
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message
@@ -75,6 +75,8 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
     )
     more = further(contrast, context, past=past)
     core = core if risk is None else (risk, *core)  # a risk is stated, and first
+    if answer.behind is not None:
+        core = (motion_cause(answer.behind, context.now, context, past=False), *core)
     core = (*core, *last_open(answer.open_at), *performed_later(answer.later))
     hangs = hangs_on(contrast.causation, contrast.decided, past=past)
     if hangs is not None and _jointly(answer):
@@ -97,9 +99,10 @@ def _jointly(answer: ChoiceReason) -> bool:
     So it is where it was asked whether one is.
     """
     causation = answer.contrast.causation
-    if causation is None or not causation.is_joint or answer.contrast.way:
-        return False
     asked = answer.suspected not in (None, "none", "neither")
+    known = is_joint(causation, asked=asked or answer.of_causes)
+    if causation is None or not known or answer.contrast.way:
+        return False
     return asked or any(_names(answer, vehicle) for vehicle in causation.vehicles)
 
 

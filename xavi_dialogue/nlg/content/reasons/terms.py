@@ -35,6 +35,9 @@ def foil_verbs(contrast: Contrast) -> tuple[Clause, ...]:
         return (*first, *(Clause(one.subject, one.verb, (*one.rest, "later")) for one in rest))
     row = own_verbs((*contrast.foil, *further), contrast.fact)
     if row and further and further[:1] == contrast.foil[-1:]:
+        side = further[0].removeprefix("change-")
+        if row[-1].verb == f"move to the {side} lane":
+            return (*row[:-1], Clause(row[0].subject, f"move two lanes to the {side}"))
         return (*row, Clause(row[0].subject, "move one lane further"))
     return row
 

@@ -24,6 +24,7 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import table
 from xavi_dialogue.nlg.surface.values import Clause, Moment, Number, Owned, Who, Without
 
+NO_LANE = "there is no lane to the left"  # as the trace has it
 MOST = 3  # vehicles named as those that are known
 #: Topics after which it helps to say what can be asked.
 LOST = ("off-topic", "opinion", "non-english", "not-understood")
@@ -86,6 +87,7 @@ def plan_not_applicable(answer: NotApplicable, context: SpeechContext) -> Plan:
         speed=answer.reason.startswith("speed is no choice"),
         verbs=verbs or None,
         reason=reason_in_words(answer.reason, past=past),
+        oncoming=answer.overtaking and answer.reason == NO_LANE,
     )
     return Plan((first,))
 

@@ -1,0 +1,53 @@
+"""Reasons for how we drive, and what would have been, asked on recorded rides."""
+
+import pytest
+
+from tests.dialogue.talking import Talk
+
+
+@pytest.mark.parametrize("text", ["Why are we standing still?", "Why have we stopped here?"])
+def test_who_is_let_go_first_is_why_we_stand_or_only_just_move_off(text: str) -> None:
+    told = Talk("junction-0", 30.0).hear(text)
+    assert "because I have to let the green bicycle" in told
+    assert "red" in Talk("junction-0", 20.0).hear(text)
+
+
+def test_a_plan_that_was_not_changed_is_denied() -> None:
+    assert Talk("junction-0", 30.0).hear("Why did you change your plan?").startswith("I did not")
+
+
+def test_crawling_behind_somebody_all_the_way_is_of_what_is_to_come() -> None:
+    told = Talk("motorway-0", 8.0).hear("Are we going to crawl behind the lorry all the way?")
+    assert told.startswith("I do not plan to overtake the white lorry")
+
+
+def test_being_further_along_is_of_time() -> None:
+    asked = "If we had overtaken right at the start, would we be further along by now?"
+    assert Talk("motorway-0", 30.0).hear(asked).startswith("No, that would have saved us no time")
+
+
+def test_how_often_we_could_have_done_it_is_of_what_was_possible() -> None:
+    told = Talk("motorway-0", 30.0).hear("You could have overtaken the lorry twice by now.")
+    assert "so far" not in told
+    assert "would have" in told
+
+
+def test_who_asks_why_we_stay_behind_hears_how_fast_it_drives() -> None:
+    told = Talk("motorway-0", 8.0).hear("Why are we stuck behind this lorry?")
+    assert "is driving ahead of us at 80 km/h. I am not moving to the left lane, because" in told
+
+
+def test_who_asks_why_so_hard_hears_how_hard() -> None:
+    assert "at up to 2.2 m/s²" in Talk("s4-0", 14.0).hear("Why did you brake so hard?")
+    assert "m/s²" not in Talk("s4-0", 14.0).hear("Why did you brake?")
+
+
+def test_the_basis_for_entering_beside_somebody_is_who_goes_first() -> None:
+    told = Talk("s3-0", 8.0).hear("On what basis are you entering with the blue car there?")
+    assert "the blue car" in told
+    assert "simulated" not in told
+
+
+def test_overtaking_where_the_only_lane_is_the_oncoming_one_says_so() -> None:
+    told = Talk("bend-0", 5.0).hear("Why don't you just overtake it?")
+    assert told.endswith("and I do not use an oncoming lane.")
