@@ -26,7 +26,8 @@ def test_takes_people_about_to_cross_for_people_and_not_for_a_request() -> None:
     told = Talk("junction-0", 9.0).hear(
         "There are people about to step off the pavement. You have seen them, haven't you?"
     )
-    assert told.startswith("Yes, there is the pedestrian") and "request" not in told
+    assert told.startswith("Yes, there is the pedestrian")
+    assert "request" not in told
 
 
 def test_names_the_people_in_front_of_us_where_it_is_asked_whether_it_is_safe() -> None:
