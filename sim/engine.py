@@ -14,6 +14,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self, TypeVar
 
+from sim.errors import SimError
 from sim.quiet import errors_to, first_error
 
 SYSTEM_LIBRARIES = "libgl1 libx11-6 libxext6 libxrender1 libatomic1 libexpat1"
@@ -24,7 +25,7 @@ _running = False  # libsumo is one per process: a second start would silently re
 Value = TypeVar("Value")
 
 
-class SimulationError(Exception):
+class SimulationError(SimError):
     """The simulation cannot start or go on."""
 
 

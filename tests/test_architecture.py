@@ -2,20 +2,24 @@
 
 import ast
 import graphlib
+import importlib
 from dataclasses import fields
 
 import pytest
 
+from planner.errors import PlannerError
+from sim.errors import SimError
 from sim.scene import Scene, VehicleState
 from tests.sources import PACKAGES, Module, functions, imports, modules
+from xavi_dialogue.errors import XaviError
 
 # Rooms from the world to the shell. A module may import its own room and those before it.
 ROOMS = (
     (
         *("sim.scene", "sim.boxes", "sim.roads.network", "sim.roads.lanes", "sim.roads.lines"),
-        "sim.roads.places",
+        *("sim.roads.places", "sim.errors"),
     ),
-    ("planner.record", "planner.kernels"),
+    ("planner.errors", "planner.record", "planner.kernels"),
     ("planner.roads",),
     ("planner.traffic_lights",),
     ("planner.manoeuvres",),
@@ -25,6 +29,7 @@ ROOMS = (
     ("planner.prediction",),
     ("planner.search",),
     ("planner",),
+    ("xavi_dialogue.errors",),
     ("xavi_dialogue.domain",),
     ("xavi_dialogue.causal",),
     ("xavi_dialogue.explain.history",),
@@ -213,6 +218,36 @@ def calls(module: Module, function: str) -> list[ast.Call]:
         and isinstance(node.func, ast.Name)
         and node.func.id == function
     ]
+
+
+def _exceptions(module: Module) -> list[type[Exception]]:
+    """Return the exception classes that a module defines, without its private ones."""
+    if not any(isinstance(node, ast.ClassDef) and node.bases for node in module.tree.body):
+        return []
+    defined = vars(importlib.import_module(module.name)).values()
+    return [
+        one
+        for one in defined
+        if isinstance(one, type)
+        and issubclass(one, Exception)
+        and one.__module__ == module.name
+        and not one.__name__.startswith("_")
+    ]
+
+
+@pytest.mark.parametrize(
+    ("package", "root"),
+    [("planner", PlannerError), ("sim", SimError), ("xavi_dialogue", XaviError)],
+)
+def test_each_package_has_one_root_error(package: str, root: type[Exception]) -> None:
+    found = [
+        error
+        for module in modules().values()
+        if within(module.name, package)
+        for error in _exceptions(module)
+    ]
+    assert len(found) > 5
+    assert [error for error in found if not issubclass(error, root)] == []
 
 
 def test_no_import_cycles() -> None:

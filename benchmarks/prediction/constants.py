@@ -44,6 +44,7 @@ CONSTANTS: Mapping[str, tuple[ModuleType, ...]] = {
     "AT_LINE": (tracks,),
     "ON_CENTRELINE": (tracks,),
     "SOON": (indication,),
+    "RAMP": (indication,),
     "BRANCHING": (indication,),
     "WRONG": (indication,),
     "MEMORY": (ride_scenes,),

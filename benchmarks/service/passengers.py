@@ -9,8 +9,9 @@ from dataclasses import dataclass, field
 import msgspec
 
 from benchmarks.figures import quantile
+from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.interface import Bus, Keys, NoAnswer, Outcome, Refused, TooLate
-from xavi_dialogue.bus.messages import AskReply, AskRequest, Failure, MessageError, pack, unpack
+from xavi_dialogue.bus.messages import AskReply, AskRequest, Failure, pack, unpack
 
 DEADLINE = 10.0  # [s] for an answer
 GRACE = 0.5  # [s] that a reply may take on its way

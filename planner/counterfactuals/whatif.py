@@ -22,6 +22,7 @@ import msgspec
 
 from planner.counterfactuals.resume import resume
 from planner.counterfactuals.suppose import edge_of, suppose
+from planner.errors import PlannerError
 from planner.motion.tracks import Observed, leads
 from planner.prediction.recognise import Belief
 from planner.record.fitting import fitted
@@ -52,7 +53,7 @@ HEADWAY, GAP = 1.5, 5.0  # [s], [m] to the one ahead up to which a vehicle is he
 RECOGNISED = 0.5  # probability of the goals that must still be possible to keep what was inferred
 
 
-class WhatIfError(Exception):
+class WhatIfError(PlannerError):
     """The question cannot be planned from this trace."""
 
 

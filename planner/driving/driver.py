@@ -11,6 +11,7 @@ import msgspec
 from planner.driving.control import Around, Driving, Outlook, control, view_of
 from planner.driving.lookout import as_foreseen, changed, lookout
 from planner.driving.memory import Memory
+from planner.errors import PlannerError
 from planner.hidden_areas.phantoms import around
 from planner.manoeuvres.actions import STANDING_TIME, ActionPlan, Situation, expand
 from planner.manoeuvres.indicators import lights
@@ -34,7 +35,7 @@ STANDING = 0.1  # [m/s]
 END_GAP = 1.0  # [m] before the end of the road at which to stop
 
 
-class DriverError(Exception):
+class DriverError(PlannerError):
     """The car cannot be driven on from here."""
 
 

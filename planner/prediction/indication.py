@@ -15,7 +15,7 @@ from planner.roads.routes import approach
 from planner.roads.trajectory import Roads
 
 SOON = 4.0  # [s] at the limit to the turn, from which nearly everybody indicates
-EARLY = 5.0  # [s] ... before which fewer do
+RAMP = 1.0  # [s] before that, over which their share grows
 SHOWN = (0.9, 0.6)  # share of those who indicate a turn: soon, and early
 BRANCHING = 0.4  # ... a road that branches off, which some take without indicating
 WRONG = 0.02  # share of those who indicate the other side
@@ -39,7 +39,7 @@ def indicated(
     shown = next(iter(observed.indicating), None)
     lane = roads.network.lanes[here.location.lane]
     ahead = approach(roads, here.location, view).distance / lane.speed_limit
-    soon = min(max((EARLY - ahead) / (EARLY - SOON), 0.0), 1.0)
+    soon = min(max((SOON + RAMP - ahead) / RAMP, 0.0), 1.0)
     beside = shown is not None and _lane_beside(roads, here, shown)
     return [_share(_side(goal), shown, soon=soon, beside=beside) for goal in goals]
 

@@ -12,6 +12,7 @@ from typing import Literal
 
 import msgspec
 
+from planner.errors import TraceError
 from planner.record.hidden_record import HeldByHidden, Phantom, PhantomSample
 from planner.record.light_record import HeldByLight, LightPrediction, LightSample, LightSupposed
 from planner.record.places import LightChange, RoadFacts
@@ -277,10 +278,6 @@ class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True, dict=True):
     def trace_id(self) -> str:
         """16 hex digits of the SHA-256 of the canonical JSON."""
         return hashlib.sha256(encode(self)).hexdigest()[:16]
-
-
-class TraceError(ValueError):
-    """A PlanTrace that cannot be read or written."""
 
 
 def encode(trace: PlanTrace) -> bytes:

@@ -25,6 +25,8 @@ from xml.sax.saxutils import quoteattr
 
 from platformdirs import user_cache_path
 
+from sim.errors import SimError
+
 PATIENCE = 60.0  # [s]
 GEOMETRY = (
     "--no-turnarounds",
@@ -34,7 +36,7 @@ GEOMETRY = (
 )
 
 
-class NetconvertError(Exception):
+class NetconvertError(SimError):
     """A network could not be compiled."""
 
 

@@ -17,6 +17,7 @@ from functools import lru_cache
 from pathlib import Path
 from xml.sax import SAXParseException
 
+from sim.errors import SimError
 from sim.roads.netgraph import graph_of
 from sim.roads.netreader import Broken, Read, read_sumo_net
 from sim.roads.network import Network
@@ -26,7 +27,7 @@ GZIP = b"\x1f\x8b"  # how a gzipped file begins (RFC 1952)
 KEPT = 4  # networks in memory
 
 
-class NetworkError(Exception):
+class NetworkError(SimError):
     """A road network cannot be read."""
 
 

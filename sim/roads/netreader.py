@@ -11,8 +11,10 @@ from typing import Any, NoReturn
 import sumolib.net
 from sumolib.net.lane import SUMO_VEHICLE_CLASSES
 
+from sim.errors import SimError
 
-class Broken(Exception):
+
+class Broken(SimError):
     """An element of the net is incomplete or refers to nothing."""
 
 

@@ -9,11 +9,13 @@ import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
+from sim.errors import SimError
+
 VEHICLES = ("vehicle", "trip")
 GZIP = b"\x1f\x8b"  # how a gzipped file begins (RFC 1952)
 
 
-class RoutesError(Exception):
+class RoutesError(SimError):
     """A route file is not XML, or a vehicle in it lacks what its start needs."""
 
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from importlib.resources import files
 from pathlib import Path
 
+from sim.errors import SimError
 from sim.roads.netconvert import NetconvertError, NetconvertMissing, opendrive_net
 from sim.roads.netfile import NetworkError, read_network
 from sim.roads.opendrive import conversion_warnings
@@ -36,7 +37,7 @@ _CONFIGURED = ("name", "description", "configuration", "ego")
 _CHANGES = ("step", "duration", "view_radius", "seed", "goal")
 
 
-class ScenarioError(Exception):
+class ScenarioError(SimError):
     """A scenario cannot be used."""
 
 

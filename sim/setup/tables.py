@@ -9,8 +9,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from sim.errors import SimError
 
-class TableError(Exception):
+
+class TableError(SimError):
     """A configuration file is wrong: file, key, problem, remedy."""
 
     def __init__(self, file: Path, key: str | None, problem: str, remedy: str) -> None:

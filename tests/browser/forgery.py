@@ -12,7 +12,7 @@ from planner.record.trace import PlanTrace
 from sim.scene import VehicleState
 from tests.traces import s1_ride
 from xavi_dialogue.bus.health import HealthReporter
-from xavi_dialogue.bus.interface import Bus, BusError, Call, Keys
+from xavi_dialogue.bus.interface import Bus, Call, Keys, TransportError
 from xavi_dialogue.bus.messages import (
     AskReply,
     AskRequest,
@@ -99,7 +99,7 @@ class ForgedService:
 
     def _answering(self, handle: Callable[[Call], None]) -> Callable[[Call], None]:
         def on_call(call: Call) -> None:
-            with suppress(BusError):  # who asked is gone
+            with suppress(TransportError):  # who asked is gone
                 handle(call)
 
         return on_call

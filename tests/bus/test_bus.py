@@ -9,7 +9,6 @@ import pytest
 
 from xavi_dialogue.bus.interface import (
     Bus,
-    BusError,
     BusFailed,
     Call,
     EndpointTaken,
@@ -18,6 +17,7 @@ from xavi_dialogue.bus.interface import (
     NobodyThere,
     Refused,
     TooLate,
+    TransportError,
     call,
 )
 from xavi_dialogue.bus.link import Link
@@ -195,4 +195,4 @@ def test_zenoh_errors_are_ours() -> None:
         join(Link.to_hub(endpoint), patience=0.0)
     with host(Link.of_hub(endpoint)), pytest.raises(EndpointTaken, match="in use"):
         host(Link.of_hub(endpoint))
-    assert issubclass(HubUnreachable, BusError)
+    assert issubclass(HubUnreachable, TransportError)

@@ -7,6 +7,7 @@ from planner.record.events import Event
 from tests.fakes import EGO
 from tests.traces import s1_ride
 from xavi_dialogue.bus.catalogue import MESSAGES
+from xavi_dialogue.bus.errors import Malformed, MessageError, TooLarge, WrongSchema
 from xavi_dialogue.bus.messages import (
     MAX_TEXT,
     MAX_TURNS,
@@ -19,13 +20,9 @@ from xavi_dialogue.bus.messages import (
     ForgetReply,
     ForgetRequest,
     HistoryRequest,
-    Malformed,
-    MessageError,
     SceneReport,
-    TooLarge,
     TraceReport,
     WhatIfRequest,
-    WrongSchema,
     pack,
     schema_name,
     unpack,

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from tests.drills.processes import DEADLINE, LATE, PATIENCE, until
+from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.interface import Bus, Keys, NoAnswer, Outcome, Refused, call
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import (
@@ -21,7 +22,6 @@ from xavi_dialogue.bus.messages import (
     HistoryReply,
     HistoryRequest,
     Message,
-    MessageError,
     SceneReport,
     TraceReport,
     pack,

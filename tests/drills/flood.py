@@ -14,7 +14,7 @@ from collections.abc import Iterator
 
 import msgspec
 
-from xavi_dialogue.bus.interface import Bus, BusError, Keys
+from xavi_dialogue.bus.interface import Bus, Keys, TransportError
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import (
     AskRequest,
@@ -94,7 +94,7 @@ def work(bus: Bus, dice: random.Random, over: threading.Event) -> int:
                 ask(bus, Keys("*").of("@rpc/ask"), b"{}")
                 ask(bus, "xavi/v1/**", b"{}")
                 bus.appear(ghost.of("alive/car"))
-        except BusError:
+        except TransportError:
             continue
         if over.wait(PERIOD):
             return number

@@ -15,7 +15,7 @@ from functools import partial
 
 import msgspec
 
-from xavi_dialogue.bus.interface import Bus, BusError, Call, Keys, Outcome, Presence, Refused
+from xavi_dialogue.bus.interface import Bus, Call, Keys, Outcome, Presence, Refused, TransportError
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import WhatIfRequest, unpack
 from xavi_dialogue.bus.zenoh_bus import join
@@ -104,7 +104,7 @@ class Relay:
                     call.reply(outcome)
                 case Refused(payload=payload):
                     call.refuse(payload)
-                case BusError():
+                case TransportError():
                     call.drop()
 
         self._here.request(call.key, call.payload, wanted.deadline_ms / 1000.0, settle)

@@ -8,6 +8,7 @@ import msgspec
 import pytest
 
 from planner.counterfactuals.whatif import NotInView, WhatIf, replan
+from planner.errors import TraceError
 from planner.hidden_areas.caution import CAUTION, CREEPING, cautious, name_of
 from planner.hidden_areas.phantoms import (
     LEAST,
@@ -23,7 +24,7 @@ from planner.hidden_areas.phantoms import (
 from planner.kernels.driving import READY
 from planner.manoeuvres.actions import Situation
 from planner.record.hidden_record import HeldByHidden, Phantom, PhantomSample
-from planner.record.trace import EgoGoal, PlanTrace, Settings, TraceError, Track, decode, encode
+from planner.record.trace import EgoGoal, PlanTrace, Settings, Track, decode, encode
 from planner.roads.trajectory import Roads
 from planner.search.comparison import likeliest
 from planner.search.decide import Frame, Moment, decide

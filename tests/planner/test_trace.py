@@ -9,18 +9,10 @@ from typing import Any
 import msgspec
 import pytest
 
+from planner.errors import TraceError
 from planner.record.fitting import IMPROBABLE, RECENT, fitted
 from planner.record.places import LightChange
-from planner.record.trace import (
-    MAX_BYTES,
-    SCHEMA,
-    PlanTrace,
-    Rollout,
-    TraceError,
-    Track,
-    decode,
-    encode,
-)
+from planner.record.trace import MAX_BYTES, SCHEMA, PlanTrace, Rollout, Track, decode, encode
 from planner.search.decide import decide
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, still
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from xavi_dialogue.bus.catalogue import CAR_MESSAGES, MESSAGES
+from xavi_dialogue.bus.errors import BusError
 from xavi_dialogue.bus.interface import DEFAULT_VEHICLE, EVERY_CAR, VEHICLE_NAME, Keys
 
 Deed: TypeAlias = Literal[
@@ -30,7 +31,7 @@ ROADS = "@blob/network"
 LONGEST = 64  # characters of a common name (RFC 5280, A.1)
 
 
-class BadName(ValueError):
+class BadName(BusError, ValueError):
     """A name that is not allowed on the bus."""
 
 

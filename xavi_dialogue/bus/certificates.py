@@ -19,13 +19,15 @@ from cryptography.hazmat.primitives import hashes, serialization
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
+from xavi_dialogue.bus.errors import BusError
+
 AUTHORITY = "xavi development CA"
 SKEW = timedelta(minutes=5)  # by which other clocks may be late
 HOST = re.compile(r"(?!-)[A-Za-z0-9-]{1,63}(?<!-)(\.(?!-)[A-Za-z0-9-]{1,63}(?<!-))*")
 MAX_HOST = 253  # characters of a name in the DNS
 
 
-class CertificateError(ValueError):
+class CertificateError(BusError, ValueError):
     """A certificate that cannot be made or used."""
 
 

@@ -8,7 +8,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from xavi_dialogue import __version__
-from xavi_dialogue.bus.interface import Bus, BusError, Call, Keys, Presence
+from xavi_dialogue.bus.interface import Bus, Call, Keys, Presence, TransportError
 from xavi_dialogue.bus.messages import AliveReport, pack
 
 MEMORY = "resident_bytes"  # a counter of every component, if the system reports it
@@ -84,7 +84,7 @@ class HealthReporter:
 
     def answer(self, call: Call) -> None:
         """Answer one request."""
-        with suppress(BusError):  # the client has disconnected
+        with suppress(TransportError):  # the client has disconnected
             call.reply(pack(self.report()))
 
 

@@ -3,7 +3,7 @@
 `zenoh_bus` carries it between processes, `memory_bus` within one. Handlers run on threads of
 the bus and must return at once.
 
-    BusError
+    TransportError
     ├── HubUnreachable   there is no hub at the endpoint
     ├── EndpointTaken    the hub's endpoint is in use
     ├── BadLink          the configuration of the link cannot be used
@@ -21,33 +21,35 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Protocol, Self, TypeAlias
 
+from xavi_dialogue.bus.errors import BusError
+
 ROOT = "xavi/v1"
 DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
 DEFAULT_VEHICLE = "car"
 VEHICLE_NAME = r"[A-Za-z0-9_.-]{1,64}"
 
 
-class BusError(Exception):
+class TransportError(BusError):
     """A request to the bus failed."""
 
 
-class HubUnreachable(BusError):
+class HubUnreachable(TransportError):
     """There is no hub at the endpoint."""
 
 
-class EndpointTaken(BusError):
+class EndpointTaken(TransportError):
     """The hub's endpoint is in use."""
 
 
-class BadLink(BusError):
+class BadLink(TransportError):
     """The configuration of the link cannot be used."""
 
 
-class BusFailed(BusError):
+class BusFailed(TransportError):
     """The carrier failed."""
 
 
-class NoAnswer(BusError):
+class NoAnswer(TransportError):
     """A request without a reply."""
 
 

@@ -17,6 +17,7 @@ from planner.record.events import Event
 from planner.record.light_record import LightSupposed
 from planner.record.trace import MAX_BYTES, Action, PlanTrace, fault_of
 from sim.scene import EGO, Light, PersonState, Scene, Unseen, VehicleState
+from xavi_dialogue.bus.errors import Malformed, TooLarge, WrongSchema
 from xavi_dialogue.bus.sanitize import clean, one_line
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Reason
@@ -43,22 +44,6 @@ KIB = 1024
 MAX_TEXT = 4096  # characters of a question
 MAX_TURNS = 100  # of a session, in a history
 MAX_CHARACTER = 12  # bytes of one in JSON: two escapes such as \ud83d\ude00
-
-
-class MessageError(ValueError):
-    """A message that cannot be used."""
-
-
-class TooLarge(MessageError):
-    """More bytes than allowed for the message."""
-
-
-class WrongSchema(MessageError):
-    """Another message, or a version that is not known here."""
-
-
-class Malformed(MessageError):
-    """Not JSON, or a field is missing or wrong."""
 
 
 class Message(msgspec.Struct, frozen=True, kw_only=True):

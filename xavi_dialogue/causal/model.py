@@ -22,6 +22,7 @@ from typing import TypeAlias, TypeVar
 
 from planner.record.trace import Action, PlanTrace, Rollout
 from xavi_dialogue.causal.mixtures import Joint, Mixture, Result
+from xavi_dialogue.errors import XaviError
 
 #: One vehicle's goal and trajectory, as indices into its prediction.
 Choice: TypeAlias = tuple[int, int]
@@ -34,7 +35,7 @@ SUPPORT = 0.5
 CONFIDENCE = 0.05  # share of records that may exceed the bound on an error
 
 
-class CausalError(Exception):
+class CausalError(XaviError):
     """A causal query that cannot be carried out."""
 
 

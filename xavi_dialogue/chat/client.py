@@ -8,8 +8,10 @@ from collections.abc import Callable
 from functools import partial
 from typing import TypeAlias, TypeVar
 
+from planner.errors import TraceError
 from planner.record import trace as plan_trace
-from planner.record.trace import PlanTrace, TraceError
+from planner.record.trace import PlanTrace
+from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.interface import Bus, Keys, NoAnswer, Outcome, Refused, TooLate, call
 from xavi_dialogue.bus.messages import (
     MAX_TEXT,
@@ -25,7 +27,6 @@ from xavi_dialogue.bus.messages import (
     HistoryReply,
     HistoryRequest,
     Message,
-    MessageError,
     PastTurn,
     SceneReport,
     pack,

@@ -16,6 +16,7 @@ from xavi_dialogue.chat.client import Client, OnEvent, ServiceLost
 from xavi_dialogue.chat.history import SessionHistory
 from xavi_dialogue.chat.interactive import InputHistoryOptions, Notices, talk
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.errors import XaviError
 from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.security.client_token import Passenger
@@ -30,7 +31,7 @@ DECLINED = "Only the program that started the car sets its pace."
 GONE = "the car is not on the bus"
 
 
-class NotOnBus(Exception):
+class NotOnBus(XaviError):
     """A hub, service or car that is needed is not on the bus."""
 
 
@@ -202,7 +203,7 @@ def through_pipe(
         as_json: write replies as JSON.
 
     Raises:
-        BusError: see `meet`.
+        TransportError: see `meet`.
         NotOnBus: see `meet`.
         ServiceLost: a question was not answered.
     """
@@ -231,7 +232,7 @@ def at_terminal(
         note: takes notes before the conversation begins.
 
     Raises:
-        BusError: see `meet`.
+        TransportError: see `meet`.
         NotOnBus: see `meet`.
     """
     notices = Notices(note)

@@ -9,9 +9,10 @@ from textwrap import TextWrapper
 
 from xavi_dialogue import __version__
 from xavi_dialogue.bus.certificates import BadCertificate, CertificateInfo, read
-from xavi_dialogue.bus.interface import EVERY_CAR, Bus, BusError, call, vehicle_in
+from xavi_dialogue.bus.errors import MessageError
+from xavi_dialogue.bus.interface import EVERY_CAR, Bus, TransportError, call, vehicle_in
 from xavi_dialogue.bus.link import Link
-from xavi_dialogue.bus.messages import AliveReport, MessageError, unpack
+from xavi_dialogue.bus.messages import AliveReport, unpack
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.bus.zenoh_bus import join
 from xavi_dialogue.cli.host_checks import CheckedSystem, Finding, on_this_machine, taken
@@ -53,7 +54,7 @@ def port(endpoint: str) -> Finding:
     try:
         with join(Link.to_hub(endpoint), HUB_PATIENCE) as bus:
             services = [key for key in alive(bus) if key.endswith("/alive/service")]
-    except BusError:
+    except TransportError:
         found = f"another program listens at {endpoint}"
         return Finding("port", "fault", found, "end it, or name another with --listen")
     if services:
@@ -92,7 +93,7 @@ def on_the_bus(link: Link) -> Iterator[Finding]:
     """Check which components are present, and their health."""
     try:
         bus = join(link, HUB_PATIENCE)
-    except BusError as error:
+    except TransportError as error:
         found, _, advice = one_line(str(error)).partition("; ")
         yield Finding("hub", "fault", found, advice)
         return
@@ -135,7 +136,7 @@ def component(bus: Bus, key: str) -> Finding:
     asked = time.time()
     try:
         report = unpack(call(bus, key, b"", PATIENCE), AliveReport)
-    except BusError:
+    except TransportError:
         return Finding(name, "warning", "does not tell how it fares", "is it of another version?")
     except MessageError as error:
         return Finding(name, "warning", f"tells what is not understood: {error}")

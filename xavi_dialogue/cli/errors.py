@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 
 from planner.driving.driver import DriverError
-from planner.record.trace import TraceError
+from planner.errors import TraceError
 from sim.roads.netconvert import NetconvertMissing
 from sim.setup.scenario import ScenarioError
 from sim.sumo import SimulationError
 from xavi_dialogue.bus.access_control import BadName
 from xavi_dialogue.bus.certificates import CertificateError
-from xavi_dialogue.bus.interface import BadLink, BusError
+from xavi_dialogue.bus.interface import BadLink, TransportError
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.chat.remote_backend import NotOnBus
 from xavi_dialogue.dashboard.web import MISSING
@@ -20,7 +20,7 @@ from xavi_dialogue.process.exit_status import ExitStatus, RunFault, UsageFault
 _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
     ((UsageFault, ScenarioError, BadLink, BadName, CertificateError), ExitStatus.USAGE),
     ((NotOnBus,), ExitStatus.PLANNER_UNAVAILABLE),
-    ((RunFault, BusError, SimulationError, DriverError, TraceError), ExitStatus.FAILED),
+    ((RunFault, TransportError, SimulationError, DriverError, TraceError), ExitStatus.FAILED),
     ((NetconvertMissing,), ExitStatus.FAILED),
 )
 

@@ -3,23 +3,19 @@
 import asyncio
 from dataclasses import dataclass
 
+from planner.errors import TraceError
 from planner.record import trace as plan_trace
-from planner.record.trace import PlanTrace, TraceError
+from planner.record.trace import PlanTrace
+from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.interface import Bus, Keys, NoAnswer, Outcome
-from xavi_dialogue.bus.messages import (
-    EvidenceRequest,
-    HistoryReply,
-    HistoryRequest,
-    MessageError,
-    pack,
-    unpack,
-)
+from xavi_dialogue.bus.messages import EvidenceRequest, HistoryReply, HistoryRequest, pack, unpack
 from xavi_dialogue.chat.client import PATIENCE, new_request
 from xavi_dialogue.dashboard.web.interfaces import Browsers
+from xavi_dialogue.errors import XaviError
 from xavi_dialogue.security.client_token import Passenger
 
 
-class Unanswered(Exception):
+class Unanswered(XaviError):
     """There is no answer, or it cannot be read."""
 
 

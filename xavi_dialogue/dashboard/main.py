@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TypeAlias
 
-from xavi_dialogue.bus.interface import Bus, BusError, HubUnreachable, Keys
+from xavi_dialogue.bus.interface import Bus, HubUnreachable, Keys, TransportError
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.zenoh_bus import join
 from xavi_dialogue.chat.client import Client
@@ -92,7 +92,7 @@ class BusThread:
                 self._be_with_others(source)
             else:
                 self._be_alone(source)
-        except (BusError, ChildFailed) as error:
+        except (TransportError, ChildFailed) as error:
             self.failure = error
             self._failed()
 

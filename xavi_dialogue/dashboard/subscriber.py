@@ -8,9 +8,10 @@ import threading
 from collections.abc import Callable
 from typing import TypeAlias
 
+from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Bus, Keys
-from xavi_dialogue.bus.messages import EventReport, MessageError, SceneReport, TraceReport, unpack
+from xavi_dialogue.bus.messages import EventReport, SceneReport, TraceReport, unpack
 from xavi_dialogue.dashboard.web.interfaces import Browsers
 from xavi_dialogue.service.reorder_buffer import ReportOfRide
 

@@ -7,7 +7,8 @@ import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
-from planner.record.trace import PlanTrace, TraceError, decode
+from planner.errors import TraceError
+from planner.record.trace import PlanTrace, decode
 from xavi_dialogue.process.exit_status import UsageFault
 from xavi_dialogue.storage.ride_file import RideFileError, load
 

@@ -13,6 +13,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import IO, TypeAlias
 
+from xavi_dialogue.errors import XaviError
+
 SHOWN = 40  # characters of a line that is no order
 PATIENCE = 5.0  # [s] that a process may take to end before it is killed
 
@@ -57,7 +59,7 @@ Order: TypeAlias = Pause | Resume | Speed | Until | Seek | Quit
 Orders: TypeAlias = "queue.SimpleQueue[Order]"
 
 
-class ChildCommandError(ValueError):
+class ChildCommandError(XaviError, ValueError):
     """A line that is no order."""
 
 

@@ -3,15 +3,17 @@
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
+from xavi_dialogue.errors import XaviError
+
 if TYPE_CHECKING:  # the command line needs the numbers at once, and replies later or never
     from xavi_dialogue.dialogue.reply import Reply
 
 
-class UsageFault(ValueError):
+class UsageFault(XaviError, ValueError):
     """Invalid input of the user; the message says how to correct it."""
 
 
-class RunFault(RuntimeError):
+class RunFault(XaviError, RuntimeError):
     """A command failed; the message says why."""
 
 

@@ -16,10 +16,11 @@ from pathlib import Path
 from typing import TypeAlias
 
 from xavi_dialogue import __version__
+from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import DEFAULT_VEHICLE, EVERY_CAR, Bus, Keys, Outcome, vehicle_in
 from xavi_dialogue.bus.link import Link
-from xavi_dialogue.bus.messages import MessageError, Report, SceneReport, TurnReport, unpack
+from xavi_dialogue.bus.messages import Report, SceneReport, TurnReport, unpack
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.storage.mcap_file import McapWriter
 from xavi_dialogue.storage.recording_format import (

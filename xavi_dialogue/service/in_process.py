@@ -28,6 +28,7 @@ from xavi_dialogue.dialogue.state.events import (
 )
 from xavi_dialogue.dialogue.state.state import Dialogue
 from xavi_dialogue.domain.answers import NeedRollout, Reason
+from xavi_dialogue.errors import XaviError
 from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.nlg.say import say
 from xavi_dialogue.nlu.interpret import interpret
@@ -39,7 +40,7 @@ SESSION = "passenger"
 Replan: TypeAlias = Callable[[PlanTrace, NeedRollout], PlanTrace]
 
 
-class NoPlan(Exception):
+class NoPlan(XaviError):
     """A plan is not available; the reason is the one that the passenger gets."""
 
     def __init__(self, reason: Reason) -> None:

@@ -9,6 +9,7 @@ from typing import TypeVar
 import msgspec
 
 from planner.record import trace as plan_trace
+from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Call, vehicle_in
 from xavi_dialogue.bus.messages import (
@@ -22,13 +23,13 @@ from xavi_dialogue.bus.messages import (
     ForgetRequest,
     HistoryReply,
     HistoryRequest,
-    MessageError,
     PastTurn,
     pack,
     unpack,
 )
 from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.domain.answers import Reason
+from xavi_dialogue.errors import XaviError
 from xavi_dialogue.service.ownership import UNKNOWN, SessionOwners
 from xavi_dialogue.service.requests import Question
 from xavi_dialogue.service.vehicle_session import VehicleSession
@@ -49,7 +50,7 @@ Told = TypeVar("Told", AskRequest, HistoryRequest, ForgetRequest, CancelRequest,
 Wanted = TypeVar("Wanted", AskRequest, HistoryRequest, ForgetRequest, CancelRequest)
 
 
-class Rejection(Exception):
+class Rejection(XaviError):
     """A request is not taken up."""
 
     def __init__(self, reason: Reason, detail: str) -> None:

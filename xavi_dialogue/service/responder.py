@@ -8,25 +8,26 @@ from dataclasses import dataclass, field
 
 import msgspec
 
+from planner.errors import TraceError
 from planner.record import trace as plan_trace
-from planner.record.trace import PlanTrace, TraceError
+from planner.record.trace import PlanTrace
+from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import (
     DEFAULT_VEHICLE,
     Bus,
-    BusError,
     Keys,
     NobodyThere,
     Outcome,
     Refused,
     TooLate,
+    TransportError,
     vehicle_in,
 )
 from xavi_dialogue.bus.messages import (
     AskReply,
     AskRequest,
     Failure,
-    MessageError,
     PastTurn,
     TurnReport,
     WhatIfRequest,
@@ -84,7 +85,7 @@ class Responder:
         while len(self.sent) > MAX_SENT:
             del self.sent[next(iter(self.sent))]
         for call in question.calls:
-            with suppress(BusError):  # the client has disconnected
+            with suppress(TransportError):  # the client has disconnected
                 call.reply(payload)
         self._count(answer, taken)
         if asked.share:
@@ -149,7 +150,7 @@ class Responder:
         )
         self.shared += 1
         key = Keys(vehicle).of(f"dialogue/{asked.session}/turn")
-        with suppress(BusError):  # it has no reader
+        with suppress(TransportError):  # it has no reader
             self.bus.send(key, pack(report))
 
     def plan_again(self, vehicle: str, task: PlanAgain, done: Callable[[Outcome], None]) -> None:

@@ -17,23 +17,23 @@ from typing import TypeAlias
 import msgspec
 
 from xavi_dialogue.bus.catalogue import CAR_MESSAGES, MESSAGES
+from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import (
     DEFAULT_VEHICLE,
     EVERY_CAR,
     Bus,
-    BusError,
     Call,
     Keys,
     Outcome,
     Presence,
+    TransportError,
     vehicle_in,
 )
 from xavi_dialogue.bus.messages import (
     AnyMessage,
     EventReport,
     Failure,
-    MessageError,
     SceneReport,
     TraceReport,
     pack,
@@ -152,7 +152,7 @@ class Service:
         """Run one action; an internal error in it does not stop the service."""
         try:
             job()
-        except BusError:
+        except TransportError:
             pass  # the client has disconnected
         except Exception:
             self.alive.count("faults")
@@ -186,7 +186,7 @@ class Service:
     def _take(self, handle: Callable[[Call], None], call: Call) -> None:
         """Have a request handled; on a thread of the bus."""
         if self._inbox.qsize() > MAX_INBOX:
-            with contextlib.suppress(BusError):  # the client has disconnected
+            with contextlib.suppress(TransportError):  # the client has disconnected
                 call.refuse(pack(Failure(reason="busy", detail="too much comes in")))
         else:
             self._post(self._handle, handle, call)
@@ -203,7 +203,7 @@ class Service:
             known = {"vehicle": vehicle_in(call.key), "reason": refusal.failure.reason}
             _LOG.info("a request was refused", extra=known)
             call.refuse(pack(refusal.failure))
-        except BusError:
+        except TransportError:
             raise
         except Exception:
             call.refuse(pack(Failure(reason="planner-failed", detail="a fault of the service")))
@@ -294,5 +294,5 @@ class Service:
 
 
 def _tell_schema(message: type[AnyMessage], call: Call) -> None:
-    with contextlib.suppress(BusError):  # the client has disconnected
+    with contextlib.suppress(TransportError):  # the client has disconnected
         call.reply(msgspec.json.encode(schema_of(message, schema_name(message))))

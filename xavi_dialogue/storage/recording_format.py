@@ -19,10 +19,10 @@ import msgspec
 from planner.record import trace as plan_trace
 from planner.record.events import Event
 from sim.scene import EGO
+from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.interface import matches, vehicle_in
 from xavi_dialogue.bus.messages import (
     EventReport,
-    MessageError,
     Report,
     SceneReport,
     TraceReport,

@@ -10,6 +10,8 @@ from functools import cache
 from importlib.resources import files
 from typing import Literal, TypeAlias
 
+from xavi_dialogue.errors import XaviError
+
 Place: TypeAlias = Literal["terminal", "pipe"]
 MIN_TWO_COLUMNS = 60  # columns from which usage and meaning fit side by side
 MAX_SPEED = 1000.0  # simulated seconds per second
@@ -19,7 +21,7 @@ WHY_DONE = "Why did you do that?"  # of the latest action
 MORE = "Tell me more."
 
 
-class CommandError(Exception):
+class CommandError(XaviError):
     """A command that does not exist, is used wrongly, or cannot be carried out."""
 
 

@@ -13,7 +13,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from planner.record.trace import PlanTrace, TraceError, decode
+from planner.errors import TraceError
+from planner.record.trace import (PlanTrace, decode)
 from planner.counterfactuals.whatif import WhatIfError
 from sim.setup.scenario import load as load_scenario
 from xavi_dialogue.service.in_process import Conversation, Replan, drive_to, make_pipeline, planner_for

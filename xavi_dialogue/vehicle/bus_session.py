@@ -15,16 +15,17 @@ from pathlib import Path
 from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import (
     Bus,
-    BusError,
     HubUnreachable,
     Keys,
     NoAnswer,
     NobodyThere,
     TooLate,
+    TransportError,
     call,
 )
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.zenoh_bus import ZenohBus, join
+from xavi_dialogue.errors import XaviError
 from xavi_dialogue.process.child_commands import Signals
 from xavi_dialogue.vehicle.map_server import serve_roads
 from xavi_dialogue.vehicle.node import COUNTERS, serve
@@ -43,11 +44,11 @@ CLOSING = 1.0  # [s] that leaving the bus may take
 _LOG = logging.getLogger(__name__)
 
 
-class NameTaken(BusError):
+class NameTaken(TransportError):
     """Another car of this name is on the bus."""
 
 
-class QuitBeforeRide(Exception):
+class QuitBeforeRide(XaviError):
     """The process was asked to quit before the ride began."""
 
 

@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from xavi_dialogue.bus.health import HealthReporter
-from xavi_dialogue.bus.interface import Bus, BusError, Publisher
+from xavi_dialogue.bus.interface import Bus, Publisher, TransportError
 
 SCENES = "scenes_dropped"  # counters of what was dropped
 REPORTS = "reports_dropped"
@@ -116,7 +116,7 @@ class Outbox:
                 message = self._waiting.popleft()
                 self._weigh(message, -1)
                 self._sending = True
-            with suppress(BusError):  # the bus is closed
+            with suppress(TransportError):  # the bus is closed
                 message.publisher.put(message.payload)
 
     def _overfull(self) -> bool:

@@ -18,8 +18,9 @@ import msgspec
 
 from planner.counterfactuals.whatif import Inapplicable, NotInView, WhatIfError, replan
 from planner.driving.driver import Driver
+from planner.errors import TraceError
 from planner.record import trace as plan_trace
-from planner.record.trace import EgoGoal, Settings, TraceError, WhatIf
+from planner.record.trace import EgoGoal, Settings, WhatIf
 from planner.roads.trajectory import Roads
 from planner.search.decide import root_at
 from sim.roads.netfile import read_network

@@ -20,9 +20,10 @@ from planner.counterfactuals.whatif import WhatIfError, replan
 from planner.record import trace as plan_trace
 from planner.record.trace import PlanTrace, WhatIf
 from sim.roads.network import Network
+from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.health import HealthReporter
-from xavi_dialogue.bus.interface import BusError, Call
-from xavi_dialogue.bus.messages import Failure, MessageError, WhatIfRequest, pack, unpack
+from xavi_dialogue.bus.interface import Call, TransportError
+from xavi_dialogue.bus.messages import Failure, WhatIfRequest, pack, unpack
 from xavi_dialogue.process.subprocesses import TOP
 from xavi_dialogue.vehicle.episode import Moment
 from xavi_dialogue.vehicle.replan_worker import ReplanOrder
@@ -104,7 +105,7 @@ class Replanner:
         self._alive.count("what_ifs")
         self._alive.count(f"what_ifs_{reason.replace('-', '_')}")
         _LOG.info("a what-if was answered", extra={"reason": reason})
-        with contextlib.suppress(BusError):  # the client that asked has disconnected
+        with contextlib.suppress(TransportError):  # the client that asked has disconnected
             if isinstance(outcome, Failure):
                 call.refuse(pack(outcome))
             else:

@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from enum import Enum
 from typing import TypeVar
 
+from xavi_dialogue.errors import XaviError
+
 
 class Phase(Enum):
     """State of a session. THINKING never outlasts the input that led to it."""
@@ -82,7 +84,7 @@ State = TypeVar("State", bound=Enum)
 Input = TypeVar("Input", bound=Enum)
 
 
-class IllegalEvent(Exception):
+class IllegalEvent(XaviError):
     """An input that has no place in the present state."""
 
 

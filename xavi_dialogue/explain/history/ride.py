@@ -17,6 +17,7 @@ from sim.scene import EGO, Scene
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.domain.answers import NeedRollout, NotApplicable, NotRecorded, Refusal, TooLittle
 from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.errors import XaviError
 from xavi_dialogue.explain.history.deeds import Deed, read_deeds
 from xavi_dialogue.explain.history.joining import Joined, Seen, joined
 from xavi_dialogue.explain.history.motion import Motion
@@ -35,7 +36,7 @@ ROUNDS = (40, 160)
 ROUNDING = 1e-6  # [s]
 
 
-class ExplainError(Exception):
+class ExplainError(XaviError):
     """A question that has no answer."""
 
 

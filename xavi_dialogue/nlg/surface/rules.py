@@ -19,8 +19,10 @@ from typing import TypeAlias
 from lark import Lark, LarkError, Transformer, v_args
 from lark.tree import Meta
 
+from xavi_dialogue.errors import XaviError
 
-class GrammarError(ValueError):
+
+class GrammarError(XaviError, ValueError):
     """An answer grammar that cannot be read, or that calls what it does not define."""
 
 

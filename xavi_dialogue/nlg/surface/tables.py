@@ -10,8 +10,10 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from xavi_dialogue.errors import XaviError
 
-class WordingError(ValueError):
+
+class WordingError(XaviError, ValueError):
     """A file of words that cannot be used, or a word that it lacks."""
 
 

@@ -7,6 +7,7 @@ begin with stands, and only once. Of the readings of a phrase over one stretch t
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from xavi_dialogue.errors import XaviError
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 from xavi_dialogue.nlu.grammar.rules import Edges, Grammar, State
 
@@ -48,7 +49,7 @@ _BEAM = 1.6  # what costs this much more than the best at its node is given up
 _DEEPEST = 60  # phrases within one another; no sentence that people say comes near
 
 
-class ChartLimitError(Exception):
+class ChartLimitError(XaviError):
     """More steps than a text may take."""
 
 

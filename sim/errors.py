@@ -1,0 +1,5 @@
+"""The root of the simulation's errors."""
+
+
+class SimError(Exception):
+    """SUMO, a road network or a scenario cannot be used."""

@@ -1,0 +1,5 @@
+"""The root of the errors of this package."""
+
+
+class XaviError(Exception):
+    """A part of XAVI Dialogue cannot do what it was asked for."""
