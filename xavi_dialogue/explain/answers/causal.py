@@ -5,7 +5,13 @@ from typing import Any, TypeAlias
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Answer, Identified, NeedRollout
+from xavi_dialogue.domain.answers import (
+    Answer,
+    ChoiceReason,
+    Identified,
+    MotionReason,
+    NeedRollout,
+)
 from xavi_dialogue.domain.meaning import (
     Compare,
     HowAvoid,
@@ -39,8 +45,9 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.explain.answers import owing
+from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.propositions import reasons
-from xavi_dialogue.explain.answers.reasons import choices, knowing
+from xavi_dialogue.explain.answers.reasons import choices, knowing, suspects
 from xavi_dialogue.explain.answers.reasons.provoked import because_of_us
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import window
@@ -65,6 +72,7 @@ NEEDED = frozenset(("necessary", "worth-it", "better"))
 LISTED = frozenset(("options", "decisions"))
 #: What of ours is for something or somebody.
 HELD = frozenset(("wait", "slow-down", "brake", "stop", "stand", "give-way", "let-go"))
+SLOWED = frozenset(("brake", "slow-down", "stop", "wait"))
 RULED = frozenset(("give-way", "let-go", "wait"))
 REASONS = frozenset(("causes", "reasons"))
 
@@ -210,21 +218,46 @@ def _slowed_for(of: Proposition | None, scene: Asked) -> bool:
     if not isinstance(of, Happens) or not is_own(of.event.actor):
         return False
     event = of.event
-    if event.action not in ("brake", "slow-down", "stop") or vehicle_in(event.object) is None:
+    if event.action not in SLOWED or vehicle_in(event.object) is None:
         return False
     try:
-        reasons.why(Why(Happens(replace(event, object=None))), scene)
+        found = _because_of(event, scene)
     except Unanswered as unanswered:
         return isinstance(unanswered.result, NeedRollout)
-    return True
+    # What we do for another reason tells nothing of what we will do for them.
+    ahead = event.tense == "future" and getattr(found, "suspected", None) == "none"
+    return not ahead or stands(scene)
 
 
 def _slowed_because(question: Whether, scene: Asked) -> Answer:
-    """Return whether we slowed for somebody: the reason, with a word on that vehicle."""
+    """Return whether we slowed for somebody: the reason, with a word on them."""
     of, _ = unwrapped(question.that)
     assert isinstance(of, Happens)
-    event = replace(of.event, object=None)
-    return reasons.why(Why(Happens(event), suspect=of.event.object), scene)
+    found = _because_of(of.event, scene)
+    if of.event.tense == "future" and getattr(found, "suspected", None) == "none":
+        return replace(found, suspect=None, suspected=None)  # we stand already
+    return found
+
+
+def _because_of(event: Event, scene: Asked) -> Answer:
+    """Return why we slow or stand, with a word on those whom an event names.
+
+    Raises:
+        Unanswered: we do not; or the record lacks it; or rollouts are needed.
+    """
+    others = event.object.numbers if isinstance(event.object, Vehicles) else ()
+    tense = "present" if event.tense == "future" else event.tense
+    action = event.action
+    if event.tense in ("future", "present") and action in ("stop", "wait"):
+        action = "stand" if stands(scene) else "slow-down"
+    plain = Happens(replace(event, action=action, object=None, tense=tense))
+    found = reasons.why(Why(plain, suspect=event.object), scene)
+    if not isinstance(found, ChoiceReason | MotionReason) or found.suspected != "none":
+        return found
+    named = [vehicle for vehicle in suspects.blamed(found) if vehicle in others]
+    if named:
+        return suspects.with_suspect(found, named[0])
+    return replace(found, besides=others[1:])
 
 
 def _is_option(option: object) -> bool:

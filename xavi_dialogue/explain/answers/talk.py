@@ -17,9 +17,10 @@ from xavi_dialogue.domain.terms import (
     That,
     Thing,
     Vehicle,
+    Vehicles,
 )
 from xavi_dialogue.domain.vocabulary import FeelingKind
-from xavi_dialogue.explain.answers.measuring.closeness import closeness
+from xavi_dialogue.explain.answers.measuring.closeness import closeness, nearest_vehicle
 from xavi_dialogue.explain.answers.measuring.durations import remaining_wait, stands
 from xavi_dialogue.explain.answers.propositions.happenings import activity
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -54,6 +55,8 @@ def social(act: Social, asked: Asked) -> Answer:
         return Sociable(act.kind)
     vehicle, _, _ = _about(act.about)
     time = _recent(asked)
+    if isinstance(act.about, Vehicles):
+        vehicle = nearest_vehicle(asked, time, among=act.about.numbers)
     try:
         found = _fright(asked, time) if vehicle is None else closeness(asked, vehicle, time, "safe")
     except Unanswered:

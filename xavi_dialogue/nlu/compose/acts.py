@@ -48,7 +48,7 @@ from xavi_dialogue.nlu.compose.statements import Acts, Found, Statements, disput
 from xavi_dialogue.nlu.compose.states.existence import if_alone
 from xavi_dialogue.nlu.compose.suppositions import goes_on, supposes
 from xavi_dialogue.nlu.compose.talk import called, says, stirred, talk_act
-from xavi_dialogue.nlu.compose.verbs.expecting import as_expected, feared
+from xavi_dialogue.nlu.compose.verbs.expecting import as_expected, dreaded_hit, feared
 from xavi_dialogue.nlu.compose.wh_questions.frames import is_short
 from xavi_dialogue.nlu.compose.wh_questions.whys import (
     RUN_ON,
@@ -175,6 +175,8 @@ class Composer(Statements):
         liked = liked or "do you like" in words_of(unit)
         if clause.feelings and clause.that is not None and isinstance(clause.subject, Ego):
             dreaded = self.propositions.plain(clause.that)  # "were you worried he'd pull out"
+            if (struck := dreaded_hit(dreaded)) is not None:
+                return [((Social("feelings", struck),), 0.0)]
             if dreaded is not None and clause.feelings[0] in ("afraid", "nervous"):
                 return [((Ask(HowSure(feared(dreaded), clause.time)),), 0.0)]
         if (moved := stirred(unit, clause, liked=liked and clause.modal is None)) is not None:

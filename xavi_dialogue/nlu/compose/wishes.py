@@ -42,6 +42,9 @@ def bidden(event: Event, clause: Clause) -> Event:
 def request(event: Event, clause: Clause, *, negated: bool = False) -> Request:
     """Give the request for a deed, or not to do it: "not so fast" is to slow down."""
     deed = bidden(event, clause)
+    compared = [_WANTED[key] for key, _ in clause.comparisons if key in _WANTED]
+    if compared and not negated and deed.action in _PACED:  # "go a bit more gently"
+        return Request(Event(compared[0], tense="present"))
     if not negated:
         return Request(deed)
     paced = [m for m in deed.manner if m in CONTRARY]

@@ -76,6 +76,8 @@ def _order(asked: Asked, others: tuple[int, ...]) -> First | None:
     """Tell who comes first where our ways meet, by what is likeliest of each; None: it differs."""
     trace = asked.ride.latest
     found = {_likeliest_order(trace, vehicle) for vehicle in others}
+    if len(found) > 1:
+        found -= {"nobody"}  # who does not come into our way is out of it, too
     return found.pop() if len(found) == 1 else None
 
 

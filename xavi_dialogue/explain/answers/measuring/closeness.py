@@ -21,6 +21,7 @@ How = Literal["safe", "dangerous", "close", "hit", "room", "grounds"]
 _YIELDS: dict[str, Literal["we", "they"]] = {"give-way": "we", "priority": "they"}
 FADING = 0.3  # [m/s] by which what lies further back counts as further away
 NEARER = 0.5  # [m] by which a vehicle was nearer at another time
+ON_FOOT = 30.0  # [m] within which people on foot in front of us matter
 URGENT = 10.0  # [s] beyond which a time to collision says nothing
 
 
@@ -42,7 +43,9 @@ def closeness(
     risk = collision_chance(asked, about.begin if past else asked.now, vehicle)
     if not past and vehicle is None and how in ("safe", "dangerous") and risk is not None:
         first = _let_first(asked)  # who is nearest may have nothing to do with it
-        return Closeness(None, None, None, risk, how, about.end, past, giving=first)
+        walker = None if first else _on_foot(asked)
+        far = None if walker is None else closest_approach(asked, walker, seen)
+        return Closeness(walker, far, None, risk, how, about.end, past, giving=first)
     who = nearest_vehicle(asked, seen, fading) if vehicle is None else vehicle
     if who is None:
         return Closeness(None, None, None, risk, how, about.end, past)
@@ -102,14 +105,29 @@ def _let_first(asked: Asked) -> tuple[int, ...]:
     return tuple(vehicle for vehicle, how in held if how == "right-of-way")
 
 
-def nearest_vehicle(asked: Asked, about: Window, fading: float = 0.0) -> int | None:
+def _on_foot(asked: Asked) -> int | None:
+    """Name the person on foot who is nearest in front of us, where one is near."""
+    looks = (asked.world.look(vehicle, asked.now) for vehicle in asked.world.vehicles)
+    ahead = [
+        (look.distance, look.vehicle)
+        for look in looks
+        if look is not None and look.in_view and look.kind == "pedestrian" and look.ahead > 0.0
+    ]
+    return next((who for far, who in sorted(ahead) if far <= ON_FOOT), None)
+
+
+def nearest_vehicle(
+    asked: Asked, about: Window, fading: float = 0.0, among: tuple[int, ...] | None = None
+) -> int | None:
     """Give the vehicle that came closest to us in a stretch of the ride.
 
     Args:
         asked: the act and its setting.
         about: the stretch of the ride.
         fading: [m/s] by which what lies further back counts as further away.
+        among: the only ones to choose from; None: all.
     """
-    found = ((v, closest_approach(asked, v, about)) for v in asked.world.vehicles)
+    vehicles = asked.world.vehicles if among is None else among
+    found = ((v, closest_approach(asked, v, about)) for v in vehicles)
     ranked = [(m.value + fading * (about.end - m.time), v) for v, m in found if m.value is not None]
     return min(ranked, default=(0.0, None))[1]

@@ -37,14 +37,16 @@ def suspected(
     """
     if suspect is None or part is None:
         return (reason,)
+    without_part = part in ("none", "neither")
+    group = without_part and besides
     slots = {
-        "who": Who(Vehicle(suspect), time),
+        "who": Who(Vehicles((suspect, *besides))) if group else Who(Vehicle(suspect), time),
         "part": part,
         "cleared": suspect in cleared,
         "besides": all_of(besides, time),
         "past": past,
     }
-    if told or part in ("none", "neither"):
+    if told or without_part:
         return (message("VERDICT_ON", reason=reason, **slots),)
     return (message("SUSPECTED", **slots), reason)
 

@@ -242,6 +242,8 @@ def against(clause: Clause, thing: Thing, phrase: Complement) -> Proposition:
 def arrived(clause: Clause) -> Proposition:
     """Read "are we there yet" as having arrived."""
     tense: Any = "perfect" if clause.tense == "present" else clause.tense
+    if "long" in clause.manner:  # "are we going to be here forever?"
+        return Happens(Event("stand", Ego(), manner=("long",), time=clause.time, tense=tense))
     return Happens(Event("arrive", Ego(), time=clause.time, tense=tense))
 
 

@@ -11,6 +11,7 @@ from xavi_dialogue.domain.terms import (
     Is,
     Not,
     Proposition,
+    Thing,
     WholeRide,
 )
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -33,6 +34,14 @@ def feared(of: Proposition) -> Proposition:
     ours = isinstance(event.actor, Ego)
     whom = event.object if ours else Ego()
     return Happens(Event("collide", event.actor, whom, time=event.time, tense="future"))
+
+
+def dreaded_hit(of: Proposition | None) -> Thing | None:
+    """Give whom we are said to be afraid to hit: our fear is asked about, not a chance."""
+    match of:
+        case Happens(event=Event(action="collide" | "nearly-collide", actor=Ego(), object=thing)):
+            return thing
+    return None
 
 
 def hindsight(clause: Clause) -> Question | None:

@@ -132,6 +132,10 @@ def recast(spoken: Question, g: Grounder) -> Question:
             "late",
         } & {*manner}:
             return Whether(Is("late", Ego(), tense="future"))
+        case Whether(
+            that=Happens(event=Event(action="stand", actor=Ego(), tense="future") as event)
+        ) if "long" in event.manner:
+            return HowLong(replace(event, manner=(), modal="must"))
         case Compare(options=options):
             return replace(spoken, options=tuple(_option(one, g) for one in options))
     return spoken

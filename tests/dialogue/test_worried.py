@@ -1,0 +1,35 @@
+"""Questions of worried and impatient passengers at a red light and at a crossing."""
+
+import pytest
+
+from tests.dialogue.talking import Talk
+
+RED, ROLLING, ROUND = 20.0, 14.0, 34.5  # [s] in the ride `junction-0`
+
+
+@pytest.mark.parametrize(
+    ("at", "text", "reply"),
+    [
+        (ROLLING, "are you waiting for those people?", "No, not because of the four pedestrians:"),
+        (ROLLING, "can we go now?", "Not yet: the traffic light"),
+        (RED, "will you stop for those people?", "We are standing still, because"),
+        (RED, "are we going to be here forever?", "We should drive on in about"),
+        (ROUND, "could you go a little more gently?", "I am sorry, but I cannot slow down"),
+        (ROUND, "were you scared you'd bump into the people?", "No, I have no feelings"),
+    ],
+)
+def test_is_answered_by_what_holds_us_up(at: float, text: str, reply: str) -> None:
+    assert Talk("junction-0", at).hear(text).startswith(reply)
+
+
+def test_takes_people_about_to_cross_for_people_and_not_for_a_request() -> None:
+    told = Talk("junction-0", 9.0).hear(
+        "There are people about to step off the pavement. You have seen them, haven't you?"
+    )
+    assert told.startswith("Yes, there is the pedestrian")
+    assert "request" not in told
+
+
+def test_names_the_people_in_front_of_us_where_it_is_asked_whether_it_is_safe() -> None:
+    told = Talk("junction-0", 32.5).hear("is it really safe to go?")
+    assert "the pedestrian ahead of us" in told
