@@ -18,9 +18,9 @@ from xavi_dialogue.domain.answers import (
     Unslowed,
 )
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Junction, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Junction, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.nlg.content.clauses.clauses import verb_phrase
+from xavi_dialogue.nlg.content.clauses.clauses import event_clause, verb_phrase
 from xavi_dialogue.nlg.say import say
 from xavi_dialogue.nlg.surface.values import Who
 
@@ -108,3 +108,12 @@ def test_one_turns_in_front_of_somebody_but_at_a_place(action: ActionName) -> No
     assert verb.endswith("in front of")
     assert rest[0] == Who(E, None)
     assert "in front of" not in verb_phrase(action, ONE, Junction())[0]
+
+
+def test_a_turn_that_is_foreseen_is_not_said_to_meet_anybody() -> None:
+    for actor, whom in ((ONE, E), (E, ONE)):
+        event = Event("exit-left", actor, whom, tense="future")
+        for tense in ("present", "future"):
+            assert event_clause(replace_struct(event, tense=tense), 9.0).rest == ()
+        past = replace_struct(event, tense="past")
+        assert event_clause(past, 9.0, negated=True).rest[0] == Who(whom, None)

@@ -27,6 +27,7 @@ from xavi_dialogue.nlg.surface.values import Bare, Clause, Owned, Tense, Who
 #: Actions that last, and are stated as being under way in the present.
 STATES = frozenset(("see", "have", "happen"))
 PLACES = (Junction, Exit, Lane, Road)  # they are blocked as such, not their way
+SITES = (*PLACES, Feature)  # where one turns; in front of all else
 LEAVING = frozenset(("leave", "exit-left", "exit-right", "exit-straight", "turn"))
 TURNS = frozenset(("turn", "exit-left", "exit-right"))
 _AS = {"same-as": "like", "with": "with"}  # beside what is done, in place of the relation
@@ -78,7 +79,7 @@ def verb_phrase(
         roundabout=roundabout,
         has_object=target is not None,
     )
-    if target is not None and action in TURNS and not isinstance(target, (*PLACES, Feature)):
+    if target is not None and action in TURNS and not isinstance(target, SITES):
         phrase = f"{doing(action, side=side)} in front of {{}}"
     if "{way}" in phrase and isinstance(target, PLACES):
         phrase = phrase.replace("{way}", "{}")
@@ -111,7 +112,10 @@ def event_clause(
         told, modal = tense, None
     negated = negated and not isinstance(event.actor, Nobody)  # "nobody does" denies by itself
     at = moment_of(event.time)
-    verb, rest = verb_phrase(event.action, event.actor, event.object, event.side, time=at)
+    target = event.object
+    if told in ("present", "future") and not negated and _is_meeting(event):
+        target = None  # what is foreseen is the turn, not whom it meets
+    verb, rest = verb_phrase(event.action, event.actor, target, event.side, time=at)
     if negated:
         rest = tuple(map(denied, rest))
     obliged = modal == "must"
@@ -194,6 +198,11 @@ def episode_clause(
         progressive=told == "present",
         negated=negated,
     )
+
+
+def _is_meeting(event: Event) -> bool:
+    """Tell whether it is of a turn in front of somebody."""
+    return event.action in TURNS and not isinstance(event.object, SITES)
 
 
 def relative_clause(event: Event, now: float) -> Clause:
