@@ -18,8 +18,11 @@ from xavi_dialogue.domain.answers import (
     Unslowed,
 )
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.domain.terms import Ego, Junction, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.nlg.content.clauses.clauses import verb_phrase
 from xavi_dialogue.nlg.say import say
+from xavi_dialogue.nlg.surface.values import Who
 
 E, ONE = Ego(), Vehicle(1)
 TURN = Episode(E, "exit-right", 9.0, 11.0)
@@ -97,3 +100,11 @@ def test_a_risk_is_told_beside_the_way():
     text = say(way, CONTEXT).text
     assert "the way to our destination" in text
     assert "21 %" in text
+
+
+@pytest.mark.parametrize("action", ["turn", "exit-left", "exit-right"])
+def test_one_turns_in_front_of_somebody_but_at_a_place(action: ActionName) -> None:
+    verb, rest = verb_phrase(action, ONE, E)
+    assert verb.endswith("in front of")
+    assert rest[0] == Who(E, None)
+    assert "in front of" not in verb_phrase(action, ONE, Junction())[0]

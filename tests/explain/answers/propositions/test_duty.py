@@ -71,6 +71,13 @@ def test_who_has_to_yield_by_the_rule(event: Event, holds: bool) -> None:
         assert is_owed(Happens(asked))
 
 
+def test_whether_somebody_may_go_first_is_settled_by_the_rule() -> None:
+    for modal in ("can", "could", "might"):
+        asked = action("go", ONE, US, manner=("first",), modal=modal, tense="present")
+        assert weighed(asked).answer.holds is True
+    assert weighed(action("go", ONE, modal="might", tense="present")) is None
+
+
 def _fields(event: Event) -> dict[str, Any]:
     return {name: getattr(event, name) for name in event.__struct_fields__}
 

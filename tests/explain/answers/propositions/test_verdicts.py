@@ -44,6 +44,14 @@ def test_our_own_way_is_answered_first(setting: Setting) -> None:
     assert setting.weighed == []
 
 
+def possible(action: Any, modal: Any) -> Happens:
+    return Happens(Event(action, ONE, tense="present", modal=modal))
+
+
+def to_come(action: Any) -> Happens:
+    return Happens(Event(action, ONE, tense="future"))
+
+
 @pytest.mark.parametrize(
     ("that", "weighed"),
     [
@@ -62,6 +70,10 @@ def test_our_own_way_is_answered_first(setting: Setting) -> None:
         (Happens(Event("turn", ONE, manner=("fast",))),) * 2,
         (Happens(Event("go", ONE, manner=("fast",), modal="will")),) * 2,
         (Happens(Event("go", ONE, manner=("early",))),) * 2,
+        (possible("pull-out", "can"), to_come("pull-out")),
+        (possible("turn", "might"), to_come("turn")),
+        (possible("turn", "can"),) * 2,
+        (possible("honk", "could"),) * 2,
     ],
 )
 def test_the_fact_itself_is_weighed(that: Any, weighed: Any, setting: Setting) -> None:

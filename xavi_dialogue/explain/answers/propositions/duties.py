@@ -50,6 +50,7 @@ WAITING: tuple[ActionName, ...] = ("give-way", "wait")
 LATELY = 6.0  # [s] since when who waited for others was not held up by us
 LIKELY = 0.5  # probability from which somebody is expected to stop for us all the same
 DUTIES = frozenset(("must", "should"))
+MAY = frozenset(("can", "could", "might"))
 
 
 def duty(asked: Asked, event: Event) -> Finding | None:
@@ -67,7 +68,7 @@ def duty(asked: Asked, event: Event) -> Finding | None:
         return _went_first(asked, event)
     if event.modal is None and event.action in INTO_PATH and is_us(event.actor):
         return _before_him(asked, event)
-    if event.modal not in DUTIES:
+    if event.modal not in DUTIES and not _may_precede(event):
         return _unwilling(asked, event)
     if event.modal == "should" and past and is_us(event.actor) and event.action in YIELDING:
         return _handed(asked, Why(Not(Happens(replace(event, modal=None, time=Unsaid())))))
@@ -157,6 +158,11 @@ def _not_given(asked: Asked, event: Event) -> Finding | None:
 def is_owed(of: Proposition) -> bool:
     """Tell whether it is said of somebody that he has to let another go first."""
     return isinstance(of, Happens) and of.event.modal in DUTIES and _pair(of.event) is not None
+
+
+def _may_precede(event: Event) -> bool:
+    """Tell whether it is asked of somebody whether he may go first."""
+    return event.modal in MAY and event.action in GOING and "first" in event.manner
 
 
 def of_order(of: Both) -> Related | None:

@@ -7,6 +7,7 @@ from xavi_dialogue.domain.facts import Fact, Look, Relating
 from xavi_dialogue.domain.terms import (
     Ego,
     Event,
+    Everyone,
     Exists,
     Happens,
     Related,
@@ -60,6 +61,8 @@ def related(of: Related, asked: Asked) -> Finding:
     seer = number(of.thing)
     if of.relation == "can-see" and seer is not None:
         return others_mind(asked, seer)
+    if of.relation == "can-see" and isinstance(of.thing, Vehicles | Everyone):
+        return unknown("others-thoughts")
     if of.relation == "can-see" and is_us(of.thing) and number(of.to) is not None:
         seeing = Event("see", of.thing, of.to, time=of.time, tense=of.tense)
         return happens(Happens(seeing), asked)

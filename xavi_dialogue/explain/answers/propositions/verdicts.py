@@ -25,6 +25,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import State
+from xavi_dialogue.explain.answers.expectations.foreseen import CROSSING, macros
 from xavi_dialogue.explain.answers.propositions.conditions import handed
 from xavi_dialogue.explain.answers.propositions.lasting import staying
 from xavi_dialogue.explain.answers.propositions.weighing import weigh
@@ -51,7 +52,7 @@ def whether(question: Whether, asked: Asked) -> Answer:
     ours = whether_ours(question, asked)
     if ours is not None:
         return ours
-    that = _as_state(_as_it_was(_affirmed(question.that), asked))
+    that = _as_chance(_as_state(_as_it_was(_affirmed(question.that), asked)))
     if (behind := _stays_behind(that, asked)) is not None:
         return staying(asked, behind)
     if (why := _disputed(that, asked)) is not None:
@@ -118,6 +119,18 @@ def _as_state(that: Proposition) -> Proposition:
             state = next((PACES[m] for m in event.manner if m in PACES), None)
             if state is not None and (state == "fast" or not is_us(event.actor)):
                 return Is(state, event.actor, time=event.time, tense=event.tense)
+    return that
+
+
+def _as_chance(that: Proposition) -> Proposition:
+    """Take "could he pull out?" for whether he will: the chance tells what is possible."""
+    match that:
+        case Happens(event=Event(modal="can" | "could" | "might", tense="present") as event) if (
+            number(event.actor) is not None and "first" not in event.manner
+        ):
+            into = event.action in CROSSING
+            if into or (event.modal != "can" and macros(event)):  # "can" may be allowed to
+                return Happens(replace(event, modal=None, tense="future"))
     return that
 
 

@@ -10,6 +10,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Exit,
+    Feature,
     Junction,
     Lane,
     Nobody,
@@ -27,6 +28,7 @@ from xavi_dialogue.nlg.surface.values import Bare, Clause, Owned, Tense, Who
 STATES = frozenset(("see", "have", "happen"))
 PLACES = (Junction, Exit, Lane, Road)  # they are blocked as such, not their way
 LEAVING = frozenset(("leave", "exit-left", "exit-right", "exit-straight", "turn"))
+TURNS = frozenset(("turn", "exit-left", "exit-right"))
 _AS = {"same-as": "like", "with": "with"}  # beside what is done, in place of the relation
 _PREPOSITIONS = frozenset(("for", "to", "of", "at", "from", "with"))
 
@@ -76,6 +78,8 @@ def verb_phrase(
         roundabout=roundabout,
         has_object=target is not None,
     )
+    if target is not None and action in TURNS and not isinstance(target, (*PLACES, Feature)):
+        phrase = f"{doing(action, side=side)} in front of {{}}"
     if "{way}" in phrase and isinstance(target, PLACES):
         phrase = phrase.replace("{way}", "{}")
     if "{way}" in phrase:

@@ -184,7 +184,8 @@ def _place(head: Leaf, traits: Traits) -> Sem:
         return Measure(Measured("distance", to=apart))  # "the space to the lorry"
     if head.key == "circle-shape":
         return Junction("roundabout")
-    return Feature(cast(Any, head.key))
+    theirs = head.key == "way" and not isinstance(owner, Ego | Passenger)
+    return Feature(cast(Any, head.key), of=owner if theirs else None)
 
 
 def _lane(head: Leaf, traits: Traits, side: str | None, rank: int | None) -> Lane:

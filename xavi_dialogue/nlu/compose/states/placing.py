@@ -97,8 +97,8 @@ def _by_phrase(clause: Clause, thing: Thing, phrase: Complement) -> Found | None
     if phrase.key == "over" and (gone := passed(thing, to, phrase, clause)) is not None:
         moving = isinstance(thing, Described) and thing.doing is not None
         return gone, RELATIVE if moving else 0.0  # "the car that went past us"
-    if phrase.key in ("in", "on") and to == Feature("way"):
-        return Related("in-the-way-of", thing, Ego(), time, tense), 0.0
+    if phrase.key in ("in", "on") and isinstance(to, Feature) and to.kind == "way":
+        return Related("in-the-way-of", thing, to.of or Ego(), time, tense), 0.0
     if isinstance(phrase.sem, Quantity) and phrase.key == "over":
         return beyond(clause, thing, phrase.sem, words_of(phrase.node)), 0.0
     paced = isinstance(phrase.sem, Measure) and phrase.sem.of.attribute in ("limit", "speed")

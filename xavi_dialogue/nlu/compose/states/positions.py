@@ -85,9 +85,10 @@ def exceeded(thing: Thing, it: Thing | None, phrase: Complement, clause: Clause)
 def by_event(clause: Clause, event: Event) -> Proposition | None:
     """Read "has something got in the way", "did he come too" as states that moves lead to."""
     where = event.where
-    if where is not None and where.relation == "on" and where.to == Feature("way"):
-        now: Any = "present" if event.tense == "perfect" else event.tense
-        return Related("in-the-way-of", event.actor, Ego(), event.time, now)
+    match where:
+        case Related(relation="on", to=Feature(kind="way", of=whose)):
+            now: Any = "present" if event.tense == "perfect" else event.tense
+            return Related("in-the-way-of", event.actor, whose or Ego(), event.time, now)
     if event.action == "come" and "too" in clause.focus and not isinstance(event.actor, Ego):
         return Related("with", event.actor, Ego(), event.time, event.tense)
     return None
@@ -96,8 +97,9 @@ def by_event(clause: Clause, event: Event) -> Proposition | None:
 def by_origin(thing: Thing, place: Thing, clause: Clause) -> Proposition:
     """Read "out of the way" as not being in it; "from the left road" as coming from there."""
     tense: Any = clause.tense
-    if place == Feature("way"):
-        return Not(Related("in-the-way-of", thing, Ego(), clause.time, tense), lexical=True)
+    if isinstance(place, Feature) and place.kind == "way":
+        there = Related("in-the-way-of", thing, place.of or Ego(), clause.time, tense)
+        return Not(there, lexical=True)
     return Related("from", thing, place, clause.time, tense)
 
 

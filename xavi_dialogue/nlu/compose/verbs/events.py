@@ -134,6 +134,8 @@ def event_of(clause: Clause, match: Match) -> Event:
     if match.sense.manner:
         manner.append(cast(Manner, match.sense.manner))
     actor = _walker(actor_of(clause), clause)
+    if action == "cross":
+        actor, thing = _whose_way(actor, thing)
     modal = _modal(clause, actor)
     if modal == "might" and isinstance(time, Relative) and not isinstance(time.anchor, Event):
         time = Unsaid()  # "could it be tucking in after the lorry?"
@@ -146,6 +148,16 @@ def event_of(clause: Clause, match: Match) -> Event:
         tuple(dict.fromkeys(manner)), time, cast(Any, clause.tense),
         cast(Any, modal), None, place,
     )  # fmt: skip
+
+
+def _whose_way(actor: Thing, thing: Thing | None) -> tuple[Thing, Thing | None]:
+    """Take "its path crosses ours" for those whose ways they are; "do our paths cross?" for him."""
+    if isinstance(thing, Feature) and thing.of is not None:
+        thing = thing.of
+    if isinstance(actor, Feature) and actor.kind == "way":
+        actor = actor.of or (Pronoun("he") if thing is None else Ego())
+        thing = thing or Ego()
+    return actor, thing
 
 
 def _walker(actor: Thing, clause: Clause) -> Thing:

@@ -63,6 +63,8 @@ def of_others(spoken: Question, g: Grounder) -> Question | None:
     if meant is not None:
         return meant
     match spoken:
+        case HowSure(of=Related(relation="can-see", thing=thing) as seen) if thing != Ego():
+            return Whether(seen)  # no chance is held of what others see
         case Whether(that=Happens(event=Event("go", actor, Feature(kind="way")) as event)):
             ours = isinstance(actor, Ego)
             return Whither() if ours else Whether(Related("with", actor, Ego(), event.time))
