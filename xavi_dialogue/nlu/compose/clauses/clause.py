@@ -8,9 +8,13 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.terms import (
     Described,
     Event,
+    Exit,
+    Feature,
+    Junction,
     Pronoun,
     Quantity,
     Relative,
+    Road,
     Time,
     Unsaid,
     Vehicle,
@@ -171,10 +175,11 @@ _RESULTING = frozenset(
 
 
 def timed_by(clause: Clause) -> None:
-    """Take "after the stop" for the time of a clause, where none is said."""
+    """Take "after the stop", "since the light" for the time of a clause, where none is said."""
     for phrase in clause.complements if isinstance(clause.time, Unsaid) else ():
-        if phrase.key in RELATIONS and isinstance(phrase.sem, Event):
-            clause.time = Relative(cast(Any, phrase.key), phrase.sem)
+        anchor = phrase.sem if isinstance(phrase.sem, Event) else as_thing(phrase.sem)
+        if phrase.key in RELATIONS and isinstance(anchor, Event | Junction | Feature | Exit | Road):
+            clause.time = Relative(cast(Any, phrase.key), anchor)
             clause.complements.remove(phrase)
             return
 

@@ -260,7 +260,10 @@ def _leave_space(special: Special) -> Proposition:
     """Read "leave him more room", "leave more room for him": whom we keep a distance to."""
     named = next((special.match.phrases[k] for k in ("into", "for") if k in special.match.phrases),
                  special.object)  # fmt: skip
-    whom = None if isinstance(as_thing(named), Feature) else as_thing(named)
+    thing = as_thing(named)
+    if isinstance(thing, Feature) and thing.kind == "light":
+        return Happens(event_of(special, "leave", thing))  # "since we left the light"
+    whom = None if isinstance(thing, Feature) else thing
     return Happens(event_of(special, "keep-distance", whom))
 
 
