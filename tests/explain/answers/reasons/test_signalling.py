@@ -1,5 +1,6 @@
 """Our own indicator; plans given up for their risk; whom an option would have struck."""
 
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -131,7 +132,11 @@ def wavered(
     patch.setattr(reasons, "why", lambda question, asked: Told("why"))
     event = PIPELINE if time is None else replace(PIPELINE, time=time)
     traces = tuple(plan(t, *((one,) if one else ())) for t, one in plans)
-    return wavering.wavered(Why(Happens(event)), Given(traces=traces, now=now).asked())
+    changes = tuple(
+        deed("change-plan", b, b) for (_, old), (b, new) in pairwise(plans) if old != new
+    )
+    given = Given(traces=traces, now=now, deeds=changes)
+    return wavering.wavered(Why(Happens(event)), given.asked())
 
 
 TURN: Any = "exit-right"
@@ -156,7 +161,8 @@ def test_only_a_plan_given_up_for_a_stop_and_its_risk_counts(
     given_up = ((10.0, TURN), (11.0, STOP))
     assert wavered(monkeypatch, *given_up, risk=0.05).turns[0].risk == 0.05
     assert wavered(monkeypatch, *given_up, risk=0.04) == Told("why")
-    assert wavered(monkeypatch, (10.0, STOP), (11.0, STOP)) == Told("why")
+    unchanged = refused(wavered, monkeypatch, (10.0, STOP), (11.0, STOP))
+    assert isinstance(unchanged, DidNotHappen)
     assert wavered(monkeypatch, (10.0, TURN), (11.0, "continue")) == Told("why")
     assert wavered(monkeypatch, (10.0, None), (11.0, STOP)) == Told("why")
     assert wavered(monkeypatch, (10.0, "change-left"), (11.0, STOP)) == Told("why")

@@ -58,10 +58,10 @@ def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
         left = Quantity(max(answer.soon - context.now, 0.0), "s")
         slots |= {"left": left, "at_once": left.value < SOON}
         return Plan((Message("ABOUT_TO", slots),))
-    held = isinstance(slots["cause"], Message) and not slots["cause"].slots["past"]
-    if event.action in ("go", "move") and held and event.side is None:
-        return Plan((Message("NOT_YET", slots),))
     slowing = answer.doing is not None and answer.doing.trend == "slowing"
+    light = answer.cause is not None and answer.cause.kind == "light"
+    if event.action in ("go", "move") and answer.cause is not None and (light or not slowing):
+        return Plan((Message("NOT_YET", slots),))
     if event.action in GOING and slowing and answer.cause is not None:
         return Plan((Message("KEEP_GOING", slots),))
     why = answer.cannot
