@@ -51,7 +51,7 @@ def motion_cause(
         kind=cause.kind,
         who=who,
         between=None if cause.between is None else Who(Vehicle(cause.between), time),
-        past=past or _gone(cause, context),
+        past=past or is_gone(cause, context),
         turn=own_verbs(cause.actions) if cause.kind in TURNED and cause.actions else None,
         stands=stands,
         aside=aside,
@@ -76,7 +76,7 @@ def _shown(cause: MotionCause, *, past: bool) -> dict[str, object]:
     return {"colour": COLOURS[shown.colour], "turned": turned and past}
 
 
-def _gone(cause: MotionCause, context: SpeechContext) -> bool:
+def is_gone(cause: MotionCause, context: SpeechContext) -> bool:
     """Check whether who had to be let go first has gone: out of view, behind, or past our way."""
     if cause.kind != "right-of-way" or cause.vehicle is None:
         return False

@@ -84,6 +84,8 @@ def window(time: Time, tense: Tense, g: Grounder) -> Window:
             return replace(_between(first, last, now), whole=True)
         case Relative():
             return _relative(time, tense, g)
+        case Back(relation="before") if tense == "future":
+            return _coming(context, SOON, said=False)  # "will you stop before it?"
         case Back(relation=relation):
             return _back(relation, g)
         case Rank(rank=rank):
