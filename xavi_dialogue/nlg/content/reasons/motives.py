@@ -107,6 +107,7 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
             context,
             past=past,
             deed=answer.deed.action,
+            since=answer.deed.begin,
         ),
         "when": began(answer.deed, context) if past else None,
         "known": bool(answer.causes),
@@ -247,7 +248,8 @@ def _also(
     if cause.kind == "plan":
         return None
     time = _seen_at(cause, answer, context, past=past)
-    return message("ALSO_CAUSE", cause=motion_cause(cause, time, context, past=past))
+    told = motion_cause(cause, time, context, past=past, since=answer.deed.begin)
+    return message("ALSO_CAUSE", cause=told)
 
 
 def _seen_at(
