@@ -55,6 +55,12 @@ def test_an_option_that_failed_in_every_sample_would_almost_certainly_have(name)
     assert "almost certainly" in realised(option_message(option), CONTEXT, Speaker(CONTEXT))
 
 
+@pytest.mark.parametrize("name", ["termination", "dead", "done"])
+def test_the_risk_of_a_collision_is_told_of_an_option_whatever_else_came_of_it(name):
+    option = OptionValue("exit-right", False, name, 0.9, None, None, -5.0, 0.07)
+    assert "7 %" in realised(option_message(option), CONTEXT, Speaker(CONTEXT))
+
+
 @pytest.mark.parametrize("form", ["adverb", "modal", "would", "verdict", "clause", "percent"])
 def test_no_probability_has_a_word_of_certainty(form):
     for percent in range(101):

@@ -39,6 +39,10 @@ FIRST = MotionCause("right-of-way", 1)
             ("(vehicle 1)", "which had right of way, was standing still"),
         ),
         (
+            GoReason(TURN, (Bystander(1, "vehicle", "standing", 12.0),), refrained="let-go"),
+            ("I went first because", "which had right of way, was standing still"),
+        ),
+        (
             GoReason(TURN, (Bystander(1, "ego", "steady", 12.0),)),
             ("(vehicle 1) had to let us go first",),
         ),

@@ -71,6 +71,8 @@ EASY_ALONE = 0.62  # the same of an act that is the only one
 _ALTERNATIVES = 3
 WORD = 0.15  # cost of each word more than SHORT in a unit of which nothing is made
 SHORT = 5
+GAIN = 0.3  # what a reading by ear must be cheaper by than one that leaves words unread ...
+GAIN_OF_WHOLE = 0.8  # ... and than one that leaves none
 ENOUGH = 2  # readings, with which those that cost much more are not looked for
 NEAR = 0.5
 
@@ -140,6 +142,8 @@ def _sentence(typed: Typed, budget: Budget) -> tuple[Reading, ...]:
     readings = _understood(lattice, budget)
     if len(typed.tokens) > LONG and not _asks(readings):
         readings = _ending(typed, budget) or readings
+    if not readings or not _plain(readings[0]):
+        readings = _by_ear(typed, readings, budget) + readings
     if not readings:
         return (unreadable(typed),)
     return tuple(readings)
@@ -163,6 +167,17 @@ def _understood(lattice: Lattice, budget: Budget) -> list[Reading]:
     except ChartLimitError:
         pass
     return readings
+
+
+def _by_ear(typed: Typed, plain: list[Reading], budget: Budget) -> list[Reading]:
+    """Read a sentence as it sounds; what that gives has to be complete, and much cheaper."""
+    known = lexicon()
+    lattice = build(typed, known.vocabulary, known.nouns, by_ear=True)
+    limit = NOTHING
+    if plain:
+        limit = plain[0].cost - (GAIN if plain[0].unknown or plain[0].unread else GAIN_OF_WHOLE)
+    found = _understood(lattice, budget)
+    return [r for r in found[:1] if r.acts and not r.unknown and not r.unread and r.cost < limit]
 
 
 def _asks(readings: list[Reading]) -> bool:

@@ -60,6 +60,7 @@ _ROAD_USERS = (Ego, Vehicle, Described, Pronoun)
 _OF_LIGHTS = frozenset({"indicator", "brake-lights", "size", "colour", "kind", "name"})
 #: What is not done to anybody: "who is that car coming" is no question for whom it comes to.
 _ALONE = frozenset({"come", "go", "do", "move", "stand", "turn", "continue"})
+_SIDELESS = frozenset({"wait", "brake", "let-go"})
 _APPROACHES = frozenset({"come", "approach", "appear", "happen", "go", "do", "head"})
 
 
@@ -214,6 +215,8 @@ def _event(value: Event) -> float:
         cost += ODD
     if value.action == "do" and isinstance(value.object, Unknown):
         cost += DOUBTFUL
+    if value.action in _SIDELESS and value.side is not None:
+        cost += DOUBTFUL  # "they have to wait right?"
     if value.action == "do" and isinstance(value.object, Passenger):
         cost += ODD
     if isinstance(value.actor, Unknown):

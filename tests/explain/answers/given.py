@@ -92,6 +92,10 @@ class Facts(World):
         found: RoadFacts | None = _at(self.given.road, t)
         return found
 
+    def junction(self, t: float) -> RouteStep | None:
+        road = self.road(t)
+        return road.route[0] if road and road.route else None
+
     def measure(self, attribute: Any, thing: Thing, at: float, to: Thing | None = None) -> Measure:
         known = self.given.measures
         found = _at(known.get((attribute, thing, to), known.get((attribute, thing))), at)

@@ -80,6 +80,10 @@ class StatedWorld(Facts):
         found: RoadFacts | None = self.said.road(t) if callable(self.said.road) else self.said.road
         return found
 
+    def junction(self, t: float) -> RouteStep | None:
+        road = self.road(t)
+        return road.route[0] if road and road.route else None
+
     def measure(self, attribute: Any, thing: Thing, at: float, to: Thing | None = None) -> Measure:
         known = self._value(attribute, thing, at, to)
         return Measure(attribute, thing, at, to=to, **known)

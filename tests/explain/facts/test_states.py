@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from planner.record.places import LightChange, RoadFacts, RoadPlace
+from planner.record.places import LightChange, RoadFacts, RoadPlace, RouteStep
 from sim.scene import VehicleState
 from tests.explain.facts.scenes import Actor, Pose, glimpsed, kept, made, speeds, straight
 from xavi_dialogue.explain.facts.states import States, states_of
@@ -210,6 +210,25 @@ def test_a_place_is_that_of_the_nearest_decision(
     actors = {0: OURS, 1: Actor(straight(9.0, 0.0, 10.0))}
     found = States(made(actors, 8.0, roads=road, now=12.0)).place(vehicle, time)
     assert (None if found is None else found.edge) == edge
+
+
+def crossing(time: float) -> RoadFacts:
+    """From 3 s to 6 s we are inside the first junction; from 9 s on, in a ring."""
+    inside, ring = 3.0 <= time <= 6.0, time >= 9.0
+    ahead = ("give-way", "equal") if time < 3.0 else ("equal",)
+    steps = tuple(RouteStep(9.0, "junction", "exit-left", None, None, 4, rule) for rule in ahead)
+    place = RoadPlace("ours", None if inside else 0, 1, 10.0, inside or ring, ring)
+    return RoadFacts({} if time == 12.0 else {0: place}, steps)
+
+
+@pytest.mark.parametrize(
+    ("time", "rule"),
+    [(2.0, "give-way"), (3.5, "give-way"), (6.9, "give-way"), (7.0, "equal"), (9.0, "equal"),
+     (12.0, "equal"), (-1.0, None)],
+)  # fmt: skip
+def test_the_junction_that_we_are_in_comes_before_the_next(time: float, rule: str | None) -> None:
+    found = States(made({0: OURS}, 12.0, roads=crossing)).junction(time)
+    assert (None if found is None else found.rule) == rule
 
 
 def test_a_pair_is_one_vehicle_in_the_frame_of_the_other() -> None:

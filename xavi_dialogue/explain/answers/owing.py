@@ -32,7 +32,7 @@ def reason(asked: Asked, told: Priority) -> Priority:
     if road is None or past or told.rule != "give-way" or told.vehicle is None:
         return told
     looks = (asked.world.look(v, asked.now) for v in (told.vehicle, *told.others))
-    return replace(told, why=grounds(road, tuple(x for x in looks if x is not None)))
+    return replace(told, why=grounds(asked, road, tuple(x for x in looks if x is not None)))
 
 
 def before_us(question: Why, asked: Asked) -> Answer:
@@ -92,11 +92,11 @@ def why_owed(question: Why, asked: Asked) -> Answer:
     return reason(asked, replace(owed[0], others=rest))
 
 
-def grounds(road: RoadFacts, before: tuple[Look, ...]) -> Grounds | None:
+def grounds(asked: Asked, road: RoadFacts, before: tuple[Look, ...]) -> Grounds | None:
     """Tell on what it rests that they go first: they walk, come from the right, or we turn."""
     if before and all(x.kind in ON_FOOT for x in before):
         return "on-foot"
-    step = road.route[0] if road.route else None
+    step = asked.world.junction(asked.now)
     if step is None or not before:
         return None
     if step.rule == "equal" and all(x.left < 0.0 and not x.oncoming for x in before):

@@ -120,7 +120,7 @@ def how_many(question: HowMany, asked: Asked) -> Answer:
     if not before:
         return Priority(asked.now, "none", number=True)
     told = Priority(asked.now, "give-way", before[0].vehicle, others=_numbers(before[1:]))
-    return replace(told, number=True, why=grounds(road, before))
+    return replace(told, number=True, why=grounds(asked, road, before))
 
 
 def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
@@ -140,7 +140,7 @@ def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
     first, *rest = _numbers(before)
     told = Priority(asked.now, "give-way", first, others=tuple(rest), after=_numbers(after))
     told = replace(told, apart=apart)
-    return replace(told, why=grounds(road, before))
+    return replace(told, why=grounds(asked, road, before))
 
 
 def _next(asked: Asked) -> Priority | None:

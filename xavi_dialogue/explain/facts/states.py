@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from planner.record.places import RoadFacts, RoadPlace
+from planner.record.places import RoadFacts, RoadPlace, RouteStep
 from planner.record.trace import SAMPLE_PERIOD, PlanTrace
 from sim.roads.network import angle_between
 from sim.scene import EGO, VehicleState
@@ -180,6 +180,17 @@ class States:
         """Return the road as it was known at a time [s]."""
         trace = self.trace(time)
         return None if trace is None else trace.road
+
+    def junction(self, time: float) -> RouteStep | None:
+        """Return the junction that we are in at a time [s], or come to next."""
+        known = self.ride.index(time)
+        for trace in reversed(self.ride.traces[: 0 if known is None else known + 1]):
+            if trace.road is None:
+                return None
+            here = trace.road.places.get(EGO)
+            if here is None or here.roundabout or not here.in_junction:
+                return next(iter(trace.road.route), None)
+        return None
 
     def place(self, vehicle: int, time: float) -> RoadPlace | None:
         """Return where on the road a vehicle is at a time [s], from the decision nearest to it."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 
-from planner.record.places import RoadFacts
+from planner.record.places import RoadFacts, RouteStep
 from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
 from xavi_dialogue.domain.terms import Event, Thing
@@ -54,6 +54,10 @@ class World:
     def road(self, t: float) -> RoadFacts | None:
         """Return the road as it was known at a time; None where no record keeps it."""
         return self.states.road(t)
+
+    def junction(self, t: float) -> RouteStep | None:
+        """Return the junction that we are in at a time, or come to next; None if unknown."""
+        return self.states.junction(t)
 
     def measure(
         self, attribute: Attribute, thing: Thing, at: float, to: Thing | None = None

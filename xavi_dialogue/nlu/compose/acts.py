@@ -123,6 +123,8 @@ class Composer(Statements):
             return []
         if unit.name == "ask_in_place":  # "you did not stop, why not?"
             at = unit.parts.index(wh_node)
+            if any(isinstance(p, Node) and node_of(p, "tag") for p in unit.parts[at + 1 :]):
+                return []  # "you could have gone, why didn't you?"
             parts = [p for p in parts if p not in unit.parts[at + 1 : at + 2] or not _is_not(p)]
         if (also := node_of(unit, "also_wh")) is not None:
             return self._ask_both(unit, wh_node, also)

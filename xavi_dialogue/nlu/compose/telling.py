@@ -89,7 +89,7 @@ class Telling:
             question = counted(sem)
             return (Ask(question or HowMany(Described(plural=True))),)
         if name == "summarise":
-            return (Ask(Summarise(_summary(sem), clause.time)),)
+            return (Ask(Summarise(_summary(sem), _summed(sem, clause.time))),)
         done = None if value.content is None else _all_done(sem, value.content)
         if name in ("list", "summarise", "describe") and done is not None:
             return (Ask(done),)
@@ -184,6 +184,13 @@ def _all_done(sem: Sem | None, content: Proposition) -> Listing | None:
         case Noun(word="everything"), Happens(event=Event(action="do" | "happen") as event):
             return Listing("events", None if event.actor == Ego() else event.actor, event.time)
     return None
+
+
+def _summed(sem: Sem | None, time: Time) -> Time:
+    """Give the time of "the decisions you made since the turn", which the clause in it may tell."""
+    if isinstance(time, Unsaid) and isinstance(sem, Noun) and isinstance(sem.clause, Happens):
+        return sem.clause.event.time
+    return time
 
 
 def _summary(sem: Sem | None) -> Thing | Event | None:

@@ -4,6 +4,7 @@ Word classes are the terminals of the grammar. A phrase of several words is one 
 """
 
 import re
+from collections import Counter
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -92,7 +93,8 @@ def lexicon() -> Lexicon:
         for key, listed in table.items():
             _add_class(trie, category, key, listed, nouns)
     _add_verbs(trie)
-    words = dict.fromkeys(_words_of(trie), 0)
+    uses = _words_of(trie)
+    words = dict.fromkeys(uses, 0)
     plain = load("nlu_plain.toml")
     for word in plain["words"].split():
         words.setdefault(word, 1)
@@ -105,7 +107,8 @@ def lexicon() -> Lexicon:
     for word in text["numbers"]:
         words.setdefault(word, 0)
     fillers = frozenset(word for (word,) in phrases(load("nlu_words.toml")["FILL"]["fill"]))
-    return Lexicon(trie, Vocabulary.of(words), frozenset(nouns), fillers)
+    shortened = tuple(text["contractions"])
+    return Lexicon(trie, Vocabulary.of(words, uses, shortened), frozenset(nouns), fillers)
 
 
 def _add_class(trie: Trie, category: str, key: str, listed: str, nouns: set[str]) -> None:
@@ -156,13 +159,15 @@ def _is_a(trie: Trie, word: str, categories: tuple[str, ...]) -> bool:
     return known is not None and any(entry.category in categories for entry in known.entries)
 
 
-def _words_of(trie: Trie) -> set[str]:
-    found: set[str] = set()
-    pending = [trie]
+def _words_of(trie: Trie) -> Counter[str]:
+    """Count in how many senses each word is, alone or in a phrase."""
+    found: Counter[str] = Counter()
+    pending: list[tuple[Trie, tuple[str, ...]]] = [(trie, ())]
     while pending:
-        here = pending.pop()
-        found.update(here.following)
-        pending.extend(here.following.values())
+        here, words = pending.pop()
+        for word in words:
+            found[word] += len(here.entries)
+        pending.extend((after, (*words, word)) for word, after in here.following.items())
     return found
 
 

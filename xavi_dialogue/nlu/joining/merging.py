@@ -44,6 +44,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Nobody,
     Not,
+    Now,
     Pronoun,
     Related,
     That,
@@ -182,6 +183,12 @@ def _of_told(before: Act, later: Act) -> Act | None:
             thing=None, event=None, time=Unsaid(), negated=True, form="why-not"
         ):  # "you did not brake, why not?"
             return Ask(Why(that))
+        case Claim(that=Happens(event=Event(modal="could" | "should", actor=Ego()) as event)), (
+            Elliptic(thing=None, event=None, time=Unsaid(), negated=True, form="why-not")
+        ) if event.tense in ("past", "perfect"):  # "you could have overtaken, why didn't you?"
+            time = Unsaid() if isinstance(event.time, Now) else event.time
+            undone = structs.replace(event, modal=None, tense="perfect", time=time)
+            return Ask(Why(Not(Happens(undone))))
         case Ask(question=Why(of=Not())), Elliptic(event=None, negated=True, form="why-not"):
             return before  # "I thought it would stop. Why didn't it?"
         case Claim(that=Happens(event=event) as that), Ask(

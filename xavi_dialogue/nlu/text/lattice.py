@@ -9,10 +9,11 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 from xavi_dialogue.nlu.text.spelling import Vocabulary, corrections
-from xavi_dialogue.nlu.text.tables import homophones, load
+from xavi_dialogue.nlu.text.tables import apart, homophones, load
 from xavi_dialogue.nlu.text.tokens import Typed
 
 HOMOPHONE = 0.6
+HEARD = 0.3  # the same, where words are read by ear
 CONFUSED = 0.2  # of words often mistaken for each other, the one typed being rare
 PHONE = 0.15
 LATER = 0.1  # cost of each further expansion of a contraction
@@ -72,8 +73,10 @@ class Lattice:
         return len(self.edges) - 1
 
 
-def build(typed: Typed, vocabulary: Vocabulary, nouns: frozenset[str]) -> Lattice:
-    """Lay out the alternatives of every token."""
+def build(
+    typed: Typed, vocabulary: Vocabulary, nouns: frozenset[str], *, by_ear: bool = False
+) -> Lattice:
+    """Lay out the alternatives of every token; by ear, words that sound alike are cheap."""
     lattice = Lattice(edges=[[]], tokens=tuple(t.text for t in typed.tokens), end_mark=typed.end)
     for index, token in enumerate(typed.tokens):
         if token.mark and index:
@@ -83,11 +86,21 @@ def build(typed: Typed, vocabulary: Vocabulary, nouns: frozenset[str]) -> Lattic
         found = alternatives(token.text, vocabulary, nouns)
         if index and token.text in _TO and typed.tokens[index - 1].text in _GOVERNING:
             found = tuple((w, PHONE if w == ("to",) else cost) for w, cost in found)
+        if by_ear:
+            found = _by_ear(token.text, found)
         longest = max(len(words) for words, _ in found)
         lattice.edges.extend([] for _ in range(longest))
         for words, cost in found:
             _lay(lattice, start, start + longest, words, cost, index)
     return lattice
+
+
+def _by_ear(token: str, found: tuple[Alternative, ...]) -> tuple[Alternative, ...]:
+    """Make words that sound like a token cheap, those behind an unwritten apostrophe too."""
+    if token in load("nlu_text.toml")["numbers"]:
+        return found
+    unwritten = [(words, HEARD) for words in apart().get(token, ())]
+    return (*((words, min(cost, HEARD)) for words, cost in found), *unwritten)
 
 
 def _lay(
@@ -134,7 +147,7 @@ def alternatives(
     if not found:
         found = [(words, PHONE) for words, _ in _sounding(token)]
     if not found:
-        found = list(corrections(token, vocabulary))
+        found = _corrected(token, vocabulary)
         found += [entry for words, _ in found[:1] for entry in _sounding(words[0])]
     if not any(words == (token,) for words, _ in found):
         found.append(((token,), 0.0 if token not in known else HOMOPHONE))
@@ -183,6 +196,15 @@ def _listed(table: str, token: str, cost: float) -> list[Alternative]:
         return []
     return [
         (tuple(full.split()), cost + LATER * rank) for rank, full in enumerate(listed.split("|"))
+    ]
+
+
+def _corrected(token: str, vocabulary: Vocabulary) -> list[Alternative]:
+    """List what a word that is none may have been; "dotn" as what "dont" is short for."""
+    return [
+        (full, cost + guessed)
+        for words, guessed in corrections(token, vocabulary)
+        for full, cost in _listed("contractions", words[0], 0.0) or [(words, 0.0)]
     ]
 
 

@@ -28,6 +28,20 @@ def homophones() -> dict[str, tuple[str, ...]]:
     return {heard: tuple(meant) for heard, *meant in rows}
 
 
+@cache
+def apart() -> dict[str, tuple[tuple[str, ...], ...]]:
+    """Work out what a word is without its apostrophe: "well" for "we'll"."""
+    found: dict[str, tuple[tuple[str, ...], ...]] = {}
+    for short, full in _SHORT.items():
+        for pronoun in _PRONOUNS:
+            found[pronoun + short] = tuple((pronoun, word) for word in full)
+    return found
+
+
+_SHORT = {"re": ("are",), "ll": ("will",), "d": ("had", "would")}
+_PRONOUNS = ("i", "we", "he", "she", "they", "you", "it", "that", "there", "who")
+
+
 def phrases(listed: str) -> list[tuple[str, ...]]:
     """Split "a b, c" into phrases, each a tuple of words."""
     return [tuple(phrase.split()) for phrase in listed.split(",") if phrase.strip()]

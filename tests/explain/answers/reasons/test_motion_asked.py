@@ -279,3 +279,21 @@ def test_the_nearest_is_told_where_a_time_was_named(because: Any) -> None:
     assert motion(Event("brake"), SAID, episodes=two).elsewhen == 9.0
     nothing = motion(Event("brake"), SAID, episodes=(did("go", 9.0, 10.0),))
     assert nothing == DidNotHappen(Event("brake"))
+
+
+# A stop in force while we brake -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("speaks", [True, False])
+def test_who_brakes_at_a_red_light_for_a_chosen_stop_is_stopping(
+    because: dict[str, Any], speaks: bool
+) -> None:
+    because["causes"] = (MotionCause("light"),)
+    because["contrast"] = False if speaks else None
+    facts: dict[str, Any] = {"episodes": (did("brake", 4.0),)}
+    facts["traces"] = (GO, decision(15.0, ("stop", "continue"), road=LIMIT))
+    found = motion(Event("stop", tense="present"), **facts)
+    assert isinstance(found, ChoiceReason) if speaks else found.premise
+    braking = motion(Event("brake", tense="present"), **facts)
+    assert isinstance(braking, MotionReason)  # of braking, the light is the reason
+    assert not motion(Event("stop", tense="present"), **(facts | {"traces": (GO,)})).premise

@@ -80,9 +80,9 @@ def test_somebody_far_ahead_who_is_no_slower_needs_no_braking() -> None:
     ("seen", "first"),
     [
         (look(1, left=4.9), "ahead"),
-        (look(1, left=-5.1), "none"),
-        (look(1, ahead=-1.0), "none"),
-        (look(1, oncoming=True), "none"),
+        (look(1, left=-5.1), "vehicle"),
+        (look(1, ahead=-1.0), "vehicle"),
+        (look(1, oncoming=True), "vehicle"),
     ],
 )
 def test_who_is_not_on_our_road_in_front_is_judged_by_the_rule(
@@ -93,6 +93,9 @@ def test_who_is_not_on_our_road_in_front_is_judged_by_the_rule(
     monkeypatch.setattr(refraining, "priority_at", lambda scene, vehicle, about, blame: (
         rule if blame and about == Window(NOW, NOW) else None))  # fmt: skip
     assert kept(seen).others[0].first == ("ahead" if first == "ahead" else "ego")
+    nobody = Priority(NOW, "none", 1)
+    monkeypatch.setattr(refraining, "priority_at", lambda *args, **more: nobody)
+    assert kept(seen).others[0].first == ("ahead" if first == "ahead" else "none")
 
 
 def test_without_speeds_or_a_vehicle_it_is_asked_why_we_are_fast() -> None:

@@ -188,3 +188,27 @@ def test_where_none_was_passed_there_is_no_earlier_exit() -> None:
     shut = [decision(2.0, ("continue-next-exit",), ends={STOP: End()}), *RING[1:]]
     asked = chosen(traces=shut, events=PAST)
     assert earlier_exit(Event("leave", object=Exit(1)), asked) is None
+
+
+# --- a turn that is planned after a stop --------------------------------------------------------
+
+HALT: Any = ("stop", "exit-right", "continue")
+AHEAD = [decision(12.0, HALT, ends={TURN: End(time=12.0), ("stop", "exit-left"): End(time=30.0)})]
+
+
+@pytest.mark.parametrize("tense", ["past", "present"])
+def test_the_planned_turn_is_asked_about_in_place_of_the_stop_before_it(tense: Any) -> None:
+    asked = chosen(traces=AHEAD, events=[])
+    premise, foil = foil_at(Event("turn", side="right", tense=tense), asked)
+    assert (premise.node, foil) == ((), TURN)
+
+
+def test_another_way_is_asked_about_after_the_stop() -> None:
+    premise, foil = foil_at(Event("turn", side="left"), chosen(traces=AHEAD, events=[]))
+    assert (premise.node, foil) == (("stop",), ("exit-left",))
+
+
+def test_a_turn_that_opens_only_after_the_stop_is_asked_about_there() -> None:
+    shut = [decision(12.0, HALT, ends={("continue",): End(time=12.0)})]
+    premise, foil = foil_at(Event("turn", side="right"), chosen(traces=shut, events=[]))
+    assert (premise.node, foil) == (("stop",), TURN)

@@ -103,6 +103,25 @@ def test_a_difference_is_taken_apart(
     assert found.error == 0.0  # all was tried
 
 
+def test_two_that_are_out_of_time_differ_by_their_terms() -> None:
+    model, _, _ = sides((end("termination"),) * 2, (end("termination"),) * 2)
+    left: dict[RewardTerm, float] = {"time": 30.0, "late": 10.0, "left": 9.5}
+    here = {**left, "angular-acceleration": 2.0, "effort": 2.0}
+    there = {**left, "left": 9.75, "angular-acceleration": 5.5}
+    told_apart = tuple(
+        replace(row, terms=there if row.actions[0].action == "change-left" else here)
+        for row in model.trace.rollouts
+    )
+    model = CausalModel(replace(model.trace, rollouts=told_apart))
+    foil, fact = model.intervene(("change-left",)), model.intervene(("continue",))
+    assert foil is not None
+    assert fact is not None
+    found = differences(model, foil, fact)
+    expected = {"angular-acceleration": 3.5, "late": 0.25, "effort": -2.0}
+    assert found.terms == {name: pytest.approx(cost) for name, cost in expected.items()}
+    assert told(found)[0].term == "angular-acceleration"
+
+
 def test_chances_of_bad_ends_stand_beside_their_terms() -> None:
     found = differences(*sides((end("dead"), end()), (end("collision"), end("termination"))))
     assert found.risks == pytest.approx((trusted(0.25), trusted(0.0)))

@@ -1,7 +1,6 @@
 """Duties: whether somebody has to, or should, let another go first, and what we should have done.
 
-The rule comes from the record of the road. What we should have done otherwise is no matter of
-record: such advice is met with the reason why we did not.
+The record holds the rule, not what we should have done: advice gets the reason why we did not.
 """
 
 from msgspec.structs import replace

@@ -255,10 +255,12 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
         end = scene.moment if deed.end is None else deed.end
         reasons = with_yielding(scene, reasons, deed.begin, end)
     ours = [cause for cause in reasons.causes if cause.vehicle is not None]
-    lit = any(cause.kind == "light" for cause in reasons.causes)
-    if not lit and deed.action in (*STILL, *SLOWING) and chose(reasons.trace, "stop"):
+    stops = _stops(scene, deed, named)
+    lit = any(cause.kind == "light" for cause in reasons.causes) and not stops
+    decided = scene.ride.latest if stops else reasons.trace
+    if not lit and deed.action in (*STILL, *SLOWING) and chose(decided, "stop"):
         going_on = deed.end is None and scene.moment >= scene.now - BEGUN
-        contrast = stopping(scene.ride, reasons.trace, going_on=going_on)
+        contrast = stopping(scene.ride, decided, going_on=going_on)
         if _speaks(contrast, somebody=bool(ours)):
             return ChoiceReason("why", deed, contrast, past=is_past(scene, event))
         if not ours and _given_up(scene, deed):
@@ -267,7 +269,7 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
     return MotionReason(
         deed=deed,
         causes=with_nearest(scene.ride, scene.world, reasons.causes, time),
-        premise=premise,
+        premise=premise or stops,
         asked=named,
         evidence=reasons.evidence,
         manner=next(iter(event.manner), None),
@@ -278,6 +280,12 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
         halted=_halted(scene, deed, reasons),
         peak=peak(scene, event, deed),
     )
+
+
+def _stops(scene: Asked, deed: Episode, named: ActionName) -> bool:
+    """Tell whether we brake for a stop that is asked about and is the decision in force."""
+    braking = deed.action in SLOWING and deed.end is None
+    return named == "stop" and braking and chose(scene.ride.latest, "stop")
 
 
 def _before(scene: Asked) -> bool:

@@ -1,6 +1,7 @@
 """Refraining: why we did not wait, stop, slow down, or stay behind somebody."""
 
 import math
+from typing import Literal
 
 from msgspec import structs
 
@@ -43,6 +44,8 @@ LEFT_BY: dict[str, MacroAction] = {
 }
 BESIDE = 5.0  # [m] sideways up to which somebody in front of us is on our road
 SLOWER = 0.5  # [m/s] from which somebody is slower than us
+#: Who has right of way, by the rule that holds towards a vehicle.
+WHO_FIRST: dict[str, Literal["ego", "vehicle"]] = {"priority": "ego", "give-way": "vehicle"}
 LATELY = 12.0  # [s] since when a change of lanes may be what was done instead of staying behind
 
 
@@ -137,6 +140,8 @@ def _undone(event: Event, scene: Asked) -> Answer:
         rule = priority_at(scene, vehicle, Window(past.begin, past.end))
         if rule.rule == "priority":
             return rule
+        if rule.rule == "give-way" and not is_past(scene, event):
+            return _kept_speed(event, vehicle, scene)
     if is_past(scene, event) and event.action != "stop":
         try:
             return _done(structs.replace(event, object=None), scene)
@@ -161,7 +166,7 @@ def _kept_speed(event: Event, vehicle: int, scene: Asked) -> Answer:
     rule = None if in_front else priority_at(scene, vehicle, Window(at, at), blame=True).rule
     found = Bystander(
         vehicle,
-        first="ahead" if in_front else "ego" if rule == "priority" else "none",
+        first="ahead" if in_front else WHO_FIRST.get(rule or "", "none"),
         trend="steady" if theirs >= ours - SLOWER else "slowing",
         distance=look.distance,
     )

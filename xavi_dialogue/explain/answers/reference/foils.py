@@ -3,6 +3,8 @@
 from typing import Literal
 
 from planner.record.trace import Action as MacroAction
+from planner.record.trace import PlanTrace
+from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.domain.answers import DidNotHappen
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.reasons import Performed
@@ -33,6 +35,7 @@ from xavi_dialogue.explain.causes.vehicles.actions import (
     TURNS,
     means,
     names_of,
+    same,
     sequence,
     to_macros,
 )
@@ -117,7 +120,21 @@ def at_turn(scene: Asked, names: tuple[ActionName, ...], *, past: bool) -> Premi
     at = next((k for k, step in enumerate(plan) if step in TURNS), None)
     if at is None or trace.under_way is not None:
         return None
-    return Premise(trace, None, plan[:at])
+    return Premise(trace, None, _before_stop(scene, trace, names, plan[:at]))
+
+
+def _before_stop(
+    scene: Asked, trace: PlanTrace, names: tuple[ActionName, ...], node: Actions
+) -> Actions:
+    """Take the turn that is planned after a stop as asked about in place of that stop.
+
+    The plan itself is no contrast. Another way, or a turn that is not open yet, is asked at `node`.
+    """
+    turn = planned(trace)[len(node)]
+    if "stop" not in node or not any(same(name, turn) for name in names):
+        return node
+    before = node[: node.index("stop")]
+    return before if turn in scene.ride.model(trace).options(before) else node
 
 
 def _at_deed(

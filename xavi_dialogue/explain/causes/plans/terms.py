@@ -183,8 +183,9 @@ class _Case:
 def _split(there: _Case, here: _Case) -> dict[Term, float]:
     """Return what one case costs more than another, by term.
 
-    Where one of them is fatal, all that it makes of a difference is that outcome's; where one is
-    out of time, all but the effort is.
+    Where one of them is fatal, all that it makes of a difference is that outcome's; where one
+    alone is out of time, all but the effort is. Two that are out of time differ by their terms,
+    of which the way that is left is the late one.
     """
     fatal = [FATAL.get(case.outcome) for case in (there, here)]
     if fatal[0] is not None or fatal[1] is not None:
@@ -195,7 +196,7 @@ def _split(there: _Case, here: _Case) -> dict[Term, float]:
         return {fatal[0] or fatal[1] or "dead": there.total - here.total}
     terms = dict.fromkeys((*there.parts, *here.parts))  # in order: sums stay the same
     found = {t: there.parts.get(t, 0.0) - here.parts.get(t, 0.0) for t in terms}
-    if "termination" in (there.outcome, here.outcome):
+    if (there.outcome == "termination") != (here.outcome == "termination"):
         effort = found.pop("effort", 0.0)
         return {"effort": effort, "late": sum(found.values())}
     return found

@@ -191,6 +191,7 @@ def cause_message(
     lowest = mechanism.speed_to if mechanism is not None else None
     start = mechanism.speed_from if mechanism is not None else None
     slows = start is not None and lowest is not None and start - lowest >= SLOWING
+    later = _stops_later(cause, contrast.decided, context)
     look = context.look(cause.vehicle, contrast.decided)
     simple = context.detail == "simpler"
     ahead = present and how in ("leader", "blocked", "cut-in")
@@ -198,7 +199,7 @@ def cause_message(
         "CAUSE",
         who=Who(Vehicle(cause.vehicle), contrast.decided, placed=not ahead),
         how=how,
-        present=present,
+        present=present and not later,
         past=past,
         alone=not contrast.foil,
         there=contrast.foil[:1] in LANES and look is not None and abs(look.left) > ASIDE,
@@ -206,7 +207,9 @@ def cause_message(
         halts=lowest is not None and lowest < STANDING,
         slows=slows,
         speed=None if lowest is None or simple else Quantity(lowest, "m/s"),
-        verbs=_expected(cause, None if look is None else look.speed, slows=slows, simple=simple),
+        verbs=(Clause("it", "stop ahead of us", ("later",)), *_after(cause))
+        if later
+        else _expected(cause, None if look is None else look.speed, slows=slows, simple=simple),
         acts=other_verbs(cause.actions) if telling(cause.actions) else None,
         **chances(cause.probability, context),
     )
@@ -228,13 +231,32 @@ def chances(probability: float, context: SpeechContext) -> dict[str, object]:
     }
 
 
+def _stops_later(cause: Cause, decided: float, context: SpeechContext) -> bool:
+    """Tell whether somebody stops ahead of us in the rollouts alone: it drives, and is not braking.
+
+    The lowest speed of a hold-up may be reached long after the decision.
+    """
+    how = cause.mechanism
+    if how is None or how.how != "leader" or "stop" in cause.actions:
+        return False
+    here, before = (context.look(cause.vehicle, t) for t in (decided, decided - 1.0))
+    if how.speed_to is None or how.speed_to >= STANDING or here is None or before is None:
+        return False
+    return here.speed >= STANDING and before.speed - here.speed < SLOWING
+
+
+def _after(cause: Cause) -> tuple[Clause, ...]:
+    """Return what a vehicle was expected to do after it was in the way."""
+    return other_verbs(cause.actions)[-1:] if telling(cause.actions) else ()
+
+
 def _expected(cause: Cause, seen: float | None, *, slows: bool, simple: bool) -> tuple[Clause, ...]:
     """Return what the vehicle was expected to do: how it gets in the way, and where it goes."""
     mechanism = cause.mechanism
     actions = other_verbs(cause.actions) if cause.actions else ()
     if mechanism is None or mechanism.how in ("right-of-way", "collision"):
         return actions or (Clause("it", "get in our way"),)
-    after = actions[-1:] if telling(cause.actions) else ()
+    after = _after(cause)
     if mechanism.how == "cut-in":
         moved = [a for a in plain(cause.actions) if a not in CHANGES and a != "continue"]
         return (Clause("it", "move in ahead of us"), *other_verbs(moved[-1:]))

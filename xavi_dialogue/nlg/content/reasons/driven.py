@@ -13,6 +13,8 @@ STANDING = 0.5  # [m/s]
 TURNED = ("given-up", "next-move")
 GONE = ("ahead", "left", "right", "behind", "behind-left", "behind-right")
 ASIDE = ("ahead-left", "ahead-right")  # where one sets the pace for a lane that we are to take
+PACED = ("leader", "blocked", "lane-ahead")  # of those who stand or drive at a speed
+CHANGED = 1.0  # [m/s] by which somebody drives faster or slower now than when it slowed us
 
 
 def speed_told(value: float | None, context: SpeechContext) -> Quantity | None:
@@ -23,7 +25,13 @@ def speed_told(value: float | None, context: SpeechContext) -> Quantity | None:
 
 
 def motion_cause(
-    cause: MotionCause, time: float, context: SpeechContext, *, past: bool, deed: str = ""
+    cause: MotionCause,
+    time: float,
+    context: SpeechContext,
+    *,
+    past: bool,
+    deed: str = "",
+    since: float | None = None,
 ) -> Message:
     """Make the clause of one reason for how we drove.
 
@@ -33,16 +41,18 @@ def motion_cause(
         context: the situation.
         past: it is past.
         deed: what we did for that reason.
+        since: [s] when the speed of the reason was seen; None: now.
     """
     ahead = cause.kind in ("leader", "cut-in", "blocked", "lane-beside", "lane-ahead")
+    theirs, over = _pace(cause, since, context, past=past)
     who, aside = None, False
     foreseen = cause.kind == "cut-in" and cause.did is None and not _sure(cause)
     if cause.vehicle is not None:
         look = context.look(cause.vehicle, time)
         beside = look is not None and look.bearing in ASIDE
-        aside = cause.kind == "leader" and beside and speed_told(cause.speed, context) is not None
+        aside = cause.kind == "leader" and beside and speed_told(theirs, context) is not None
         who = Who(Vehicle(cause.vehicle), time, placed=aside or foreseen or not ahead)
-    stands = cause.speed is not None and cause.speed < STANDING
+    stands = theirs is not None and theirs < STANDING
     unit = "m/s" if cause.kind == "limit" else "m"
     value = None if cause.value is None else Quantity(cause.value, unit)  # type: ignore[arg-type]
     simple = context.detail == "simpler"
@@ -51,11 +61,11 @@ def motion_cause(
         kind=cause.kind,
         who=who,
         between=None if cause.between is None else Who(Vehicle(cause.between), time),
-        past=past or _gone(cause, context),
+        past=past or over or is_gone(cause, context),
         turn=own_verbs(cause.actions) if cause.kind in TURNED and cause.actions else None,
         stands=stands,
         aside=aside,
-        speed=speed_told(cause.speed, context),
+        speed=speed_told(theirs, context),
         value=value,
         number=None if simple else value,
         lower=deed in ("slow-down", "brake"),
@@ -67,6 +77,26 @@ def motion_cause(
     )
 
 
+def _pace(
+    cause: MotionCause, since: float | None, context: SpeechContext, *, past: bool
+) -> tuple[float | None, bool]:
+    """Return the speed [m/s] at which somebody is stated to drive, and whether that is over.
+
+    The present tense takes the speed now. If the vehicle is faster now, or out of view, it was in
+    the way before: that is past, with the speed then.
+    """
+    then = cause.speed
+    if past or since is None or then is None or cause.vehicle is None or cause.kind not in PACED:
+        return then, past
+    seen, now = context.look(cause.vehicle, since), context.look(cause.vehicle)
+    if seen is None or now is None or not now.in_view:
+        return then, True
+    change = now.speed - seen.speed
+    if abs(change) <= CHANGED:
+        return then, False
+    return (then, True) if change > 0.0 else (now.speed, False)
+
+
 def _shown(cause: MotionCause, *, past: bool) -> dict[str, object]:
     """Return the slots of what the traffic light shows that holds us."""
     shown = cause.shown
@@ -76,7 +106,7 @@ def _shown(cause: MotionCause, *, past: bool) -> dict[str, object]:
     return {"colour": COLOURS[shown.colour], "turned": turned and past}
 
 
-def _gone(cause: MotionCause, context: SpeechContext) -> bool:
+def is_gone(cause: MotionCause, context: SpeechContext) -> bool:
     """Check whether who had to be let go first has gone: out of view, behind, or past our way."""
     if cause.kind != "right-of-way" or cause.vehicle is None:
         return False

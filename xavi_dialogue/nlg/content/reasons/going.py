@@ -25,8 +25,9 @@ def plan_going(answer: GoReason, context: SpeechContext) -> Plan:
     past = answer.past
     deed = Clause(Who(), "go", (), "past" if past else "present", progressive=not past)
     if answer.refrained is not None:
-        verb = doing(answer.refrained, ego=True)
-        deed = Clause(Who(), verb, (), "past" if past else "present", negated=True)
+        ahead = answer.refrained == "let-go"
+        verb = "go first" if ahead else doing(answer.refrained, ego=True)
+        deed = Clause(Who(), verb, (), "past" if past else "present", negated=not ahead)
     elif answer.deed is not None and answer.deed.action not in ("continue", "continue-next-exit"):
         deed = deed_clause(answer.deed, context.now, past=past)
     time = None if answer.deed is None else answer.deed.begin
@@ -104,4 +105,5 @@ def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
 
 
 def _cause_of(answer: Unslowed, cause: MotionCause, context: SpeechContext) -> Message:
-    return motion_cause(cause, answer.deed.begin, context, past=True, deed=answer.deed.action)
+    past, deed = answer.past, answer.deed
+    return motion_cause(cause, deed.begin, context, past=past, deed=deed.action)

@@ -11,7 +11,7 @@ from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.proposals import about_cause
 from xavi_dialogue.nlg.content.clauses.tenses import began, dated, goes_on
 from xavi_dialogue.nlg.content.reasons.contrasts import chances, telling
-from xavi_dialogue.nlg.content.reasons.driven import STANDING, motion_cause, speed_told
+from xavi_dialogue.nlg.content.reasons.driven import STANDING, is_gone, motion_cause, speed_told
 from xavi_dialogue.nlg.content.reasons.evidence import (
     cleared,
     hangs_on,
@@ -42,6 +42,7 @@ LESS = frozenset(("slow-down", "brake", "move", "follow", "go"))
 def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
     """Plan why we drove as we did."""
     past = answer.past or is_past(answer.deed, context)
+    answer = answer if past else _current(answer, context)
     first = _driving(answer, context, past)
     told = bool(answer.causes) and answer.causes[0].vehicle == answer.suspect
     core = suspected(
@@ -81,6 +82,14 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
     )
 
 
+def _current(answer: MotionReason, context: SpeechContext) -> MotionReason:
+    """Put what still holds before whom we had to let go first, where that one has gone."""
+    if answer.suspect is not None or answer.suspected is not None:
+        return answer
+    ranked = sorted(answer.causes, key=lambda cause: is_gone(cause, context))
+    return replace(answer, causes=tuple(ranked))
+
+
 def is_past(deed: Episode, context: SpeechContext) -> bool:
     """Tell whether something is over."""
     return not goes_on(deed, context.now)
@@ -98,6 +107,7 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
             context,
             past=past,
             deed=answer.deed.action,
+            since=answer.deed.begin,
         ),
         "when": began(answer.deed, context) if past else None,
         "known": bool(answer.causes),
@@ -238,7 +248,8 @@ def _also(
     if cause.kind == "plan":
         return None
     time = _seen_at(cause, answer, context, past=past)
-    return message("ALSO_CAUSE", cause=motion_cause(cause, time, context, past=past))
+    told = motion_cause(cause, time, context, past=past, since=answer.deed.begin)
+    return message("ALSO_CAUSE", cause=told)
 
 
 def _seen_at(

@@ -8,9 +8,13 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.terms import (
     Described,
     Event,
+    Exit,
+    Feature,
+    Junction,
     Pronoun,
     Quantity,
     Relative,
+    Road,
     Time,
     Unsaid,
     Vehicle,
@@ -109,8 +113,9 @@ class Clause:
         if modal:
             return "past" if self.has("have") else "present"
         if self.has("have"):
-            if "semi-must" in self.aux and self.verb is not None and self.verb.form == "base":
-                return "present"  # "have we got to turn"
+            must = "semi-must" in self.aux and "semi-past" not in self.aux
+            if must and self.verb is not None and self.verb.form == "base":
+                return "present"  # "have we got to turn", not "have you had to turn"
             return "past" if "have-past" in self.aux else "perfect"
         if not {"do-past", "be-past", "semi-past"}.isdisjoint(self.aux):
             return "past"
@@ -171,10 +176,11 @@ _RESULTING = frozenset(
 
 
 def timed_by(clause: Clause) -> None:
-    """Take "after the stop" for the time of a clause, where none is said."""
+    """Take "after the stop", "since the light" for the time of a clause, where none is said."""
     for phrase in clause.complements if isinstance(clause.time, Unsaid) else ():
-        if phrase.key in RELATIONS and isinstance(phrase.sem, Event):
-            clause.time = Relative(cast(Any, phrase.key), phrase.sem)
+        anchor = phrase.sem if isinstance(phrase.sem, Event) else as_thing(phrase.sem)
+        if phrase.key in RELATIONS and isinstance(anchor, Event | Junction | Feature | Exit | Road):
+            clause.time = Relative(cast(Any, phrase.key), anchor)
             clause.complements.remove(phrase)
             return
 
@@ -245,8 +251,8 @@ class Slots:
     def _leaf(self, leaf: Leaf, clause: Clause) -> None:
         match leaf.category:
             case "BE" | "GOT" | "DO" | "HAVE" | "HAD" | "MODAL" | "SEMI":
-                clause.aux.append(f"{_AUX[leaf.category]}-{leaf.key}")
-                clause.negated ^= leaf.category == "SEMI" and leaf.key == "not"
+                clause.aux.append(f"{_AUX[leaf.category]}-{leaf.key.removesuffix('-not')}")
+                clause.negated ^= leaf.category == "SEMI" and leaf.key.endswith("not")
                 if leaf.category == "SEMI" and leaf.words[0] in _PAST and not clause.has("be"):
                     clause.aux.append("semi-past")
             case "NOT":

@@ -152,7 +152,8 @@ def asked_of(sem: Sem, time: Time, tense: str = "present") -> Question | None:
 def _measure(sem: Measure, time: Time, tense: str) -> Question:
     measured = sem.of
     if not isinstance(time, Unsaid) or tense != "present":
-        measured = structs.replace(measured, time=time, tense=tense)
+        said = measured.time if isinstance(time, Unsaid) else time  # "the speed after the turn"
+        measured = structs.replace(measured, time=said, tense=tense)
     if measured.attribute == "heading":
         return Whither(measured.thing, time)
     held = measured.about or measured.event

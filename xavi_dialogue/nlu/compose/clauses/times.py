@@ -109,7 +109,7 @@ def _placed(node: Node, at: float) -> Time:
     key = _preposition(node)
     if key == "before" or key == "until":
         return Between(0.0, at)
-    if key == "since":
+    if key in ("since", "from"):
         return Between(at, UP_TO_NOW)
     return At(at)
 
@@ -176,6 +176,8 @@ def _amount(node: Node) -> Time:
         return Within(amount)
     if key in ("for", "over", "during"):
         return Unsaid()
+    if key in ("since", "from") and amount is not None and leaf_of(node, "PART"):
+        return Between(amount, UP_TO_NOW)  # "from ten seconds on"
     return At(amount) if amount is not None else Unsaid()
 
 

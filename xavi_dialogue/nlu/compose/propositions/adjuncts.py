@@ -16,9 +16,9 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement, Slots, is_named
-from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, SideOf
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, SideOf, as_thing
 from xavi_dialogue.nlu.compose.clauses.times import left_behind, number_before, relative, time_of
-from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, words_of
+from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, nodes_of, words_of
 from xavi_dialogue.nlu.compose.propositions.heads import rank_of
 from xavi_dialogue.nlu.compose.propositions.things import Nouns
 from xavi_dialogue.nlu.compose.states.positions import placeless
@@ -119,10 +119,20 @@ class Adjuncts:
         anchor = ended or self.propositions.anchor(event)
         if leaf.key == "either":
             clause.focus.add("either")
-        if leaf.key == "since" and anchor == Event("go"):
+        if leaf.key == "since" and anchor in (Event("go"), Event("leave")):
             clause.time = WholeRide()  # "since we set off"
         elif anchor is not None and isinstance(clause.time, Unsaid):
             clause.time = relative(_relation(leaf.key, bool(ended)), anchor)
+
+    def _on_time_from_place(self, node: Node, clause: Clause) -> None:
+        """Read "between the side road and here" as all since that place."""
+        place = as_thing(self.nouns.read(nodes_of(node, "np")[0]))
+        ends = [leaf.key for leaf in leaves_of(node) if leaf.category in ("TIMEADV", "PLACEADV")]
+        starts = {leaf.key for leaf in leaves_of(node) if leaf.category in ("BETWEEN", "P")}
+        if ends[-1:] not in (["now"], ["here"]) or not starts & {"between", "from"}:
+            self.notes.inner[id(node)] = SECOND
+        elif place is not None and isinstance(clause.time, Unsaid):
+            clause.time = relative("since", place)
 
     def _on_occasion(self, node: Node, clause: Clause) -> None:
         """Take "the last time we stopped" for that clause, of that rank."""

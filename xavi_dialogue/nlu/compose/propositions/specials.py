@@ -135,7 +135,9 @@ def _decided(special: Special) -> Proposition:
     sem = special.object
     if isinstance(sem, Event):
         return Happens(sem)
-    thing = as_thing(sem)
+    thing = as_thing(sem) or as_thing(special.match.phrases.get("for"))
+    if special.name == "consider" and isinstance(thing, Pronoun):
+        return believed(special, That())  # "did you allow for that?"
     if special.name == "want":
         return Happens(event_of(special, "do", thing or Pronoun("that")))
     return Happens(
@@ -253,6 +255,10 @@ def _deem(special: Special) -> Proposition:
     """Read "do you call that safe": whether it is."""
     key = special.clause.adjectives[0][0] if special.clause.adjectives else ""
     state: Any = key if key in STATES else "right"
+    if isinstance(special.content, Happens):  # "judge it acceptable to go"
+        event = structs.replace(special.content.event, actor=Ego())
+        state = "safe" if state == "right" else state
+        return Is(state, event=event, time=time_of(special), tense=tense_of(special))
     return Is(state, as_thing(special.object) or Pronoun("that"), time=time_of(special))
 
 
@@ -260,7 +266,10 @@ def _leave_space(special: Special) -> Proposition:
     """Read "leave him more room", "leave more room for him": whom we keep a distance to."""
     named = next((special.match.phrases[k] for k in ("into", "for") if k in special.match.phrases),
                  special.object)  # fmt: skip
-    whom = None if isinstance(as_thing(named), Feature) else as_thing(named)
+    thing = as_thing(named)
+    if isinstance(thing, Feature) and thing.kind == "light":
+        return Happens(event_of(special, "leave", thing))  # "since we left the light"
+    whom = None if isinstance(thing, Feature) else thing
     return Happens(event_of(special, "keep-distance", whom))
 
 

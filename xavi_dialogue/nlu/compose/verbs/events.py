@@ -108,14 +108,7 @@ def event_of(clause: Clause, match: Match) -> Event:
     action = _SIDED.get((action, side or ""), action)
     if action in ("exit-left", "exit-right", "exit-straight", "change-left", "change-right"):
         side = None
-    if action == "take-turn":
-        action, side, thing = _taken(match.object, side)
-    elif action == "take-exit":
-        action = "leave"
-    if action == "let-go" and isinstance(thing, Feature):
-        whom = match.phrases.get("for")
-        action = "give-way" if whom is None else "let-go"
-        thing = as_thing(whom or match.phrases.get("into"))
+    action, side, thing = _meant(action, side, thing, match)
     thing = thing or _kept_from(action, match)
     action = _paced(action, clause, match.object)
     action = _shown(action, clause, match)
@@ -148,6 +141,21 @@ def event_of(clause: Clause, match: Match) -> Event:
         tuple(dict.fromkeys(manner)), time, cast(Any, clause.tense),
         cast(Any, modal), None, place,
     )  # fmt: skip
+
+
+def _meant(
+    action: str, side: str | None, thing: Thing | None, match: Match
+) -> tuple[str, str | None, Thing | None]:
+    """Put the deed that is meant in the place of one that its object makes another."""
+    if action == "take-turn":
+        return _taken(match.object, side)
+    if action == "take-exit":
+        return "leave", side, thing
+    if action == "let-go" and isinstance(thing, Feature):
+        whom = match.phrases.get("for")
+        action = "give-way" if whom is None else "let-go"
+        thing = as_thing(whom or match.phrases.get("into"))
+    return action, side, thing
 
 
 def _whose_way(actor: Thing, thing: Thing | None) -> tuple[Thing, Thing | None]:

@@ -111,6 +111,11 @@ class Frames:
             return found if other is None else Both((found, Not(other)))
         if condition.instead:
             return found
+        lacking = condition.lacking
+        if lacking is not None and lacking.action != "do" and isinstance(found, Happens):
+            undone = with_fields(lacking, actor=found.event.actor, tense=found.event.tense)
+            found = before(found) if condition.has("have") else found
+            return Both((found, Not(Happens(undone))))
         match found:
             case Is(state="wrong", thing=Ego()) if (about := _about(condition)) is not None:
                 return cast(Proposition, with_fields(found, thing=about))

@@ -88,7 +88,7 @@ class What:
             value = fact(value)
         if value is None or _empty(clause) or _named(clause):
             return self._what_is(wh, clause)
-        return _cost_asked(value) or self._what_holds(wh, clause, value)
+        return _amount_asked(value) or self._what_holds(wh, clause, value)
 
     def _what_is(self, wh: Wh, clause: Clause) -> Question:
         subject = clause.subject
@@ -267,9 +267,11 @@ def _next_named(clause: Clause) -> bool:
     return bool(words) and words <= {"next", "up"}
 
 
-def _cost_asked(value: Proposition) -> Question | None:
-    """Read "what did that save us" as the question how much time it saved."""
+def _amount_asked(value: Proposition) -> Question | None:
+    """Read "what did that save us" as how much time, "what is allowed here" as how fast."""
     match value:
+        case Is(state="allowed", thing=Wanted(), event=None):
+            return HowMuch(Measured("limit", time=value.time))
         case Compares(left=Measured(attribute="delay") as left, right=None) if not _open(
             left.thing
         ):

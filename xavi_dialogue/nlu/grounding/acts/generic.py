@@ -123,7 +123,10 @@ def _outwards(event: Event, moment: float, g: Grounder) -> Event:
     if not isinstance(event.actor, Ego):
         return replace(event, action="exit-right") if _turns_off(event, moment, g) else event
     before = event.object
-    if _site(moment, g) != "lanes":
+    site = _site(moment, g)
+    if site in ("junction", "before-ring"):
+        return replace(event, action="go", manner=() if before is None else ("first",))
+    if site != "lanes":
         coming = before is None and event.tense in ("present", "future")
         return replace(event, action="leave") if coming else event
     where = event.where if before is None else Related("ahead-of", event.actor, before)

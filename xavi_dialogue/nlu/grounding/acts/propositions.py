@@ -134,7 +134,7 @@ def proposition(
             while isinstance(content, Believed):  # nobody asks what we believed that we believed
                 content = content.content
             match spoken.content, content:  # "it shot past. Did you see it coming?"
-                case That(), Happens(event=Event(action=action, actor=Vehicle() as shown)) if (
+                case That(), Happens(event=Event(action, Vehicle() as shown, modal=None)) if (
                     action in _SHOWN
                 ):
                     return Related("can-see", Ego(), shown, Now(), "past")

@@ -25,8 +25,6 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import (
-    Back,
-    Between,
     Compares,
     Described,
     Ego,
@@ -35,16 +33,13 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Measured,
-    Next,
     Nobody,
     Not,
     Now,
     Pronoun,
     Proposition,
-    Rank,
     Related,
     Road,
-    Start,
     That,
     Thing,
     Unsaid,
@@ -52,8 +47,8 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.acts.others import of_others
 from xavi_dialogue.nlu.grounding.acts.races import race
+from xavi_dialogue.nlu.grounding.acts.timing import of_doing
 from xavi_dialogue.nlu.grounding.acts.trips import SIDES, of_trip
-from xavi_dialogue.nlu.grounding.acts.windows import notable, startling
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
@@ -61,7 +56,6 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     discussed,
     event_of,
     hindrance,
-    last_deed,
     proposition_of,
 )
 from xavi_dialogue.nlu.grounding.context import Context, Grounder
@@ -83,21 +77,11 @@ def recast(spoken: Question, g: Grounder) -> Question:
     if meant is not None:
         return meant
     match spoken:
-        case Doing(actor=None, tense="past", time=Unsaid() | Back(relation="during" | "after")):
-            if (braking := startling(g.context)) is not None:
-                return Why(Happens(braking))
-            found = notable(g.context)
-            return spoken if found is None else replace(spoken, time=Between(*found))
-        case Doing(actor=Ego(), tense="future", time=Back(relation="after")):
-            return replace(spoken, time=Next())  # "after this, what will you do?"
+        case Doing():
+            return of_doing(spoken, g)
         case Identify(thing=Pronoun(form="it")) if (known := _own_measure(g.context)) is not None:
             g.notes.leaned = True
             return known
-        case Doing(actor=Ego(), tense="past", time=Rank(rank=-1)):
-            deed = last_deed(g.context)
-            return spoken if deed is None else replace(spoken, time=deed.time)
-        case Doing(actor=Ego(), tense="past", time=Rank(rank=1)):
-            return replace(spoken, time=Start())
         case Whether(that=Related(relation=relation, thing=Pronoun(form="it" | "that"), to=Ego())):
             return _by_side(relation, spoken, g)
         case HowMany(of=Described() as of) if (lights := among(of, g)) is not None:

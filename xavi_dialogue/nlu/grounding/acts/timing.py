@@ -4,7 +4,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Changed, HowSure
+from xavi_dialogue.domain.meaning import Changed, Doing, HowSure, Question, Why
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     At,
@@ -12,12 +12,18 @@ from xavi_dialogue.domain.terms import (
     Back,
     Believed,
     Between,
+    Ego,
     Happens,
+    Next,
     Proposition,
+    Rank,
     Relative,
+    Start,
     Unsaid,
     Vehicle,
 )
+from xavi_dialogue.nlu.grounding.acts.windows import notable, startling
+from xavi_dialogue.nlu.grounding.completion.discussion import last_deed
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
 
 
@@ -81,3 +87,21 @@ def changed(spoken: Changed, g: Grounder) -> Changed:
         return spoken
     g.notes.leaned = True
     return replace(spoken, time=Between(times[0], times[1]))
+
+
+def of_doing(spoken: Doing, g: Grounder) -> Question:
+    """Find what is meant by "what was that?", "after this" and the first or last deed."""
+    match spoken:
+        case Doing(actor=None, tense="past", time=Unsaid() | Back(relation="during" | "after")):
+            if (braking := startling(g.context)) is not None:
+                return Why(Happens(braking))
+            found = notable(g.context)
+            return spoken if found is None else replace(spoken, time=Between(*found))
+        case Doing(actor=Ego(), tense="future", time=Back(relation="after")):
+            return replace(spoken, time=Next())  # "after this, what will you do?"
+        case Doing(actor=Ego(), tense="past", time=Rank(rank=-1)):
+            deed = last_deed(g.context)
+            return spoken if deed is None else replace(spoken, time=deed.time)
+        case Doing(actor=Ego(), tense="past", time=Rank(rank=1)):
+            return replace(spoken, time=Start())
+    return spoken

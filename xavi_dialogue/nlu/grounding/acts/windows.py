@@ -21,6 +21,7 @@ from xavi_dialogue.domain.terms import (
     Now,
     Rank,
     Relative,
+    Road,
     Start,
     Tense,
     Thing,
@@ -83,6 +84,8 @@ def window(time: Time, tense: Tense, g: Grounder) -> Window:
             return replace(_between(first, last, now), whole=True)
         case Relative():
             return _relative(time, tense, g)
+        case Back(relation="before") if tense == "future":
+            return _coming(context, SOON, said=False)  # "will you stop before it?"
         case Back(relation=relation):
             return _back(relation, g)
         case Rank(rank=rank):
@@ -271,8 +274,12 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
             return None  # "can he come out before we pass?"
         case Event(tense="present" | "perfect") if tense != "past" and time.relation == "after":
             return None  # "which way do we go once he moves?"
+        case Event(action="leave", actor=Ego(), object=Feature(kind="light") as light):
+            return _anchored(Relative(time.relation, light), tense, g)
         case Event() as event:
             return _of_event(event, tense, g)
+        case Road(which="side"):  # where it meets ours
+            return _of_visits(visits(g.context), ahead=tense != "past")
         case Junction() as spoken:
             place = g.thing(spoken, unsaid(tense, g.context))
             visit = visit_of(g.context, place) if isinstance(place, Junction) else None
