@@ -283,6 +283,12 @@ OPTIONS = (
     OptionValue("exit-right", True, "done", 0.9, 20.0, None, 1.0),
     OptionValue("exit-left", False, "dead", 1.0, None, None, -5.0),
 )
+RISKS = (
+    OptionValue("stop", True, "done", 0.9, 20.0, None, 1.0, 0.004),
+    OptionValue("exit-left", False, "done", 0.8, 20.0, None, 0.5, 0.15),
+    OptionValue("change-right", False, "collision", 0.67, None, None, -5.0, 0.67),
+    OptionValue("continue", False, "done", 0.9, 20.0, None, -6.0, 0.006),
+)
 GREW = Grounds(
     2,
     ("exit-right",),
@@ -324,9 +330,11 @@ INSIGHTS: tuple[Answer, ...] = (
     Certainty("plan", None, None, 1, 1, 19.5, SINGLE, ALONE, others=2),
     Certainty("plan", None, None, 0, 1, 10.0, SINGLE, ALONE, others=2),
     Method(10.0, OPTIONS, LATER.evidence, 4),
+    Method(10.0, RISKS, LATER.evidence, 4),
     Method(None),
     Pivot("conduct", LATER, 2, ("exit-right",), 0.12),
     Pivot("removal", LATER, 2),
+    Pivot("removal", None, 2, deed="brake"),
     Pivot("none", LATER),
     Pivot("factor", LATER, 2, ("exit-right",), most=True),
     Pivot("factor", STEERING, most=True),

@@ -68,6 +68,7 @@ class Pivot(Value, frozen=True):
     actions: tuple[MacroAction, ...] = ()
     probability: float | None = None
     most: bool = False
+    deed: ActionName | None = None  # a way of driving that it is about, and no choice
 
 
 class Avoidance(Value, frozen=True):

@@ -298,26 +298,27 @@ def test_how_it_was_decided_tells_what_was_compared(
     asked = scene(span, traces=GROWS, looks=SEEN)
     found: Any = room.how_decide(HowDecide(None if of is None else Happens(of)), asked)
     assert (found.decided, found.options, found.vehicles, found.tried) == (time, ("rows",), 1, 1)
-    assert ("about" in decided) is (of is None or of.action != "stop" or of.actor == IT)
+    assert ("about" in decided) is (of is not None and of.action == "change-left")
     assert "about" not in decided or decided["about"].event == named
 
 
-@pytest.mark.parametrize(
-    ("deed", "time"),
-    [
-        (Deed("change-left", 0, 2.0, 2.0, 9.0), 2.0),  # over, of late
-        (Deed("change-left", 0, 2.0, 2.0, 7.0), 8.0),  # long over
-        (Deed("change-left", 0, 2.0, 2.0), 8.0),  # it goes on, and is decided again
-        (Deed("continue", 0, 2.0, None, 9.0), 8.0),
-    ],
-)
-def test_how_we_decided_is_of_what_was_done_of_late_or_of_the_last_decision(
-    monkeypatch: pytest.MonkeyPatch, deed: Deed, time: float
+def test_how_we_decided_and_how_sure_we_are_is_of_the_decision_in_force(
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(room, "premise", lambda _, about: Premise(GROWS[0], deed))
+    asked: list[float] = []
+
+    def sure(_: Any, found: Premise, *__: Any) -> Any:
+        asked.append(found.trace.sim_time)
+        return "sure"
+
+    over = Deed("change-left", 0, 2.0, 2.0, 9.0)
+    monkeypatch.setattr(room, "premise", lambda _, about: Premise(GROWS[0], over))
     monkeypatch.setattr(room.options, "weighed", lambda _, found: ())  # type: ignore[attr-defined]
-    found: Any = room.how_decide(HowDecide(), scene(traces=GROWS, looks=SEEN))
-    assert found.decided == time
+    monkeypatch.setattr(room.certainty, "of_choice", sure)  # type: ignore[attr-defined]
+    here = scene(traces=GROWS, looks=SEEN)
+    found: Any = room.how_decide(HowDecide(), here)
+    room.certain(here, None, negated=False)
+    assert (found.decided, asked) == (8.0, [8.0])
 
 
 def test_how_sure_we_are_of_what_goes_on_is_of_the_last_decision(

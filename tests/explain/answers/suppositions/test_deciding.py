@@ -215,7 +215,6 @@ def pivoted(of: Any, *, most: bool = False, **facts: Any) -> Any:
 def test_what_would_have_made_the_best_alternative_the_choice() -> None:
     found = pivoted(Happens(Event("change-left")))
     assert (found.kind, found.contrast.decided, found.contrast.foil) == ("none", 6.0, STAY)
-    assert pivoted(None).contrast.foil == STAY
     lonely = [decision(6.0, LEFT)]
     assert pivoted(Happens(Event("change-left")), traces=lonely) == Pivot("none", None)
 
@@ -250,7 +249,8 @@ def test_a_way_of_driving_hangs_on_whom_it_was_for(motions: list[Any]) -> None:
     for most, kind in ((False, "removal"), (True, "factor")):
         motions[0][:] = [motive(MotionCause("limit"), LEADER)]
         found = pivoted(brake, most=most)
-        assert found == Pivot(kind, None, 1, ("continue",), 0.7, most)  # type: ignore[arg-type]
+        expected = Pivot(kind, None, 1, ("continue",), 0.7, most, "brake")  # type: ignore[arg-type]
+        assert found == expected
     for found in (
         motive(MotionCause("limit")),
         motive(MotionCause("leader", 1, necessary=False)),
@@ -259,6 +259,18 @@ def test_a_way_of_driving_hangs_on_whom_it_was_for(motions: list[Any]) -> None:
         motions[0][:] = [found]
         assert pivoted(brake) == found
     assert not isinstance(pivoted(Not(brake)), MotionReason)
+
+
+def test_a_way_of_driving_that_came_of_a_choice_hangs_on_what_the_choice_did(
+    motions: list[Any],
+) -> None:
+    motions[0][:] = [of_choice()]
+    assert pivoted(Happens(Event("brake"))) == pivoted(None)
+
+
+def test_with_no_deed_named_it_is_of_the_decision_in_force() -> None:
+    found = pivoted(None)
+    assert (found.contrast.decided, found.contrast.foil) == (12.0, ("change-left",))
 
 
 def of_choice(*causes: Cause) -> ChoiceReason:

@@ -55,7 +55,6 @@ from xavi_dialogue.explain.causes.vehicles.conduct import (
     probability,
 )
 from xavi_dialogue.explain.causes.vehicles.grounds import grounds
-from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import planned, prediction
 
 COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
@@ -150,9 +149,8 @@ def certain(scene: Asked, event: Event | None, *, negated: bool) -> Certainty:
     """
     ride = scene.ride
     if event is None and scene.past is None:
-        found = Premise(ride.latest, None)
-        chosen = certainty.of_choice(ride, options.free(ride, found))
-        return chosen or certainty.of_plan(ride, found)
+        chosen = certainty.of_choice(ride, options.in_force(ride, scene.moment))
+        return chosen or certainty.of_plan(ride, Premise(ride.latest, None))
     if event is not None and (negated or event.modal == "would"):  # what was not done
         about = foil_subject(scene, event)
         names = foils.settled(scene, event)[:1]
@@ -229,27 +227,14 @@ def how_decide(question: HowDecide, scene: Asked) -> Answer:
     event = event_of(question.of)
     ride = scene.ride
     own = event if event is not None and is_own(event.actor) else None
-    if own is not None and not choices.is_choice(own):
-        found = Premise(_trace_at(scene), None)
+    if own is None or not choices.is_choice(own):
+        found = options.in_force(ride, scene.moment)
     else:
-        found = premise(ride, subject(scene, own))
-        if own is None and not _tells(scene, found.deed):
-            found = Premise(_trace_at(scene), None)
-    found = options.open_at(ride, found)
+        found = options.open_at(ride, premise(ride, subject(scene, own)))
     count = len(found.trace.predictions)
     rows, rests_on = options.weighed(ride, found), options.situations(found)
     tried = len(ride.model(found.trace).options(found.node))
     return Method(found.trace.sim_time, rows, rests_on, count, tried)
-
-
-def _tells(scene: Asked, deed: Deed | None) -> bool:
-    """Tell whether a deed is what is asked about where none is named: one of late, and over.
-
-    One that goes on is decided again all the time, and so is driving on.
-    """
-    if deed is None or deed.ended is None or deed.action == "continue":
-        return False
-    return deed.ended >= scene.moment - choices.LATELY
 
 
 def _trace_at(scene: Asked) -> PlanTrace:

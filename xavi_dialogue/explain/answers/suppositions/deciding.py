@@ -32,7 +32,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
 )
 from xavi_dialogue.explain.answers.suppositions.own_suppositions import of_us
 from xavi_dialogue.explain.causes.plans import avoidance, options, pivot
-from xavi_dialogue.explain.causes.plans.contrast import alternatives, contrast
+from xavi_dialogue.explain.causes.plans.contrast import contrast
 from xavi_dialogue.explain.causes.plans.premise import Premise, Subject, about_foil, premise
 from xavi_dialogue.explain.causes.vehicles.actions import (
     DRIVING,
@@ -140,18 +140,18 @@ def what_would_change(question: WhatWouldChange, scene: Asked) -> Answer:
     event = event_of(of)
     if question.most:
         return _factor(event, scene, negated=negated)
-    if event is not None and not choices.is_choice(event) and not negated:
-        return _motive(event, scene)
     ride = scene.ride
+    if event is not None and not choices.is_choice(event) and not negated:
+        found_motive = _motive(event, scene)
+        if not isinstance(found_motive, ChoiceReason):  # it came of a choice: what that hung on
+            return found_motive
+        event = None
     if event is not None and (negated or not _was_done(scene, event)):
         found, foil = foils.foil_at(event, scene)
         return pivot.towards(ride, found, foil)
-    found = options.free(ride, premise(ride, subject(scene, event)))
-    plan = planned(found.trace)
-    others = alternatives(ride.model(found.trace), plan[len(found.node)], found.node)
-    if not others:
-        return Pivot("none", None)
-    return pivot.towards(ride, found, others[0][0][len(found.node) :])
+    if event is None:
+        return pivot.otherwise(ride, options.in_force(ride, scene.moment))
+    return pivot.otherwise(ride, options.free(ride, premise(ride, subject(scene, event))))
 
 
 def how_avoid(question: HowAvoid, scene: Asked) -> Answer:
@@ -225,7 +225,7 @@ def _motive(event: Event, scene: Asked, *, most: bool = False) -> Answer:
     if first is None or first.necessary is False:
         return found
     kind: Literal["removal", "factor"] = "factor" if most else "removal"
-    return Pivot(kind, None, first.vehicle, first.actions, first.probability, most)
+    return Pivot(kind, None, first.vehicle, first.actions, first.probability, most, event.action)
 
 
 def _own_event(option: Proposition | Thing) -> Event | None:

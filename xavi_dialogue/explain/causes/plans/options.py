@@ -39,6 +39,14 @@ def open_at(ride: Ride, found: Premise) -> Premise:
     return last
 
 
+def in_force(ride: Ride, at: float) -> Premise:
+    """Find the decision in force at a time [s], or the last before it that had a choice.
+
+    All that is asked of "the decision", with no deed named, is asked of this one.
+    """
+    return open_at(ride, Premise(ride.at(at) or ride.latest, None))
+
+
 def with_choice(ride: Ride, found: Premise) -> Premise:
     """Find the decision that chose what is under way, with more than one thing to choose from.
 

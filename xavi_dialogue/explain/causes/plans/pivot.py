@@ -47,6 +47,23 @@ def towards(ride: Ride, found: Premise, foil: Actions) -> Pivot:
     return _removal(ride, found, (*node, *foil), causes, explained)
 
 
+def otherwise(ride: Ride, found: Premise) -> Pivot:
+    """Find what would have made any other option the best.
+
+    That is the conduct or the absence of one vehicle; of what is best else where there is none.
+
+    Raises:
+        Unanswered: there is too little evidence, or rollouts are needed.
+    """
+    plan, node = planned(found.trace), found.node
+    if len(plan) <= len(node):
+        return Pivot("none", None)
+    rivals = alternatives(ride.model(found.trace), plan[len(node)], node)
+    tried = [towards(ride, found, foil[len(node) :]) for foil, _ in rivals]
+    turning = (pivot for pivot in tried if pivot.kind != "none")
+    return next(turning, tried[0] if tried else Pivot("none", None))
+
+
 def _conduct(model: CausalModel, foil: Actions, node: Actions, contrast: Contrast) -> Pivot | None:
     """Return the likeliest conduct of one vehicle under which the foil is the best option."""
     blamed = {cause.vehicle for cause in contrast.causes}

@@ -3,6 +3,7 @@
 from typing import Any
 
 from xavi_dialogue.domain.answers import Avoidance, Certainty, Contrast, Grounds, Method, Pivot
+from xavi_dialogue.domain.facts import OptionValue
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.nlg.content.clauses.clauses import doing, episode_clause, subject_of
 from xavi_dialogue.nlg.content.clauses.facts import option_message
@@ -165,16 +166,42 @@ def plan_method(answer: Method, context: SpeechContext) -> Plan:
         when=None if answer.decided is None else Moment(answer.decided),
         options=Number(max(answer.tried, len(answer.options)), "option") if chosen else None,
         chosen=None if chosen is None else Clause(Who(), doing(chosen.action, ego=True)),
-        vehicles=Number(answer.vehicles, "vehicle") if answer.vehicles else None,
+        vehicles=Number(answer.vehicles, "road user") if answer.vehicles else None,
     )
     basis = rests_on(answer.evidence, None)
-    risk: tuple[Message, ...] = ()
-    if chosen is not None and (chosen.collision or 0.0) >= RISK:
-        past = answer.decided is not None and context.now - answer.decided > PRESENT
-        risk = (message("RISK_ALONE", past=past, risk=Chance(chosen.collision)),)
+    past = answer.decided is not None and context.now - answer.decided > PRESENT
+    risk = (
+        ()
+        if chosen is None
+        else _risks(chosen, others, past=past, simple=context.detail == "simpler")
+    )
     more = tuple(option_message(o) for o in others[:NAMED])
     details = () if basis is None or context.detail == "simpler" else (basis,)
     return Plan((*risk, first), details, more)
+
+
+def _risks(
+    chosen: OptionValue, others: list[OptionValue], *, past: bool, simple: bool
+) -> tuple[Message, ...]:
+    """Tell the chances of a collision: of what was chosen, and of each alternative with one."""
+    risky = [o for o in others if (o.collision or 0.0) >= RISK]
+    own = chosen.collision or 0.0
+    if not risky:
+        alone = message("RISK_ALONE", past=past, risk=Chance(own))
+        return (alone,) if own >= RISK else ()
+    return tuple(
+        message(
+            "BOTH_RISKS" if k == 0 or simple else "RISK_OF",
+            past=past,
+            foil=own_verbs((option.action,), (chosen.action,)),
+            risk=Chance(option.collision or 0.0),
+            fact_risk=Chance(own if own >= RISK else 0.0),
+            struck=None,
+            simple=simple,
+            more=(option.collision or 0.0) > own,
+        )
+        for k, option in enumerate(risky)
+    )
 
 
 def plan_pivot(answer: Pivot, context: SpeechContext) -> Plan:
@@ -190,9 +217,14 @@ def plan_pivot(answer: Pivot, context: SpeechContext) -> Plan:
         "chance": None if answer.probability is None else Chance(answer.probability),
         "simple": context.detail == "simpler",
         "foil": None,
+        "deed": None if answer.deed is None else own_verbs((answer.deed,), ()),
+        "fact": None,
+        "when": None,
     }
     if contrast is not None and contrast.foil:
         slots["foil"] = own_verbs(contrast.foil, contrast.fact)
+        slots["fact"] = own_verbs(contrast.fact, contrast.foil)
+        slots["when"] = Moment(contrast.decided) if past else None
     details = _because(contrast, context, past=past)
     more = () if contrast is None else further(contrast, context, past=past)
     return Plan((Message("PIVOT", slots),), details, more)

@@ -62,6 +62,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     hindrance,
     interval,
     questioned,
+    spoken_of,
 )
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
 
@@ -273,11 +274,10 @@ def _how_decide(spoken: HowDecide, g: Grounder) -> HowDecide:
 
 
 def _deed(spoken: Any, g: Grounder) -> Any:
-    of = spoken.of
-    if of is not None:
-        return replace(spoken, of=g.proposition(of, "presupposed"))
-    known = questioned(g.context)
-    if known is None:
+    if spoken.of is not None:
+        return replace(spoken, of=g.proposition(spoken.of, "presupposed"))
+    decision = isinstance(spoken, WhatWouldChange) and not spoken.most  # else that in force
+    if (known := (spoken_of if decision else questioned)(g.context)) is None:
         return spoken
     g.notes.leaned = True
     _span_of(known, g)

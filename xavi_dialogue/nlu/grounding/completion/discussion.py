@@ -85,14 +85,18 @@ def asserted(context: Context) -> Proposition | None:
 
 def questioned(context: Context) -> Proposition | None:
     """Give what the question under discussion is about; else what we did last."""
+    found = spoken_of(context)
+    event = last_deed(context) if found is None else None
+    return found if event is None else Happens(event)
+
+
+def spoken_of(context: Context) -> Proposition | None:
+    """Give what the question under discussion is about, or what was spoken of last."""
     found = proposition_of(context.discourse.question)
     if found is not None:
         return found
-    for proposition in context.discourse.propositions:
-        if not isinstance(proposition, That):
-            return proposition
-    event = last_deed(context)
-    return None if event is None else Happens(event)
+    said = (p for p in context.discourse.propositions if not isinstance(p, That))
+    return next(said, None)
 
 
 def affirmed(proposition: Proposition) -> Proposition:
