@@ -124,10 +124,10 @@ def _outwards(event: Event, moment: float, g: Grounder) -> Event:
         return replace(event, action="exit-right") if _turns_off(event, moment, g) else event
     before = event.object
     site = _site(moment, g)
-    if site in ("junction", "before-ring"):
+    coming = before is None and event.tense in ("present", "future")
+    if site in ("junction", "before-ring") and not coming:
         return replace(event, action="go", manner=() if before is None else ("first",))
     if site != "lanes":
-        coming = before is None and event.tense in ("present", "future")
         return replace(event, action="leave") if coming else event
     where = event.where if before is None else Related("ahead-of", event.actor, before)
     return replace(event, action="change-left", object=None, where=where)
