@@ -60,7 +60,9 @@ def _each(event: Event, many: tuple[int, ...]) -> tuple[Happens, ...]:
 def listed(act: GroundedAct) -> GroundedAct | None:
     """Give the act that lists the occasions whose reasons an act asks for; None of all others."""
     match act.act:
-        case Ask(question=Listing(of="reasons", event=Event()) as asked):
+        case Ask(question=Listing(of="reasons", event=Event(action=action)) as asked):
+            if action == "do":
+                return replace(act, act=Ask(replace(asked, of="decisions", event=None)))
             return replace(act, act=Ask(replace(asked, of="events")))
     return None
 

@@ -34,7 +34,7 @@ from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, node_of
 from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
 from xavi_dialogue.nlu.compose.verbs.trends import believed
 from xavi_dialogue.nlu.compose.wh_questions.asking import Asking
-from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, is_that
+from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, held_then, is_that
 from xavi_dialogue.nlu.compose.wh_questions.what import going_on, purpose
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
@@ -187,7 +187,7 @@ class Questions(Options):
         if wh.kind == "grade" and (wh.key == "likely" or chance):
             content = self._believed(clause) or (believed(held) if held and chance else None)
             if content is not None:
-                return [(HowSure(content, clause.time), 0.0)]
+                return [(HowSure(held_then(clause, content), clause.time), 0.0)]
         if wh.kind == "grade" and (hangs := self.needing(clause)) is not None:
             return [(hangs, 0.0)]
         judged = wh.key == "worse" or (wh.key == "faster" and clause.than is not None)
@@ -235,7 +235,7 @@ class Questions(Options):
             content = self.propositions.plain(clause.that)
             if isinstance(named, Noun) and named.key in ("reason", "factor"):
                 return Why(content or That())
-            return HowSure(content, clause.time)
+            return HowSure(held_then(clause, content), clause.time)
         return None
 
     def _believed(self, clause: Clause) -> Proposition | None:

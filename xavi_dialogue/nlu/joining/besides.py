@@ -206,6 +206,8 @@ def _of_each(before: Act, act: Act) -> Act:
             event = structs.replace(event, object=whom, time=Unsaid())
         case Ask(question=Listing(of="stops", time=time)):
             event = Event("stop")
+        case Ask(question=Listing(of="decisions", event=None, time=time)):
+            event = Event("do")
         case _:
             return act
     return Ask(Listing("reasons", time=time, event=event))

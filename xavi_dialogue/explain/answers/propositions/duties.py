@@ -17,6 +17,7 @@ from xavi_dialogue.domain.terms import (
     Not,
     Proposition,
     Related,
+    Tense,
     Thing,
     Unsaid,
     Vehicle,
@@ -174,10 +175,11 @@ def of_order(of: Both) -> Related | None:
                 action in GOING and "first" in event.manner
             ):
                 return Related("has-priority-over", event.actor, Ego(), event.time)
-            case Happens(event=Event(tense="present", modal=None) as event) if (
+            case Happens(event=Event(modal=None) as event) if (
                 event.action in YIELDING and number(event.actor) and is_us(event.object)
-            ):  # "does he wait for us, or we for him?"
-                return Related("must-yield-to", event.actor, Ego(), event.time)
+            ):  # "does he wait for us, or we for him?", "did he give way to us, or we to him?"
+                tense: Tense = "past" if event.tense in ("past", "perfect") else "present"
+                return Related("must-yield-to", event.actor, Ego(), event.time, tense)
     return None
 
 

@@ -44,6 +44,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
     unwrapped,
     vehicle_in,
 )
+from xavi_dialogue.explain.answers.ride.crossings import entries
 from xavi_dialogue.explain.answers.ride.priority import priority_at
 from xavi_dialogue.explain.causes.plans import certainty, options
 from xavi_dialogue.explain.causes.plans.premise import Premise, about_foil, premise
@@ -60,6 +61,8 @@ from xavi_dialogue.explain.history.ride import planned, prediction
 COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
 SPEEDS = frozenset[ActionName](("brake", "slow-down", "speed-up"))
 FORESEEN = 12.0  # [s] within which what came is what was foreseen
+LATELY = 20.0  # [s] since when our last crossing is what others were expected to do something at
+BEFORE = 0.2  # [s] before what came at which it was still to come
 MOVED = 0.05  # of probability, from which a belief has moved
 
 
@@ -137,7 +140,7 @@ def how_sure(question: HowSure, scene: Asked) -> Answer:
 
 def _stays(event: Event, vehicle: int, scene: Asked) -> bool:
     """Tell whether it is asked if one that stands now goes on standing: what for tells that."""
-    here = event.action in HALTS and not is_past(scene, event)
+    here = event.action in HALTS and event.modal != "would" and not is_past(scene, event)
     return here and scene.ride.motion(vehicle).trend == "standing"
 
 
@@ -198,13 +201,16 @@ def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
     if not known:
         raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=at))
     names = () if event is None else conduct_names(event)
+    done = () if event is None else _done(scene, event)
+    if event is not None and event.modal == "would":  # "how sure were you that it would stop?"
+        entered = [t for t in entries(scene) if max(known[0].sim_time, at - LATELY) <= t <= at]
+        at = min(at, done[-1].begin - BEFORE) if done else entered[-1] if entered else at
     trace = last_with(ride, vehicle, at) if known[0].sim_time <= at else known[0]
     rows = [belief_of(ride, t, vehicle) for t in known]
     current = belief_of(ride, trace, vehicle)
     chances = [0.0 if event is None else _held(scene, vehicle, event, t) for t in known]
     moved = _moved(rows, chances, asked=bool(names))
     told = _turning(rows, chances, asked=bool(names))
-    done = () if event is None else scene.world.holds(event, 0.0, scene.now)
     return Beliefs(
         vehicle=vehicle,
         of=event,
@@ -216,6 +222,12 @@ def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
         came=done[-1] if done else _went(scene, vehicle, trace.sim_time, names),
         besides=() if event is None else besides(current, event),
     )
+
+
+def _done(scene: Asked, event: Event) -> tuple[Episode, ...]:
+    """Give where somebody did what was believed of it, if need be not for whom it was believed."""
+    found = scene.world.holds(event, 0.0, scene.now)
+    return found or scene.world.holds(replace(event, object=None), 0.0, scene.now)
 
 
 def how_decide(question: HowDecide, scene: Asked) -> Answer:

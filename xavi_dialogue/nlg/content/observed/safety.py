@@ -89,7 +89,7 @@ def _kept(answer: Priority) -> str | None:
         return "it-did" if ours else "it-first"
     if answer.rule == "give-way":
         first = "we-first-stood" if answer.stood else "we-first"
-        return first if ours else "we-did"
+        return first if ours else "we-did" if answer.waited is not None else "it-before"
     return ("we-first" if ours else "it-went") if answer.rule in ("equal", "depends") else None
 
 

@@ -56,6 +56,7 @@ from xavi_dialogue.nlu.compose.wh_questions.lasting import (
     measured,
 )
 from xavi_dialogue.nlu.compose.wh_questions.towards import reference
+from xavi_dialogue.nlu.compose.wh_questions.wh import held_then
 
 _PACES = frozenset({"faster", "slower", "quicker"})
 _PASSING = frozenset({"avoid", "nearly-collide", "pass", "overtake"})
@@ -188,7 +189,7 @@ def sure_of(clause: Clause, value: Any) -> Question:
         content = value
     elif isinstance(clause.subject, Event):
         content = Happens(_met(clause, clause.subject))
-    return HowSure(content, clause.time)
+    return HowSure(held_then(clause, content), clause.time)
 
 
 def _met(clause: Clause, deed: Event) -> Event:

@@ -17,6 +17,7 @@ from xavi_dialogue.domain.terms import (
     Related,
     Thing,
     Unknown,
+    Unsaid,
     Vehicle,
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
@@ -62,6 +63,15 @@ def content_of(clause: Clause, value: Any) -> Proposition | None:
     if isinstance(value, Believed):
         return value.content
     return value if isinstance(value, (Happens, Not, Related, Is, Exists)) else None
+
+
+def held_then(clause: Clause, content: Proposition | None) -> Proposition | None:
+    """Take for foreseen what was asked of then: "what chance did you give it stopping?"."""
+    event = content.event if isinstance(content, Happens) else None
+    if event is None or clause.tense != "past" or event.actor == Ego():
+        return content
+    open_ = event.tense == "present" and event.modal is None and event.time == Unsaid()
+    return Happens(with_fields(event, modal="would")) if open_ else content
 
 
 def _of_whom(content: Proposition, value: Special) -> Proposition:

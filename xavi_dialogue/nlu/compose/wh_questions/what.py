@@ -63,7 +63,7 @@ from xavi_dialogue.nlu.compose.verbs.others import (
 from xavi_dialogue.nlu.compose.wh_questions.doings import deed_asked, doing, happened
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured
 from xavi_dialogue.nlu.compose.wh_questions.reasoning import reasoned
-from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, content_of, fact
+from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, content_of, fact, held_then
 
 
 class What:
@@ -139,7 +139,8 @@ class What:
             case "see" | "look" | "hear" if isinstance(value.subject, Ego) and wh.kind == "what":
                 return Listing("hidden" if clause.negated else "vehicles", time=time)
             case "assign" | "give-priority" if isinstance(value.object, Wanted):
-                return HowSure(content_of(clause, value), time)  # "what did you give it?"
+                held = held_then(clause, content_of(clause, value))
+                return HowSure(held, time)  # "what did you give it?"
             case "rest":
                 based = propose(clause.subject)  # "what is that based on?"
                 return HowKnow(None if based == That() else based)

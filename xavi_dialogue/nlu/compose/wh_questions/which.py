@@ -44,7 +44,14 @@ from xavi_dialogue.nlu.compose.propositions.severally import MUTUAL
 from xavi_dialogue.nlu.compose.verbs.others import nearest, placed
 from xavi_dialogue.nlu.compose.wh_questions.lasting import meanwhile, measured
 from xavi_dialogue.nlu.compose.wh_questions.towards import reference
-from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, actor_of, content_of, fact, time_of
+from xavi_dialogue.nlu.compose.wh_questions.wh import (
+    Wh,
+    actor_of,
+    content_of,
+    fact,
+    held_then,
+    time_of,
+)
 
 
 def _moment(clause: Clause, value: Any) -> Any:
@@ -138,7 +145,7 @@ class WhichOne:
         if measure.attribute == "speed" and "semi-allowed" in clause.aux:
             return measured("limit", clause, actor)
         if measure.attribute == "probability":
-            return HowSure(content_of(clause, value), clause.time)
+            return HowSure(held_then(clause, content_of(clause, value)), clause.time)
         thing = None if isinstance(clause.subject, Measure) else actor
         if clause.objects and thing is None:
             thing = as_thing(clause.objects[0][0])
