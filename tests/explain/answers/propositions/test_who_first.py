@@ -52,6 +52,12 @@ def test_the_right_of_way_that_is_asked_after(part: Any, told: Any) -> None:
     assert of_order(Both((Is("safe"), part), join="or")) == told
 
 
+def test_who_gave_way_of_both_is_asked_of_the_rule_then() -> None:
+    gave = Happens(action("give-way", ONE, US)), Happens(action("give-way", US, ONE))
+    told = of_order(Both(gave, join="or"))
+    assert told == Related("must-yield-to", ONE, US, tense="past")
+
+
 def first(such: Any, *, road: Any = ROAD, span: Any = None, **facts: Any) -> Any:
     traces = facts.pop("traces", [decision(20.0, road=road)])
     asked = scene(span, **({"looks": LOOKS, "traces": traces, "road": road} | facts))

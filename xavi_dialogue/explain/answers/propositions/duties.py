@@ -17,7 +17,6 @@ from xavi_dialogue.domain.terms import (
     Not,
     Proposition,
     Related,
-    Tense,
     Thing,
     Unsaid,
     Vehicle,
@@ -167,6 +166,7 @@ def _may_precede(event: Event) -> bool:
 
 def of_order(of: Both) -> Related | None:
     """Give the right of way that is asked after by "do they go first or do we?"; None: else."""
+    ours = any(isinstance(part, Happens) and is_us(part.event.actor) for part in of.contents)
     for part in of.contents:
         match part:
             case Related(relation="has-priority-over" | "must-yield-to", tense="present"):
@@ -175,10 +175,9 @@ def of_order(of: Both) -> Related | None:
                 action in GOING and "first" in event.manner
             ):
                 return Related("has-priority-over", event.actor, Ego(), event.time)
-            case Happens(event=Event(modal=None) as event) if (
+            case Happens(event=Event(tense="present" | "past" as tense, modal=None) as event) if (
                 event.action in YIELDING and number(event.actor) and is_us(event.object)
-            ):  # "does he wait for us, or we for him?", "did he give way to us, or we to him?"
-                tense: Tense = "past" if event.tense in ("past", "perfect") else "present"
+            ) and (tense == "present" or ours):  # "or we for him?"
                 return Related("must-yield-to", event.actor, Ego(), event.time, tense)
     return None
 
@@ -316,7 +315,8 @@ def who_first(asked: Asked, such: Proposition | None) -> Priority | None:
         return every
     told = priority_at(asked, vehicle, about)
     if told.rule == "none" and vehicle is None:
-        told = priority_at(asked, None, where_rule_holds(asked, None, _ride(asked)))
+        ride = Window(asked.world.begin, asked.now)
+        told = priority_at(asked, None, where_rule_holds(asked, None, ride))
     return told
 
 
@@ -339,11 +339,6 @@ def _to_all(
     found = owed_to_all(asked, among, about, ours=is_us(yielder))
     told = found.answer
     return replace(told, holds=None) if isinstance(told, Priority) and found.holds else None
-
-
-def _ride(asked: Asked) -> Window:
-    """Give the whole ride so far."""
-    return Window(asked.world.begin, asked.now)
 
 
 def _duty_of(event: Event) -> bool:

@@ -121,7 +121,11 @@ class Nouns(Followers):
         if core.name == "anybody":
             return self._anybody(core, traits)
         if core.name == "driven":
-            return self.read(cast(Node, core.parts[-1]))
+            held = self.read(cast(Node, core.parts[-1]))
+            if not isinstance(held, Noun) or held.key != "front":
+                return held
+            traits.fields["bearing"] = "ahead"  # "the guy in front"
+            return described("vehicle", traits)
         if core.name == "quantity":
             amount = self._quantity(core)
             if isinstance(amount, Quantity) and amount.unit == "count" and traits.clause:
