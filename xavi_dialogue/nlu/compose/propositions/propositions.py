@@ -234,8 +234,7 @@ class Propositions:
         if not chained:
             return value
         for _, other in chained:
-            if isinstance(other.time, Unsaid):
-                other.time = clause.time
+            other.time = clause.time if isinstance(other.time, Unsaid) else other.time
             other.than = other.than or clause.than  # "is he faster or slower than us?"
         others = [p for _, c in chained if (p := self.plain(c)) is not None]
         if not others:
