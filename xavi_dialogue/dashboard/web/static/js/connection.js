@@ -14,7 +14,7 @@ const STEADY = 5; // [s] after which a connection counts as a good one
 const SILENCE = 15; // [s] without a message while scenes should come: the other end is gone
 const GREETING = 10; // [s] until the welcome has to be there
 const RELOADED = "xavi-reloaded";
-const PERSONAL = new Set(["thinking", "answered", "trouble"]);
+const PERSONAL = new Set(["answered", "trouble"]);
 
 /** Why a server closes, by code; `again`: whether it is worth coming back, `slow`: not at once. */
 const CLOSED = {
