@@ -26,7 +26,7 @@ async function part(id, path, make) {
 
 async function start() {
   const store = new Store(fetchJson);
-  const connection = new Connection(store);
+  const connection = new Connection(store, `${location.origin.replace("http", "ws")}/ws`);
   const help = createHelp(byId("help"));
   createBar(byId("bar"), store, help);
   createNotice(byId("notice"), connection);

@@ -40,7 +40,7 @@ export function boundsOfEvidence(evidence) {
 
 /**
  * Draw the lines of a turn, and ghost cars on them.
- * @param {import("../types").EvidenceShown} evidence
+ * @param {EvidenceShown} evidence
  * @param {number} t [s] the moment shown: lines of another one are pale, and say when they were
  * @param {number|null} elapsed [s] since the loop began; null: nothing is to move
  * @param pen {context, view, colours, labels}
@@ -58,7 +58,9 @@ export function drawEvidence(evidence, t, elapsed, pen, size) {
   const kinds = new Set(["fact", "ghost"].filter((name) => lines[name].length > 0));
   for (const name of kinds) {
     const [main, ...rest] = lines[name];
-    for (const line of rest.reverse()) drawLine(line, SIDES[name], pen, strength * (0.3 * line.probability + 0.1), false);
+    for (const line of rest.reverse()) {
+      drawLine(line, SIDES[name], pen, strength * (0.3 * line.probability + 0.1), false);
+    }
     drawLine(main, SIDES[name], pen, strength, true);
     ghostCars(main, SIDES[name], { since, strength, along: name === "ghost" }, pen, size);
   }

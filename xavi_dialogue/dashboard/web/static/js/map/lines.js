@@ -78,7 +78,7 @@ const NEAR = 0.8; // [m]
 const CUT = 0.1; // [s] of driving after which it is cut anew: less than a car's length
 
 /**
- * What is left of a Drive (see types) at a moment [s], which frame after frame asks for.
+ * What is left of a Drive at a moment [s], which frame after frame asks for.
  * @param {number} pieces that it falls into at most, each a Path2D
  * @returns {{line: number[], length: number, pieces: Path2D[]}} length [m]
  */

@@ -101,7 +101,8 @@ function labelEnds({ context, view, colours, labels }, vehicle, ends, several) {
     const words = group.map((one) => `${percent(one.goal.probability)} ${wayOf(one.goal)}`).join(" · ");
     const text = several ? `${vehicle}: ${words}` : words;
     const weight = 10 + goal.probability; // after the names, which it may refer to
-    labels.add({ key: `goal ${vehicle} ${goal.words} ${goal.place}`, text, x, y, reach: 9, weight, wide: true, ...look });
+    const key = `goal ${vehicle} ${goal.words} ${goal.place}`;
+    labels.add({ key, text, x, y, reach: 9, weight, wide: true, ...look });
   }
 }
 

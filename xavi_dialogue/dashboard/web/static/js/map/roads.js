@@ -16,7 +16,7 @@ const TURNS = { left: 1, right: -1, turnaround: 1 }; // sides
 const FROM = { crossings: 1.1, sides: 1.1, dashes: 2, stops: 2.6, arrows: 4.2 };
 
 export class RoadLayer {
-  /** @param roads see documents.py: Roads */
+  /** @param {Roads} roads */
   constructor(roads) {
     this.lanes = new Map(roads.lanes.map((lane) => [lane.id, lane]));
     this.links = new Map(roads.links.map((link) => [link.id, link]));
@@ -159,7 +159,8 @@ function arrow(lane, ways) {
     const around = way === "turnaround";
     const back = around ? -0.9 : 0.4;
     const tip = side ? [back, side * 0.85] : [1.6, 0];
-    const bend = side ? [place(0.1, 0), place(0.4, side * 0.25), place(Math.max(back, 0.4), side * 0.6)] : [place(0, 0)];
+    const round = [place(0.1, 0), place(0.4, side * 0.25), place(Math.max(back, 0.4), side * 0.6)];
+    const bend = side ? round : [place(0, 0)];
     lines.push([...bend, place(...tip)].flat());
     const angle = side * (around ? Math.PI : Math.PI / 2);
     const [ca, sa] = [Math.cos(angle), Math.sin(angle)];

@@ -10,7 +10,7 @@ import { steady } from "./steady.js";
 /**
  * @param {HTMLElement} element
  * @param {import("../store.js").Store} store
- * @returns {{update: (decision: import("../types").DecisionShown) => void, clear: () => void}}
+ * @returns {{update: (decision: DecisionShown) => void, clear: () => void}}
  */
 export function createAlternatives(element, store) {
   const { table, scale, tried: body, barred } = partsOf(element);

@@ -6,7 +6,7 @@ const SCALES = [1, 2, 5, 10, 20, 30, 60, 120]; // [s]
 
 /**
  * @param {HTMLElement} bar holds the zero, the bar and its whisker
- * @param {import("../types").TimeRange|null} time [s]
+ * @param {TimeRange|null} time [s]
  * @param {number} scale [s] at either end
  */
 export function drawRange(bar, time, scale) {

@@ -9,7 +9,7 @@ import { createTree } from "./tree.js";
 
 /**
  * @param {HTMLElement} element
- * @returns {{update: (decision: import("../types").DecisionShown) => void}}
+ * @returns {{update: (decision: DecisionShown) => void}}
  */
 export function createBranches(element) {
   const { none, counts, tree: list } = partsOf(element);

@@ -8,8 +8,8 @@ import { steady } from "./steady.js";
 /**
  * @param {HTMLElement} element
  * @param {import("../store.js").Store} store
- * @returns {{show: (decision: object|null, whole: object|null) => void,
- *   move: (decision: object|null) => void}} `move`: which decision its buttons lead away from
+ * @returns {{show: (decision: Decision|null, whole: DecisionShown|null) => void,
+ *   move: (decision: Decision|null) => void}} `move`: which decision its buttons lead away from
  */
 export function createHead(element, store) {
   const parts = partsOf(element);

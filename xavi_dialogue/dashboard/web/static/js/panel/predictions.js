@@ -14,7 +14,7 @@ const LONG = 22; // letters of a goal from which on it has a line of its own
 /**
  * @param {HTMLElement} element
  * @param {import("../store.js").Store} store
- * @returns {{update: (predictions: object[], near: number[]) => void, move: () => void, forget: () => void}}
+ * @returns {{update: (predictions: Predicted[], near: number[]) => void, move: () => void, forget: () => void}}
  *   `update`: others are expected to do other things; `move`: another moment, or others pointed at
  */
 export function createPredictions(element, store) {

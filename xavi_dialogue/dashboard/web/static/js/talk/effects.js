@@ -7,7 +7,7 @@ const HEIGHT = 28;
 const MIDDLE = WIDTH / 2;
 const REACH = MIDDLE - 10;
 
-/** @param {import("../types").EffectShown} effect */
+/** @param {EffectShown} effect */
 export function createEffect(effect) {
   const { delta, low, high, unit } = effect;
   const samples = `from ${counted(effect.n_distinct, "distinct sample")}`;

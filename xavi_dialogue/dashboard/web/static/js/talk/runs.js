@@ -7,7 +7,7 @@ const FIRST = 10;
 
 /**
  * @param {string} title
- * @param {import("../types").Side} side
+ * @param {Side} side
  * @param {import("./spoken.js").Spoken} spoken
  */
 export function createRuns(title, { runs, rollouts }, spoken) {

@@ -10,7 +10,7 @@ const NAMED = /\b(vehicle\s+)(\d+)\b|\b(vehicles\s+)(\d+(?:(?:,\s*(?:and\s+|or\s
  * @param {Set<number>} vehicles that may be meant
  * @returns {Array<string|{vehicle: number, words: string}>}
  */
-export function cut(text, vehicles) {
+function cut(text, vehicles) {
   const parts = [];
   let done = 0;
   const name = (from, to, number) => {
@@ -37,8 +37,7 @@ export class Spoken {
    * @param {HTMLElement} root of all buttons
    */
   constructor(pointing, root) {
-    this.pointing = pointing;
-    this.root = root;
+    Object.assign(this, { pointing, root });
     pointing.addEventListener("change", () => this.follow());
   }
 

@@ -39,7 +39,7 @@ const ICONS = {
  */
 
 /**
- * @param {import("../types").TurnShown} turn its `n` is null of what became no turn
+ * @param {TurnShown} turn its `n` is null of what became no turn
  * @param {Around} around
  */
 export function createTurn(turn, around) {
