@@ -13,7 +13,17 @@ def test_they_are_those_of_the_structs() -> None:
 
 def test_scripts_name_none_that_is_not_there() -> None:
     known = set(re.findall(r"(?:interface|type) (\w+)", declarations()))
-    platform = {"Object", "Set", "Map", "Promise", "EventTarget", "Element", "SVGElement", "T"}
+    platform = {
+        "Object",
+        "Array",
+        "Set",
+        "Map",
+        "Promise",
+        "EventTarget",
+        "Element",
+        "SVGElement",
+        "T",
+    }
     scripts = "".join(path.read_text(encoding="utf-8") for path in FILE.parent.rglob("*.js"))
     own = set(re.findall(r"(?:class|@typedef \{.*\}) (\w+)", scripts))
     named = {name for name in NAME.findall(scripts) if not name.startswith("HTML")}
