@@ -90,5 +90,5 @@ function showPresence(list, { status, latest }) {
 
 function presenceOf(who, there) {
   const [words, shape] = PRESENCES[there];
-  return h("li", { dataset: { there } }, icon(shape, "0 0 12 12"), h("span", who, h("span.says", ` ${words}`)));
+  return h("li.row", { dataset: { there } }, icon(shape, "0 0 12 12"), h("span", who, h("span.says", ` ${words}`)));
 }

@@ -58,7 +58,7 @@ function basis({ method, rollouts, distinct, t }, store) {
   const when = h("button.moment", { title: "Go to that decision", onclick: () => store.seek(t) }, clock(t));
   const count = `${counted(rollouts, "rollout")} from ${counted(distinct, "distinct sample")}`;
   const words = rollouts > 0 ? `${capital(method)}: ${count}.` : `${capital(method)}.`;
-  return h("p.basis", h("span", words), h("span", "Decision at", when));
+  return h("p.basis.row", h("span", words), h("span", "Decision at", when));
 }
 
 function sideOf({ title, words, outcomes, arrival, rollouts }, kind) {
