@@ -71,16 +71,16 @@ export class Sprites extends Kept {
    * @param {[number, number]} measures length and width [px of CSS]
    * @param {string} colour
    */
-  draw(context, { x, y, heading }, measures, colour, { colours, ratio }) {
-    const [rim, fill] = [colours.get("map-glass"), colours.get(colour)];
-    const { image, size } = this.get(`${measures} ${colour} ${ratio}`, () => sheet(measures, rim, fill, ratio));
+  draw(context, { x, y, heading }, [long, broad], colour, { colours, ratio }) {
+    const painted = () => sheet(long, broad, colours.get("map-glass"), colours.get(colour), ratio);
+    const { image, size } = this.get(`${long} ${broad} ${colour} ${ratio}`, painted);
     const way = ((Math.round((heading / (2 * Math.PI)) * WAYS) % WAYS) + WAYS) % WAYS;
     const [left, top] = [Math.round(x * ratio - size / 2), Math.round(y * ratio - size / 2)];
     context.drawImage(image, way * size, 0, size, size, left, top, size, size);
   }
 }
 
-function sheet([long, broad], rim, fill, ratio) {
+function sheet(long, broad, rim, fill, ratio) {
   const size = Math.ceil(Math.hypot(long + 1, broad + 1) * ratio) + 2 * RIM;
   const bitmap = new OffscreenCanvas(size * WAYS, size);
   const context = bitmap.getContext("2d");

@@ -24,19 +24,8 @@ import { View } from "./view.js";
 
 const BUSY = 14; // [ms] a frame that takes longer is drawn at most 30 times a second
 const SPARE = 30; // [ms]
-const NOTHING = {
-  vehicles: [],
-  labels: [],
-  ghost: 0,
-  fact: 0,
-  predictions: 0,
-  yields: 0,
-  lights: 0,
-  hidden: false,
-  imagined: 0,
-  preview: false,
-  kinds: new Set(),
-};
+const NONE = { ghost: 0, fact: 0, predictions: 0, yields: 0, lights: 0, imagined: 0, hidden: false, preview: false };
+const NOTHING = { ...NONE, vehicles: [], labels: [], kinds: new Set() };
 
 /**
  * Make the map.
