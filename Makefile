@@ -54,8 +54,9 @@ format: develop ## put the code in its standard form
 	@$(BIN)/python -m ruff check --fix
 	@$(BIN)/python -m ruff format
 
-schema: develop ## write docs/plan_trace.schema.json and docs/messages/ anew
+schema: develop ## write docs/plan_trace.schema.json, docs/messages/ and the page's types anew
 	@$(BIN)/python -m xavi_dialogue.bus.schema docs
+	@$(BIN)/python -m xavi_dialogue.dashboard.web.page_types
 
 diagram: develop ## draw the conversation's states in ARCHITECTURE.md anew
 	@$(BIN)/python -m xavi_dialogue.transcripts.state_diagram ARCHITECTURE.md

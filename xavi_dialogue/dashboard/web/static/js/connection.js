@@ -14,7 +14,7 @@ const STEADY = 5; // [s] after which a connection counts as a good one
 const SILENCE = 15; // [s] without a message while scenes should come: the other end is gone
 const GREETING = 10; // [s] until the welcome has to be there
 const RELOADED = "xavi-reloaded";
-const PERSONAL = new Set(["thinking", "answered", "trouble"]);
+const PERSONAL = new Set(["answered", "trouble"]);
 
 /** Why a server closes, by code; `again`: whether it is worth coming back, `slow`: not at once. */
 const CLOSED = {
@@ -23,10 +23,7 @@ const CLOSED = {
   1009: { words: "A message was too large for the dashboard.", again: true, slow: true },
   1011: { words: "Something went wrong in the dashboard.", again: true, slow: true },
   1013: { words: "The dashboard is busy.", again: true, slow: true, told: true },
-  4401: {
-    words: "The dashboard wants its token. Open the address that it printed where it was started.",
-    again: false,
-  },
+  4401: { words: "The dashboard wants its token. Open the address that it printed where it was started." },
   4429: { words: "This page asked too much in too short a time.", again: true, slow: true, told: true },
 };
 
@@ -42,24 +39,24 @@ function pauseBefore(attempt, random) {
 }
 
 export class Connection extends EventTarget {
+  state = "connecting";
+  words = null; // why it was closed
+  retryAt = 0; // [ms] of performance.now()
+  greeted = false; // since the last opening
+  ever = false; // greeted at least once
+  attempt = 0;
+  socket = null;
+  heard = 0; // [ms] of the last message
+  timer = 0;
+  unseen = []; // scenes that are not on the screen yet
+
   /**
    * @param {import("./store.js").Store} store
    * @param {string} address of the WebSocket
    */
-  constructor(store, address = here()) {
+  constructor(store, address) {
     super();
-    this.store = store;
-    this.address = address;
-    this.state = "connecting";
-    this.words = null; // why it was closed
-    this.retryAt = 0; // [ms] of performance.now()
-    this.greeted = false; // since the last opening
-    this.ever = false; // greeted at least once
-    this.attempt = 0;
-    this.socket = null;
-    this.heard = 0; // [ms] of the last message
-    this.timer = null;
-    this.unseen = [];
+    Object.assign(this, { store, address });
     addEventListener("online", () => this.hurry());
     document.addEventListener("visibilitychange", () => this.awake());
     setInterval(() => this.listen(), 1000);
@@ -127,8 +124,7 @@ export class Connection extends EventTarget {
   /** Tell that a scene is on the screen, so that a slow page gets fewer. */
   acknowledge(seq) {
     this.unseen.push(seq);
-    if (document.hidden)
-      this.drawn(); // nothing is drawn, and there is nothing to wait for
+    if (document.hidden) this.drawn(); // nothing is drawn, and there is nothing to wait for
     else if (this.unseen.length === 1) requestAnimationFrame(() => this.drawn());
   }
 
@@ -173,8 +169,4 @@ export class Connection extends EventTarget {
     this.state = state;
     this.dispatchEvent(new Event("state"));
   }
-}
-
-function here() {
-  return `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`;
 }

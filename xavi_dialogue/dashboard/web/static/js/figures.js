@@ -1,5 +1,10 @@
 /** Figures as one would say them: units always, and no more digits than they bear. */
 
+/** A value within its bounds. */
+export function clamped(value, least, most) {
+  return Math.min(Math.max(value, least), most);
+}
+
 const UNITS = { "m/s3": "m/s³", "rad/s2": "rad/s²", "m/s2": "m/s²" };
 
 /** A moment of the ride [s]: "1:12", with one decimal "1:12.4"; never one that is yet to come. */
@@ -34,10 +39,7 @@ export function percent(p) {
 
 /** "3.2", with a true minus, and none before zero. */
 export function fixed(value) {
-  return value
-    .toFixed(1)
-    .replace(/^-(?=0\.0$)/, "")
-    .replace("-", "−");
+  return (Number(value.toFixed(1)) || 0).toFixed(1).replace("-", "−");
 }
 
 /** "12.4 s" */
@@ -55,7 +57,7 @@ export function difference(value, unit) {
   const size = magnitude(value, unit);
   if (Number(size) === 0) return unit === "s" ? "no sooner or later" : "no difference";
   const direction = unit === "s" ? (value > 0 ? "later" : "sooner") : value > 0 ? "more" : "less";
-  return `${size} ${spelt(unit)} ${direction}`;
+  return `${size} ${UNITS[unit] ?? unit} ${direction}`;
 }
 
 /** An interval in words; both ends on one side are said in one breath. null: it has no width. */
@@ -64,7 +66,7 @@ export function between(low, high, unit) {
   if (ends[0] === ends[1]) return null;
   if (ends[0] < 0 && ends[1] > 0) return `between ${difference(ends[0], unit)} and ${difference(ends[1], unit)}`;
   const sizes = ends.map(Math.abs).sort((a, b) => a - b);
-  return `between ${magnitude(sizes[0], unit)} and ${magnitude(sizes[1], unit)} ${spelt(unit)}`;
+  return `between ${magnitude(sizes[0], unit)} and ${magnitude(sizes[1], unit)} ${UNITS[unit] ?? unit}`;
 }
 
 /** A magnitude: two digits that tell something, a tenth at the finest for times. */
@@ -75,14 +77,9 @@ function magnitude(value, unit) {
   return size >= 100 ? size.toFixed(0) : String(Number(size.toPrecision(2)));
 }
 
-/** A unit, with its power as such. */
-function spelt(unit) {
-  return UNITS[unit] ?? unit;
-}
-
 /** Both ends to the digit that the larger one is told to. */
 function alike(low, high, unit) {
   const largest = Math.max(Math.abs(low), Math.abs(high), 1e-9);
-  const digits = unit === "s" ? 1 : Math.min(Math.max(1 - Math.floor(Math.log10(largest)), 0), 9);
+  const digits = unit === "s" ? 1 : clamped(1 - Math.floor(Math.log10(largest)), 0, 9);
   return [low, high].map((end) => Number(end.toFixed(digits)) || 0); // and no minus zero
 }

@@ -23,7 +23,7 @@ export function listenToKeys({ store, map, talk, help, layout }) {
   document.addEventListener("keydown", (event) => {
     if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey) return;
     if (!help.singleKeys() || typesIn(event.target) || document.querySelector("dialog[open]")) return;
-    const act = does[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    const act = does[event.key.toLowerCase()];
     if (!act) return;
     event.preventDefault();
     act();

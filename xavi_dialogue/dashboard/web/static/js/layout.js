@@ -1,7 +1,10 @@
 /** Tabs where there is no room for both, and the height that an on-screen keyboard leaves. */
+import { clamped } from "./figures.js";
+import { set } from "./dom.js";
 
 const BOTH = "(min-width: 1700px), (min-width: 760px) and (max-width: 1099px) and (min-height: 900px)";
 const IDS = ["talk", "decision"];
+const STEPS = { ArrowRight: 1, ArrowLeft: -1, Home: -Infinity, End: Infinity };
 
 /**
  * @param {import("./store.js").Store} store
@@ -9,45 +12,41 @@ const IDS = ["talk", "decision"];
  */
 export function createLayout(store) {
   const wide = matchMedia(BOTH);
-  const tabs = Object.fromEntries(IDS.map((id) => [id, document.getElementById(`tab-${id}`)]));
+  const bar = document.getElementById("tabs");
+  const tabs = [...bar.children];
   let chosen = "talk";
   const apply = () => {
-    document.getElementById("tabs").hidden = wide.matches;
+    bar.hidden = wide.matches;
     document.getElementById("side").classList.toggle("both", wide.matches);
-    for (const id of IDS) {
+    IDS.forEach((id, k) => {
       const panel = document.getElementById(id);
-      const here = id === chosen;
-      panel.hidden = !wide.matches && !here;
-      if (wide.matches) panel.removeAttribute("role");
-      else panel.setAttribute("role", "tabpanel");
-      tabs[id].setAttribute("aria-selected", String(here));
-      tabs[id].tabIndex = here ? 0 : -1;
-    }
-    if (chosen === "talk") tabs.talk.classList.remove("news");
+      panel.hidden = !wide.matches && id !== chosen;
+      set(panel, "role", wide.matches ? null : "tabpanel");
+      set(tabs[k], "aria-selected", String(id === chosen));
+      tabs[k].tabIndex = id === chosen ? 0 : -1;
+    });
+    if (chosen === "talk") tabs[0].classList.remove("news");
   };
   const show = (id) => {
     chosen = id;
     apply();
-    window.dispatchEvent(new Event("layout"));
   };
-  for (const id of IDS) tabs[id].addEventListener("click", () => show(id));
-  document.getElementById("tabs").addEventListener("keydown", (event) => turnTabs(event, chosen, tabs, show));
+  tabs.forEach((tab, k) => tab.addEventListener("click", () => show(IDS[k])));
+  bar.addEventListener("keydown", (event) => {
+    const step = STEPS[event.key];
+    if (step === undefined) return;
+    event.preventDefault();
+    const last = IDS.length - 1;
+    const index = IDS.indexOf(chosen) + step;
+    const to = Number.isFinite(step) ? (index + IDS.length) % IDS.length : clamped(index, 0, last);
+    show(IDS[to]);
+    tabs[to].focus();
+  });
   wide.addEventListener("change", apply);
-  announceNews(store, tabs.talk, () => !wide.matches && chosen !== "talk");
+  announceNews(store, tabs[0], () => !wide.matches && chosen !== "talk");
   fitKeyboard();
   apply();
   return { show };
-}
-
-function turnTabs(event, chosen, tabs, show) {
-  const step = { ArrowRight: 1, ArrowLeft: -1, Home: -IDS.length, End: IDS.length }[event.key];
-  if (step === undefined) return;
-  event.preventDefault();
-  const index = IDS.indexOf(chosen) + step;
-  const wrapped =
-    Math.abs(step) === 1 ? (index + IDS.length) % IDS.length : Math.min(Math.max(index, 0), IDS.length - 1);
-  show(IDS[wrapped]);
-  tabs[IDS[wrapped]].focus();
 }
 
 /** A mark on the tab while there are answers that nobody has seen. */
@@ -62,15 +61,15 @@ function announceNews(store, tab, away) {
 /** Some browsers lay their keyboard over the page and say so only here. */
 function fitKeyboard() {
   const view = window.visualViewport;
-  if (!view) return;
+  const root = document.documentElement;
   const fit = () => {
     if (view.scale > 1.01) return; // pinched: the reader looks closer, nothing is covered
     const covered = window.innerHeight - view.height;
-    document.documentElement.style.setProperty("--height", covered > 60 ? `${view.height}px` : "");
-    document.documentElement.classList.toggle("typing", typing() && view.height < 520);
+    root.style.setProperty("--height", covered > 60 ? `${view.height}px` : "");
+    root.classList.toggle("typing", typing() && view.height < 520);
     if (covered > 60) window.scrollTo(0, 0);
   };
-  view.addEventListener("resize", fit);
+  view?.addEventListener("resize", fit);
   document.addEventListener("focusin", fit);
   document.addEventListener("focusout", () => setTimeout(fit, 50));
 }

@@ -18,19 +18,15 @@ async function part(id, path, make) {
     return make(await import(path), byId(id));
   } catch (error) {
     console.error(error);
-    const again = h(
-      "button",
-      { type: "button", class: "quiet", onclick: () => location.reload() },
-      "Load the page again",
-    );
-    fill(byId(id), h("p", { class: "broken", role: "alert" }, "This part of the page could not be loaded. ", again));
+    const again = h("button.quiet", { onclick: () => location.reload() }, "Load the page again");
+    fill(byId(id), h("p.broken", { role: "alert" }, "This part of the page could not be loaded. ", again));
     return null;
   }
 }
 
 async function start() {
   const store = new Store(fetchJson);
-  const connection = new Connection(store);
+  const connection = new Connection(store, `${location.origin.replace("http", "ws")}/ws`);
   const help = createHelp(byId("help"));
   createBar(byId("bar"), store, help);
   createNotice(byId("notice"), connection);

@@ -8,41 +8,39 @@ const BACK = 3000; // [ms] for which "Back." stands
  * @param {import("./connection.js").Connection} connection
  */
 export function createNotice(element, connection) {
-  let timer = null;
+  let timer = 0;
   const count = h("span", { "aria-hidden": "true" }); // counts by the second, which nobody wants read out
   const tick = () => {
     const left = Math.max(1, Math.ceil((connection.retryAt - performance.now()) / 1000));
-    const words = connection.state === "connecting" ? " Trying again …" : ` Trying again in ${left} s.`;
-    say(count, words);
+    say(count, connection.state === "connecting" ? " Trying again …" : ` Trying again in ${left} s.`);
   };
   const show = (kind, ...children) => {
     element.dataset.kind = kind;
     fill(element, ...children);
   };
-  const lost = () => {
-    const again = h("button", { type: "button", onclick: () => connection.hurry() }, "Try now");
-    show("lost", h("p", {}, connection.words ?? "Connection lost.", count), again);
-    tick();
-    timer ??= setInterval(tick, 250);
-  };
-  const stop = () => {
-    clearInterval(timer);
-    timer = null;
+  const lost = (words, action) =>
+    show("lost", h("p", words), h("button", { onclick: () => connection.hurry() }, action));
+  const states = {
+    refused: () => lost(connection.words, "Try again"),
+    waiting() {
+      lost([connection.words ?? "Connection lost.", count], "Try now");
+      tick();
+      timer ||= setInterval(tick, 250);
+    },
+    connecting: tick,
+    open() {
+      if (element.dataset.kind !== "lost") return;
+      show("back", h("p", "Back."));
+      setTimeout(() => element.dataset.kind === "back" && show("none"), BACK);
+    },
   };
   connection.addEventListener("state", () => {
+    const { state } = connection;
     if (!connection.ever && connection.words === null) return; // the page's first state says it
-    if (connection.state === "refused") {
-      stop();
-      const again = h("button", { type: "button", onclick: () => connection.hurry() }, "Try again");
-      show("lost", h("p", {}, connection.words), again);
-    } else if (connection.state === "waiting") {
-      lost();
-    } else if (connection.state === "connecting") {
-      tick();
-    } else if (element.dataset.kind === "lost") {
-      stop();
-      show("back", h("p", {}, "Back."));
-      setTimeout(() => element.dataset.kind === "back" && show("none"), BACK);
+    if (state === "refused" || state === "open") {
+      clearInterval(timer);
+      timer = 0;
     }
+    states[state]();
   });
 }

@@ -9,12 +9,13 @@ export function pointingOf(store) {
 }
 
 /** Events: `change`, others are kept. */
-export class Pointing extends EventTarget {
+class Pointing extends EventTarget {
+  kept = new Set();
+
   /** @param {import("./store.js").Store} store */
   constructor(store) {
     super();
     this.store = store;
-    this.kept = new Set();
     store.addEventListener("pointed", () => this.follow());
     store.addEventListener("ride", () => this.keep([]));
   }

@@ -4,11 +4,9 @@ const SPAN = 10_000; // [ms] that is looked at
 const WORTH = 0.05; // share of dropped scenes from which on it is
 
 export class Slowness {
-  constructor() {
-    this.scenes = []; // [ms] when they came
-    this.drops = []; // [ms, how many] when it was told that some were dropped
-    this.total = 0; // since the page connected
-  }
+  scenes = []; // [ms] when they came
+  drops = []; // [ms, how many] when it was told that some were dropped
+  total = 0; // since the page connected
 
   /** A scene came. */
   came(now) {

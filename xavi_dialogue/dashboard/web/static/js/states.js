@@ -1,82 +1,55 @@
 /** What the whole page says where something is not there: a card over the empty map, or a strip above it. */
-import { fill, h } from "./dom.js";
-import { draw } from "./drawings.js";
+import { drawing, fill, h, on } from "./dom.js";
 import { standing } from "./standing.js";
 
-const code = (text) => h("code", {}, text);
-
-/** By name: drawing, headline, what it means, and whether there is still anything that works. */
+/** By name: drawing, headline, and what it means: a text with `code`, or a function that makes it. */
 const STATES = {
-  connecting: { drawing: "connecting", title: "Connecting …", says: () => ["to the dashboard on this address."] },
-  unreachable: {
-    drawing: "unreachable",
-    title: "The dashboard does not answer",
-    says: () => [
-      "It may have been stopped. Start it with ",
-      code("xavi dashboard"),
-      "; this page goes on trying and needs no reload.",
+  connecting: ["connecting", "Connecting …", "to the dashboard on this address."],
+  unreachable: [
+    "unreachable",
+    "The dashboard does not answer",
+    "It may have been stopped. Start it with `xavi dashboard`; this page goes on trying and needs no reload.",
+  ],
+  refused: ["unreachable", "Not let in", (_, connection) => connection.words],
+  hub: [
+    "hub",
+    "Waiting for the hub",
+    "Car, service and this page meet at a hub, and it is not there yet. A service brings one: `xavi serve`. " +
+      "This page goes on by itself.",
+  ],
+  hubGone: [
+    "hub",
+    "The hub is gone.",
+    "Nothing new is heard. What was seen is still here: you can scrub back and look at every decision.",
+  ],
+  car: [
+    "car",
+    "Waiting for the car",
+    ({ welcome }) => [
+      ["Nobody by the name of ", h("b", welcome?.vehicle ?? "car"), " drives yet. "],
+      withCode("Start one with `xavi drive --connect …`, or `xavi dashboard --scenario s1` to have all in one."),
     ],
-  },
-  refused: {
-    drawing: "unreachable",
-    title: "Not let in",
-    says: (_, connection) => [connection.words],
-  },
-  hub: {
-    drawing: "hub",
-    title: "Waiting for the hub",
-    says: () => [
-      "Car, service and this page meet at a hub, and it is not there yet. A service brings one: ",
-      code("xavi serve"),
-      ". This page goes on by itself.",
-    ],
-  },
-  hubGone: {
-    drawing: "hub",
-    title: "The hub is gone.",
-    says: () => ["Nothing new is heard. What was seen is still here: you can scrub back and look at every decision."],
-  },
-  car: {
-    drawing: "car",
-    title: "Waiting for the car",
-    says: ({ welcome }) => [
-      "Nobody by the name of ",
-      h("b", {}, welcome?.vehicle ?? "car"),
-      " drives yet. Start one with ",
-      code("xavi drive --connect …"),
-      ", or ",
-      code("xavi dashboard --scenario s1"),
-      " to have all in one.",
-    ],
-  },
-  coming: { drawing: "coming", title: "The car is starting", says: () => ["It sets off in a few seconds."] },
-  comingAgain: {
-    drawing: "coming",
-    title: "The car is being started again.",
-    says: () => ["It is driven to where it was. You can ask all the same."],
-  },
-  arriving: { drawing: "coming", title: "The car is there", says: () => ["Its first scene is on its way."] },
-  carGone: {
-    drawing: "gone",
-    title: "The car is not heard of any more.",
-    says: () => ["Its record is still here: you can scrub back and ask."],
-  },
-  over: {
-    drawing: "over",
-    title: "The ride is over.",
-    says: () => ["Its record is still here: drag the timeline to any moment and ask about it."],
-  },
-  played: {
-    drawing: "over",
-    title: "The recording is over.",
-    says: () => ["All of it is still here: drag the timeline to any moment and ask about it."],
-  },
-  recording: {
-    drawing: "recording",
-    title: "This is a recording.",
-    says: () => ["It is played as it was driven. Ask about any moment of it."],
-  },
+  ],
+  coming: ["coming", "The car is starting", "It sets off in a few seconds."],
+  comingAgain: [
+    "coming",
+    "The car is being started again.",
+    "It is driven to where it was. You can ask all the same.",
+  ],
+  arriving: ["coming", "The car is there", "Its first scene is on its way."],
+  carGone: ["gone", "The car is not heard of any more.", "Its record is still here: you can scrub back and ask."],
+  over: ["over", "The ride is over.", "Its record is still here: drag the timeline to any moment and ask about it."],
+  played: [
+    "over",
+    "The recording is over.",
+    "All of it is still here: drag the timeline to any moment and ask about it.",
+  ],
+  recording: ["recording", "This is a recording.", "It is played as it was driven. Ask about any moment of it."],
 };
+
+function withCode(text) {
+  return text.split("`").map((part, k) => (k % 2 ? h("code", part) : part));
+}
 
 /**
  * Which state the page is in.
@@ -107,6 +80,10 @@ function stateOf(store, connection) {
 export function createStates({ card, strip }, store, connection) {
   let shown = "";
   let dismissed = null; // a strip that was read comes back only after another state
+  const dismiss = (name) => {
+    dismissed = name;
+    show();
+  };
   const show = () => {
     const name = stateOf(store, connection);
     const key = `${name} ${store.welcome?.vehicle} ${Boolean(store.latest)} ${dismissed === name}`;
@@ -117,25 +94,18 @@ export function createStates({ card, strip }, store, connection) {
     card.hidden = !asCard;
     strip.hidden = name === null || asCard || dismissed === name;
     document.body.dataset.state = name ?? "well";
-    if (asCard) showCard(card, STATES[name], store, connection);
-    else if (!strip.hidden) showStrip(strip, STATES[name], store, () => ((dismissed = name), show()));
-    else fill(strip);
+    if (strip.hidden) fill(strip);
+    if (card.hidden && strip.hidden) return;
+    const [picture, title, text] = STATES[name];
+    const words = typeof text === "string" ? withCode(text) : text(store, connection);
+    if (asCard) fill(card, h("div.state-card", { role: "status" }, drawing(picture), h("h2", title), h("p", words)));
+    else fill(strip, drawing(picture), h("p", h("b", title), " ", words), hiding(() => dismiss(name)));
   };
-  for (const event of ["status", "ride", "scene"]) store.addEventListener(event, show);
-  for (const event of ["state", "welcome"]) connection.addEventListener(event, show);
+  on(store, "status ride scene", show);
+  on(connection, "state welcome", show);
   show();
 }
 
-function showCard(card, { drawing, title, says }, store, connection) {
-  const words = [h("h2", {}, title), h("p", {}, says(store, connection))];
-  fill(card, h("div", { class: "state-card", role: "status" }, draw(drawing), words));
-}
-
-function showStrip(strip, { drawing, title, says }, store, dismiss) {
-  const close = h(
-    "button",
-    { type: "button", class: "icon", "aria-label": "Hide this", title: "Hide this", onclick: dismiss },
-    "×",
-  );
-  fill(strip, draw(drawing), h("p", {}, h("b", {}, title), " ", says(store)), close);
+function hiding(onclick) {
+  return h("button.icon", { "aria-label": "Hide this", title: "Hide this", onclick }, "×");
 }

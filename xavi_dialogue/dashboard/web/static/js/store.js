@@ -1,8 +1,8 @@
 /**
  * What the page knows, in one place: parts of the page read it, and are told when it changes.
  *
- * Messages come in through `take`; `documents.py` and `wire.py` beside these files say what is in
- * them. The moment shown is either live (the latest scene) or held at an earlier time.
+ * Messages come in through `take`; `page.d.ts` says what is in them. The moment shown is either
+ * live (the latest scene) or held at an earlier time.
  *
  * Changes, each a plain Event of this name on the store:
  *   ride         another ride: all that follows is empty again
@@ -19,6 +19,8 @@
  *   preview      `preview`: a line to be looked at beside the ego's own, {line: Drive, words} such
  *                as an alternative of the decision in force has; or null. Set by whoever shows it
  */
+
+import { clamped } from "./figures.js";
 
 const MAX_SCENES = 18_000; // an hour at 5 Hz
 const SPACING = 0.19; // [s] between scenes that are kept
@@ -43,35 +45,39 @@ function vehicleOf([id, x, y, heading, speed, length, width, kind, colour, signa
 }
 
 export class Store extends EventTarget {
+  /** @type {Welcome|null} */
+  welcome = null;
+  status = { connected: false, hub: "awaited", car: "awaited", service: "awaited", dropped: 0, browsers: 0 };
+  /** @type {TurnShown[]} */
+  turns = [];
+  suggestions = { t: 0, questions: [] };
+  pointed = new Set(); // vehicles
+
   /** @param {(path: string) => Promise<any>} fetchJson gets what a path of this server holds */
   constructor(fetchJson) {
     super();
     this.fetchJson = fetchJson;
-    this.welcome = null; // {version, vehicle, session, max_text}
-    this.status = { connected: false, hub: "awaited", car: "awaited", service: "awaited", dropped: 0, browsers: 0 };
-    this.turns = [];
-    this.suggestions = { t: 0, questions: [] };
-    this.pointed = new Set(); // vehicles
-    this.preview = null; // {line, words}
     this.begin(null);
   }
 
   /** Forget one ride for another: {ride, scenario, seed, roads} or null. */
   begin(ride) {
-    this.ride = ride;
-    this.roads = null;
-    this.live = true;
-    this.held = 0; // [s] the moment shown where it is not live
-    this.latest = null; // scene: {t, state, speed, plan, vehicles, lights, hidden, wall, seq}
-    this.holes = false; // whether scenes have been missed, as when the ride goes faster than they come
-    this.past = []; // scenes {t, vehicles, lights, hidden}, in order
-    this.decisions = [];
-    this.events = [];
-    this.details = new Map(); // promises of decisions, by id
-    this.evidences = new Map(); // promises of evidence, by number of turn
-    this.turn = null; // number of the turn that is shown on the map
-    this.evidence = null; // its evidence, once it is there
-    this.preview = null;
+    Object.assign(this, {
+      ride,
+      roads: null,
+      live: true,
+      held: 0, // [s] the moment shown where it is not live
+      latest: null, // scene: {t, state, speed, plan, vehicles, lights, hidden, wall, seq}
+      holes: false, // whether scenes have been missed, as when the ride goes faster than they come
+      past: [], // scenes {t, vehicles, lights, hidden}, in order
+      decisions: [],
+      events: [],
+      details: new Map(), // promises of decisions, by id
+      evidences: new Map(), // promises of evidence, by number of turn
+      turn: null, // number of the turn that is shown on the map
+      evidence: null, // its evidence, once it is there
+      preview: null, // {line, words}
+    });
   }
 
   /** [s] The moment that is shown. */
@@ -87,15 +93,14 @@ export class Store extends EventTarget {
 
   /** Take in a message of the server. */
   take(message) {
-    const taker = TAKERS[message.type];
-    if (taker) taker(this, message);
+    TAKERS[message.type]?.(this, message);
   }
 
   /** Show an earlier moment, and stay there. */
   seek(t) {
     const [first, last] = this.span;
     this.live = false;
-    this.held = Math.min(Math.max(t, first), last);
+    this.held = clamped(t, first, last);
     if (this.holes) fetchPast(this, this.ride?.ride).catch(() => (this.holes = true));
     this.tell("moment");
   }
@@ -118,12 +123,12 @@ export class Store extends EventTarget {
     return this.decisions[lastUpTo(this.decisions, t)] ?? null;
   }
 
-  /** A decision, whole; see DecisionShown. */
+  /** A decision, whole. @returns {Promise<DecisionShown>} */
   detail(id) {
     return this.fetched(this.details, id, `/api/decisions/${encodeURIComponent(id)}`);
   }
 
-  /** What a turn rests on; see EvidenceShown. */
+  /** What a turn rests on. @returns {Promise<EvidenceShown>} */
   evidenceOf(n) {
     return this.fetched(this.evidences, n, `/api/turns/${n}/evidence`);
   }
@@ -169,20 +174,16 @@ export class Store extends EventTarget {
       const near = [this.past[index], this.past[index + 1]];
       return !near.some((one) => one && Math.abs(one.t - t) < SPACING / 2);
     });
-    const more = missed.map(([t, vehicles, lights, hidden]) => ({
-      t,
-      vehicles: vehicles.map(vehicleOf),
-      lights: lights ?? [],
-      hidden: hidden ?? [],
-    }));
+    const more = missed.map(([t, vehicles, lights, hidden]) => {
+      return { t, vehicles: vehicles.map(vehicleOf), lights: lights ?? [], hidden: hidden ?? [] };
+    });
     this.past = [...more, ...this.past].sort((a, b) => a.t - b.t);
     this.tell("moment");
   }
 
   keep(scene) {
-    const last = this.past[this.past.length - 1];
-    if (last && scene.t < last.t)
-      this.past.splice(lastUpTo(this.past, scene.t) + 1); // gone back
+    const last = this.past.at(-1);
+    if (last && scene.t < last.t) this.past.splice(lastUpTo(this.past, scene.t) + 1); // gone back
     else if (last && scene.t - last.t < SPACING) return;
     else if (last && scene.t - last.t > HOLE) this.holes = true;
     this.past.push(scene);

@@ -1,30 +1,42 @@
 /** What stands over and around the canvas: buttons, badge, legend, scale bar, and all of it in words. */
 
-import { createBadge, createControls } from "./controls.js";
+import { createLegend, showBadge, showScale } from "./controls.js";
 import { boundsOfEvidence } from "./ghosts.js";
-import { createLegend } from "./legend.js";
 import { createSummary } from "./summary.js";
 
 export class Around {
+  taken = null; // rectangles under controls; null: to be measured
+
   /**
+   * @param {object} parts of the map's element
    * @param store @param view see store.js, view.js
-   * @param on what the buttons do: see `createControls`
+   * @param {Object<string, () => void>} does what the buttons do, by their names
    * @param {() => void} moved is called when something takes another place over the canvas
    */
-  constructor(store, view, on, moved) {
-    Object.assign(this, { store, view });
-    this.taken = null; // rectangles under controls; null: to be measured
-    this.controls = createControls(on);
-    this.legend = createLegend(() => (this.forget(), moved()), matchMedia("(max-width: 700px)").matches);
-    this.badge = createBadge();
-    this.summary = createSummary("map-in-words");
-    this.over = [this.badge.element, this.legend.element, this.controls.bar, this.controls.element];
-    this.elements = [...this.over, this.summary.element, this.summary.said];
+  constructor(parts, store, view, does, moved) {
+    Object.assign(this, { parts, store, view });
+    const forgetting = () => {
+      this.forget();
+      moved();
+    };
+    this.legend = createLegend(parts, forgetting);
+    this.summary = createSummary(parts);
+    this.over = [parts.badge, parts.legend, parts.scale, parts.controls];
+    for (const [name, act] of Object.entries(does)) parts[name].addEventListener("click", act);
   }
 
   /** What is over the canvas has to be measured anew. */
   forget() {
     this.taken = null;
+  }
+
+  updateBadge() {
+    showBadge(this.parts, this.store);
+  }
+
+  /** Whether the map follows our car. */
+  following(is) {
+    this.parts.follow.ariaPressed = String(is);
   }
 
   /**
@@ -34,14 +46,14 @@ export class Around {
    * @param {number|null} spacing [m] of the grid that stands in for roads
    */
   update(element, { scene, drawn, spacing }) {
-    const { store, view } = this;
+    const { store, view, parts } = this;
     element.dataset.car = store.latest?.state === "ended" ? "there" : store.status.car; // it may go home after its ride
     element.dataset.empty = String(!scene);
-    this.badge.update(store);
+    this.updateBadge();
     this.legend.update(drawn.kinds, spacing);
-    this.controls.scale(view.scale);
+    showScale(parts, view.scale);
     const compared = drawn.fact + drawn.ghost > 0 && boundsOfEvidence(store.evidence);
-    this.controls.comparing(Boolean(compared) && !view.holds(compared));
+    parts.both.hidden = !compared || view.holds(compared);
   }
 
   /** Tell in words what is on the map, where that is due. */

@@ -1,18 +1,17 @@
 /** What does not move, drawn once into a bitmap that is larger than the view. */
 
+import { clamped } from "../figures.js";
+
 const MARGIN = 0.35; // of the view, on each side
 const MOST = 12e6; // pixels
 const SETTLE = 140; // [ms] for which a bitmap of another scale stands in while zooming
 const STRETCH = 1.6; // by which it may be enlarged meanwhile
 
 export class Backdrop {
-  constructor() {
-    this.bitmap = document.createElement("canvas");
-    this.context = this.bitmap.getContext("2d", { alpha: false });
-    this.made = null; // {k, ratio, left, top}: of the bitmap, in pixels from the world's origin
-    this.since = null; // [ms] since when the scale is another one
-    this.drawn = 0; // times
-  }
+  bitmap = document.createElement("canvas");
+  context = this.bitmap.getContext("2d", { alpha: false });
+  made = null; // {k, ratio, left, top}: of the bitmap, in pixels from the world's origin
+  since = null; // [ms] since when the scale is another one
 
   /** What it holds is no longer true. */
   spoil() {
@@ -64,7 +63,7 @@ export class Backdrop {
   make(view, draw) {
     const [wide, high] = [Math.round(view.width * view.ratio), Math.round(view.height * view.ratio)];
     const room = Math.sqrt(MOST / Math.max(wide * high, 1)) - 1;
-    const margin = Math.max(Math.min(MARGIN, room / 2), 0);
+    const margin = clamped(room / 2, 0, MARGIN);
     const [mx, my] = [Math.round(wide * margin), Math.round(high * margin)];
     if (this.bitmap.width !== wide + 2 * mx || this.bitmap.height !== high + 2 * my) {
       this.bitmap.width = wide + 2 * mx;
@@ -72,7 +71,6 @@ export class Backdrop {
     }
     const [left, top, k] = [-view.ox - mx, -view.oy - my, view.k];
     this.made = { k, ratio: view.ratio, left, top };
-    this.drawn += 1;
     this.context.setTransform(1, 0, 0, 1, 0, 0);
     this.context.fillStyle = this.ground;
     this.context.fillRect(0, 0, this.bitmap.width, this.bitmap.height);

@@ -1,12 +1,13 @@
 /** The small card of a vehicle: what it is, how fast, what it is expected to do. */
 
-import { fill, h } from "../dom.js";
+import { fill, h, partsOf, say } from "../dom.js";
 import { percent, speed } from "../figures.js";
 import { calledOf, capital } from "../words.js";
 import { looksOf } from "./words.js";
 
 const EDGE = 8; // [px] kept from the sides of the map
 const NAME = 28; // [px] kept from the vehicle, for its name
+const GOALS = 4; // that are shown
 
 /** "red car, 30 km/h; turns left: 80 %, ...", for who cannot see the card. */
 export function cardInWords(vehicle, goals) {
@@ -15,39 +16,29 @@ export function cardInWords(vehicle, goals) {
   return `${name}, ${looksOf(vehicle)}, ${speed(vehicle.speed)}.${expected ? ` Expected: ${expected}.` : ""}`;
 }
 
-/** Make the card; `show(vehicle, goals, x, y, reach)` at a place [px] of the map, `hide()`. */
-export function createCard() {
-  const element = h("div", { class: "map-card", hidden: true, "aria-hidden": "true" });
+/** Make the card; `show(vehicle, goals, place)` at a place of the map, `hide()`. */
+export function createCard(element) {
+  const parts = partsOf(element);
   let shown = "";
   return {
-    element,
-    hide() {
-      element.hidden = true;
-      shown = "";
-    },
+    hide: () => void (element.hidden = true),
     show(vehicle, goals, place) {
-      const key = JSON.stringify([vehicle.id, vehicle.kind, vehicle.colour, speed(vehicle.speed), goals]);
-      if (key !== shown) {
-        shown = key;
-        fill(element, ...content(vehicle, goals));
-      }
+      const words = [vehicle.id === 0 ? "our car" : calledOf(vehicle), speed(vehicle.speed), looksOf(vehicle)];
+      const key = JSON.stringify([words, goals]);
       element.hidden = false;
+      if (key !== shown) draw(parts, words, goals);
+      shown = key;
       moveTo(element, place);
     },
   };
 }
 
-function content(vehicle, goals) {
-  const name = vehicle.id === 0 ? "our car" : calledOf(vehicle);
-  const rows = goals.slice(0, 4).map(([words, p]) => {
-    const bar = h("meter", { min: 0, max: 1, value: p });
-    return h("li", {}, h("span", {}, words), bar, h("b", {}, percent(p)));
-  });
-  return [
-    h("p", { class: "map-card-name" }, h("b", {}, name), h("span", {}, speed(vehicle.speed))),
-    h("p", { class: "map-card-looks" }, looksOf(vehicle)),
-    rows.length ? h("ul", {}, rows) : null,
-  ];
+function draw(parts, [name, fast, looks], goals) {
+  say(parts.name, name);
+  say(parts.speed, fast);
+  say(parts.looks, looks);
+  const bar = (value) => h("meter", { min: 0, max: 1, value });
+  fill(parts.goals, goals.slice(0, GOALS).map(([words, p]) => h("li", h("span", words), bar(p), h("b", percent(p)))));
 }
 
 function moveTo(element, { x, y, reach, width, height }) {

@@ -5,17 +5,29 @@ import { createCard } from "./card.js";
 
 const NEAR = 16; // [px] around a vehicle that still mean it
 
+/**
+ * Vehicles that the turn shown speaks of.
+ * @param {import("../store.js").Store} store
+ * @returns {{causes: Set<number>, about: Set<number>}} those that are blamed, and others but ours
+ */
+export function toldOf({ evidence, turns, turn }) {
+  const causes = new Set((evidence?.causes ?? []).map((cause) => cause.vehicle));
+  const named = turns.find((one) => one.n === turn)?.vehicles ?? [];
+  return { causes, about: new Set(named.filter((id) => id !== 0 && !causes.has(id))) };
+}
+
 export class Choosing {
+  vehicles = []; // of the scene that is drawn
+  hovered = null; // vehicle under the mouse
+  chosen = null; // vehicle whose card stays
+
   /**
+   * @param {HTMLElement} card
    * @param {{say: (vehicle, goals) => void}} summary announces the vehicle that is chosen
    * @param {() => void} changed is called when another one is
    */
-  constructor(store, view, summary, changed) {
-    Object.assign(this, { store, view, summary, changed });
-    this.card = createCard();
-    this.vehicles = []; // of the scene that is drawn
-    this.hovered = null; // vehicle under the mouse
-    this.chosen = null; // vehicle whose card stays
+  constructor(card, store, view, summary, changed) {
+    Object.assign(this, { store, view, summary, changed, card: createCard(card) });
   }
 
   /** The vehicle that a card is shown of, or null. */
@@ -24,19 +36,19 @@ export class Choosing {
   }
 
   find(id) {
-    return this.vehicles.find((vehicle) => vehicle.id === id);
+    return this.vehicles.find((vehicle) => vehicle.id === id) ?? null;
   }
 
   /** The vehicle at a place [px] of the map, or null. */
   at(px, py) {
-    let best = null;
+    let best = { id: null, away: Infinity };
     for (const vehicle of this.vehicles) {
       const [x, y] = this.view.toScreen(...middleOf(vehicle));
       const away = Math.hypot(x - px, y - py);
-      if (away < Math.max(radiusOf(vehicle, this.view.scale), NEAR) && !(best?.away <= away))
-        best = { id: vehicle.id, away };
+      const near = away < Math.max(radiusOf(vehicle, this.view.scale), NEAR);
+      if (near && away < best.away) best = { id: vehicle.id, away };
     }
-    return best?.id ?? null;
+    return best.id;
   }
 
   /** Choose a vehicle, or none: null. Other parts of the page point at it too. */
@@ -46,8 +58,8 @@ export class Choosing {
     this.chosen = id;
     if (id) this.store.point([id]);
     else if (ours) this.store.point([]);
-    const vehicle = id === null ? null : this.find(id);
-    this.summary.say(vehicle, vehicle ? this.goalsOf(id) : []);
+    const vehicle = this.find(id);
+    this.summary.say(vehicle, vehicle && this.goalsOf(id));
     this.changed();
   }
 
@@ -69,10 +81,10 @@ export class Choosing {
 
   /** Let the card stand beside its vehicle. */
   place() {
-    const vehicle = this.id === null ? null : this.find(this.id);
+    const vehicle = this.find(this.id);
     const { width, height, scale } = this.view;
     const [x, y] = vehicle ? this.view.toScreen(...middleOf(vehicle)) : [-1, -1];
-    if (x < 0 || y < 0 || x > width || y > height) return this.card.hide();
-    return this.card.show(vehicle, this.goalsOf(this.id), { x, y, reach: radiusOf(vehicle, scale), width, height });
+    if (x < 0 || y < 0 || x > width || y > height) this.card.hide();
+    else this.card.show(vehicle, this.goalsOf(vehicle.id), { x, y, reach: radiusOf(vehicle, scale), width, height });
   }
 }

@@ -3,13 +3,13 @@
 const STALE = 3; // [s] for which the one before stands in while the next one is on its way
 
 export class Deciding {
+  detail = null;
+  asked = null; // id that is on its way
+  failed = null; // id that is not to be had
+
   /** @param {() => void} changed is called when another decision is there */
   constructor(store, changed) {
-    this.store = store;
-    this.changed = changed;
-    this.detail = null;
-    this.asked = null; // id that is on its way
-    this.failed = null; // id that is not to be had
+    Object.assign(this, { store, changed });
   }
 
   /** Another moment is shown, or there are more decisions. */

@@ -4,12 +4,13 @@ const AHEAD = 0.16; // of the map that is seen more in front than behind
 const SETTLE = 260; // [ms] in which a new lead is taken on, for the most part
 
 export class Following {
+  on = true;
+  lead = null; // [m] from the car to the centre of the view; null: none taken yet
+  then = 0; // [ms] of the frame before
+  settled = true;
+
   constructor(view) {
     this.view = view;
-    this.on = true;
-    this.lead = null; // [m] from the car to the centre of the view; null: none taken yet
-    this.then = 0; // [ms] of the frame before
-    this.settled = true;
   }
 
   /** Switch it on or off; switched on, the view moves over to the car smoothly. */

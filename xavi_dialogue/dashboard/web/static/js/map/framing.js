@@ -1,6 +1,7 @@
 /** How near the map looks while it follows our car: what matters around it fills the view. */
 
-import { count } from "./lines.js";
+import { clamped } from "../figures.js";
+import { pointsOf } from "./lines.js";
 
 const NEAREST = 4; // other vehicles that matter
 const AHEAD = 70; // [m] in which they do, and in which a junction does
@@ -45,12 +46,12 @@ export class Framing {
   step(ego, points, now) {
     const { view } = this;
     this.looked = now;
-    const scale = Math.min(Math.max(this.largest(ego, points) * SLACK, LEAST), MOST);
+    const scale = clamped(this.largest(ego, points) * SLACK, LEAST, MOST);
     const roomy = scale > view.scale * CLOSER;
     this.roomSince = roomy ? (this.roomSince ?? now) : null;
-    if (this.fresh) view.jump({ x: null, y: null, scale });
+    if (this.fresh) view.jump({ scale });
     else if (scale < view.scale * SLACK || (roomy && now - this.roomSince > CALM)) {
-      view.glideTo(null, null, scale, now, GLIDE);
+      view.glideTo({ scale }, now, GLIDE);
     }
     this.fresh = false;
   }
@@ -91,11 +92,9 @@ export function pointsThatMatter(ego, { vehicles, told, detail, roads }) {
   near.sort((a, b) => a.away - b.away);
   points.push(...near.slice(0, NEAREST).map((one) => one.point));
   const link = roads?.links.get(detail?.right_of_way?.ego);
-  for (const lane of (link?.via ?? []).map((id) => roads.lanes.get(id))) {
-    for (let i = 0; lane && i < count(lane.line); i += 1) {
-      const [x, y] = [lane.line[2 * i], lane.line[2 * i + 1]];
-      if (Math.hypot(x - ego.x, y - ego.y) < AHEAD) points.push([x, y]);
-    }
+  for (const id of link?.via ?? []) {
+    const line = pointsOf(roads.lanes.get(id)?.line ?? []);
+    points.push(...line.filter(([x, y]) => Math.hypot(x - ego.x, y - ego.y) < AHEAD));
   }
   return points;
 }

@@ -1,5 +1,7 @@
 /** Mouse, fingers and keys on the map, as what they mean: pan, zoom, hover, choose. */
 
+import { clamped } from "../figures.js";
+
 const TAP = 6; // [px] that a finger may move and still tap
 const STEP = 60; // [px] that an arrow key pans
 const WHEEL = 0.0016; // log of zoom per pixel of the wheel
@@ -11,16 +13,13 @@ const WHEEL = 0.0016; // log of zoom per pixel of the wheel
  */
 export function listen(canvas, on) {
   pointers(canvas, on);
-  canvas.addEventListener(
-    "wheel",
-    (event) => {
-      event.preventDefault();
-      const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
-      const turned = Math.max(Math.min(event.deltaY * lines, 240), -240);
-      on.zoom(Math.exp(-turned * WHEEL * (event.ctrlKey ? 4 : 1)), event.offsetX, event.offsetY);
-    },
-    { passive: false },
-  );
+  const wheel = (event) => {
+    event.preventDefault();
+    const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1;
+    const turned = clamped(event.deltaY * lines, -240, 240);
+    on.zoom(Math.exp(-turned * WHEEL * (event.ctrlKey ? 4 : 1)), event.offsetX, event.offsetY);
+  };
+  canvas.addEventListener("wheel", wheel, { passive: false });
   canvas.addEventListener("dblclick", (event) => on.zoom(event.shiftKey ? 0.5 : 2, event.offsetX, event.offsetY));
   canvas.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || (event.altKey && !"[]".includes(event.key))) return;

@@ -14,11 +14,10 @@ export function drawHidden(hidden, { context, view, colours, roads }) {
   if (!hidden?.length || !roads) return false;
   const { box, byWidth } = pathsOf(hidden, roads);
   if (!box || !meet(box, view.bounds)) return false;
-  const pattern = patternOf(context, view, colours);
   view.world(context);
   context.setLineDash([]);
   context.lineCap = "butt";
-  for (const colour of [colours.get("map-hidden", 0.32), pattern]) {
+  for (const colour of [colours.get("map-hidden", 0.32), patternOf(context, view, colours)]) {
     context.strokeStyle = colour;
     for (const [width, path] of byWidth) {
       context.lineWidth = width;
@@ -31,18 +30,18 @@ export function drawHidden(hidden, { context, view, colours, roads }) {
 /** One path for all lanes of a width: where they overlap, they are no darker. */
 function pathsOf(hidden, roads) {
   let found = PATHS.get(hidden);
-  if (found?.roads !== roads) {
-    const [byWidth, lines] = [new Map(), []];
-    for (const [id, begin, end] of hidden) {
-      const lane = roads.lanes.get(id) ?? roads.others.get(id);
-      const line = lane ? partOf(lane.line, begin, end) : [];
-      if (line.length < 4) continue;
-      if (!byWidth.has(lane.width)) byWidth.set(lane.width, new Path2D());
-      trace(byWidth.get(lane.width), line);
-      lines.push(line);
-    }
-    PATHS.set(hidden, (found = { roads, byWidth, box: boundsOf(lines, 2) }));
+  if (found?.roads === roads) return found;
+  const [byWidth, lines] = [new Map(), []];
+  for (const [id, begin, end] of hidden) {
+    const lane = roads.lanes.get(id) ?? roads.others.get(id);
+    const line = lane ? partOf(lane.line, begin, end) : [];
+    if (line.length < 4) continue;
+    if (!byWidth.has(lane.width)) byWidth.set(lane.width, new Path2D());
+    trace(byWidth.get(lane.width), line);
+    lines.push(line);
   }
+  found = { roads, byWidth, box: boundsOf(lines, 2) };
+  PATHS.set(hidden, found);
   return found;
 }
 
@@ -53,8 +52,7 @@ function patternOf(context, view, colours) {
     const size = Math.round(HATCH * view.ratio);
     const bitmap = new OffscreenCanvas(size, size);
     const pen = bitmap.getContext("2d");
-    pen.strokeStyle = colours.get("map-hidden", 0.9);
-    pen.lineWidth = 1.3 * view.ratio;
+    Object.assign(pen, { strokeStyle: colours.get("map-hidden", 0.9), lineWidth: 1.3 * view.ratio });
     for (const shift of [-size, 0, size]) {
       pen.moveTo(shift - size / 2, -size / 2);
       pen.lineTo(shift + 1.5 * size, 1.5 * size);
@@ -68,27 +66,15 @@ function patternOf(context, view, colours) {
 
 /** Draw who may come out of what is hidden; returns how many are in view. */
 export function drawImagined(detail, { context, view, colours, labels }) {
-  let drawn = 0;
-  for (const [k, one] of (detail?.imagined ?? []).entries()) {
-    const car = { ...CAR, x: one.position[0], y: one.position[1], heading: one.heading };
-    if (!meet([car.x, car.y, car.x, car.y], view.bounds)) continue;
+  const cars = (detail?.imagined ?? []).map(({ position: [x, y], ...one }) => ({ ...one, ...CAR, x, y }));
+  const inView = cars.filter(({ x, y }) => meet([x, y, x, y], view.bounds));
+  const look = { ink: colours.get("warn"), ground: colours.get("card", 0.92), edge: colours.get("warn", 0.6) };
+  for (const car of inView) {
     drawGhost(context, view, car, colours, { colour: "warn", fill: 0.25, line: 1 });
     const [x, y] = view.toScreen(...middleOf(car));
-    const chance = percent(one.probability);
-    labels.add({
-      key: `imagined ${k}`,
-      text: `unseen: ${chance}`,
-      short: `? ${chance}`,
-      x,
-      y,
-      reach: 12,
-      weight: 25,
-      wide: true,
-      ink: colours.get("warn"),
-      ground: colours.get("card", 0.92),
-      edge: colours.get("warn", 0.6),
-    });
-    drawn += 1;
+    const chance = percent(car.probability);
+    const texts = { key: `imagined ${cars.indexOf(car)}`, text: `unseen: ${chance}`, short: `? ${chance}` };
+    labels.add({ ...texts, x, y, reach: 12, weight: 25, wide: true, ...look });
   }
-  return drawn;
+  return inView.length;
 }

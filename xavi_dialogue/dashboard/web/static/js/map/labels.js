@@ -1,52 +1,37 @@
 /** Labels that neither overlap each other nor leave the view; who has no room goes without. */
 
-import { drawPill, HEIGHT, Pills } from "./pills.js";
+import { clamped } from "../figures.js";
+import { drawPill, HEIGHT, Pills } from "./bitmaps.js";
 
 const EACH = 190; // [ms] from one placing to the next
 const PAD = 6; // [px] left and right of the text
 const CELL = 64; // [px] of the grid by which neighbours are found
 const LONGEST = 64; // characters
+const WIDTHS = 2000; // of texts that are kept
+const BEYOND = 40; // [px] outside the view, in which what is named may be
 
 /** Places of a label around what it names, the best first: x, y from -1 to 1; halves overlap it. */
-const SIDES = [
-  [0, -1],
-  [1, 0],
-  [-1, 0],
-  [0, 1],
-  [1, -1],
-  [-1, -1],
-  [1, 1],
-  [-1, 1],
-];
-const WIDE = [
-  [0, -1],
-  [0.5, -1],
-  [-0.5, -1],
-  [1, -1],
-  [-1, -1],
-  [0, 1],
-  [0.5, 1],
-  [-0.5, 1],
-  [1, 1],
-  [-1, 1],
-];
+const SIDES = ["0 -1", "1 0", "-1 0", "0 1", "1 -1", "-1 -1", "1 1", "-1 1"].map(numbers);
+const WIDE = ["0 -1", ".5 -1", "-.5 -1", "1 -1", "-1 -1", "0 1", ".5 1", "-.5 1", "1 1", "-1 1"].map(numbers);
+
+function numbers(text) {
+  return text.split(" ").map(Number);
+}
 
 /**
  * Finding room takes long, and labels that hop about cannot be read: they are placed a few times a
  * second, and go along with what they name in between.
  */
 export class Labels {
-  constructor() {
-    this.widths = new Map();
-    this.pills = new Pills();
-    this.sides = new Map(); // where each label was, so that it does not hop about
-    this.places = new Map(); // by key: bitmap, left and top [px] from what it names, and where that is
-    this.texts = []; // of those that are placed
-    this.placing = false; // whether wishes are heard in this frame
-    this.stale = true; // whether what is placed may not fit any more
-    this.since = -Infinity; // [ms] when they were placed last
-    this.font = "";
-  }
+  widths = new Map(); // [px] by text
+  pills = new Pills();
+  sides = new Map(); // where each label was, so that it does not hop about
+  places = new Map(); // by key: bitmap, left and top [px] from what it names, and where that is
+  texts = []; // of those that are placed
+  placing = false; // whether wishes are heard in this frame
+  stale = true; // whether what is placed may not fit any more
+  since = -Infinity; // [ms] when they were placed last
+  font = "";
 
   /** Place them in the next frame, whenever the last time was. */
   spoil() {
@@ -67,7 +52,7 @@ export class Labels {
 
   /** Keep labels of lesser weight off a rectangle. */
   occupy(box) {
-    this.each(box, (cell) => cell.push(box));
+    for (const cell of this.cellsOf(box)) cell.push(box);
   }
 
   /**
@@ -78,18 +63,17 @@ export class Labels {
    *   heaviest are placed first; `short` is said where there is no room for the text
    */
   add(label) {
-    if (!this.placing) return void this.move(label.key, label.x, label.y);
+    const { key, text, x, y } = label;
+    if (!this.placing) return void this.move(key, x, y);
     const { width, height } = this.view;
-    if (label.x < -40 || label.y < -40 || label.x > width + 40 || label.y > height + 40) return;
-    const text = label.text.length > LONGEST ? `${label.text.slice(0, LONGEST - 1)}…` : label.text;
-    this.wanted.push({ ...label, text });
+    if (x < -BEYOND || y < -BEYOND || x > width + BEYOND || y > height + BEYOND) return;
+    this.wanted.push({ ...label, text: text.length > LONGEST ? `${text.slice(0, LONGEST - 1)}…` : text });
   }
 
   /** What a label names is elsewhere: enough between two placings. */
   move(key, x, y) {
     const place = this.places.get(key);
-    if (!place) return;
-    [place.x, place.y, place.there] = [x, y, true];
+    if (place) Object.assign(place, { x, y, there: true });
   }
 
   /** Draw all that found room; returns their texts. */
@@ -107,11 +91,7 @@ export class Labels {
   place(context) {
     this.view.screen(context);
     this.wanted.sort((a, b) => b.weight - a.weight || (a.key < b.key ? -1 : 1));
-    const placed = [];
-    for (const label of this.wanted) {
-      const found = this.placed(context, label);
-      if (found) placed.push(found);
-    }
+    const placed = this.wanted.map((label) => this.placed(context, label)).filter(Boolean);
     this.places.clear();
     for (const [label, [left, top, right]] of placed) {
       const { key, x, y } = label;
@@ -123,51 +103,40 @@ export class Labels {
     for (const key of this.sides.keys()) if (!kept.has(key)) this.sides.delete(key);
   }
 
-  placed(context, label) {
-    return this.fitted(context, label) ?? (label.short ? this.placed(context, shorter(label)) : null);
-  }
-
-  fitted(context, label) {
+  /** The label, or its short form, and its rectangle; null: there is no room. */
+  placed(context, { short, ...label }) {
     const width = this.widthOf(context, label) + 2 * PAD;
-    const before = this.sides.get(label.key);
     const sides = label.wide ? WIDE : SIDES;
-    for (const side of [before ?? 0, ...sides.keys()]) {
+    for (const side of [this.sides.get(label.key) ?? 0, ...sides.keys()]) {
       const [dx, dy] = sides[side];
-      const box = this.boxAt(label, width, [dx, label.below ? -dy : dy]);
+      const box = boxAt(label, width, dx, label.below ? -dy : dy);
       if (!this.free(box)) continue;
       this.sides.set(label.key, side);
       this.occupy(box);
       return [label, box];
     }
-    return null;
+    return short ? this.placed(context, { ...label, text: short }) : null;
   }
 
-  boxAt(label, width, [dx, dy]) {
-    const across = Math.abs(dx) === 1 ? label.reach * (dy ? 0.75 : 1) : 0;
-    const down = dy ? label.reach * (dx ? 0.75 : 1) : 0;
-    const x = label.x + dx * (across + width / 2) - width / 2;
-    const y = label.y + dy * (down + HEIGHT / 2) - HEIGHT / 2;
-    return [x, y, x + width, y + HEIGHT];
+  free([left, top, right, bottom]) {
+    if (left < 2 || top < 2 || right > this.view.width - 2 || bottom > this.view.height - 2) return false;
+    const meets = (one) => one[0] < right && one[2] > left && one[1] < bottom && one[3] > top;
+    return !this.cellsOf([left, top, right, bottom]).some((cell) => cell.some(meets));
   }
 
-  free(box) {
-    if (box[0] < 2 || box[1] < 2 || box[2] > this.view.width - 2 || box[3] > this.view.height - 2) return false;
-    let free = true;
-    this.each(box, (cell) => {
-      if (free) free = !cell.some((one) => one[0] < box[2] && one[2] > box[0] && one[1] < box[3] && one[3] > box[1]);
-    });
-    return free;
-  }
-
-  each([left, top, right, bottom], visit) {
-    const [across, down] = [cellOf(right, this.view.width), cellOf(bottom, this.view.height)];
-    for (let i = cellOf(left, this.view.width); i <= across; i += 1) {
-      for (let j = cellOf(top, this.view.height); j <= down; j += 1) {
+  /** Cells of the grid that a rectangle lies in; beyond the view there are none, however large it is. */
+  cellsOf([left, top, right, bottom]) {
+    const { width, height } = this.view;
+    const found = [];
+    const [across, down] = [cellAt(right, width), cellAt(bottom, height)];
+    for (let i = cellAt(left, width); i <= across; i += 1) {
+      for (let j = cellAt(top, height); j <= down; j += 1) {
         const key = i * 4096 + j;
         if (!this.cells.has(key)) this.cells.set(key, []);
-        visit(this.cells.get(key));
+        found.push(this.cells.get(key));
       }
     }
+    return found;
   }
 
   fontOf(label) {
@@ -176,22 +145,23 @@ export class Labels {
 
   widthOf(context, label) {
     const key = `${label.strong ? "!" : ""}${label.text}`;
-    let width = this.widths.get(key);
-    if (width === undefined) {
-      if (this.widths.size > 2000) this.widths.clear();
+    if (!this.widths.has(key)) {
+      if (this.widths.size > WIDTHS) this.widths.clear();
       context.font = this.fontOf(label);
-      width = context.measureText(label.text).width;
-      this.widths.set(key, width);
+      this.widths.set(key, context.measureText(label.text).width);
     }
-    return width;
+    return this.widths.get(key);
   }
 }
 
-/** Beyond the view there is nothing to keep free, however large a vehicle is said to be. */
-function cellOf(pixels, size) {
-  return Math.floor(Math.min(Math.max(pixels, 0), size) / CELL);
+function boxAt(label, width, dx, dy) {
+  const across = Math.abs(dx) === 1 ? label.reach * (dy ? 0.75 : 1) : 0;
+  const down = dy ? label.reach * (dx ? 0.75 : 1) : 0;
+  const x = label.x + dx * (across + width / 2) - width / 2;
+  const y = label.y + dy * (down + HEIGHT / 2) - HEIGHT / 2;
+  return [x, y, x + width, y + HEIGHT];
 }
 
-function shorter({ short, ...label }) {
-  return { ...label, text: short };
+function cellAt(pixels, size) {
+  return Math.floor(clamped(pixels, 0, size) / CELL);
 }

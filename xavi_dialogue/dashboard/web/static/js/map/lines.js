@@ -1,34 +1,41 @@
 /** Polylines as the server sends them: x, y, x, y, ... in metres. */
 
+import { clamped } from "../figures.js";
+
 /** Number of points of a line. */
 export function count(line) {
   return line.length >> 1;
 }
 
+/** The points of a line: [[x, y], ...]. */
+export function pointsOf(line) {
+  return Array.from({ length: count(line) }, (_, i) => [line[2 * i], line[2 * i + 1]]);
+}
+
+/** [m] Length of the segment that ends at a point. */
+function stretchTo(line, i) {
+  return Math.hypot(line[2 * i] - line[2 * i - 2], line[2 * i + 1] - line[2 * i - 1]);
+}
+
 /** The line moved sideways by a distance [m], to the left where it is positive. */
 export function offset(line, distance) {
-  const n = count(line);
-  const moved = new Array(line.length);
-  for (let i = 0; i < n; i += 1) {
+  const last = count(line) - 1;
+  return pointsOf(line).flatMap(([x, y], i) => {
     const before = direction(line, Math.max(i - 1, 0));
-    const after = direction(line, Math.min(i, n - 2));
-    let nx = -before[1] - after[1];
-    let ny = before[0] + after[0];
-    const size = Math.hypot(nx, ny) || 1;
-    nx /= size;
-    ny /= size;
+    const after = direction(line, Math.min(i, last - 1));
+    const [nx, ny] = unit(-before[1] - after[1], before[0] + after[0]);
     // Outside a bend the corner is farther away; sharp corners are cut off.
-    const stretch = 1 / Math.max(nx * -after[1] + ny * after[0], 0.5);
-    moved[2 * i] = line[2 * i] + nx * distance * stretch;
-    moved[2 * i + 1] = line[2 * i + 1] + ny * distance * stretch;
-  }
-  return moved;
+    const stretch = distance / Math.max(nx * -after[1] + ny * after[0], 0.5);
+    return [x + nx * stretch, y + ny * stretch];
+  });
 }
 
 /** Unit vector of the segment that begins at a point. */
 function direction(line, i) {
-  const x = line[2 * i + 2] - line[2 * i];
-  const y = line[2 * i + 3] - line[2 * i + 1];
+  return unit(line[2 * i + 2] - line[2 * i], line[2 * i + 3] - line[2 * i + 1]);
+}
+
+function unit(x, y) {
   const size = Math.hypot(x, y) || 1;
   return [x / size, y / size];
 }
@@ -36,8 +43,8 @@ function direction(line, i) {
 /** Where a line is at a place between its points: {x, y, heading}; `index` may be fractional. */
 export function pointAt(line, index) {
   const last = count(line) - 1;
-  const i = Math.min(Math.max(Math.floor(index), 0), Math.max(last - 1, 0));
-  const part = Math.min(Math.max(index - i, 0), 1);
+  const i = clamped(Math.floor(index), 0, Math.max(last - 1, 0));
+  const part = clamped(index - i, 0, 1);
   const next = Math.min(i + 1, last);
   return {
     x: line[2 * i] + (line[2 * next] - line[2 * i]) * part,
@@ -48,12 +55,8 @@ export function pointAt(line, index) {
 
 /** [rad] Heading of a line near a point, over stretches in which it stands still. */
 export function headingAt(line, i) {
-  const last = count(line) - 1;
-  for (const [from, to, step] of [
-    [i, last, 1],
-    [i, 0, -1],
-  ]) {
-    for (let k = from + step; step > 0 ? k <= to : k >= to; k += step) {
+  for (const step of [1, -1]) {
+    for (let k = i + step; k >= 0 && k < count(line); k += step) {
       const x = (line[2 * k] - line[2 * i]) * step;
       const y = (line[2 * k + 1] - line[2 * i + 1]) * step;
       if (x * x + y * y > 0.04) return Math.atan2(y, x);
@@ -65,8 +68,7 @@ export function headingAt(line, i) {
 /** What is left of a line from a fractional index on. */
 function from(line, index) {
   if (index <= 0) return line;
-  const last = count(line) - 1;
-  if (index >= last) return [];
+  if (index >= count(line) - 1) return [];
   const start = pointAt(line, index);
   return [start.x, start.y, ...line.slice(2 * Math.floor(index) + 2)];
 }
@@ -76,7 +78,7 @@ const NEAR = 0.8; // [m]
 const CUT = 0.1; // [s] of driving after which it is cut anew: less than a car's length
 
 /**
- * What is left of a Drive (see documents.py) at a moment [s], which frame after frame asks for.
+ * What is left of a Drive at a moment [s], which frame after frame asks for.
  * @param {number} pieces that it falls into at most, each a Path2D
  * @returns {{line: number[], length: number, pieces: Path2D[]}} length [m]
  */
@@ -93,26 +95,24 @@ export function ahead(drive, t, pieces) {
 function coarser(line) {
   const last = count(line) - 1;
   const kept = line.slice(0, 2);
-  for (let i = 1; i <= last; i += 1) {
-    const away = Math.hypot(line[2 * i] - kept.at(-2), line[2 * i + 1] - kept.at(-1));
-    if (away >= NEAR || i === last) kept.push(line[2 * i], line[2 * i + 1]);
-  }
+  pointsOf(line).forEach(([x, y], i) => {
+    const away = Math.hypot(x - kept.at(-2), y - kept.at(-1));
+    if (i > 0 && (away >= NEAR || i === last)) kept.push(x, y);
+  });
   return kept;
 }
 
 function cutUp(line, most) {
   const last = Math.max(count(line) - 1, 0);
   const pieces = Math.min(most, last);
-  return Array.from({ length: pieces }, (_, k) => {
-    const [a, b] = [Math.round((k * last) / pieces), Math.round(((k + 1) * last) / pieces)];
-    return pathOf(line.slice(2 * a, 2 * b + 2));
-  });
+  const at = (k) => Math.round((k * last) / pieces);
+  return Array.from({ length: pieces }, (_, k) => pathOf(line.slice(2 * at(k), 2 * at(k + 1) + 2)));
 }
 
 /** [m] Length of a line. */
 export function lengthOf(line) {
   let sum = 0;
-  for (let i = 2; i < line.length; i += 2) sum += Math.hypot(line[i] - line[i - 2], line[i + 1] - line[i - 1]);
+  for (let i = 1; i < count(line); i += 1) sum += stretchTo(line, i);
   return sum;
 }
 
@@ -120,12 +120,12 @@ export function lengthOf(line) {
 export function partOf(line, begin, end) {
   const found = [];
   let gone = 0;
-  for (let i = 0; i + 1 < count(line); i += 1) {
-    const size = Math.hypot(line[2 * i + 2] - line[2 * i], line[2 * i + 3] - line[2 * i + 1]);
+  for (let i = 1; i < count(line); i += 1) {
+    const size = stretchTo(line, i);
     const [low, high] = [Math.max(begin - gone, 0), Math.min(end - gone, size)];
     gone += size;
     if (!(low < high)) continue;
-    const [a, b] = [pointAt(line, i + low / size), pointAt(line, i + Math.min(high / size, 1 - 1e-9))];
+    const [a, b] = [pointAt(line, i - 1 + low / size), pointAt(line, i - 1 + Math.min(high / size, 1 - 1e-9))];
     if (!found.length) found.push(a.x, a.y);
     found.push(b.x, b.y);
   }
@@ -136,7 +136,7 @@ export function partOf(line, begin, end) {
 export function beforeEnd(line, distance) {
   let left = distance;
   for (let i = count(line) - 1; i > 0; i -= 1) {
-    const size = Math.hypot(line[2 * i] - line[2 * i - 2], line[2 * i + 1] - line[2 * i - 1]);
+    const size = stretchTo(line, i);
     if (size >= left && size > 0) return { ...pointAt(line, i - left / size), heading: headingAt(line, i - 1) };
     left -= size;
   }
@@ -145,12 +145,21 @@ export function beforeEnd(line, distance) {
 
 /** The last point of a line within bounds, the line's own end if it is there; null: none is. */
 export function lastWithin(line, [left, bottom, right, top]) {
-  for (let i = count(line) - 1; i >= 0; i -= 1) {
-    const [x, y] = [line[2 * i], line[2 * i + 1]];
-    if (x >= left && x <= right && y >= bottom && y <= top)
-      return { x, y, heading: headingAt(line, i), end: i === count(line) - 1 };
+  const points = pointsOf(line);
+  const i = points.findLastIndex(([x, y]) => x >= left && x <= right && y >= bottom && y <= top);
+  if (i < 0) return null;
+  const [x, y] = points[i];
+  return { x, y, heading: headingAt(line, i), end: i === points.length - 1 };
+}
+
+/** [m] How far a point is from the nearest one of a line, and whether that lies north of it. */
+export function nearestOf(line, { x, y }) {
+  let nearest = { away: Infinity, north: false };
+  for (let i = 0; i < line.length; i += 2) {
+    const away = Math.hypot(line[i] - x, line[i + 1] - y);
+    if (away < nearest.away) nearest = { away, north: line[i + 1] > y + 0.2 };
   }
-  return null;
+  return nearest;
 }
 
 /** Bounds of lines: [left, bottom, right, top] in metres; null where there is no point. */

@@ -1,9 +1,11 @@
 /** The map: a canvas, its controls, and when they are drawn anew. */
 
+import { on, partsOf } from "../dom.js";
 import { lastUpTo } from "../store.js";
 import { Around } from "./around.js";
 import { Backdrop } from "./backdrop.js";
-import { Choosing } from "./choosing.js";
+import { Sprites } from "./bitmaps.js";
+import { Choosing, toldOf } from "./choosing.js";
 import { Colours } from "./colours.js";
 import { Deciding } from "./deciding.js";
 import { Following } from "./following.js";
@@ -16,38 +18,14 @@ import { Motion, sceneAt } from "./motion.js";
 import { Pace } from "./pace.js";
 import { drawPicture } from "./picture.js";
 import { RoadLayer, drawGrid } from "./roads.js";
-import { Sprites } from "./sprites.js";
 import { Steering } from "./steering.js";
 import { Surface } from "./surface.js";
-import { toldOf } from "./told.js";
 import { View } from "./view.js";
 
 const BUSY = 14; // [ms] a frame that takes longer is drawn at most 30 times a second
 const SPARE = 30; // [ms]
-const NOTHING = {
-  vehicles: [],
-  labels: [],
-  ghost: 0,
-  fact: 0,
-  predictions: 0,
-  yields: 0,
-  lights: 0,
-  hidden: false,
-  imagined: 0,
-  preview: false,
-  kinds: new Set(),
-};
-const WORDED = new Set(["ride", "shown", "pointed", "preview"]); // changes by which other labels are wanted
-const LABEL =
-  "Map of the drive. Arrow keys move it, plus and minus zoom, 0 shows everything, F follows our car, " +
-  "N and P, or the square brackets, go through the vehicles in view, Escape lets go of them.";
-const ATTRIBUTES = {
-  tabindex: 0,
-  role: "application",
-  "aria-roledescription": "map",
-  "aria-label": LABEL,
-  "aria-describedby": "map-in-words",
-};
+const NONE = { ghost: 0, fact: 0, predictions: 0, yields: 0, lights: 0, imagined: 0, hidden: false, preview: false };
+const NOTHING = { ...NONE, vehicles: [], labels: [], kinds: new Set() };
 
 /**
  * Make the map.
@@ -66,8 +44,8 @@ const ATTRIBUTES = {
 export function createMap(element, store) {
   const map = new LiveMap(element, store);
   return {
-    fit: () => map.steering.fit(map.everything),
-    follow: (on = !map.following.on) => map.steering.follow(on),
+    fit: () => map.fit(),
+    follow: (on) => map.steering.follow(on),
     zoom: (factor) => map.steering.zoom(factor),
     shown: () => map.shown(),
     frames: () => map.pace.figures(performance.now()),
@@ -75,97 +53,72 @@ export function createMap(element, store) {
 }
 
 class LiveMap {
+  view = new View();
+  motion = new Motion();
+  backdrop = new Backdrop();
+  labels = new Labels();
+  sprites = new Sprites();
+  pace = new Pace();
+  roads = null;
+  scene = null; // that is drawn: {t, vehicles}
+  drawn = NOTHING;
+  compared = 0; // [ms] since when lines of a turn are shown
+  frame = 0; // asked for
+  began = -Infinity; // [ms] the last one
+  wasLive = true;
+
   constructor(element, store) {
-    this.element = element;
-    this.store = store;
-    this.view = new View();
-    this.surface = new Surface(this.view, ATTRIBUTES, () => this.measure());
-    const { canvas, context } = this.surface;
-    Object.assign(this, { canvas, context });
-    this.following = new Following(this.view);
-    this.framing = new Framing(this.view, this.following);
-    this.motion = new Motion();
-    this.backdrop = new Backdrop();
-    this.labels = new Labels();
-    this.sprites = new Sprites();
-    this.pace = new Pace();
+    Object.assign(this, { element, store });
+    const { view } = this;
+    const parts = partsOf(element);
+    this.surface = new Surface(view, parts.canvas, () => this.measure());
+    this.following = new Following(view);
+    this.framing = new Framing(view, this.following);
     this.deciding = new Deciding(store, () => this.request());
-    this.roads = null;
-    this.scene = null; // that is drawn: {t, vehicles}
-    this.drawn = NOTHING;
-    this.compared = 0; // [ms] since when lines of a turn are shown
-    this.frame = 0; // asked for
-    this.began = -Infinity; // [ms] the last one
-    this.wasLive = true;
-    this.build();
-    this.listen();
+    this.colours = new Colours(parts.probe);
+    this.steering = new Steering(view, this.following, this.framing, () => this.ego, (following) => {
+      this.around.following(following);
+      this.request();
+    });
+    this.steered = {
+      zoomIn: () => this.steering.zoomIn(),
+      zoomOut: () => this.steering.zoomOut(),
+      fit: () => this.fit(),
+      follow: () => this.steering.follow(),
+    };
+    const both = () => this.steering.fit(boundsOfEvidence(store.evidence));
+    this.around = new Around(parts, store, view, { ...this.steered, both }, () => this.changed());
+    this.choosing = new Choosing(parts.card, store, view, this.around.summary, () => this.changed());
+    this.listen(parts.canvas);
     this.roadsCame();
     this.measure();
   }
 
-  build() {
-    this.steering = new Steering(
-      this.view,
-      this.following,
-      this.framing,
-      () => this.ego,
-      (following) => {
-        this.around.controls.following(following);
-        this.request();
-      },
-    );
-    const { steering } = this;
-    this.steered = {
-      zoomIn: () => steering.zoomIn(),
-      zoomOut: () => steering.zoomOut(),
-      fit: () => steering.fit(this.everything),
-      follow: () => steering.follow(!this.following.on),
-    };
-    const on = { ...this.steered, both: () => steering.fit(boundsOfEvidence(this.store.evidence)) };
-    this.around = new Around(this.store, this.view, on, () => this.changed());
-    this.choosing = new Choosing(this.store, this.view, this.around.summary, () => this.changed());
-    this.element.classList.add("map");
-    this.element.append(this.canvas, ...this.around.elements, this.choosing.card.element);
-    this.colours = new Colours(this.element);
-  }
-
-  listen() {
-    const on = {
-      ride: () => this.begin(),
-      roads: () => this.roadsCame(),
-      scene: () => this.sceneCame(),
-      moment: () => this.momentCame(),
-      decisions: () => this.deciding.update(),
-      shown: () => void (this.compared = performance.now()),
-      pointed: () => {},
-      preview: () => {},
-      status: () => {},
-    };
-    for (const [name, change] of Object.entries(on)) {
-      this.store.addEventListener(name, () => {
-        if (change() === false) return;
-        if (WORDED.has(name)) this.labels.spoil();
-        this.request();
-      });
-    }
+  listen(canvas) {
+    const { store } = this;
+    const request = () => this.request();
+    store.addEventListener("shown", () => void (this.compared = performance.now()));
+    store.addEventListener("ride", () => this.begin());
+    store.addEventListener("roads", () => this.roadsCame());
+    store.addEventListener("scene", () => this.sceneCame());
+    store.addEventListener("moment", () => this.momentCame());
+    store.addEventListener("decisions", () => this.deciding.update());
+    on(store, "roads decisions status", request);
+    on(store, "ride shown pointed preview", () => this.changed());
     const recoloured = () => {
-      this.colours.read();
+      this.colours.forget();
       this.backdrop.spoil();
       this.sprites.forget();
       this.changed();
     };
     window.addEventListener("theme", recoloured);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recoloured);
-    this.view.still.addEventListener("change", () => this.request());
+    this.view.still.addEventListener("change", request);
     new ResizeObserver(() => this.measure()).observe(this.element);
     window.addEventListener("resize", () => this.measure()); // also when only the density changes
-    this.canvas.addEventListener("focus", () => this.around.summary.announced(true));
-    this.canvas.addEventListener("blur", () => this.around.summary.announced(false));
-    this.touched();
-  }
-
-  touched() {
-    listen(this.canvas, {
+    canvas.addEventListener("focus", () => this.around.summary.announced(true));
+    canvas.addEventListener("blur", () => this.around.summary.announced(false));
+    listen(canvas, {
       ...this.steered,
       pan: (dx, dy, pinching = false) => this.steering.pan(dx, dy, pinching),
       zoom: (factor, x, y) => this.steering.zoomAt(factor, x, y),
@@ -177,25 +130,24 @@ class LiveMap {
     });
   }
 
-  /** A live scene came; false: nothing moved, so that nothing need be drawn. */
+  /** A live scene came: where nothing moved, nothing need be drawn. */
   sceneCame() {
     this.motion.arrive(this.store.latest, performance.now());
-    this.around.badge.update(this.store);
-    return !this.motion.still;
+    this.around.updateBadge();
+    if (!this.motion.still) this.request();
   }
 
-  /** Another moment is shown; false: only since a scene came, see there. */
+  /** Another moment is shown; live only since a scene came, see there. */
   momentCame() {
     this.deciding.update();
-    const went = this.store.live && this.wasLive;
+    if (!this.store.live || !this.wasLive) this.request();
     this.wasLive = this.store.live;
-    return !went;
   }
 
   hover(id) {
     if (id === this.choosing.hovered) return;
     this.choosing.hovered = id;
-    this.canvas.classList.toggle("map-over", id !== null);
+    this.surface.canvas.classList.toggle("map-over", id !== null);
     this.changed();
   }
 
@@ -227,9 +179,10 @@ class LiveMap {
     return this.scene?.vehicles.find((vehicle) => vehicle.id === 0);
   }
 
-  /** Bounds of everything there is. */
-  get everything() {
-    return this.roads?.bounds ?? boundsOf(this.scene?.vehicles.map(({ x, y }) => [x, y]) ?? [], 30);
+  /** Show everything there is. */
+  fit() {
+    const vehicles = this.scene?.vehicles ?? [];
+    this.steering.fit(this.roads?.bounds ?? boundsOf(vehicles.map(({ x, y }) => [x, y]), 30));
   }
 
   /** Something is chosen or coloured otherwise: labels are too. */
@@ -237,8 +190,6 @@ class LiveMap {
     this.labels.spoil();
     this.request();
   }
-
-  // --- drawing ---
 
   /** Draw a frame soon. */
   request() {
@@ -252,89 +203,70 @@ class LiveMap {
   draw(now) {
     if (!this.view.width) return;
     const began = performance.now();
+    const { store, pace } = this;
     this.began = now;
     this.scene = this.sceneNow(began);
     this.choosing.vehicles = this.scene?.vehicles ?? [];
     this.move(began);
-    const settling = this.backdropNow(began);
-    this.drawn = this.scene ? this.pictureNow(began) : NOTHING;
+    const settling = this.drawBackdrop(began);
+    this.drawn = this.scene ? this.drawScene(began) : NOTHING;
     this.besides(began);
-    if (this.scene && this.store.live)
-      this.pace.painted(this.store.latest, this.motion.reached(began) ?? this.store.latest);
-    this.pace.frame(began, performance.now());
+    if (this.scene && store.live) pace.painted(store.latest, this.motion.reached(began) ?? store.latest);
+    pace.frame(began, performance.now());
     const moving = settling || this.moving(began);
     if (moving) this.request();
-    if (this.surface.drawn(moving, () => this.pace.rate(began), began)) this.measure();
+    if (this.surface.drawn(moving, () => pace.rate(began), began)) this.measure();
   }
 
   sceneNow(now) {
-    const { store } = this;
-    if (!store.latest) return null;
-    if (store.live) return this.motion.live(now) ?? store.latest;
-    if (!store.past.length || store.at >= store.latest.t) return store.latest;
-    const index = Math.max(lastUpTo(store.past, store.at), 0);
-    return sceneAt([store.past[index], store.past[index + 1] ?? store.latest], store.at);
+    const { live, latest, past, at } = this.store;
+    if (!latest) return null;
+    if (live) return this.motion.live(now) ?? latest;
+    if (!past.length || at >= latest.t) return latest;
+    const index = Math.max(lastUpTo(past, at), 0);
+    return sceneAt([past[index], past[index + 1] ?? latest], at);
   }
 
   move(now) {
     const before = this.view.scale;
-    if (this.ego && this.framing.due(now)) this.frameAnew(this.ego, now);
+    if (this.ego && this.framing.due(now)) {
+      const { causes, about } = toldOf(this.store);
+      const told = new Set([...causes, ...about]);
+      const around = { vehicles: this.scene.vehicles, told, detail: this.deciding.detail, roads: this.roads };
+      this.framing.step(this.ego, pointsThatMatter(this.ego, around), now);
+    }
     this.view.step(now);
     this.following.zoomed(this.view.scale / before);
     this.following.step(this.ego, now);
   }
 
-  frameAnew(ego, now) {
-    const { causes, about } = toldOf(this.store);
-    const around = { vehicles: this.scene.vehicles, told: new Set([...causes, ...about]) };
-    const points = pointsThatMatter(ego, { ...around, detail: this.deciding.detail, roads: this.roads });
-    this.framing.step(ego, points, now);
-  }
-
   moving(now) {
     const live = this.store.live && this.motion.moving(now);
-    const drawing = live || this.view.glide !== null || !this.following.settled || this.looping;
-    return drawing || (this.scene !== null && this.labels.stale);
+    const looping = !this.view.still.matches && this.drawn.fact + this.drawn.ghost > 0; // ghosts, on their lines
+    const unplaced = this.scene !== null && this.labels.stale;
+    return live || this.view.glide !== null || !this.following.settled || looping || unplaced;
   }
 
-  /** Whether ghosts go along their lines. */
-  get looping() {
-    return !this.view.still.matches && this.drawn.fact + this.drawn.ghost > 0;
-  }
-
-  backdropNow(now) {
-    this.backdrop.ground = this.colours.get("ground");
-    return this.backdrop.show(this.context, this.view, now, (context, bounds) => {
+  drawBackdrop(now) {
+    const { colours, view } = this;
+    this.backdrop.ground = colours.get("ground");
+    return this.backdrop.show(this.surface.context, view, now, (context, bounds) => {
       this.spacing = null;
-      if (this.roads) this.roads.draw(context, bounds, this.view.scale, this.colours);
-      else if (this.scene) this.spacing = drawGrid(context, bounds, this.view.scale, this.colours);
+      if (this.roads) this.roads.draw(context, bounds, view.scale, colours);
+      else if (this.scene) this.spacing = drawGrid(context, bounds, view.scale, colours);
     });
   }
 
-  pictureNow(now) {
-    const { store, view } = this;
-    const { evidence } = store;
+  drawScene(now) {
+    const { store, view, colours, labels, sprites, roads } = this;
+    const { evidence, preview } = store;
     const { causes, about } = toldOf(store);
-    this.labels.begin(view, this.colours.font, this.around.rectangles(this.element), now);
+    const elapsed = view.still.matches ? null : (now - this.compared) / 1000;
+    const spokenOf = { causes, pointed: new Set([...store.pointed, ...about]), chosen: this.choosing.id };
+    labels.begin(view, colours.font, this.around.rectangles(this.element), now);
     return drawPicture(
-      {
-        ...this.scene,
-        detail: this.deciding.detail,
-        evidence,
-        preview: store.preview,
-        elapsed: view.still.matches ? null : (now - this.compared) / 1000,
-        causes,
-        pointed: new Set([...store.pointed, ...about]),
-        chosen: this.choosing.id,
-      },
-      {
-        context: this.context,
-        view,
-        colours: this.colours,
-        labels: this.labels,
-        sprites: this.sprites,
-        roads: this.roads,
-      },
+      { ...this.scene, ...spokenOf, detail: this.deciding.detail, evidence, preview, elapsed },
+      { context: this.surface.context, view, colours, labels, sprites, roads },
     );
   }
 

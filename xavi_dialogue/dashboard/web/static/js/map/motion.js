@@ -6,6 +6,7 @@
  * and nothing has to be guessed.
  */
 
+import { clamped } from "../figures.js";
 import { lastUpTo } from "../store.js";
 
 const KEPT = 6; // scenes
@@ -32,7 +33,7 @@ export class Motion {
     const last = this.scenes.at(-1);
     const shown = last ? this.time(now) : scene.t;
     if (last && scene.t < last.t) this.scenes = [];
-    if (this.heard !== null) this.pause += 0.2 * (Math.min(Math.max(now - this.heard, 30), 500) - this.pause);
+    if (this.heard !== null) this.pause += 0.2 * (clamped(now - this.heard, 30, 500) - this.pause);
     this.still = last !== undefined && alike(last, scene);
     const step = last ? scene.t - last.t : 0;
     this.start = !last || scene.t <= shown || scene.t - shown > FAR * Math.max(step, 0.05) ? scene.t : shown;
@@ -44,7 +45,7 @@ export class Motion {
   /** [s] The simulation time that is drawn at `now` [ms]. */
   time(now) {
     const last = this.scenes.at(-1);
-    const part = Math.min(Math.max((now - this.heard) / (this.pause * TRAIL), 0), 1);
+    const part = clamped((now - this.heard) / (this.pause * TRAIL), 0, 1);
     return this.start + (last.t - this.start) * part;
   }
 
@@ -116,14 +117,7 @@ function turned(from, to) {
 function alike(a, b) {
   if (a.vehicles.length !== b.vehicles.length) return false;
   if (String(a.lights) !== String(b.lights) || String(a.hidden) !== String(b.hidden)) return false;
-  return a.vehicles.every((one, i) => {
-    const other = b.vehicles[i];
-    return (
-      one.id === other.id &&
-      Math.abs(one.x - other.x) < 1e-3 &&
-      Math.abs(one.y - other.y) < 1e-3 &&
-      Math.abs(one.heading - other.heading) < 1e-3 &&
-      one.signals.join() === other.signals.join()
-    );
-  });
+  const near = (one, other) => ["x", "y", "heading"].every((name) => Math.abs(one[name] - other[name]) < 1e-3);
+  const same = (one, other) => one.id === other.id && near(one, other) && String(one.signals) === String(other.signals);
+  return a.vehicles.every((one, i) => same(one, b.vehicles[i]));
 }

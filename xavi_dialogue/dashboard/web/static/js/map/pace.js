@@ -3,14 +3,12 @@
 const SPAN = 2000; // [ms] that rates are taken over
 
 export class Pace {
-  constructor() {
-    this.count = 0;
-    this.recent = []; // [ms] when frames were drawn
-    this.draw = 0; // [ms] of a frame, smoothed
-    this.worst = 0; // [ms] the longest frame so far
-    this.latest = null; // {seq, wall, drawn}
-    this.reached = null; // {seq, wall, drawn}
-  }
+  count = 0;
+  recent = []; // [ms] when frames were drawn
+  draw = 0; // [ms] of a frame, smoothed
+  worst = 0; // [ms] the longest frame so far
+  latest = null; // {seq, wall, drawn}
+  reached = null; // {seq, wall, drawn}
 
   /** A frame was drawn. */
   frame(began, ended) {

@@ -19,100 +19,71 @@ const OURS = { length: 4.8, width: 1.8 }; // [m] where our car is not in the sce
  * @returns what was drawn: see `shown` of createMap, and `kinds` for the legend
  */
 export function drawPicture(scene, pen) {
-  const ego = scene.vehicles.find((vehicle) => vehicle.id === 0);
+  const { detail, evidence } = scene;
+  const ego = scene.vehicles.find(({ id }) => id === 0);
   const chosen = new Set([...scene.pointed, ...scene.causes]);
   if (scene.chosen !== null) chosen.add(scene.chosen);
-  const quiet = Boolean(scene.evidence || scene.preview);
-  const retold = scene.evidence?.decision === scene.detail?.id && Boolean(scene.evidence?.factual?.lines.length);
+  const quiet = Boolean(evidence || scene.preview);
+  const retold = evidence?.decision === detail?.id && Boolean(evidence?.factual?.lines.length);
   const hidden = drawHidden(scene.hidden, pen);
-  const decision = drawDecision({ ...scene, chosen, quiet, retold }, pen);
-  const evidence = scene.evidence
-    ? drawEvidence(scene.evidence, scene.t, scene.elapsed, pen, ego ?? OURS)
-    : { fact: 0, ghost: 0, kinds: new Set() };
+  const decision = drawDecision({ ...scene, ego, chosen, quiet, retold }, pen);
+  const compared = evidence
+    ? drawEvidence(evidence, scene.t, scene.elapsed, pen, ego ?? OURS)
+    : { fact: 0, ghost: 0, kinds: [] };
   const preview = drawPreview(scene.preview, pen);
   const lights = pen.roads ? drawSignals(pen.roads.signals, scene.lights ?? [], pen) : 0;
-  const imagined = drawImagined(scene.detail, pen);
-  const seen = traffic(scene, pen);
-  const kinds = new Set([...decision.kinds, ...evidence.kinds, ...ringKinds(scene, seen)]);
-  if (preview) kinds.add("preview");
-  if (hidden) kinds.add("hidden");
-  if (imagined) kinds.add("imagined");
-  if (lights) kinds.add("lights");
-  return {
-    vehicles: seen.map((vehicle) => vehicle.id),
-    labels: pen.labels.draw(pen.context),
-    ghost: evidence.ghost,
-    fact: evidence.fact,
-    predictions: decision.predictions,
-    yields: decision.yields,
-    lights,
-    hidden,
-    imagined,
-    preview,
-    kinds,
-  };
+  const imagined = drawImagined(detail, pen);
+  const vehicles = traffic(scene, pen).map(({ id }) => id);
+  const cause = vehicles.some((id) => scene.causes.has(id));
+  const pointed = vehicles.some((id) => scene.pointed.has(id));
+  const besides = Object.entries({ cause, pointed, preview, hidden, imagined, lights }).filter(([, is]) => is);
+  const kinds = new Set([...decision.kinds, ...compared.kinds, ...besides.map(([kind]) => kind)]);
+  const labels = pen.labels.draw(pen.context);
+  return { vehicles, labels, lights, hidden, imagined, preview, ...decision, ...compared, kinds };
 }
 
 /** Draw the vehicles in view, ours on top; returns them. */
 function traffic(scene, pen) {
   const { view, labels } = pen;
   const [left, bottom, right, top] = view.bounds;
-  const seen = [];
-  let ours = null;
-  for (const vehicle of scene.vehicles) {
-    const reach = 1.5 * vehicle.length + 12 / view.scale;
-    const { x, y } = vehicle;
-    if (x + reach < left || x - reach > right || y + reach < bottom || y - reach > top) continue;
-    if (vehicle.id === 0) ours = vehicle;
-    else seen.push(vehicle);
-  }
-  if (ours) seen.push(ours);
-  drawVehicles(seen, scene.t, pen);
+  const inView = ({ x, y, length }) => {
+    const reach = 1.5 * length + 12 / view.scale;
+    return x + reach >= left && x - reach <= right && y + reach >= bottom && y - reach <= top;
+  };
+  const seen = scene.vehicles.filter(inView).sort((a, b) => (a.id === 0) - (b.id === 0));
   const long = view.scale >= LONG_NAMES && seen.length < CROWD;
+  drawVehicles(seen, scene.t, pen);
   for (const vehicle of seen) {
-    const told = scene.causes.has(vehicle.id) || scene.pointed.has(vehicle.id) || scene.chosen === vehicle.id;
-    if (told) rings(vehicle, scene, pen);
+    rings(vehicle, scene, pen);
     if (labels.placing) name(vehicle, scene, pen, long);
     else labels.move(vehicle.id, ...view.toScreen(...middleOf(vehicle)));
   }
   return seen;
 }
 
-function rings(vehicle, scene, { context, view, colours }) {
-  let gap = 4;
-  const ring = (colour, width) => {
-    drawRing(context, view, vehicle, colour, gap, width);
-    gap += width + 2;
-  };
-  if (scene.causes.has(vehicle.id)) ring(colours.get("cause"), 3);
-  if (scene.pointed.has(vehicle.id)) ring(colours.get("ink"), 2);
-  else if (scene.chosen === vehicle.id) ring(colours.get("focus"), 2);
+function rings(vehicle, { causes, pointed, chosen }, { context, view, colours }) {
+  const { id } = vehicle;
+  const blamed = causes.has(id);
+  const gap = blamed ? 9 : 4;
+  if (blamed) drawRing(context, view, vehicle, colours.get("cause"), 4, 3);
+  if (pointed.has(id)) drawRing(context, view, vehicle, colours.get("ink"), gap, 2);
+  else if (chosen === id) drawRing(context, view, vehicle, colours.get("focus"), gap, 2);
 }
 
-function name(vehicle, scene, { view, colours, labels }, long) {
+function name(vehicle, { causes, pointed, chosen }, { view, colours, labels }, long) {
+  const { id } = vehicle;
   const [x, y] = view.toScreen(...middleOf(vehicle));
-  const ringed = scene.causes.has(vehicle.id) + scene.pointed.has(vehicle.id);
-  const reach = radiusOf(vehicle, view.scale) + 2;
   const [across, down] = extent(vehicle, view.scale);
   labels.occupy([x - across, y - down, x + across, y + down]);
-  const ours = vehicle.id === 0;
-  const blamed = scene.causes.has(vehicle.id);
-  const ground = blamed ? "cause" : "accent";
-  const look =
-    ours || blamed
-      ? { ink: colours.get(ours ? "accent-ink" : "card"), ground: colours.get(ground), strong: true }
-      : { ink: colours.get("ink"), ground: colours.get("card", 0.9), edge: colours.get("edge") };
-  const weight = ours ? 80 : ringed || scene.chosen === vehicle.id ? 70 : 20 - vehicle.id / 1e6;
-  const text = ours ? "us" : long || ringed ? calledOf(vehicle) : String(vehicle.id);
-  labels.add({
-    key: vehicle.id,
-    text,
-    x,
-    y,
-    reach: reach + (ringed ? 4 + 4 * ringed : 0),
-    weight,
-    ...look,
-  });
+  const [ours, blamed] = [id === 0, causes.has(id)];
+  const ringed = blamed + pointed.has(id);
+  const strong = { ink: colours.get(ours ? "accent-ink" : "card"), ground: colours.get(blamed ? "cause" : "accent") };
+  const plain = { ink: colours.get("ink"), ground: colours.get("card", 0.9), edge: colours.get("edge") };
+  const look = ours || blamed ? { ...strong, strong: true } : plain;
+  const weight = ours ? 80 : ringed || chosen === id ? 70 : 20 - id / 1e6;
+  const text = ours ? "us" : long || ringed ? calledOf(vehicle) : String(id);
+  const reach = radiusOf(vehicle, view.scale) + 2 + (ringed ? 4 + 4 * ringed : 0);
+  labels.add({ key: id, text, x, y, reach, weight, ...look });
 }
 
 /** [px] Half the width and height of the box around a vehicle. */
@@ -120,11 +91,4 @@ function extent(vehicle, scale) {
   const [c, s] = [Math.abs(Math.cos(vehicle.heading)), Math.abs(Math.sin(vehicle.heading))];
   const [long, broad] = sizeOf(vehicle, scale);
   return [(c * long + s * broad) / 2, (s * long + c * broad) / 2];
-}
-
-function ringKinds(scene, seen) {
-  const kinds = [];
-  if (seen.some((vehicle) => scene.causes.has(vehicle.id))) kinds.push("cause");
-  if (seen.some((vehicle) => scene.pointed.has(vehicle.id))) kinds.push("pointed");
-  return kinds;
 }

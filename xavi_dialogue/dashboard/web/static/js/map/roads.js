@@ -1,6 +1,7 @@
 /** The road network: what of it is drawn, and how, by scale. */
 
 import { beforeEnd, boundsOf, lengthOf, meet, offset, pathOf, trace } from "./lines.js";
+import { paint } from "./paint.js";
 import { placesOfSignals } from "./signals.js";
 
 const DASH = [3, 4.5]; // [m]
@@ -9,23 +10,19 @@ const LINES = 500; // of a grid, each way
 const KERB = 0.35; // [m] on each side
 const ZEBRA = [0.5, 0.6]; // [m] stripe and gap
 const GROUNDS = { bicycles: "map-cycleway", people: "map-pavement", rails: "map-rails", others: "road" };
-const TURN = new Map([
-  ["left", 1],
-  ["right", -1],
-  ["turnaround", 1],
-]);
+const TURNS = { left: 1, right: -1, turnaround: 1 }; // sides
 
 /** Scales [px/m] from which on things are drawn: below, they would only be clutter. */
 const FROM = { crossings: 1.1, sides: 1.1, dashes: 2, stops: 2.6, arrows: 4.2 };
 
 export class RoadLayer {
-  /** @param roads see documents.py: Roads */
+  /** @param {Roads} roads */
   constructor(roads) {
     this.lanes = new Map(roads.lanes.map((lane) => [lane.id, lane]));
     this.links = new Map(roads.links.map((link) => [link.id, link]));
     this.bounds = roads.bounds;
-    this.lanesOf = grouped(roads.lanes, (lane) => lane.edge);
-    const leaving = grouped(roads.links, (link) => link.from_lane);
+    this.lanesOf = Map.groupBy(roads.lanes, (lane) => lane.edge);
+    const leaving = Map.groupBy(roads.links, (link) => link.from_lane);
     const open = roads.lanes.filter((lane) => !lane.internal);
     this.surfaces = roads.lanes.map((lane) => item(lane.line, lane.width, lane));
     this.others = new Map((roads.others ?? []).map((lane) => [lane.id, lane]));
@@ -55,13 +52,9 @@ export class RoadLayer {
   /** Arrows only where lanes of an edge lead to different places. */
   arrowsOf(open, leaving) {
     const ways = (lane) => [...new Set((leaving.get(lane.id) ?? []).map((link) => link.direction))];
-    const arrows = [];
-    for (const lane of open) {
-      const there = ways(lane);
-      const choice = this.lanesOf.get(lane.edge).some((one) => ways(one).some((way) => way !== "straight"));
-      if (choice && there.length && lengthOf(lane.line) > 14) arrows.push(arrow(lane, there));
-    }
-    return arrows;
+    const turns = (lane) => ways(lane).some((way) => way !== "straight");
+    const choice = (lane) => ways(lane).length && this.lanesOf.get(lane.edge).some(turns);
+    return open.filter((lane) => choice(lane) && lengthOf(lane.line) > 14).map((lane) => arrow(lane, ways(lane)));
   }
 
   /** Draw what is within bounds; the context draws in metres. */
@@ -74,7 +67,7 @@ export class RoadLayer {
     context.lineCap = "butt";
     context.setLineDash([]);
     this.kerbs(context, outside, seen(this.junctions), colours);
-    for (const one of seen(this.junctions)) fillPath(context, one.path, colours.get("road-junction"));
+    for (const { path } of seen(this.junctions)) paint(context, path, { fill: colours.get("road-junction") });
     stroke(context, inside, colours.get("road-junction"), (one) => one.width);
     stroke(context, outside, colours.get("road"), (one) => one.width + 0.04);
     this.besides(context, seen(this.beside), colours);
@@ -92,9 +85,7 @@ export class RoadLayer {
   kerbs(context, lanes, junctions, colours) {
     const colour = colours.get("map-kerb");
     stroke(context, lanes, colour, (one) => one.width + 2 * KERB);
-    context.strokeStyle = colour;
-    context.lineWidth = 2 * KERB;
-    for (const one of junctions) context.stroke(one.path);
+    stroke(context, junctions, colour, () => 2 * KERB);
   }
 
   markings(context, seen, scale, colours) {
@@ -114,7 +105,7 @@ export class RoadLayer {
     if (scale >= FROM.stops) stroke(context, seen(this.stops), colour, () => 0.4);
     if (scale >= FROM.arrows) {
       stroke(context, seen(this.arrows), colour, () => 0.24);
-      for (const one of seen(this.arrows)) fillPath(context, one.heads, colour);
+      for (const { heads } of seen(this.arrows)) paint(context, heads, { fill: colour });
     }
   }
 
@@ -131,21 +122,11 @@ export class RoadLayer {
 }
 
 /** A plain grid for where roads are not known; returns its spacing [m]. */
-export function drawGrid(context, bounds, scale, colours) {
+export function drawGrid(context, [left, bottom, right, top], scale, colours) {
   const spacing = [10, 50, 100, 500].find((step) => step * scale >= 24) ?? 1000;
-  const [left, bottom, right, top] = bounds;
-  context.strokeStyle = colours.get("map-grid");
-  context.lineWidth = 1 / scale;
-  context.beginPath();
-  for (const x of multiples(spacing, left, right)) {
-    context.moveTo(x, bottom);
-    context.lineTo(x, top);
-  }
-  for (const y of multiples(spacing, bottom, top)) {
-    context.moveTo(left, y);
-    context.lineTo(right, y);
-  }
-  context.stroke();
+  const upright = multiples(spacing, left, right).map((x) => [x, bottom, x, top]);
+  const level = multiples(spacing, bottom, top).map((y) => [left, y, right, y]);
+  paint(context, pathOf(...upright, ...level), { stroke: colours.get("map-grid"), width: 1 / scale });
   return spacing;
 }
 
@@ -174,49 +155,23 @@ function arrow(lane, ways) {
   const lines = [[...place(-3, 0), ...place(0.1, 0)]];
   const heads = new Path2D();
   for (const way of ways) {
-    const side = TURN.get(way) ?? 0;
-    const back = way === "turnaround" ? -0.9 : 0.4;
+    const side = Object.hasOwn(TURNS, way) ? TURNS[way] : 0;
+    const around = way === "turnaround";
+    const back = around ? -0.9 : 0.4;
     const tip = side ? [back, side * 0.85] : [1.6, 0];
-    const angle = side ? side * (way === "turnaround" ? Math.PI : Math.PI / 2) : 0;
-    const bend = side
-      ? [
-          [0.1, 0],
-          [0.4, side * 0.25],
-          [Math.max(back, 0.4), side * 0.6],
-        ]
-      : [[0, 0]];
-    lines.push([...bend, tip].flatMap((point) => place(...point)));
-    const corner = (along, across) =>
-      place(
-        tip[0] + along * Math.cos(angle) - across * Math.sin(angle),
-        tip[1] + along * Math.sin(angle) + across * Math.cos(angle),
-      );
+    const round = [place(0.1, 0), place(0.4, side * 0.25), place(Math.max(back, 0.4), side * 0.6)];
+    const bend = side ? round : [place(0, 0)];
+    lines.push([...bend, place(...tip)].flat());
+    const angle = side * (around ? Math.PI : Math.PI / 2);
+    const [ca, sa] = [Math.cos(angle), Math.sin(angle)];
+    const corner = (along, across) => place(tip[0] + along * ca - across * sa, tip[1] + along * sa + across * ca);
     trace(heads, [...corner(side ? 0.6 : 1.1, 0), ...corner(-0.1, 0.45), ...corner(-0.1, -0.45)], true);
   }
   return { path: pathOf(...lines), heads, width: 0.2, lane: null, box: [x - 4, y - 4, x + 4, y + 4] };
 }
 
 function stroke(context, items, colour, widthOf) {
-  context.strokeStyle = colour;
-  for (const one of items) {
-    context.lineWidth = widthOf(one);
-    context.stroke(one.path);
-  }
-}
-
-function fillPath(context, path, colour) {
-  context.fillStyle = colour;
-  context.fill(path);
-}
-
-function grouped(items, key) {
-  const groups = new Map();
-  for (const one of items) {
-    const name = key(one);
-    if (!groups.has(name)) groups.set(name, []);
-    groups.get(name).push(one);
-  }
-  return groups;
+  for (const one of items) paint(context, one.path, { stroke: colour, width: widthOf(one) });
 }
 
 function distance(line, x, y) {

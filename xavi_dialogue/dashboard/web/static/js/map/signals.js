@@ -1,6 +1,7 @@
 /** Traffic lights: what each shows, where its lane ends; told apart by shape as well as by colour. */
 
 import { meet } from "./lines.js";
+import { disc, paint } from "./paint.js";
 
 const FAR = 2; // [px/m] below which a light is a dot
 const CLOSE = 3.5; // [px/m] from which on there is room for those of people on foot
@@ -20,32 +21,37 @@ const LOOKS = {
   off: ["map-glass", "map-glass", null],
 };
 const WORDS = { red_amber: "red and amber", green_yield: "green", stop_first: "red with a green arrow" };
+const UPPER_HALF = new Path2D("M-1 0A1 1 0 0 1 1 0z"); // of a lamp of radius 1
+const SIGNS = {
+  bar: new Path2D("M-.65 0H.65"),
+  arrow: new Path2D("M-.7 0H.6M-.1 .5 .65 0-.1-.5"), // ahead is to the right
+};
 
 /** What a light shows, in words. */
 export function lightInWords(state) {
   return WORDS[state] ?? state;
 }
 
-/** Where lights stand: [{x, y, heading, lamps: [{signal, ways}], small}], by lane or end of a crossing. */
+/** Where lights stand: [{x, y, heading, lane, lamps: [{signal, ways}], small}], by lane or end of a crossing. */
 export function placesOfSignals(roads, lanes) {
   const places = new Map();
-  for (const link of roads.links) {
-    const line = link.signal ? lanes.get(link.from_lane)?.line : null;
+  for (const { signal, from_lane: lane, direction } of roads.links) {
+    const line = signal ? lanes.get(lane)?.line : null;
     if (!line) continue;
-    if (!places.has(link.from_lane)) places.set(link.from_lane, { ...endOf(line), lane: link.from_lane, lamps: [], small: false });
-    const { lamps } = places.get(link.from_lane);
-    const known = lamps.find((lamp) => lamp.signal === link.signal);
-    if (known) known.ways.add(link.direction);
-    else lamps.push({ signal: link.signal, ways: new Set([link.direction]) });
+    if (!places.has(lane)) places.set(lane, { ...endOf(line), lane, lamps: [], small: false });
+    const { lamps } = places.get(lane);
+    const known = lamps.find((lamp) => lamp.signal === signal);
+    if (known) known.ways.add(direction);
+    else lamps.push({ signal, ways: new Set([direction]) });
   }
   const kerbs = (roads.crossings ?? []).filter((one) => one.signal).flatMap(kerbsOf);
   return [...places.values(), ...kerbs];
 }
 
 function kerbsOf({ line, signal }) {
-  const back = [];
-  for (let i = line.length - 2; i >= 0; i -= 2) back.push(line[i], line[i + 1]);
-  return [line, back].map((way) => ({ ...endOf(way), lamps: [{ signal, ways: new Set() }], small: true }));
+  const lamps = [{ signal, ways: new Set() }];
+  const back = [line[2], line[3], line[0], line[1]];
+  return [line, back].map((way) => ({ ...endOf(way), lamps, small: true }));
 }
 
 function endOf(line) {
@@ -54,15 +60,17 @@ function endOf(line) {
 }
 
 /** Draw the lights in view; returns how many lamps. */
-export function drawSignals(places, lights, { context, view, colours, labels }) {
+export function drawSignals(places, lights, pen) {
+  const { view } = pen;
   const shown = new Map(lights);
   let drawn = 0;
-  view.screen(context);
   for (const place of places) {
-    const states = place.lamps.filter((lamp) => Object.hasOwn(LOOKS, shown.get(lamp.signal) ?? ""));
-    if (!states.length || (place.small && view.scale < CLOSE)) continue;
+    const known = place.lamps.filter((lamp) => Object.hasOwn(LOOKS, shown.get(lamp.signal) ?? ""));
+    if (!known.length || (place.small && view.scale < CLOSE)) continue;
     if (!meet([place.x, place.y, place.x, place.y], view.bounds)) continue;
-    drawn += lampsOf(place, alike(states, shown), { context, view, colours, labels });
+    const lamps = alike(known, shown);
+    drawLamps(place, lamps, pen);
+    drawn += lamps.length;
   }
   return drawn;
 }
@@ -78,59 +86,30 @@ function alike(lamps, shown) {
   return [...found.values()];
 }
 
-function lampsOf(place, lamps, { context, view, colours, labels }) {
-  const [c, s] = [Math.cos(place.heading), Math.sin(place.heading)];
-  const [x, y] = view.toScreen(place.x + c * BEYOND, place.y + s * BEYOND);
+function drawLamps({ x, y, heading, small }, lamps, pen) {
+  const { view, labels } = pen;
+  const [c, s] = [Math.cos(heading), Math.sin(heading)];
+  const [px, py] = view.toScreen(x + c * BEYOND, y + s * BEYOND);
+  const radius = (view.scale < FAR ? RADIUS / 2 : RADIUS) * (small ? 0.7 : 1);
   lamps.forEach(({ state, ways }, k) => {
     const aside = (k - (lamps.length - 1) / 2) * BESIDE;
-    const turn = ways.size === 1 ? (TURNS[[...ways][0]] ?? 0) : 0;
-    const at = { x: x + s * aside, y: y + c * aside, heading: place.heading + turn };
-    const radius = radiusAt(view.scale, place.small);
-    lamp({ context, colours }, at, LOOKS[state], radius);
-    if (labels.placing) labels.occupy([at.x - radius, at.y - radius, at.x + radius, at.y + radius]);
+    const [way] = ways;
+    const turn = ways.size === 1 ? (TURNS[way] ?? 0) : 0;
+    const [left, top] = [px + s * aside, py + c * aside];
+    drawLamp(pen, [left, top], heading + turn, LOOKS[state], radius);
+    if (labels.placing) labels.occupy([left - radius, top - radius, left + radius, top + radius]);
   });
-  return lamps.length;
 }
 
-function radiusAt(scale, small) {
-  return (scale < FAR ? RADIUS / 2 : RADIUS) * (small ? 0.7 : 1);
-}
-
-function lamp({ context, colours }, { x, y, heading }, [upper, lower, sign], radius) {
-  disc(context, x, y, radius + 2, colours.get("card"));
-  disc(context, x, y, radius + 1, colours.get("map-glass"));
-  disc(context, x, y, radius, colours.get(lower));
-  if (upper !== lower) {
-    context.beginPath();
-    context.arc(x, y, radius, Math.PI, 2 * Math.PI);
-    context.fillStyle = colours.get(upper);
-    context.fill();
-  }
+function drawLamp({ context, view, colours }, place, heading, [upper, lower, sign], radius) {
+  view.place(context, place);
+  paint(context, disc(0, 0, radius + 2), { fill: colours.get("card") });
+  paint(context, disc(0, 0, radius + 1), { fill: colours.get("map-glass") });
+  paint(context, disc(0, 0, radius), { fill: colours.get(lower) });
+  view.place(context, place, 0, radius);
+  if (upper !== lower) paint(context, UPPER_HALF, { fill: colours.get(upper) });
   if (!sign || radius < RADIUS / 2) return;
-  context.strokeStyle = colours.get("map-lamp-sign");
-  context.lineWidth = Math.max(radius / 3, 1.2);
-  context.lineCap = "butt";
-  context.lineJoin = "miter";
-  context.beginPath();
-  if (sign === "bar") {
-    context.moveTo(x - radius * 0.65, y);
-    context.lineTo(x + radius * 0.65, y);
-  } else arrow(context, x, y, heading, radius);
-  context.stroke();
-}
-
-function arrow(context, x, y, heading, radius) {
-  const [c, s] = [Math.cos(heading) * radius, -Math.sin(heading) * radius];
-  context.moveTo(x - 0.7 * c, y - 0.7 * s);
-  context.lineTo(x + 0.6 * c, y + 0.6 * s);
-  context.moveTo(x - 0.1 * c - 0.5 * s, y - 0.1 * s + 0.5 * c);
-  context.lineTo(x + 0.65 * c, y + 0.65 * s);
-  context.lineTo(x - 0.1 * c + 0.5 * s, y - 0.1 * s - 0.5 * c);
-}
-
-function disc(context, x, y, radius, colour) {
-  context.beginPath();
-  context.arc(x, y, radius, 0, 2 * Math.PI);
-  context.fillStyle = colour;
-  context.fill();
+  if (sign === "arrow") view.place(context, place, heading, radius);
+  Object.assign(context, { lineCap: "butt", lineJoin: "miter" });
+  paint(context, SIGNS[sign], { stroke: colours.get("map-lamp-sign"), width: Math.max(1 / 3, 1.2 / radius) });
 }

@@ -18,7 +18,8 @@ export class Steering {
     return this.following.on && this.ego() !== undefined;
   }
 
-  follow(on) {
+  /** Let the map follow our car; without an argument, switch to and fro. */
+  follow(on = !this.following.on) {
     if (on && !(this.following.on && this.framing.on)) this.framing.reset(false);
     this.following.set(on, this.ego());
     this.changed(on);
@@ -50,8 +51,8 @@ export class Steering {
   zoom(factor) {
     this.framing.leave();
     const { x, y, aim } = this.view;
-    const centre = this.carried ? [null, null] : [x, y];
-    this.view.glideTo(...centre, aim * factor, performance.now());
+    const centre = this.carried ? {} : { x, y };
+    this.view.glideTo({ ...centre, scale: aim * factor }, performance.now());
     this.changed(this.following.on);
   }
 
@@ -59,7 +60,7 @@ export class Steering {
   zoomAt(factor, px, py) {
     this.framing.leave();
     const before = this.view.scale;
-    if (this.carried) this.view.jump({ x: null, y: null, scale: before * factor });
+    if (this.carried) this.view.jump({ scale: before * factor });
     else this.view.zoomAt(factor, px, py);
     this.following.zoomed(this.view.scale / before);
     this.changed(this.following.on);

@@ -5,25 +5,22 @@
  * moves there are fewer then, and all again once it rests.
  */
 
-import { h } from "../dom.js";
-
 const PARTS = [1, 0.75, 0.5]; // of the screen's density, one after the other
 const SLOW = 27; // frames a second below which there are fewer pixels
 const TRIAL = 2500; // [ms] for which each is tried
 const REST = 400; // [ms] without motion after which it rests
 
 export class Surface {
+  part = 0;
+  since = 0; // [ms] since when there are so many
+  resting = 0; // a timer
+
   /**
-   * @param view see view.js @param {object} attributes of the canvas
+   * @param view see view.js @param {HTMLCanvasElement} canvas
    * @param {() => void} denser is called when it rests, and may have all its pixels
    */
-  constructor(view, attributes, denser) {
-    Object.assign(this, { view, denser });
-    this.canvas = h("canvas", attributes);
-    this.context = this.canvas.getContext("2d", { alpha: false });
-    this.part = 0;
-    this.since = 0; // [ms] since when there are so many
-    this.resting = 0; // a timer
+  constructor(view, canvas, denser) {
+    Object.assign(this, { view, canvas, denser, context: canvas.getContext("2d", { alpha: false }) });
   }
 
   /** Take on the size of an element; true: it is another one, and the canvas is empty. */

@@ -1,5 +1,7 @@
 /** Which part of the world the map shows: centre [m], scale [px/m], and how it gets there. */
 
+import { clamped } from "../figures.js";
+
 const LEAST = 0.15; // [px/m]
 const MOST = 40; // [px/m]
 const FAR = 1e7; // [m] from the origin that the centre may be
@@ -7,19 +9,14 @@ const GLIDE = 220; // [ms] of a change that buttons or keys make
 const ACROSS = 110; // [m] that the shorter side shows at first
 
 export class View {
-  #x;
-  #y;
-
-  constructor() {
-    this.width = 0; // [px] as CSS counts them
-    this.height = 0;
-    this.ratio = 1; // pixels of the screen to one of CSS
-    this.#x = 0; // [m]
-    this.#y = 0;
-    this.scale = 5;
-    this.glide = null;
-    this.still = matchMedia("(prefers-reduced-motion: reduce)");
-  }
+  width = 0; // [px] as CSS counts them
+  height = 0;
+  ratio = 1; // pixels of the screen to one of CSS
+  scale = 5; // [px/m]
+  glide = null; // a change under way: {from, to, since, lasts}
+  still = matchMedia("(prefers-reduced-motion: reduce)");
+  #x = 0;
+  #y = 0;
 
   /** Take on the size of the canvas; true where it is another one. */
   resize(width, height, ratio) {
@@ -48,7 +45,7 @@ export class View {
 
   /** [px/m] Good for a first look at the traffic around us. */
   get usual() {
-    return Math.min(Math.max(Math.min(this.width, this.height) / ACROSS, 2.5), 8);
+    return clamped(Math.min(this.width, this.height) / ACROSS, 2.5, 8);
   }
 
   /** Pixels of the screen to a metre. */
@@ -75,6 +72,13 @@ export class View {
     context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
   }
 
+  /** Let a context draw at a place of the canvas, x along a heading and y to its right, in units of `size` [px]. */
+  place(context, [px, py], heading = 0, size = 1) {
+    const unit = size * this.ratio;
+    const [c, s] = [Math.cos(heading) * unit, Math.sin(heading) * unit];
+    context.setTransform(c, -s, s, c, px * this.ratio, py * this.ratio);
+  }
+
   /** [px] Where a point of the world is on the canvas. */
   toScreen(x, y) {
     return [(x * this.k + this.ox) / this.ratio, (this.oy - y * this.k) / this.ratio];
@@ -87,16 +91,14 @@ export class View {
 
   /** What is to be seen: [left, bottom, right, top] in metres. */
   get bounds() {
-    const [left, top] = this.toWorld(0, 0);
-    const [right, bottom] = this.toWorld(this.width, this.height);
-    return [left, bottom, right, top];
+    return this.within(0);
   }
 
   /** What is to be seen without a border [px]. */
   within(border) {
-    const [left, bottom, right, top] = this.bounds;
-    const metres = border / this.scale;
-    return [left + metres, bottom + metres, right - metres, top - metres];
+    const [left, top] = this.toWorld(border, border);
+    const [right, bottom] = this.toWorld(this.width - border, this.height - border);
+    return [left, bottom, right, top];
   }
 
   /** Whether bounds are within what is to be seen. */
@@ -107,9 +109,8 @@ export class View {
 
   /** Zoom about a place of the canvas [px]; what is there stays there. */
   zoomAt(factor, px, py) {
-    this.glide = null;
     const [x, y] = this.toWorld(px, py);
-    this.scale = limited(this.scale * factor);
+    this.jump({ scale: this.scale * factor });
     this.x = x - (px - this.width / 2) / this.scale;
     this.y = y + (py - this.height / 2) / this.scale;
   }
@@ -121,12 +122,11 @@ export class View {
     this.y += dy / this.scale;
   }
 
-  /** Go to a centre and scale; parts that are null stay as they are, so that following goes on. */
-  glideTo(x, y, scale, now, lasts = GLIDE) {
+  /** Go to a centre and scale; what is not told stays as it is, so that following goes on. */
+  glideTo({ x, y, scale }, now, lasts = GLIDE) {
     const to = { x, y, scale: limited(scale) };
-    if (this.still.matches) return this.jump(to);
-    this.glide = { from: { x: this.x, y: this.y, scale: this.scale }, to, since: now, lasts };
-    return undefined;
+    if (this.still.matches) this.jump(to);
+    else this.glide = { from: { x: this.x, y: this.y, scale: this.scale }, to, since: now, lasts };
   }
 
   /** Show bounds, whole. */
@@ -134,26 +134,25 @@ export class View {
     const wide = Math.max(right - left, 20);
     const high = Math.max(top - bottom, 20);
     const scale = Math.min((this.width - 48) / wide, (this.height - 64) / high, 12);
-    this.glideTo((left + right) / 2, (bottom + top) / 2, Math.max(scale, LEAST), now);
+    this.glideTo({ x: (left + right) / 2, y: (bottom + top) / 2, scale: Math.max(scale, LEAST) }, now);
   }
 
-  jump({ x, y, scale }) {
+  /** Be there at once. */
+  jump({ x = this.x, y = this.y, scale }) {
     this.glide = null;
-    if (x !== null) this.x = x;
-    if (y !== null) this.y = y;
-    this.scale = limited(scale);
+    Object.assign(this, { x, y, scale: limited(scale) });
   }
 
   /** Go on with a change under way. */
   step(now) {
     if (!this.glide) return;
     const { from, to, since, lasts } = this.glide;
-    const part = Math.min(Math.max((now - since) / lasts, 0), 1);
+    const part = clamped((now - since) / lasts, 0, 1);
     if (part === 1) return void this.jump(to);
     const eased = part * part * (3 - 2 * part);
-    const between = (a, b) => (b === null ? null : a + (b - a) * eased);
-    if (to.x !== null) this.x = between(from.x, to.x);
-    if (to.y !== null) this.y = between(from.y, to.y);
+    for (const axis of ["x", "y"]) {
+      if (to[axis] !== undefined) this[axis] = from[axis] + (to[axis] - from[axis]) * eased;
+    }
     this.scale = from.scale * (to.scale / from.scale) ** eased;
   }
 
@@ -164,9 +163,9 @@ export class View {
 }
 
 function onEarth(value, before) {
-  return Number.isNaN(value) ? before : Math.min(Math.max(value, -FAR), FAR);
+  return Number.isNaN(value) ? before : clamped(value, -FAR, FAR);
 }
 
 function limited(scale) {
-  return Math.min(Math.max(scale || LEAST, LEAST), MOST); // and where it is no number, all there is
+  return clamped(scale || LEAST, LEAST, MOST); // and where it is no number, all there is
 }

@@ -1,110 +1,62 @@
 /** What could be done first, side by side; looking at one shows its line on the map. */
 
-import { h, say, set } from "../dom.js";
+import { copyOf, h, partsOf, pointedAt, say, set } from "../dom.js";
 import { between, counted, difference, seconds } from "../figures.js";
 import { drawOutcomes, outcomeBar } from "../outcomes.js";
 import { capital, outcomesInWords } from "../words.js";
-import { drawRange, rangeBar, scaleFor } from "./bars.js";
+import { drawRange, scaleFor } from "./bars.js";
 import { steady } from "./steady.js";
 
 /**
- * @param {Store} store
- * @returns {{element: HTMLElement, update: (decision: object) => void, clear: () => void}}
+ * @param {HTMLElement} element
+ * @param {import("../store.js").Store} store
+ * @returns {{update: (decision: DecisionShown) => void, clear: () => void}}
  */
-export function createAlternatives(store) {
-  const body = h("tbody", { role: "rowgroup" });
-  const scale = h("span", { class: "alternatives-scale" });
-  const barred = h("ul", { class: "barred" });
-  const preview = createPreview(store);
-  const table = h(
-    "table",
-    { class: "alternatives", role: "table" },
-    h("caption", { class: "unseen" }, "First actions that were tried, and what came of them"),
-    h("thead", { role: "rowgroup" }, h("tr", { role: "row" }, heads(scale))),
-    body,
-  );
-  const element = h("div", { class: "alternatives-box" }, table, barred);
-
-  function update(decision) {
-    const tried = decision.alternatives.filter((one) => one.rollouts > 0);
-    const times = tried.map((one) => one.time).filter(Boolean);
-    const range = scaleFor(times);
-    say(scale, times.length ? `axis: ${range} s sooner to ${range} s later` : "");
-    table.hidden = !tried.length;
-    steady(
-      body,
-      tried,
-      (one) => one.action,
-      (one) => row(one, preview),
-      (tr, one) => drawRow(tr, one, range),
-    );
-    steady(
-      barred,
-      untried(decision),
-      ([reason]) => reason,
-      () => h("li"),
-      said,
-    );
-    barred.hidden = !barred.children.length;
-    preview.offer(tried);
-  }
-
-  preview.changed = (action) => {
+export function createAlternatives(element, store) {
+  const { table, scale, tried: body, barred } = partsOf(element);
+  const preview = createPreview(store, (shown, kept) => {
     for (const tr of body.children) {
-      set(tr, "data-shown", tr.dataset.action === action ? "yes" : null);
-      set(tr.querySelector("button"), "aria-pressed", String(tr.dataset.action === preview.kept));
+      set(tr, "data-shown", tr.dataset.action === shown ? "yes" : null);
+      set(tr.parts.name, "aria-pressed", String(tr.dataset.action === kept));
     }
+  });
+  return {
+    update({ alternatives }) {
+      const tried = alternatives.filter((one) => one.rollouts > 0);
+      const times = tried.map((one) => one.time).filter(Boolean);
+      const range = scaleFor(times);
+      say(scale, times.length ? `axis: ${range} s sooner to ${range} s later` : "");
+      table.hidden = !tried.length;
+      const make = ({ action }) => createRow(action, preview);
+      steady(body, tried, (one) => one.action, make, (tr, one) => drawRow(tr, one, range));
+      const reasons = untried(alternatives);
+      steady(barred, reasons, ([why]) => why, () => h("li"), (li, why) => say(li, couldNot(...why)));
+      barred.hidden = !reasons.length;
+      preview.offer(tried);
+    },
+    clear: () => preview.offer([]),
   };
-  return { element, update, clear: () => preview.offer([]) };
-}
-
-function heads(scale) {
-  const head = (...words) => h("th", { role: "columnheader", scope: "col" }, ...words);
-  return [head("First action"), head("What comes of it"), head("Time to the goal ", scale)];
 }
 
 /** What could not be done or was not tried, by the reason: [reason, words of the actions]. */
-function untried(decision) {
-  const reasons = new Map();
-  for (const { rollouts, reason, words } of decision.alternatives) {
-    if (rollouts) continue;
-    const why = reason ?? "I did not try it";
-    reasons.set(why, [...(reasons.get(why) ?? []), words]);
-  }
-  return [...reasons];
+function untried(alternatives) {
+  const barred = alternatives.filter((one) => !one.rollouts);
+  return [...Map.groupBy(barred, ({ reason }) => reason ?? "I did not try it")];
 }
 
-function said(li, [reason, actions]) {
-  const last = actions.at(-1);
-  const all = actions.length > 1 ? `${actions.slice(0, -1).join(", ")} or ${last}` : last;
-  say(li, `I could not ${all}: ${reason}.`);
+function couldNot(reason, actions) {
+  const all = new Intl.ListFormat("en-GB", { type: "disjunction" }).format(actions.map((one) => one.words));
+  return `I could not ${all}: ${reason}.`;
 }
 
-function row({ action }, preview) {
-  const name = h("button", { type: "button", class: "alternative-name", "aria-pressed": "false" });
-  const parts = {
-    name,
-    mark: h("span", { class: "badge" }, "my plan"),
-    count: h("span", { class: "small" }),
-    outcomes: outcomeBar(),
-    verdict: h("span", { class: "figure" }),
-    range: rangeBar(),
-    time: h("span", { class: "figure" }),
-    bounds: h("span", { class: "small" }),
-  };
-  const tr = h(
-    "tr",
-    { role: "row", dataset: { action } },
-    h("th", { role: "rowheader", scope: "row" }, name, parts.mark, parts.count),
-    h("td", { role: "cell" }, parts.outcomes, parts.verdict),
-    h("td", { role: "cell" }, parts.range, parts.time, parts.bounds),
-  );
-  tr.parts = parts;
-  tr.addEventListener("pointerenter", (event) => event.pointerType === "mouse" && preview.look(action));
-  tr.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && preview.look(null));
-  name.addEventListener("focus", () => name.matches(":focus-visible") && preview.look(action));
-  name.addEventListener("blur", () => preview.look(null));
-  name.addEventListener("click", () => preview.keep(action));
+function createRow(action, preview) {
+  const tr = copyOf("alternative");
+  tr.dataset.action = action;
+  tr.parts = partsOf(tr);
+  tr.parts.outcomes = outcomeBar();
+  tr.parts.verdict.before(tr.parts.outcomes);
+  pointedAt(tr, tr.parts.name, () => preview.look(action), () => preview.look(null));
+  tr.parts.name.addEventListener("click", () => preview.keep(action));
   return tr;
 }
 
@@ -121,11 +73,7 @@ function drawRow(tr, one, scale) {
   drawRange(range, one.time, scale);
   range.hidden = !one.time && !one.chosen; // of the plan, zero: what the others are measured by
   say(time, timeWords(one));
-  say(bounds, one.time ? spread(one.time) : "");
-}
-
-function spread({ low, high }) {
-  return between(low, high, "s") ?? "in all samples";
+  say(bounds, one.time && (between(one.time.low, one.time.high, "s") ?? "in all samples"));
 }
 
 function timeWords(one) {
@@ -135,30 +83,33 @@ function timeWords(one) {
 }
 
 /** Which alternative is looked at: the one pointed at or focused, else the one that was kept. */
-function createPreview(store) {
-  const preview = { kept: null, looked: null, offered: new Map(), changed: () => {}, shown: null };
+function createPreview(store, changed) {
+  let [kept, looked] = [null, null]; // actions
+  let offered = new Map();
+  let shown = null;
   const show = () => {
-    const action = preview.looked ?? preview.kept;
-    const one = preview.offered.get(action);
-    preview.changed(one?.line ? action : null);
-    if ((one?.line ?? null) === (preview.shown?.line ?? null)) return;
-    preview.shown = one?.line ? { line: one.line, words: one.words } : null;
-    store.preview = preview.shown;
+    const action = looked ?? kept;
+    const one = offered.get(action);
+    const line = one?.line ?? null;
+    changed(line ? action : null, kept);
+    if (line === (shown?.line ?? null)) return;
+    shown = line && { line, words: one.words };
+    store.preview = shown;
     store.tell("preview");
   };
-  preview.offer = (alternatives) => {
-    preview.offered = new Map(alternatives.map((one) => [one.action, one]));
-    show();
+  return {
+    offer(alternatives) {
+      offered = new Map(alternatives.map((one) => [one.action, one]));
+      show();
+    },
+    look(action) {
+      looked = action;
+      show();
+    },
+    keep(action) {
+      kept = kept === action ? null : action;
+      looked = null; // pressed once more it goes, though it is still pointed at
+      show();
+    },
   };
-  preview.look = (action) => {
-    preview.looked = action;
-    show();
-  };
-  preview.keep = (action) => {
-    const again = preview.kept === action;
-    preview.kept = again ? null : action;
-    preview.looked = null; // pressed once more it goes, though it is still pointed at
-    show();
-  };
-  return preview;
 }

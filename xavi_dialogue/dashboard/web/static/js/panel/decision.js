@@ -1,7 +1,6 @@
 /** The decision in force at the moment shown: its plan, what else there was, and why. */
 
-import { eachFrame, fill, h, set } from "../dom.js";
-import { createAwaited } from "../awaited.js";
+import { awaited, copyOf, eachFrame, fill, h, on, partsOf, say, set } from "../dom.js";
 import { createAlternatives } from "./alternatives.js";
 import { createBranches } from "./branches.js";
 import { createHead } from "./head.js";
@@ -14,135 +13,160 @@ const MOVE_EACH = 250; // [ms] between movements of the line in the charts
 const PATIENCE = 300; // [ms] before it is said that something is being fetched
 
 /**
- * Fill an element with the decision panel.
  * @param {HTMLElement} element
- * @param {Store} store
+ * @param {import("../store.js").Store} store
  * @returns {{element: HTMLElement, shown: () => object}} `shown`: {state, id}, for tests
  */
 export function createDecision(element, store) {
-  const panel = assemble(element, store);
-  const follow = () => wanted(panel, store);
-  const move = eachFrame(() => moveCharts(panel, store));
-  for (const name of ["moment", "decisions"]) store.addEventListener(name, follow);
-  for (const name of ["moment", "shown", "pointed", "decisions"]) store.addEventListener(name, move);
-  store.addEventListener("ride", () => {
-    Object.assign(panel, { shown: null, asked: null, full: false });
-    panel.predictions.forget();
-    panel.alternatives.clear();
-    follow();
-  });
-  store.addEventListener("status", () => panel.state === "failed" && store.status.connected && retry(panel, store));
-  new ResizeObserver(follow).observe(element); // it may have been behind a tab
-  follow();
+  const panel = new Panel(element, store);
   return { element, shown: () => ({ state: panel.state, id: panel.shown }) };
 }
 
-function assemble(element, store) {
-  const panel = {
-    element,
-    head: createHead(store),
-    alternatives: createAlternatives(store),
-    predictions: createPredictions(store),
-    branches: createBranches(),
-    notice: h("div", { class: "decision-notice", role: "status" }),
-    again: h("button", { type: "button" }, "Try again"),
-    state: "none",
-    shown: null,
-    full: false,
-    asked: null,
-    busy: false,
-    at: 0,
-    moved: 0,
-    timer: 0,
-  };
-  panel.sections = {
-    alternatives: section("What else I could have done", panel.alternatives.element),
-    predictions: section("What I expect the others to do", panel.predictions.element),
-    branches: section("How I searched", panel.branches.element),
-  };
-  panel.again.addEventListener("click", () => retry(panel, store));
-  element.classList.add("decision");
-  fill(element, panel.head.element, panel.notice, Object.values(panel.sections));
-  show(panel, "none", store);
-  return panel;
-}
+class Panel {
+  state = "none";
+  shown = null; // id of the decision
+  full = false; // whether all of it is shown
+  asked = null; // id
+  busy = false;
+  at = 0; // [ms] when one was shown
+  moved = 0; // [ms] when the charts were
+  timer = 0;
 
-function retry(panel, store) {
-  panel.asked = null;
-  wanted(panel, store);
-}
-
-function section(title, content) {
-  return h("details", { class: "decision-part", open: true }, h("summary", {}, h("h3", {}, title)), content);
-}
-
-/** Another decision may be in force: show it when its turn comes, one at a time. */
-function wanted(panel, store) {
-  const decision = store.decisionAt(store.at);
-  panel.head.move(decision);
-  if (!decision) {
-    panel.shown = panel.asked = null;
-    if (panel.state !== "none") show(panel, "none", store);
-    else notice(panel, "none", store);
-    return;
+  constructor(element, store) {
+    Object.assign(this, { element, store });
+    const named = [...element.children].map((one) => [one.dataset.section, one]);
+    const { head, notice, ...sections } = Object.fromEntries(named);
+    Object.assign(this, { notice, sections });
+    this.head = createHead(head, store);
+    this.alternatives = createAlternatives(sections.alternatives, store);
+    this.predictions = createPredictions(sections.predictions, store);
+    this.branches = createBranches(sections.branches);
+    this.again = h("button", { onclick: () => this.retry() }, "Try again");
+    this.show("none");
+    const follow = () => this.follow();
+    on(store, "moment decisions", follow);
+    on(store, "moment shown pointed decisions", eachFrame(() => this.moveCharts()));
+    store.addEventListener("ride", () => this.forget());
+    store.addEventListener("status", () => this.state === "failed" && store.status.connected && this.retry());
+    new ResizeObserver(follow).observe(element); // it may have been behind a tab
+    follow();
   }
-  if (decision.id === panel.asked || panel.busy || panel.timer || isHidden(panel)) return;
-  const wait = panel.at + (store.live ? LIVE_EACH : HELD_EACH) - performance.now();
-  if (wait <= 0 || panel.shown === null) return void load(panel, store, decision);
-  panel.timer = setTimeout(() => {
-    panel.timer = 0;
-    wanted(panel, store);
-  }, wait);
-}
 
-async function load(panel, store, decision) {
-  panel.busy = true;
-  panel.asked = decision.id;
-  const ride = store.ride;
-  const slow = setTimeout(() => show(panel, "loading", store, decision), panel.shown ? PATIENCE : 0);
-  try {
-    const whole = await store.detail(decision.id);
-    if (store.ride === ride) show(panel, whole ? "shown" : "gone", store, decision, whole);
-  } catch (error) {
-    if (store.ride === ride) show(panel, isGone(error) ? "gone" : "failed", store, decision);
-  } finally {
-    clearTimeout(slow);
-    panel.busy = false;
-    panel.at = performance.now();
-    wanted(panel, store);
+  /** Another ride. */
+  forget() {
+    Object.assign(this, { shown: null, asked: null, full: false });
+    this.predictions.forget();
+    this.alternatives.clear();
+    this.follow();
   }
-}
 
-/** Whether it is behind a tab: nothing is fetched or drawn for nobody. */
-function isHidden(panel) {
-  return panel.element.offsetParent === null;
-}
+  retry() {
+    this.asked = null;
+    this.follow();
+  }
 
-function isGone(error) {
-  return error?.status === 404 || error?.status === 410;
-}
+  /** Another decision may be in force: show it when its turn comes, one at a time. */
+  follow() {
+    const { store } = this;
+    const decision = store.decisionAt(store.at);
+    this.head.move(decision);
+    if (!decision) {
+      this.shown = this.asked = null;
+      if (this.state === "none") this.notify();
+      else this.show("none");
+      return;
+    }
+    if (decision.id === this.asked || this.busy || this.timer || this.isHidden) return;
+    const wait = this.at + (store.live ? LIVE_EACH : HELD_EACH) - performance.now();
+    if (wait <= 0 || this.shown === null) return void this.load(decision);
+    this.timer = setTimeout(() => {
+      this.timer = 0;
+      this.follow();
+    }, wait);
+  }
 
-function show(panel, ...what) {
-  staying(panel.element, () => draw(panel, ...what));
-}
+  async load(decision) {
+    this.busy = true;
+    this.asked = decision.id;
+    const { ride } = this.store;
+    const slow = setTimeout(() => this.show("loading", decision), this.shown ? PATIENCE : 0);
+    try {
+      const whole = await this.store.detail(decision.id);
+      if (this.store.ride === ride) this.show(whole ? "shown" : "gone", decision, whole);
+    } catch (error) {
+      const gone = error?.status === 404 || error?.status === 410;
+      if (this.store.ride === ride) this.show(gone ? "gone" : "failed", decision);
+    } finally {
+      clearTimeout(slow);
+      this.busy = false;
+      this.at = performance.now();
+      this.follow();
+    }
+  }
 
-function draw(panel, state, store, decision = null, whole = null) {
-  panel.state = state;
-  const known = state === "shown" || (state === "loading" && panel.full);
-  set(panel.element, "data-state", state);
-  set(panel.element, "aria-busy", state === "loading" ? "true" : null);
-  if (state !== "loading" || !known) panel.head.show(decision, whole);
-  for (const [name, part] of Object.entries(panel.sections))
-    part.hidden = !known && (name !== "predictions" || !decision);
-  notice(panel, state, store);
-  if (state === "none" || state === "loading") return;
-  panel.shown = decision.id;
-  panel.full = whole !== null;
-  if (whole) {
-    panel.alternatives.update(whole);
-    panel.branches.update(whole);
-  } else panel.alternatives.clear();
-  panel.predictions.update(whole ? whole.predictions : fromBeliefs(decision), whole ? inTheWay(whole) : []);
+  /** Whether it is behind a tab: nothing is fetched or drawn for nobody. */
+  get isHidden() {
+    return this.element.offsetParent === null;
+  }
+
+  show(state, decision = null, whole = null) {
+    staying(this.element, () => this.draw(state, decision, whole));
+  }
+
+  draw(state, decision, whole) {
+    this.state = state;
+    const loading = state === "loading";
+    const known = state === "shown" || (loading && this.full);
+    set(this.element, "data-state", state);
+    set(this.element, "aria-busy", loading ? "true" : null);
+    if (!loading || !known) this.head.show(decision, whole);
+    const { alternatives, predictions, branches } = this.sections;
+    alternatives.hidden = branches.hidden = !known;
+    predictions.hidden = !known && !decision;
+    this.notify();
+    if (state === "none" || loading) return;
+    this.shown = decision.id;
+    this.full = whole !== null;
+    if (whole) {
+      this.alternatives.update(whole);
+      this.branches.update(whole);
+      this.predictions.update(whole.predictions, inTheWay(whole));
+    } else {
+      this.alternatives.clear();
+      this.predictions.update(fromBeliefs(decision), []);
+    }
+  }
+
+  /** Say why nothing is shown, where that is so. */
+  notify() {
+    const first = this.shown === null;
+    const key = `${this.state} ${first} ${this.store.latest !== null}`;
+    if (this.noticed === key) return;
+    this.noticed = key;
+    fill(this.notice, this.words(first));
+    this.notice.hidden = !this.notice.childNodes.length;
+  }
+
+  words(first) {
+    if (this.state === "loading" && first) return awaited("Fetching the decision", 6);
+    if (this.state === "failed") return [h("p", "The record of this decision could not be fetched."), this.again];
+    if (this.state === "gone") return copyOf("decision-gone");
+    if (this.state !== "none") return null;
+    const none = copyOf("no-decision");
+    const why = this.store.latest
+      ? "I have not decided anything yet. My first decision will be here in a moment."
+      : "As soon as the car drives, what it decides and why will be here.";
+    say(partsOf(none).why, why);
+    return none;
+  }
+
+  moveCharts() {
+    const now = performance.now();
+    if (this.state === "none" || this.isHidden) return;
+    if (this.store.live && now - this.moved < MOVE_EACH) return;
+    this.moved = now;
+    staying(this.element, () => this.predictions.move());
+  }
 }
 
 /** What is told of others where the decision itself is gone: what came with it in short. */
@@ -157,52 +181,11 @@ function fromBeliefs({ beliefs }) {
 /** Vehicles by how much they were in our way: right of way first, then who held up rollouts. */
 function inTheWay({ right_of_way: right, root }) {
   const shares = new Map();
-  for (const branch of root)
-    for (const [vehicle, , share] of branch.held_up)
+  for (const branch of root) {
+    for (const [vehicle, , share] of branch.held_up) {
       shares.set(vehicle, (shares.get(vehicle) ?? 0) + share * (branch.visits + branch.forced));
+    }
+  }
   const holding = [...shares].sort((a, b) => b[1] - a[1]).map(([vehicle]) => vehicle);
   return [...new Set([...(right?.vehicles ?? []), ...holding])];
-}
-
-function notice(panel, state, store) {
-  const first = panel.shown === null;
-  const nothing = store.latest
-    ? "I have not decided anything yet. My first decision will be here in a moment."
-    : "As soon as the car drives, what it decides and why will be here.";
-  const said = {
-    none: [fork(), h("p", { class: "decision-empty" }, "No decision yet"), h("p", { class: "quiet" }, nothing)],
-    loading: first ? [createAwaited("Fetching the decision", 6)] : [],
-    gone: [
-      h("p", {}, "The record of this decision is not here any more."),
-      h("p", { class: "quiet" }, "What it came to, and what I expected of the others, is still known."),
-    ],
-    failed: [h("p", {}, "The record of this decision could not be fetched."), panel.again],
-  };
-  if (panel.noticed === `${state} ${first} ${nothing}`) return;
-  panel.noticed = `${state} ${first} ${nothing}`;
-  fill(panel.notice, said[state] ?? []);
-  panel.notice.hidden = !panel.notice.childNodes.length;
-}
-
-/** A way that parts in three, one of them taken. */
-function fork() {
-  const way = (d, name) => h("path", { class: name, d });
-  const ways = [
-    way("M60,70 V44 C60,30 28,34 28,12", "fork"),
-    way("M60,70 V44 C60,30 92,34 92,12", "fork"),
-    way("M60,70 V12", "fork fork-taken"),
-  ];
-  return h(
-    "svg",
-    { class: "decision-fork", viewBox: "0 0 120 76", width: 120, height: 76, "aria-hidden": "true" },
-    ways,
-  );
-}
-
-function moveCharts(panel, store) {
-  const now = performance.now();
-  if (panel.state === "none" || isHidden(panel)) return;
-  if (store.live && now - panel.moved < MOVE_EACH) return;
-  panel.moved = now;
-  staying(panel.element, () => panel.predictions.move());
 }

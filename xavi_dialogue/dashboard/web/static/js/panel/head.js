@@ -1,30 +1,21 @@
 /** The head of the decision panel: what was decided when, in words and in steps. */
 
-import { h, say, set } from "../dom.js";
+import { h, partsOf, say, set } from "../dom.js";
 import { clock, counted } from "../figures.js";
 import { lower } from "../words.js";
 import { steady } from "./steady.js";
 
 /**
- * @param {Store} store
- * @returns {{element: HTMLElement, show: (decision: object|null, whole: object|null) => void,
- *   move: (decision: object|null) => void}} `move`: which decision its buttons lead away from
+ * @param {HTMLElement} element
+ * @param {import("../store.js").Store} store
+ * @returns {{show: (decision: Decision|null, whole: DecisionShown|null) => void,
+ *   move: (decision: Decision|null) => void}} `move`: which decision its buttons lead away from
  */
-export function createHead(store) {
-  const parts = {
-    before: button("decision-before", "Previous decision"),
-    after: button("decision-after", "Next decision"),
-    title: h("h2", { class: "decision-title" }, "Decision"),
-    words: h("p", { class: "decision-words" }),
-    steps: h("ol", { class: "steps", "aria-label": "Plan" }),
-    way: h("p", { class: "small" }),
-    facts: h("p", { class: "small" }),
-  };
-  const nav = h("div", { class: "decision-nav" }, parts.before, parts.title, parts.after);
+export function createHead(element, store) {
+  const parts = partsOf(element);
   parts.before.addEventListener("click", () => go(store, -1));
   parts.after.addEventListener("click", () => go(store, 1));
   return {
-    element: h("div", { class: "decision-head" }, nav, parts.words, parts.steps, parts.way, parts.facts),
     show: (decision, whole) => draw(parts, decision, whole),
     move(decision) {
       const index = decision ? store.decisions.indexOf(decision) : -1;
@@ -34,10 +25,6 @@ export function createHead(store) {
   };
 }
 
-function button(name, label) {
-  return h("button", { type: "button", class: `decision-step ${name}`, "aria-label": label, title: label });
-}
-
 function go(store, way) {
   const index = store.decisions.indexOf(store.decisionAt(store.at));
   const one = store.decisions[index + way];
@@ -45,21 +32,13 @@ function go(store, way) {
   else if (way > 0) store.goLive();
 }
 
-function draw(parts, decision, whole) {
-  const { title, words, steps, way, facts } = parts;
+function draw({ title, words, steps, way, facts }, decision, whole) {
   say(title, decision ? `Decision ${decision.number}` : "Decision");
   words.hidden = !decision;
   if (decision) say(words, sentence(decision));
-  const plan = decision ? (whole?.plan.map(([, said]) => said) ?? []) : [];
+  const plan = (decision && whole?.plan.map(([, said], k) => [`${k} ${said}`, said])) ?? [];
   steps.hidden = plan.length < 2;
-  const items = plan.map((said, k) => [`${k} ${said}`, said]);
-  steady(
-    steps,
-    items,
-    ([key]) => key,
-    () => h("li"),
-    (li, [, said]) => say(li, said),
-  );
+  steady(steps, plan, ([key]) => key, () => h("li"), (li, [, said]) => say(li, said));
   way.hidden = !whole?.under_way;
   say(way, `Under way, and to be finished first: ${whole?.under_way ?? ""}.`);
   facts.hidden = !whole;

@@ -1,8 +1,10 @@
 /** How the probabilities of a vehicle's goals moved in time: a stacked chart, labelled in words. */
 
-import { fill, h } from "../dom.js";
-import { clock, percent } from "../figures.js";
+import { fill, h, setAll } from "../dom.js";
+import { clamped, clock, percent } from "../figures.js";
 import { between } from "./span.js";
+
+export const TINTS = 6; // in which areas are told apart
 
 const BEFORE = 60; // [s] that are shown
 const SHORTEST = 10; // [s]
@@ -17,26 +19,20 @@ const WIDE = 0.3; // that a goal must have had to be named where it was likelies
 
 /** The order in which goals are stacked: as they came up, so that none changes its place. */
 export class Places {
-  constructor() {
-    this.known = new Map();
+  known = new Map();
+
+  /** Goals of a vehicle, in their order. */
+  goals(vehicle) {
+    if (!this.known.has(vehicle)) this.known.set(vehicle, []);
+    return this.known.get(vehicle);
   }
 
   /** Number of a goal of a vehicle. */
   of(vehicle, words) {
-    if (!this.known.has(vehicle)) this.known.set(vehicle, []);
-    const goals = this.known.get(vehicle);
+    const goals = this.goals(vehicle);
     if (!goals.includes(words)) goals.push(words);
     return goals.indexOf(words);
   }
-
-  goals(vehicle) {
-    return this.known.get(vehicle) ?? [];
-  }
-}
-
-/** [s] From when to when something is shown at a moment: what came later was not believed then. */
-export function stretchFor(at) {
-  return [at - BEFORE, at];
 }
 
 /** [s] When the chart begins: as soon as the vehicle was in view. */
@@ -45,13 +41,13 @@ function beginOf(stretches, at) {
 }
 
 /**
- * What was believed of a vehicle.
+ * What was believed of a vehicle until a moment [s]: what came later was not believed then.
  * @returns {{t: number, shares: number[]}[][]} stretches without a gap; shares by place
  */
-export function beliefsOf(decisions, vehicle, [from, to], places) {
+export function beliefsOf(decisions, vehicle, at, places) {
   const stretches = [];
   let before = -Infinity;
-  for (const { t, beliefs } of between(decisions, from, to)) {
+  for (const { t, beliefs } of between(decisions, at - BEFORE, at)) {
     const goals = beliefs.find((one) => one.vehicle === vehicle)?.goals;
     if (!goals) continue;
     const shares = [];
@@ -60,10 +56,10 @@ export function beliefsOf(decisions, vehicle, [from, to], places) {
       shares[place] = (shares[place] ?? 0) + p;
     }
     if (t - before > GAP) stretches.push([]);
-    stretches[stretches.length - 1].push({ t, shares: Array.from(shares, (one) => one ?? 0) });
+    stretches.at(-1).push({ t, shares: Array.from(shares, (one) => one ?? 0) });
     before = t;
   }
-  if (to - before < GAP) stretches.at(-1).push({ ...stretches.at(-1).at(-1), t: to }); // still believed
+  if (at - before < GAP) stretches.at(-1).push({ ...stretches.at(-1).at(-1), t: at }); // still believed
   return stretches;
 }
 
@@ -77,18 +73,16 @@ export function drawPosterior(svg, { stretches, goals, at, width }) {
   const right = Math.max(width - LABELS, 60);
   const x = (t) => ((t - from) / (at - from)) * right;
   const y = (share) => (1 - share) * (HEIGHT - FOOT);
-  svg.setAttribute("width", width);
-  svg.setAttribute("height", HEIGHT);
-  svg.setAttribute("aria-label", inWords(stretches, goals));
+  setAll(svg, { width, height: HEIGHT, "aria-label": inWords(stretches, goals) });
   fill(
     svg,
-    h("rect", { class: "posterior-ground", width: right, height: HEIGHT - FOOT }),
+    h("rect.posterior-ground", { width: right, height: HEIGHT - FOOT }),
     stretches.map((points) => goals.map((_, k) => area(points, k, x, y))),
     passing(stretches, goals, x, y, right),
     labels(stretches, goals, y, right),
-    h("line", { class: "posterior-now", x1: right, x2: right, y1: 0, y2: HEIGHT - FOOT + 3 }),
+    h("line.posterior-now", { x1: right, x2: right, y1: 0, y2: HEIGHT - FOOT + 3 }),
     h("text", { x: 0, y: HEIGHT - 3 }, from < 0 ? "" : clock(from)),
-    h("text", { class: "posterior-at", x: right, y: HEIGHT - 3, "text-anchor": "end" }, clock(at)),
+    h("text.posterior-at", { x: right, y: HEIGHT - 3, "text-anchor": "end" }, clock(at)),
   );
 }
 
@@ -99,9 +93,9 @@ function below(shares, k) {
 function area(points, k, x, y) {
   if (!points.some(({ shares }) => shares[k] > 0)) return null;
   const lone = points.length === 1 ? [points[0], { ...points[0], t: points[0].t + 1 }] : points;
-  const up = lone.map(({ t, shares }) => `${x(t).toFixed(1)},${y(below(shares, k + 1)).toFixed(1)}`);
-  const down = lone.map(({ t, shares }) => `${x(t).toFixed(1)},${y(below(shares, k)).toFixed(1)}`).reverse();
-  return h("path", { class: "posterior-area", dataset: { tint: k % 6 }, d: `M${[...up, ...down].join("L")}Z` });
+  const edge = (i) => lone.map(({ t, shares }) => `${x(t).toFixed(1)},${y(below(shares, i)).toFixed(1)}`);
+  const outline = [...edge(k + 1), ...edge(k).reverse()].join("L");
+  return h("path.posterior-area", { dataset: { tint: k % TINTS }, d: `M${outline}Z` });
 }
 
 /** Words at the right of each goal that is held likely in the end; apart from each other. */
@@ -116,8 +110,8 @@ function labels(stretches, goals, y, right) {
   for (const one of named) lowest = one.at = Math.min(Math.max(one.y, 6), lowest - LINE);
   const over = Math.min(0, (named.at(-1)?.at ?? 6) - 6); // pushed out above: all down again
   return named.map((one) => [
-    h("line", { class: "posterior-leader", x1: right + 1, x2: right + 7, y1: one.y, y2: one.at - over }),
-    h("text", { class: "posterior-label", x: right + 10, y: one.at - over + 4 }, short(one.words)),
+    h("line.posterior-leader", { x1: right + 1, x2: right + 7, y1: one.y, y2: one.at - over }),
+    h("text.posterior-label", { x: right + 10, y: one.at - over + 4 }, short(one.words)),
   ]);
 }
 
@@ -127,15 +121,12 @@ function passing(stretches, goals, x, y, right) {
   const last = points.at(-1)?.shares ?? [];
   const gone = goals.map((words, k) => ({ words: short(words), k })).filter(({ k }) => !((last[k] ?? 0) >= LABELLED));
   const placed = [];
-  for (const one of gone.map((goal) => atPeak(goal, points, x, y, right)).filter(Boolean)) {
-    const free = placed.every(
-      (other) => Math.abs(other.x - one.x) > other.half + one.half + 4 || Math.abs(other.y - one.y) >= LINE,
-    );
-    if (free) placed.push(one);
+  const apart = (a, b) => Math.abs(a.x - b.x) > a.half + b.half + 4 || Math.abs(a.y - b.y) >= LINE;
+  for (const one of gone.map((goal) => atPeak(goal, points, x, y, right))) {
+    if (one && placed.every((other) => apart(other, one))) placed.push(one);
   }
-  return placed.map((one) =>
-    h("text", { class: "posterior-passing", x: one.x, y: one.y + 4, "text-anchor": "middle" }, one.words),
-  );
+  const middle = { "text-anchor": "middle" };
+  return placed.map((one) => h("text.posterior-passing", { ...middle, x: one.x, y: one.y + 4 }, one.words));
 }
 
 /** Where a goal was likeliest, and how much room its words take. */
@@ -144,7 +135,7 @@ function atPeak({ words, k }, points, x, y, right) {
   const peak = points.reduce((best, one) => (share(one) > share(best) ? one : best), points[0]);
   if (!peak || share(peak) < WIDE) return null;
   const half = (words.length * LETTER) / 2;
-  const at = Math.min(Math.max(x(peak.t), x(points[0].t) + half + 2), right - half - 2);
+  const at = clamped(x(peak.t), x(points[0].t) + half + 2, right - half - 2);
   return { words, half, x: at, y: y(below(peak.shares, k) + share(peak) / 2) };
 }
 
@@ -159,7 +150,7 @@ function inWords(stretches, goals) {
   if (!first) return "Nothing was believed of it in this time.";
   const moved = goals
     .map((words, k) => [words, first.shares[k] ?? 0, last.shares[k] ?? 0])
-    .filter(([, a, b]) => a > 0.01 || b > 0.01)
+    .filter(([, ...shares]) => Math.max(...shares) > 0.01)
     .map(([words, a, b]) => `${words}: from ${percent(a)} to ${percent(b)}`);
   return `From ${clock(first.t)} to ${clock(last.t)}: ${moved.join("; ")}`;
 }

@@ -1,137 +1,118 @@
 /** What the other vehicles are expected to do, those that matter first. */
 
-import { h, say, set } from "../dom.js";
+import { copyOf, partsOf, pointedAt, say, set } from "../dom.js";
 import { percent } from "../figures.js";
+import { widthOf } from "../outcomes.js";
 import { pointingOf } from "../pointing.js";
 import { capital, nameOf } from "../words.js";
-import { drawShare, shareBar } from "./bars.js";
-import { beliefsOf, drawPosterior, Places, stretchFor } from "./posterior.js";
+import { beliefsOf, drawPosterior, Places, TINTS } from "./posterior.js";
 import { steady } from "./steady.js";
 
 const FIRST = 6; // vehicles that are shown at once
+const LONG = 22; // letters of a goal from which on it has a line of its own
 
 /**
- * @param {Store} store
- * @returns {{element: HTMLElement, update: (predictions: object[], near: number[]) => void,
- *   move: () => void, forget: () => void}}
+ * @param {HTMLElement} element
+ * @param {import("../store.js").Store} store
+ * @returns {{update: (predictions: Predicted[], near: number[]) => void, move: () => void, forget: () => void}}
  *   `update`: others are expected to do other things; `move`: another moment, or others pointed at
  */
-export function createPredictions(store) {
-  const list = h("ul", { class: "others" });
-  const more = h("button", { type: "button", class: "show-all", hidden: true });
-  const none = h("p", { class: "quiet" }, "Nobody else was in view.");
-  const here = { store, list, more, none, all: false, predictions: [], near: [], places: new Places(), order: [] };
-  more.addEventListener("click", () => {
-    here.all = !here.all;
-    render(here);
-  });
-  new ResizeObserver(() => charts(here)).observe(list);
+export function createPredictions(element, store) {
+  const others = new Others(element, store);
   return {
-    element: h("div", { class: "predictions" }, none, list, more),
     update(predictions, near) {
-      Object.assign(here, { predictions, near });
-      render(here);
+      Object.assign(others, { predictions, near });
+      others.render();
     },
-    move: () => render(here),
-    forget: () => (here.places = new Places()),
+    move: () => others.render(),
+    forget: () => void (others.places = new Places()),
   };
 }
 
-function render(here) {
-  const { list, more, none, predictions } = here;
-  const sorted = ranked(here);
-  const shown = here.all ? sorted : sorted.slice(0, FIRST);
-  none.hidden = sorted.length > 0;
-  steady(
-    list,
-    shown,
-    (one) => one.vehicle,
-    (one) => card(here, one.vehicle),
-    (li, one) => drawCard(here, li, one),
-  );
-  more.hidden = predictions.length <= FIRST;
-  say(more, here.all ? `Show the ${FIRST} that matter most` : `Show all ${predictions.length}`);
-  set(more, "aria-expanded", String(here.all));
-  charts(here);
-}
+class Others {
+  all = false; // whether more than the first are shown
+  predictions = [];
+  near = []; // vehicles that are in our way
+  places = new Places();
 
-/** Causes of the turn shown first, then who is pointed at, then who was in our way. */
-function ranked({ store, predictions, near, list }) {
-  const causes = new Set((store.evidence?.causes ?? []).map((one) => one.vehicle));
-  const still = list.matches(":hover") || list.contains(document.activeElement); // none moves away then
-  const before = still ? [...list.children].map((li) => Number(li.dataset.vehicle)) : [];
-  const rank = ({ vehicle }) => {
-    if (before.includes(vehicle)) return before.indexOf(vehicle) - 1000;
-    if (causes.has(vehicle)) return 0;
-    if (store.pointed.has(vehicle)) return 1;
-    return near.includes(vehicle) ? 2 + near.indexOf(vehicle) : 1000;
-  };
-  return [...predictions].sort((a, b) => rank(a) - rank(b) || a.vehicle - b.vehicle);
-}
+  constructor(element, store) {
+    Object.assign(this, { store, pointing: pointingOf(store), ...partsOf(element) });
+    this.more.addEventListener("click", () => {
+      this.all = !this.all;
+      this.render();
+    });
+    new ResizeObserver(() => this.charts()).observe(this.list);
+  }
 
-function card({ store }, vehicle) {
-  const name = h("button", { type: "button", class: "other-name", "aria-pressed": "false" }, capital(nameOf(vehicle)));
-  const li = h(
-    "li",
-    { class: "other", dataset: { vehicle } },
-    h("div", { class: "other-head" }, name, h("span", { class: "badge badge-cause", hidden: true }, "a cause")),
-    h("ul", { class: "goals" }),
-    h("svg", { class: "posterior", role: "img" }),
-  );
-  const pointing = pointingOf(store);
-  const [enter, leave] = [() => pointing.near(vehicle), () => pointing.away()];
-  li.addEventListener("pointerenter", (event) => event.pointerType === "mouse" && enter());
-  li.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && leave());
-  name.addEventListener("focus", () => name.matches(":focus-visible") && enter());
-  name.addEventListener("blur", leave);
-  name.addEventListener("click", () => pointing.toggle(vehicle));
-  return li;
-}
+  render() {
+    const { list, more, none, predictions, all } = this;
+    const shown = this.ranked().slice(0, all ? undefined : FIRST);
+    none.hidden = predictions.length > 0;
+    const make = ({ vehicle }) => this.card(vehicle);
+    steady(list, shown, (one) => one.vehicle, make, (li, one) => this.draw(li, one));
+    more.hidden = predictions.length <= FIRST;
+    say(more, all ? `Show the ${FIRST} that matter most` : `Show all ${predictions.length}`);
+    set(more, "aria-expanded", String(all));
+    this.charts();
+  }
 
-function drawCard({ store, places }, li, { vehicle, goals }) {
-  const [head, list] = li.children;
-  const cause = (store.evidence?.causes ?? []).some((one) => one.vehicle === vehicle);
-  head.lastElementChild.hidden = !cause;
-  set(li, "data-pointed", store.pointed.has(vehicle) ? "yes" : null);
-  set(head.firstElementChild, "aria-pressed", String(pointingOf(store).kept.has(vehicle)));
-  const alike = ({ words }) => goals.filter((goal) => goal.words === words).length > 1;
-  const named = goals.map((goal) => ({
-    ...goal,
-    full: alike(goal) && goal.place ? `${goal.words}: ${goal.place}` : goal.words,
-  }));
-  steady(
-    list,
-    named,
-    (goal) => `${goal.kind} ${goal.place}`,
-    goalRow,
-    (row, goal) => {
-      const [words, bar, share] = row.children;
-      say(words, goal.full);
-      set(words, "title", goal.place || null);
-      set(row, "data-long", goal.full.length > 22 ? "yes" : null);
-      drawShare(bar, goal.probability, places.of(vehicle, goal.words) % 6);
-      say(share, percent(goal.probability));
-    },
-  );
-}
+  /** Causes of the turn shown first, then who is pointed at, then who was in our way. */
+  ranked() {
+    const { store, predictions, near, list } = this;
+    const still = list.matches(":hover") || list.contains(document.activeElement); // none moves away then
+    const before = still ? [...list.children].map((li) => Number(li.dataset.vehicle)) : [];
+    const rank = ({ vehicle }) => {
+      if (before.includes(vehicle)) return before.indexOf(vehicle) - 1000;
+      if (this.isCause(vehicle)) return 0;
+      if (store.pointed.has(vehicle)) return 1;
+      return near.includes(vehicle) ? 2 + near.indexOf(vehicle) : 1000;
+    };
+    return [...predictions].sort((a, b) => rank(a) - rank(b) || a.vehicle - b.vehicle);
+  }
 
-function goalRow() {
-  return h(
-    "li",
-    { class: "goal" },
-    h("span", { class: "goal-words" }),
-    shareBar("goal-bar"),
-    h("span", { class: "figure" }),
-  );
-}
+  isCause(vehicle) {
+    return (this.store.evidence?.causes ?? []).some((one) => one.vehicle === vehicle);
+  }
 
-function charts({ store, list, places }) {
-  const width = Math.floor(list.firstElementChild?.querySelector(".goals").clientWidth ?? 0);
-  if (!width) return;
-  const span = stretchFor(store.at);
-  for (const li of list.children) {
-    const vehicle = Number(li.dataset.vehicle);
-    const stretches = beliefsOf(store.decisions, vehicle, span, places);
-    drawPosterior(li.lastElementChild, { stretches, goals: places.goals(vehicle), at: store.at, width });
+  card(vehicle) {
+    const li = copyOf("other");
+    const { pointing } = this;
+    li.parts = partsOf(li);
+    li.dataset.vehicle = vehicle;
+    const { name } = li.parts;
+    say(name, capital(nameOf(vehicle)));
+    pointedAt(li, name, () => pointing.near(vehicle), () => pointing.away());
+    name.addEventListener("click", () => pointing.toggle(vehicle));
+    return li;
+  }
+
+  draw(li, { vehicle, goals }) {
+    const { name, cause, goals: list } = li.parts;
+    cause.hidden = !this.isCause(vehicle);
+    set(li, "data-pointed", this.store.pointed.has(vehicle) ? "yes" : null);
+    set(name, "aria-pressed", String(this.pointing.kept.has(vehicle)));
+    const alike = ({ words }) => goals.filter((goal) => goal.words === words).length > 1;
+    steady(list, goals, ({ kind, place }) => `${kind} ${place}`, () => copyOf("goal"), (row, goal) => {
+      const { words, probability, place } = goal;
+      const full = place && alike(goal) ? `${words}: ${place}` : words;
+      const [said, bar, share] = row.children;
+      say(said, full);
+      set(said, "title", place || null);
+      set(row, "data-long", full.length > LONG ? "yes" : null);
+      bar.firstElementChild.style.width = widthOf(probability);
+      bar.firstElementChild.dataset.tint = this.places.of(vehicle, words) % TINTS;
+      say(share, percent(probability));
+    });
+  }
+
+  charts() {
+    const { store, list, places } = this;
+    const width = Math.floor(list.firstElementChild?.parts.goals.clientWidth ?? 0);
+    if (!width) return;
+    for (const { dataset, parts } of list.children) {
+      const vehicle = Number(dataset.vehicle);
+      const stretches = beliefsOf(store.decisions, vehicle, store.at, places);
+      drawPosterior(parts.chart, { stretches, goals: places.goals(vehicle), at: store.at, width });
+    }
   }
 }

@@ -1,6 +1,5 @@
 /** What an answer rests on, in a fold under it: outcomes, effects, causes, rollouts. */
-import { createAwaited } from "../awaited.js";
-import { fill, h } from "../dom.js";
+import { awaited, fill, h, partsOf } from "../dom.js";
 import { clock, counted, percent, seconds } from "../figures.js";
 import { createOutcomes } from "../outcomes.js";
 import { capital, nameOf } from "../words.js";
@@ -10,29 +9,21 @@ import { createRuns } from "./runs.js";
 let made = 0;
 
 /**
+ * Let a turn unfold its evidence, which is fetched then.
+ * @param {HTMLElement} element of the turn
  * @param {{n: number}} turn
- * @param {import("../store.js").Store} store
- * @param {import("./spoken.js").Spoken} spoken
- * @returns {{button: HTMLElement, fold: HTMLElement}}
+ * @param {import("./turn.js").Around} around
  */
-export function createEvidence(turn, store, spoken) {
+export function createEvidence(element, { n }, { store, spoken }) {
+  const { unfold, fold } = partsOf(element);
   made += 1;
-  const fold = h("div", {
-    class: "evidence",
-    id: `evidence-${made}`,
-    role: "region",
-    "aria-label": "Evidence",
-    hidden: true,
-  });
-  const button = h(
-    "button",
-    { type: "button", class: "quiet", "aria-expanded": "false", "aria-controls": fold.id },
-    "Evidence",
-  );
+  fold.id = `evidence-${made}`;
+  unfold.setAttribute("aria-controls", fold.id);
+  unfold.hidden = false;
   const load = async () => {
-    fill(fold, createAwaited("Loading the evidence"));
+    fill(fold, awaited("Loading the evidence"));
     let words = null; // why there is nothing to show
-    const evidence = await store.evidenceOf(turn.n).catch((error) => void (words = error.message));
+    const evidence = await store.evidenceOf(n).catch((error) => void (words = error.message));
     try {
       if (evidence) fill(fold, shown(evidence, store, spoken));
     } catch (fault) {
@@ -40,84 +31,53 @@ export function createEvidence(turn, store, spoken) {
       words = "This could not be shown.";
     }
     if (words === null) fold.dataset.loaded = "yes";
-    else fill(fold, h("p", { class: "soft", role: "status" }, `${words} `, retry(load)));
+    else fill(fold, h("p.soft", { role: "status" }, `${words} `, h("button.quiet", { onclick: load }, "Try again")));
   };
-  button.addEventListener("click", () => {
+  unfold.addEventListener("click", () => {
     fold.hidden = !fold.hidden;
-    button.setAttribute("aria-expanded", String(!fold.hidden));
+    unfold.ariaExpanded = String(!fold.hidden);
     if (!fold.hidden && !fold.dataset.loaded) load();
   });
-  return { button, fold };
-}
-
-function retry(load) {
-  return h("button", { type: "button", class: "quiet", onclick: load }, "Try again");
 }
 
 function shown(evidence, store, spoken) {
-  const { factual, counterfactual, effects, causes } = evidence;
-  const sides = [
-    factual ? [capital(factual.title), "fact", factual] : null,
-    counterfactual ? [capital(counterfactual.title), "foil", counterfactual] : null,
-  ].filter(Boolean);
+  const { factual, counterfactual, effects, causes, missing } = evidence;
+  const sides = [factual, counterfactual].filter(Boolean);
+  const listed = (title, list, items) => items.length > 0 && [h("h3", title), h(list, items)];
   return [
     basis(evidence, store),
-    evidence.missing ? h("p", { class: "missing" }, evidence.missing) : null,
-    sides.map(([title, kind, side]) => sideOf(title, kind, side)),
-    effects.length > 0
-      ? [h("h3", {}, "What that would have changed"), h("ul", { class: "effects" }, effects.map(createEffect))]
-      : null,
-    causes.length > 0
-      ? [
-          h("h3", {}, "Because of"),
-          h(
-            "ul",
-            { class: "causes" },
-            causes.map((cause) => causeOf(cause, spoken)),
-          ),
-        ]
-      : null,
-    sides.map(([title, , side]) => (side.runs.length > 0 ? createRuns(title, side, spoken) : null)),
+    missing && h("p.missing", missing),
+    sides.map((side) => sideOf(side, side === factual ? "fact" : "foil")),
+    listed("What that would have changed", "ul.effects", effects.map(createEffect)),
+    listed("Because of", "ul.causes", causes.map((cause) => causeOf(cause, spoken))),
+    sides.map((side) => side.runs.length > 0 && createRuns(capital(side.title), side, spoken)),
   ];
 }
 
 function basis({ method, rollouts, distinct, t }, store) {
-  const attributes = { type: "button", class: "moment", title: "Go to that decision", onclick: () => store.seek(t) };
-  const when = h("button", attributes, clock(t));
+  const when = h("button.moment", { title: "Go to that decision", onclick: () => store.seek(t) }, clock(t));
   const count = `${counted(rollouts, "rollout")} from ${counted(distinct, "distinct sample")}`;
   const words = rollouts > 0 ? `${capital(method)}: ${count}.` : `${capital(method)}.`;
-  return h("p", { class: "basis" }, h("span", {}, words), h("span", {}, "Decision at", when));
+  return h("p.basis.row", h("span", words), h("span", "Decision at", when));
 }
 
-function sideOf(title, kind, side) {
-  const arrival = side.arrival === null ? null : h("span", { class: "arrival" }, `there in ${seconds(side.arrival)}`);
+function sideOf({ title, words, outcomes, arrival, rollouts }, kind) {
+  const there = arrival !== null && [h("span.arrival", `there in ${seconds(arrival)}`), ", "];
   return h(
-    "div",
-    { class: `outcome-side ${kind}` },
-    h("h3", {}, title),
-    h("p", { class: "side-words" }, side.words),
-    createOutcomes(side.outcomes),
-    h("p", { class: "soft" }, arrival, arrival ? ", " : "", counted(side.rollouts, "rollout")),
+    `div.outcome-side.${kind}`,
+    h("h3", capital(title)),
+    h("p.side-words", words),
+    createOutcomes(outcomes),
+    h("p.soft", there, counted(rollouts, "rollout")),
   );
 }
 
-function causeOf(cause, spoken) {
-  const rest = [cause.how, cause.checked].filter(Boolean);
-  const influence =
-    cause.influence === null
-      ? null
-      : h("span", { class: "soft" }, `influence on the choice ${cause.influence.toFixed(2)} bit`);
+function causeOf({ vehicle, words, probability, how, checked, influence }, spoken) {
+  const rest = [how, checked].filter(Boolean);
   return h(
     "li",
-    {},
-    h(
-      "p",
-      {},
-      spoken.button(cause.vehicle, nameOf(cause.vehicle)),
-      ` ${cause.words} `,
-      h("b", {}, percent(cause.probability)),
-    ),
-    rest.map((words) => h("p", { class: "soft" }, spoken.text(words, [cause.vehicle]))),
-    influence,
+    h("p", spoken.button(vehicle, nameOf(vehicle)), ` ${words} `, h("b", percent(probability))),
+    rest.map((one) => h("p.soft", spoken.text(one, [vehicle]))),
+    influence !== null && h("span.soft", `influence on the choice ${influence.toFixed(2)} bit`),
   );
 }

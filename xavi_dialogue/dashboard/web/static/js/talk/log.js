@@ -1,29 +1,18 @@
 /** The turns, newest at the bottom; scrolls along only with a reader who is there. */
-import { h } from "../dom.js";
 
 const NEAR = 60; // [px] from the bottom that still count as there
 
 /** The scrolling part of the conversation. */
 export class Log {
-  /** @param {...HTMLElement} below what scrolls with the turns, under them */
-  constructor(...below) {
-    this.turns = h("div", { class: "log", role: "log", "aria-live": "polite", "aria-label": "What was said" });
-    this.scroller = h(
-      "div",
-      { class: "scroller", tabindex: 0, role: "group", "aria-label": "Questions and answers" },
-      this.turns,
-      below,
-    );
-    this.more = h(
-      "button",
-      { type: "button", class: "main more", hidden: true, onclick: () => this.toEnd() },
-      "New answer ↓",
-    );
-    this.element = h("div", { class: "said" }, this.scroller, this.more);
-    this.atEnd = true;
-    this.scroller.addEventListener("scroll", () => this.scrolled(), { passive: true });
-    new ResizeObserver(() => this.atEnd && this.toEnd()).observe(this.scroller);
-    new ResizeObserver(() => this.scrolled()).observe(this.turns); // evidence is unfolded: that is read now
+  atEnd = true;
+
+  /** @param {{turns: HTMLElement, scroller: HTMLElement, more: HTMLElement}} parts */
+  constructor({ turns, scroller, more }) {
+    Object.assign(this, { turns, scroller, more });
+    more.addEventListener("click", () => this.toEnd());
+    scroller.addEventListener("scroll", () => this.scrolled(), { passive: true });
+    new ResizeObserver(() => this.settle()).observe(scroller);
+    new ResizeObserver(() => this.scrolled()).observe(turns); // evidence is unfolded: that is read now
   }
 
   scrolled() {
@@ -35,10 +24,10 @@ export class Log {
 
   /** Put turns in; `quietly`: they are of before, and not read out. */
   add(elements, quietly) {
-    if (quietly) this.turns.setAttribute("aria-busy", "true");
+    if (quietly) this.turns.ariaBusy = "true";
     this.turns.append(...elements);
-    if (quietly) requestAnimationFrame(() => this.turns.removeAttribute("aria-busy"));
-    const last = elements[elements.length - 1];
+    if (quietly) requestAnimationFrame(() => (this.turns.ariaBusy = null));
+    const last = elements.at(-1);
     if (this.atEnd && !quietly && last) this.toTop(last);
     else if (this.atEnd) this.toEnd();
     else if (!quietly && last) this.more.hidden = false;

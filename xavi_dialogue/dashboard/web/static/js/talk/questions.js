@@ -10,16 +10,16 @@
 const NAMED = 25; // [s] for which the service knows a request by its name, and does not take it for another
 const PATIENCE = 45; // [s] the service itself answers or gives up within far less
 
-/** @typedef {{request: string, text: string, at: number|null, since: number, thinking: boolean, sent: boolean}} Question */
+/** @typedef {{request: string, text: string, at: number|null, since: number, sent: boolean}} Question */
 
 export class Questions extends EventTarget {
+  /** @type {Map<string, Question>} by request */
+  open = new Map();
+
   /** @param {import("../connection.js").Connection} connection */
   constructor(connection) {
     super();
     this.connection = connection;
-    /** @type {Map<string, Question>} */
-    this.open = new Map();
-    this.trouble = null; // words about a message that was no question
     connection.addEventListener("message", ({ detail }) => TAKERS[detail.type]?.(this, detail));
     connection.addEventListener("welcome", () => this.askAgain());
     connection.addEventListener("state", () => this.interrupted());
@@ -33,11 +33,15 @@ export class Questions extends EventTarget {
    * @returns {boolean} false: nobody could be asked
    */
   ask(text, at) {
-    const question = { request: newName(), text, at, since: performance.now(), thinking: false, sent: true };
-    if (!this.connection.send(message(question))) return false;
+    const question = { request: newName(), text, at, since: performance.now(), sent: true };
+    if (!this.send(question)) return false;
     this.open.set(question.request, question);
     this.changed();
     return true;
+  }
+
+  send({ request, text, at }) {
+    return this.connection.send({ type: "ask", request, text, at });
   }
 
   /** The answer is not wanted any more. */
@@ -48,13 +52,13 @@ export class Questions extends EventTarget {
 
   /** The latest question that waits; null: none does. */
   latest() {
-    return [...this.open.values()].pop() ?? null;
+    return [...this.open.values()].at(-1) ?? null;
   }
 
   askAgain() {
     for (const question of this.open.values()) {
       const known = performance.now() - question.since < NAMED * 1000;
-      if (known) question.sent = this.connection.send(message(question));
+      if (known) question.sent = this.send(question);
       else this.returned(question.request, "The connection was lost for too long. Ask it again?");
     }
     this.changed();
@@ -93,12 +97,6 @@ export class Questions extends EventTarget {
 }
 
 const TAKERS = {
-  thinking(questions, { request }) {
-    const question = questions.open.get(request);
-    if (!question) return;
-    question.thinking = true;
-    questions.changed();
-  },
   answered(questions, { request, n, reply }) {
     const question = questions.taken(request);
     if (question) questions.dispatchEvent(new CustomEvent("settled", { detail: { question, n, reply } }));
@@ -108,10 +106,6 @@ const TAKERS = {
     else questions.dispatchEvent(new CustomEvent("returned", { detail: { question: null, words: text } }));
   },
 };
-
-function message({ request, text, at }) {
-  return { type: "ask", request, text, at };
-}
 
 // crypto.randomUUID is there on secure addresses only, which one in the house's network is not.
 function newName() {

@@ -1,5 +1,5 @@
 /** A table of rollouts: what the others did in each, and what came of it. */
-import { fill, h } from "../dom.js";
+import { copyOf, fill, h, partsOf, say } from "../dom.js";
 import { counted, percent, seconds } from "../figures.js";
 import { nameOf, outcomeWords } from "../words.js";
 
@@ -7,65 +7,38 @@ const FIRST = 10;
 
 /**
  * @param {string} title
- * @param {{runs: any[], rollouts: number}} side
+ * @param {Side} side
  * @param {import("./spoken.js").Spoken} spoken
  */
-export function createRuns(title, side, spoken) {
-  const body = h("tbody", {});
-  const show = (count) =>
-    fill(
-      body,
-      side.runs.slice(0, count).map((run) => row(run, spoken)),
-    );
-  const more = h("button", { type: "button", class: "quiet" }, `Show all ${side.runs.length}`);
+export function createRuns(title, { runs, rollouts }, spoken) {
+  const table = copyOf("runs");
+  const { caption, body, more } = partsOf(table);
+  const show = (count) => fill(body, runs.slice(0, count).map((run) => row(run, spoken)));
+  const different = runs.length < rollouts ? `, ${runs.length} of them different` : "";
+  table.ariaLabel = `Rollouts: ${title}`;
+  say(caption, `${title}: ${counted(rollouts, "rollout")}${different}`);
+  say(more, `Show all ${runs.length}`);
+  more.hidden = runs.length <= FIRST;
   more.addEventListener("click", () => {
-    show(side.runs.length);
+    show(runs.length);
     body.rows[FIRST].querySelector("th").focus(); // the button that had the focus is gone
     more.remove();
   });
-  const columns = ["Rollout", "What the others did", "Outcome", "Time", "Held up by"];
-  const head = h(
-    "thead",
-    {},
-    h(
-      "tr",
-      {},
-      columns.map((name) => h("th", { scope: "col" }, name)),
-    ),
-  );
-  const alike = side.runs.length < side.rollouts;
-  const count = counted(side.rollouts, "rollout") + (alike ? `, ${side.runs.length} of them different` : "");
-  const caption = h("caption", {}, `${title}: ${count}`);
   show(FIRST);
-  const table = h("table", { class: "runs" }, caption, head, body);
-  return h(
-    "div",
-    { class: "wide", role: "region", "aria-label": `Rollouts: ${title}`, tabindex: 0 },
-    table,
-    side.runs.length > FIRST ? more : null,
-  );
+  return table;
 }
 
-function row(run, spoken) {
-  const named = (vehicle) => spoken.button(vehicle, String(vehicle));
-  const samples = run.samples.map(([vehicle, words, probability]) =>
-    h("div", {}, named(vehicle), ` ${words} `, h("span", { class: "soft" }, percent(probability))),
-  );
-  const held = run.held_up.map(([vehicle, how, lasts]) => h("div", {}, named(vehicle), ` ${how}, ${seconds(lasts)}`));
-  const collided =
-    run.collided_with === null || run.collided_with === undefined ? "" : ` with ${nameOf(run.collided_with)}`;
+function row({ index, draws, outcome, arrival, samples, held_up: held, collided_with: other = null }, spoken) {
+  const line = (vehicle, ...words) => h("div", spoken.button(vehicle, String(vehicle)), ...words);
+  const did = samples.map(([vehicle, words, chance]) => line(vehicle, ` ${words} `, h("span.soft", percent(chance))));
+  const by = held.map(([vehicle, how, lasts]) => line(vehicle, ` ${how}, ${seconds(lasts)}`));
   return h(
     "tr",
-    { dataset: { outcome: run.outcome } },
-    h(
-      "th",
-      { scope: "row", tabindex: -1 },
-      run.index,
-      run.draws > 1 ? h("span", { class: "soft" }, ` ×${run.draws}`) : null,
-    ),
-    h("td", {}, samples.length > 0 ? samples : "–"),
-    h("td", {}, `${outcomeWords(run.outcome)}${collided}`),
-    h("td", { class: "number" }, run.arrival === null ? "–" : seconds(run.arrival)),
-    h("td", {}, held.length > 0 ? held : "–"),
+    { dataset: { outcome } },
+    h("th", { scope: "row", tabindex: -1 }, index, draws > 1 && h("span.soft", ` ×${draws}`)),
+    h("td", did.length > 0 ? did : "–"),
+    h("td", `${outcomeWords(outcome)}${other === null ? "" : ` with ${nameOf(other)}`}`),
+    h("td.number", arrival === null ? "–" : seconds(arrival)),
+    h("td", by.length > 0 ? by : "–"),
   );
 }

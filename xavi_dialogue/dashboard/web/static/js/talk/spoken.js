@@ -1,5 +1,5 @@
 /** Vehicles named in a text become buttons that point at them on the map. */
-import { h } from "../dom.js";
+import { h, on } from "../dom.js";
 import { nameOf } from "../words.js";
 
 const NAMED = /\b(vehicle\s+)(\d+)\b|\b(vehicles\s+)(\d+(?:(?:,\s*(?:and\s+|or\s+)?|\s+(?:and|or)\s+)\d+)*)\b/gi;
@@ -10,7 +10,7 @@ const NAMED = /\b(vehicle\s+)(\d+)\b|\b(vehicles\s+)(\d+(?:(?:,\s*(?:and\s+|or\s
  * @param {Set<number>} vehicles that may be meant
  * @returns {Array<string|{vehicle: number, words: string}>}
  */
-export function cut(text, vehicles) {
+function cut(text, vehicles) {
   const parts = [];
   let done = 0;
   const name = (from, to, number) => {
@@ -37,8 +37,7 @@ export class Spoken {
    * @param {HTMLElement} root of all buttons
    */
   constructor(pointing, root) {
-    this.pointing = pointing;
-    this.root = root;
+    Object.assign(this, { pointing, root });
     pointing.addEventListener("change", () => this.follow());
   }
 
@@ -55,7 +54,7 @@ export class Spoken {
       }
       const opening = before.match(/[^\s\w]*$/)[0];
       said.push(document.createTextNode(before.slice(0, before.length - opening.length)));
-      said.push(h("span", { class: "together" }, opening, this.button(part.vehicle, part.words)));
+      said.push(h("span.together", opening, this.button(part.vehicle, part.words)));
       before = "";
     }
     return [...said, before];
@@ -65,28 +64,22 @@ export class Spoken {
     const { pointing } = this;
     const near = () => pointing.near(vehicle);
     const away = () => pointing.away();
-    return h(
-      "button",
-      {
-        type: "button",
-        class: "named",
-        dataset: { vehicle },
-        "aria-label": /^\d+$/.test(words) ? nameOf(vehicle) : null,
-        "aria-pressed": String(pointing.kept.has(vehicle)),
-        title: "Show it on the map",
-        onpointerenter: near,
-        onpointerleave: away,
-        onfocus: near,
-        onblur: away,
-        onclick: () => pointing.toggle(vehicle),
-      },
-      words,
-    );
+    const attributes = {
+      dataset: { vehicle },
+      "aria-label": /^\d+$/.test(words) ? nameOf(vehicle) : null,
+      "aria-pressed": String(pointing.kept.has(vehicle)),
+      title: "Show it on the map",
+      onclick: () => pointing.toggle(vehicle),
+    };
+    const button = h("button.named", attributes, words);
+    on(button, "pointerenter focus", near);
+    on(button, "pointerleave blur", away);
+    return button;
   }
 
   follow() {
     for (const button of this.root.querySelectorAll("button.named")) {
-      button.setAttribute("aria-pressed", String(this.pointing.kept.has(Number(button.dataset.vehicle))));
+      button.ariaPressed = String(this.pointing.kept.has(Number(button.dataset.vehicle)));
     }
   }
 }

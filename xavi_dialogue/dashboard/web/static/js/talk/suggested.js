@@ -1,5 +1,5 @@
 /** What could be asked about the moment that is shown. */
-import { fill, h } from "../dom.js";
+import { fill } from "../dom.js";
 import { chips } from "./turn.js";
 
 const PAUSE = 300; // [ms] for which the moment rests before it is asked about
@@ -7,41 +7,40 @@ const MOST = 4; // are shown, which takes two rows or three
 const SAME = 1; // [s] between a moment and the one that suggestions are about
 
 /**
+ * @param {HTMLElement} element
  * @param {import("../store.js").Store} store
  * @param {import("../connection.js").Connection} connection
  * @param {(text: string) => void} ask
- * @returns {HTMLElement}
  */
-export function createSuggested(store, connection, ask) {
-  const element = h("div", { class: "suggested", hidden: true });
+export function followSuggestions(element, store, connection, ask) {
   let shown = "";
   const show = () => {
-    const { t } = store.suggestions;
-    const questions = store.suggestions.questions.slice(0, MOST);
+    const { t, questions } = store.suggestions;
     if (!store.live && Math.abs(t - store.held) > SAME) return; // about now, or where the reader was
-    const key = JSON.stringify(questions);
-    if (key === shown || (element.contains(document.activeElement) && questions.length === 0)) return;
+    const few = questions.slice(0, MOST);
+    const key = JSON.stringify(few);
+    if (key === shown || (element.contains(document.activeElement) && few.length === 0)) return;
     shown = key;
-    keepingFocus(element, () => fill(element, chips(questions, ask, "Suggested questions")));
-    element.hidden = questions.length === 0;
+    keepingFocus(element, () => fill(element, chips(few, ask, "Suggested questions")));
+    element.hidden = few.length === 0;
   };
   store.addEventListener("suggestions", show);
-  store.addEventListener("ride", () => ((store.suggestions = { t: 0, questions: [] }), show()));
-  wanting(store, connection);
+  store.addEventListener("ride", () => {
+    store.suggestions = { t: 0, questions: [] };
+    show();
+  });
+  askForThem(store, connection);
   show();
-  return element;
 }
 
 /** Ask for suggestions about another moment, once it rests; and about now, back there. */
-function wanting(store, connection) {
-  let timer = null;
-  let wasLive = true;
-  let asked = null;
+function askForThem(store, connection) {
+  let timer = 0;
+  let asked = null; // the moment [s] that they are about; null: now
   store.addEventListener("moment", () => {
-    const same = store.live ? wasLive : asked === store.held && !wasLive;
-    wasLive = store.live;
-    if (same) return;
-    asked = store.live ? null : store.held;
+    const wanted = store.live ? null : store.held;
+    if (wanted === asked) return;
+    asked = wanted;
     clearTimeout(timer);
     timer = setTimeout(() => connection.send({ type: "suggest", at: store.at }), PAUSE);
   });

@@ -1,5 +1,5 @@
 /** One turn of the conversation: a question and what came of it. */
-import { h } from "../dom.js";
+import { copyOf, h, icon, partsOf, say } from "../dom.js";
 import { clock, lasted } from "../figures.js";
 import { capital } from "../words.js";
 import { createEvidence } from "./evidence.js";
@@ -39,99 +39,58 @@ const ICONS = {
  */
 
 /**
- * @param {{n: number|null, text: string, reply: any, vehicles: number[], evidence: boolean}} turn
- *   n is null of what became no turn
+ * @param {TurnShown} turn its `n` is null of what became no turn
  * @param {Around} around
  */
 export function createTurn(turn, around) {
-  const { n, reply } = turn;
-  const label = n === null ? "Question without a turn" : `Question ${n + 1}`;
-  return h(
-    "article",
-    { class: "turn", "aria-label": label, dataset: { kind: reply.kind, n: n ?? "" } },
-    question(turn.text),
-    h(
-      "div",
-      { class: "reply" },
-      reply.kind === "answer" ? null : kindOf(reply),
-      h("p", { class: "words", dir: "auto" }, kindAloud(reply), around.spoken.text(reply.text, turn.vehicles)),
-      reply.choices.length > 0 ? choices(turn, around) : null,
-      reply.kind === "refusal" && reply.suggestions.length > 0 ? instead(reply, around) : null,
-      meta(turn, around),
-    ),
-  );
-}
-
-/** The bubble of a question. */
-export function question(text) {
-  return h("p", { class: "question", dir: "auto" }, h("span", { class: "unseen" }, "You asked: "), text);
+  const { n, text, reply, vehicles, evidence } = turn;
+  const element = copyOf("turn");
+  const { question, kind, words, meta, moment, took, map } = partsOf(element);
+  const known = n !== null;
+  element.ariaLabel = known ? `Question ${n + 1}` : "Question without a turn";
+  Object.assign(element.dataset, { kind: reply.kind, n: n ?? "" });
+  question.append(text);
+  kind.hidden = reply.kind === "answer";
+  if (!kind.hidden) kind.append(icon(ICONS[reply.kind]), capital(REASONS[reply.reason] ?? KINDS[reply.kind] ?? ""));
+  const aloud = h("span.unseen", `${KINDS[reply.kind] ?? "Answer"}: `);
+  words.append(aloud, ...around.spoken.text(reply.text, vehicles));
+  if (reply.choices.length > 0) meta.before(choices(turn, around));
+  if (reply.kind === "refusal" && reply.suggestions.length > 0) meta.before(instead(reply, around));
+  moment.hidden = !known;
+  moment.append(clock(reply.sim_time));
+  moment.addEventListener("click", () => around.store.seek(reply.sim_time));
+  took.hidden = typeof reply.timing_ms !== "number";
+  if (!took.hidden) say(took, `in ${lasted(reply.timing_ms)}`);
+  map.hidden = !known || !(evidence || vehicles.length > 0);
+  map.dataset.show = n;
+  map.ariaPressed = String(known && around.store.turn === n);
+  map.addEventListener("click", () => toggleOnMap(turn, around));
+  if (known && evidence) createEvidence(element, turn, around);
+  return element;
 }
 
 /** Questions as buttons that ask them. */
 export function chips(questions, ask, label) {
-  const one = (text) => h("li", {}, h("button", { type: "button", class: "chip", onclick: () => ask(text) }, text));
-  return h("ul", { class: "chips", "aria-label": label }, questions.map(one));
-}
-
-function kindAloud(reply) {
-  return h("span", { class: "unseen" }, `${KINDS[reply.kind] ?? "Answer"}: `);
-}
-
-function kindOf(reply) {
-  const icon = h("svg", { viewBox: "0 0 24 24", "aria-hidden": "true" }, h("path", { d: ICONS[reply.kind] }));
-  return h("p", { class: "kind" }, icon, capital(REASONS[reply.reason] ?? KINDS[reply.kind] ?? ""));
+  const one = (text) => h("li", h("button.chip", { onclick: () => ask(text) }, text));
+  return h("ul.chips", { "aria-label": label }, questions.map(one));
 }
 
 function instead({ text, suggestions }, { ask }) {
   const said = suggestions.some((one) => text.includes(one)); // the answer itself leads over to them
-  return h(
-    "div",
-    { class: "instead" },
-    said ? null : h("p", {}, "You could ask"),
-    chips(suggestions, ask, "You could ask"),
-  );
+  return h("div.instead", !said && h("p", "You could ask"), chips(suggestions, ask, "You could ask"));
 }
 
 function choices({ n, reply }, { ask, newest }) {
   const one = (text, index) => {
     // A number means the latest choices only; those of before are asked for by their words.
-    const say = () => ask(newest(n) ? String(index + 1) : text);
-    const words = [h("span", { class: "pick" }, index + 1), h("span", {}, text)];
-    return h("li", {}, h("button", { type: "button", class: "choice", onclick: say }, words));
+    const onclick = () => ask(newest(n) ? String(index + 1) : text);
+    return h("li", h("button.choice", { onclick }, h("span.pick", index + 1), h("span", text)));
   };
-  return h("ol", { class: "choices", "aria-label": "What is meant" }, reply.choices.map(one));
+  return h("ol.choices", { "aria-label": "What is meant" }, reply.choices.map(one));
 }
 
-function meta(turn, { store, pointing, spoken }) {
-  const { n, reply } = turn;
-  const moment = n === null ? null : momentOf(reply.sim_time, store);
-  const took =
-    typeof reply.timing_ms === "number" ? h("span", { class: "took" }, `in ${lasted(reply.timing_ms)}`) : null;
-  const map = n !== null && (turn.evidence || turn.vehicles.length > 0) ? onMap(turn, store, pointing) : null;
-  const evidence = n !== null && turn.evidence ? createEvidence(turn, store, spoken) : null;
-  return [h("div", { class: "meta" }, moment, took, map, evidence?.button), evidence?.fold];
-}
-
-function momentOf(t, store) {
-  const title = "Go to the moment it was asked about";
-  return h(
-    "button",
-    { type: "button", class: "moment", title, onclick: () => store.seek(t) },
-    h("span", { class: "unseen" }, "Go to "),
-    clock(t),
-  );
-}
-
-function onMap(turn, store, pointing) {
-  const toggle = () => {
-    const off = store.turn === turn.n;
-    pointing.keep(off ? [] : turn.vehicles);
-    store.show(off ? null : turn.n);
-  };
-  const pressed = String(store.turn === turn.n);
-  return h(
-    "button",
-    { type: "button", class: "quiet on-map", "aria-pressed": pressed, dataset: { show: turn.n }, onclick: toggle },
-    "Show on the map",
-  );
+function toggleOnMap({ n, vehicles }, { store, pointing }) {
+  const off = store.turn === n;
+  pointing.keep(off ? [] : vehicles);
+  store.show(off ? null : n);
 }
