@@ -7,6 +7,9 @@ RUNS ?= 200000
 BIN := .venv/bin
 
 export PYTHON
+# Bytecode is kept in __pycache__ whatever the environment says: the tests alone take half a minute
+# to compile, for each process that loads them, and start many programs of ours.
+export PYTHONDONTWRITEBYTECODE :=
 
 .DEFAULT_GOAL := help
 .PHONY: help chat dashboard test drills mutants lint format schema diagram bench fuzz clean \

@@ -1,5 +1,6 @@
 """What all tests share: one deterministic Hypothesis profile, and where the repository lies."""
 
+import gc
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,6 +12,20 @@ settings.register_profile("deterministic", derandomize=True, deadline=None, max_
 settings.load_profile("deterministic")
 
 ROOT = Path(__file__).parents[1]
+GARBAGE = (20_000, 20, 20)  # thresholds of the collector; the tests make many short-lived objects
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[None]:
+    """Load the tests without looking for garbage among them, and never look there later."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.collect()
+        gc.freeze()
+        gc.set_threshold(*GARBAGE)
+        gc.enable()
 
 
 @pytest.fixture(scope="session")

@@ -164,7 +164,7 @@ def test_the_planner_sees_of_the_world_the_scene_and_the_roads_alone() -> None:
 def test_nothing_in_the_planner_speaks_of_sumo() -> None:
     for name, module in modules().items():
         if within(name, "planner"):
-            for node in ast.walk(module.tree):
+            for node in module.nodes:
                 word = _word(node).lower()
                 for hidden in ("sumo", "traci", "getroute", ".rou.", "setroute"):
                     assert hidden not in word, f"{module.path}:{getattr(node, 'lineno', 0)}"
@@ -213,7 +213,7 @@ def test_only_shells_print(module: Module) -> None:
 def calls(module: Module, function: str) -> list[ast.Call]:
     return [
         node
-        for node in ast.walk(module.tree)
+        for node in module.nodes
         if isinstance(node, ast.Call)
         and isinstance(node.func, ast.Name)
         and node.func.id == function

@@ -25,14 +25,13 @@ from planner.kernels.driving import (
 )
 from planner.manoeuvres.clearance import first_touch
 from planner.manoeuvres.plans import ActionPlan, GiveWay
-from planner.motion.everybody import everybody_in, going_on
+from planner.motion.everybody import everybody_in, standing
 from planner.motion.forward import DT, Hindrance, Keeping, Lane, Motion, accelerate
 from planner.motion.obstacles import Obstacle, Traffic, occupancy
 from planner.motion.tracks import aligned
 from planner.prediction.recognise import Belief
 from planner.record.trace import ON_FOOT
 from planner.roads.trajectory import Roads
-from planner.search.decide import observed
 from sim.scene import EGO, Scene, VehicleState
 
 CAUTION = 0.08  # probability from which a motion of a slow vehicle must be given way to
@@ -179,14 +178,14 @@ def _clear(
 
 
 def _seen(around: Around) -> list[Obstacle]:
-    """Return the others where they are, going on as they do."""
-    found, ego = [], around.scene.ego
-    for vehicle, state in around.memory.now.items():
-        near = state.kind not in ON_FOOT or math.dist(state.position, ego.position) < AROUND
-        if vehicle != EGO and near:
-            track = observed(vehicle, around.memory.track(vehicle, around.scene.time), state)
-            found.append(going_on(around.roads, track, 2))
-    return found
+    """Return the others where they are: who keeps behind them looks at nothing else."""
+    ego = around.scene.ego
+    return [
+        standing(around.roads, vehicle, state)
+        for vehicle, state in around.memory.now.items()
+        if vehicle != EGO
+        and (state.kind not in ON_FOOT or math.dist(state.position, ego.position) < AROUND)
+    ]
 
 
 def _predicted(driving: Driving, around: Around, likely: float) -> list[Obstacle]:

@@ -1,7 +1,10 @@
 """Everybody in a scene, people on foot among the vehicles, as they go on."""
 
+import numpy as np
+
+from planner.kernels.projection import SIDE_MARGIN
 from planner.motion.obstacles import Obstacle
-from planner.motion.tracks import Observed, coast
+from planner.motion.tracks import Observed, berth_of, coast
 from planner.motion.walking import straight
 from planner.record.trace import ON_FOOT
 from planner.roads.classes import roads_of
@@ -20,6 +23,17 @@ def going_on(roads: Roads, track: Observed, steps: int) -> Obstacle:
     if track.kind in ON_FOOT:
         return straight(track, steps + 1)
     return coast(roads_of(roads, track.kind), track, steps, past=False)
+
+
+def standing(roads: Roads, vehicle: int, state: VehicleState) -> Obstacle:
+    """Return somebody where he is now, for one step."""
+    position, heading = np.array([state.position]), np.array([state.heading])
+    speed, on_foot = np.array([state.speed]), state.kind in ON_FOOT
+    size, berth = (state.length, state.width), SIDE_MARGIN
+    if not on_foot:
+        track = Observed(vehicle, *size, position, heading, speed, kind=state.kind)
+        berth = berth_of(roads_of(roads, state.kind), track)
+    return Obstacle(vehicle, *size, position, heading, speed, frozenset(), berth, on_foot)
 
 
 def _as_traffic(person: PersonState) -> VehicleState:

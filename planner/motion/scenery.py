@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 
 from planner.kernels.driving import GAP_HORIZON
-from planner.motion.obstacles import Motions, Obstacle, Traffic
+from planner.motion.obstacles import Motions, Obstacle, Pool, Traffic
 from planner.motion.tracks import Observed, coast
 from planner.roads.classes import roads_of
 from planner.roads.trajectory import Roads
@@ -67,6 +67,7 @@ class Others:
 
     scenery: Scenery
     motions: tuple[Motions, ...]
+    pool: Pool = field(default_factory=Pool)  # shared with others in which most are the same
     _traffic: dict[tuple[int, ...], Traffic] = field(default_factory=dict)
 
     def under(self, courses: tuple[int, ...]) -> Traffic:
@@ -74,7 +75,8 @@ class Others:
         found = self._traffic.get(courses)
         if found is None:
             known = [motion.under(courses) for motion in self.motions]
-            found = self._traffic[courses] = Traffic.of(known, self.scenery.lights(courses))
+            lights = self.scenery.lights(courses)
+            found = self._traffic[courses] = Traffic.of(known, lights, self.pool)
         return found
 
     @property

@@ -167,7 +167,7 @@ def _beliefs(
     if us is not None:
         links = us[0].now.usual.links | us[1].now.usual.links
         reckoned = [us[1].now if other is us[0] else other.now for other in others]
-        with_us = Others(scenery, tuple(reckoned))
+        with_us = Others(scenery, tuple(reckoned), now.pool)
         onwards = [
             _ways_on(frame, starts, goal, observed, with_us) or ways
             if ways and gives_way(roads.network, ways[0].motions.usual.links, links)

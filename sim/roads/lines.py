@@ -3,12 +3,46 @@
 import math
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from itertools import pairwise
+from typing import NamedTuple
 
 from sim.scene import Point
 
 ON_LANE = 2.0  # [m] from the middle of a lane up to which a vehicle is on it
+CLEARLY = 1.0 + 1e-9  # times a squared distance: more than rounding errors
 STEEP = math.radians(15.0)  # least angle at which roads cross
+
+
+class Segment(NamedTuple):
+    """One straight part of a polyline."""
+
+    start: Point  # [m]
+    side: Point  # [m] from its start to its end
+    length: float  # [m]
+    low: float  # [m] along it from where it counts: the first one is extended backwards,
+    high: float  # [m] and up to where: the last one is extended forwards
+    before: float  # [m] of the line before it
+    heading: float  # [rad]
+
+
+@lru_cache(maxsize=4096)
+def segments(line: tuple[Point, ...]) -> tuple[Segment, ...]:
+    """Return the parts of a polyline that have a length."""
+    found = []
+    travelled = 0.0
+    last = len(line) - 2
+    for k in range(last + 1):
+        (ax, ay), (bx, by) = line[k], line[k + 1]
+        dx, dy = bx - ax, by - ay
+        length = math.hypot(dx, dy)
+        if length == 0.0:
+            continue
+        low = -math.inf if k == 0 else 0.0
+        high = math.inf if k == last else length
+        found.append(Segment((ax, ay), (dx, dy), length, low, high, travelled, math.atan2(dy, dx)))
+        travelled += length
+    return tuple(found)
 
 
 def project(line: tuple[Point, ...], position: Point) -> tuple[float, float, float]:
@@ -19,27 +53,27 @@ def project(line: tuple[Point, ...], position: Point) -> tuple[float, float, flo
         The offset is negative or beyond the length where the end segments' extensions are
         nearest.
     """
-    best = (math.inf, 0.0, 0.0, 0.0)
-    travelled = 0.0
-    last = len(line) - 2
-    for k in range(last + 1):
-        (ax, ay), (bx, by) = line[k], line[k + 1]
-        dx, dy = bx - ax, by - ay
-        length = math.hypot(dx, dy)
-        if length == 0.0:
+    nearest, found, at, limit = math.inf, None, 0.0, math.inf
+    x, y = position
+    for part in segments(line):
+        (ax, ay), (dx, dy), length, low, high, _, _ = part
+        along = ((x - ax) * dx + (y - ay) * dy) / length
+        if along < low:
+            along = low
+        if along > high:
+            along = high
+        off_x, off_y = x - (ax + dx * along / length), y - (ay + dy * along / length)
+        if off_x * off_x + off_y * off_y > limit:  # clearly farther: spares the exact distance
             continue
-        along = ((position[0] - ax) * dx + (position[1] - ay) * dy) / length
-        low = -math.inf if k == 0 else 0.0
-        high = math.inf if k == last else length
-        clamped = min(max(along, low), high)
-        px, py = ax + dx * clamped / length, ay + dy * clamped / length
-        distance = math.hypot(position[0] - px, position[1] - py)
-        if distance < best[0]:
-            side = dx * (position[1] - ay) - dy * (position[0] - ax)
-            lateral = math.copysign(distance, side)
-            best = (distance, travelled + clamped, lateral, math.atan2(dy, dx))
-        travelled += length
-    return best[1], best[2], best[3]
+        distance = math.hypot(off_x, off_y)
+        if distance < nearest:
+            nearest, found, at = distance, part, along
+            limit = distance * distance * CLEARLY
+    if found is None:
+        return 0.0, 0.0, 0.0
+    (ax, ay), (dx, dy) = found.start, found.side
+    side = dx * (y - ay) - dy * (x - ax)
+    return found.before + at, math.copysign(nearest, side), found.heading
 
 
 def angle_between(a: float, b: float) -> float:

@@ -5,11 +5,12 @@ from collections.abc import Mapping
 from itertools import pairwise
 
 from sim.roads.lanes import Lane, Location
-from sim.roads.lines import angle_between, project
+from sim.roads.lines import angle_between, cumulative, project
 from sim.scene import Point
 
 CELL = 20.0  # [m] side of a cell
 MARGIN = 10.0  # [m] around a centreline, within which cells know it
+SLACK = 0.01  # [m] of error in distances, at most
 END = 0.5  # [m] beyond the ends of a lane that still counts as on it
 
 
@@ -18,7 +19,7 @@ class Places:
 
     def __init__(self, lanes: Mapping[str, Lane]) -> None:
         """Enter lanes in the grid."""
-        self._lanes = lanes
+        self._lanes = {lane.id: (lane, _box(lane)) for lane in lanes.values()}
         cells: dict[tuple[int, int], dict[str, None]] = {}
         for lane in lanes.values():
             for (ax, ay), (bx, by) in pairwise(lane.centreline):
@@ -43,8 +44,11 @@ class Places:
             turn: [rad] largest difference of heading.
         """
         found = []
-        for lane_id in self._cells.get((int(position[0] // CELL), int(position[1] // CELL)), ()):
-            lane = self._lanes[lane_id]
+        x, y = position
+        for lane_id in self._cells.get((int(x // CELL), int(y // CELL)), ()):
+            lane, (low_x, low_y, high_x, high_y) = self._lanes[lane_id]
+            if x < low_x - reach or x > high_x + reach or y < low_y - reach or y > high_y + reach:
+                continue
             offset, lateral, direction = project(lane.centreline, position)
             inside = -END <= offset <= lane.length + END
             if inside and abs(lateral) <= reach and abs(angle_between(heading, direction)) <= turn:
@@ -52,3 +56,10 @@ class Places:
                 found.append(Location(lane_id, clamped, lateral))
         found.sort(key=lambda location: (round(abs(location.lateral), 3), location.lane))
         return tuple(found)
+
+
+def _box(lane: Lane) -> tuple[float, float, float, float]:
+    """Return the least and greatest x and y [m] of what counts as on a lane's centreline."""
+    beyond = max(lane.length - cumulative(lane.centreline)[-1], 0.0) + END + SLACK
+    xs, ys = zip(*lane.centreline, strict=True)
+    return min(xs) - beyond, min(ys) - beyond, max(xs) + beyond, max(ys) + beyond

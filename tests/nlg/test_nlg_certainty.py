@@ -121,5 +121,5 @@ def test_how_sure_tells_the_risk_of_a_collision_first(contrast, said):
     held = Certainty(about, 0.9, 0.8, 30, 32, 10.0, MANY, contrast, 1, 0.8, 0.8)
     for detail in ("usual", "more"):
         told = say(held, replace(CONTEXT, detail=detail)).text
-        assert told.startswith("I put the risk of a collision")
+        assert told.startswith("At 0:05, I put the risk of a collision")
         assert said in told

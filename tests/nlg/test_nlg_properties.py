@@ -62,17 +62,24 @@ def check(text: str) -> None:
     assert not WRONG.search(text), text
 
 
+def measures(attribute):
+    """Measures with values of all sorts, and without: what is not known is said of no value."""
+    extremes = (None, "highest", "lowest", "mean", "total")
+    known = itertools.product((None,), (0.0, 1.0, 7.3), extremes)
+    unknown = itertools.product(get_args(Gap), (7.3,), extremes[:2])
+    places = (None, E, W, Junction(rank=1))
+    for gap, value, extreme in (*known, *unknown):
+        for thing, time, to in itertools.product(THINGS, (NOW, 18.5, 3.0), places):
+            if to != thing:
+                yield Measure(
+                    attribute, thing, time, value, to=to, extreme=extreme, gap=gap, count=2
+                )
+
+
 @pytest.mark.parametrize("attribute", get_args(Attribute))
 def test_measures_are_tidy(attribute):
-    gaps = (None, *get_args(Gap))
-    for thing, time, extreme, gap in itertools.product(
-        THINGS, (NOW, 18.5, 3.0), (None, "highest", "lowest", "mean", "total"), gaps
-    ):
-        for value, to in itertools.product((0.0, 1.0, 7.3), (None, E, W, Junction(rank=1))):
-            if to == thing:
-                continue
-            one = Measure(attribute, thing, time, value, to=to, extreme=extreme, gap=gap, count=2)
-            check(say(Measures((one,)), CONTEXT).text)
+    for one in measures(attribute):
+        check(say(Measures((one,)), CONTEXT).text)
 
 
 @pytest.mark.parametrize("action", get_args(ActionName))

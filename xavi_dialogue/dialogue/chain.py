@@ -175,13 +175,22 @@ def _seen(result: ChoiceReason | MotionReason | SupposedOfUs) -> Act | None:
     """Return why a vehicle did what was in our way before our eyes."""
     if not isinstance(result, MotionReason):
         return None
-    first = next((c for c in result.causes if c.vehicle), None)
+    first = _first(result)
     if first is None or first.vehicle is None:
         return None
     if first.did is not None:
         return Ask(Why(Happens(event_of(first.did))))
     doing: ActionName = "stand" if first.speed is not None and first.speed < 0.5 else "move"
-    return Ask(Why(Happens(Event(doing, Vehicle(first.vehicle), time=At(result.deed.begin)))))
+    about = Event(doing, Vehicle(first.vehicle), tense="present")
+    if result.deed.end is not None:
+        about = replace(about, tense="past", time=At(result.deed.begin))
+    return Ask(Why(Happens(about)))
+
+
+def _first(result: MotionReason) -> MotionCause | None:
+    """Return the vehicle that is the main reason; None where a light or the road is."""
+    main = next(iter(result.causes), None)
+    return main if main is not None and main.vehicle else None
 
 
 def _blamed(result: Answer | Refusal | None) -> Event | None:
@@ -189,9 +198,9 @@ def _blamed(result: Answer | Refusal | None) -> Event | None:
     match result:
         case ChoiceReason(contrast=contrast) | SupposedOfUs(contrast=contrast):
             return _of_contrast(contrast)
-        case MotionReason(causes=causes, deed=deed):
-            first = next((c for c in causes if c.vehicle), None)
-            return None if first is None else _foreseen(first, deed.begin)
+        case MotionReason(deed=deed):
+            main = _first(result)
+            return None if main is None else _foreseen(main, deed.begin)
         case OtherReason(goal=Belief() as belief) | Bound(belief=Belief() as belief):
             return _expected(belief)
         case Activity(actor=Vehicle(), belief=Belief() as belief):

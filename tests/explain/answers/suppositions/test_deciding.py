@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from tests.explain.answers.chosen import LEFT, STAY, STOP, TRACES, chosen
 from tests.explain.answers.stated import aim, decision, did, look, result
@@ -247,12 +248,14 @@ LEADER = MotionCause("leader", 1, ("continue",), 0.7)
 def test_a_way_of_driving_hangs_on_whom_it_was_for(motions: list[Any]) -> None:
     brake = Happens(Event("brake"))
     for most, kind in ((False, "removal"), (True, "factor")):
-        motions[0][:] = [motive(MotionCause("limit"), LEADER)]
-        found = pivoted(brake, most=most)
         expected = Pivot(kind, None, 1, ("continue",), 0.7, most, "brake")  # type: ignore[arg-type]
-        assert found == expected
+        for causes in ((LEADER,), (replace(LEADER, necessary=True), MotionCause("limit"))):
+            motions[0][:] = [motive(*causes)]
+            assert pivoted(brake, most=most) == expected
     for found in (
         motive(MotionCause("limit")),
+        motive(MotionCause("light"), LEADER),
+        motive(LEADER, MotionCause("limit")),
         motive(MotionCause("leader", 1, necessary=False)),
         Measures(()),
     ):

@@ -77,9 +77,10 @@ def refrained(event: Event, scene: Asked) -> Answer:
 
 
 def _is_over(event: Event, scene: Asked, crossed: Deed) -> bool:
-    """Tell whether a junction lies behind where stopping is asked of no junction and no time."""
+    """Tell whether stopping is asked of no junction and no time, and now or with it behind us."""
     named = event.object is not None or event.where is not None or foil_subject(scene, event).span
-    if event.action != "stop" or named or crossed.ended is None:
+    through = crossed.ended is None and is_past(scene, event)
+    if event.action != "stop" or named or through:
         return False
     trace = scene.ride.at(scene.now)
     return trace is not None and is_open(scene.ride, trace, ("stop",))

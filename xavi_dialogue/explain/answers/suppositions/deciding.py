@@ -13,6 +13,7 @@ from xavi_dialogue.domain.answers import (
     Compared,
     Contrast,
     DidNotHappen,
+    MotionCause,
     MotionReason,
     Options,
     Pivot,
@@ -221,11 +222,16 @@ def _motive(event: Event, scene: Asked, *, most: bool = False) -> Answer:
     found = motions.motion(event, scene)
     if not isinstance(found, MotionReason):
         return found
-    first = next((cause for cause in found.causes if cause.vehicle is not None), None)
-    if first is None or first.necessary is False:
+    first = next(iter(found.causes), None)
+    if first is None or first.vehicle is None or not _is_needed(first, found):
         return found
     kind: Literal["removal", "factor"] = "factor" if most else "removal"
     return Pivot(kind, None, first.vehicle, first.actions, first.probability, most, event.action)
+
+
+def _is_needed(cause: MotionCause, reason: MotionReason) -> bool:
+    """Tell whether it hung on a cause: planned again without it, or because there is no other."""
+    return len(reason.causes) == 1 if cause.necessary is None else cause.necessary
 
 
 def _own_event(option: Proposition | Thing) -> Event | None:

@@ -13,7 +13,7 @@ from xavi_dialogue.nlg.content.reasons import terms
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import table
-from xavi_dialogue.nlg.surface.values import Chance, Clause, Quantity, Range, Who
+from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Range, Who
 
 RISK = 0.01  # probability of a collision from which it is stated
 SURE = 0.995  # probability from which none is stated
@@ -138,14 +138,16 @@ def risks(
     if max(contrast.collision, contrast.fact_collision) < RISK:
         return None
     slots = consequence_slots(contrast, context, past=past)
+    when = Moment(contrast.decided) if past else None
     if slots["kind"] == "alone":
-        return message("RISK_ALONE", past=past, risk=Chance(contrast.fact_collision))
+        return message("RISK_ALONE", past=past, risk=Chance(contrast.fact_collision), when=when)
     if tells_risk(contrast) and not unsaid:
         return None
     more = contrast.collision > contrast.fact_collision
     return message(
         "BOTH_RISKS",
         past=past,
+        when=when,
         foil=slots["foil"],
         risk=Chance(contrast.collision if contrast.collision >= RISK else 0.0),
         fact_risk=Chance(contrast.fact_collision if contrast.fact_collision >= RISK else 0.0),

@@ -187,12 +187,13 @@ def _risks(
     risky = [o for o in others if (o.collision or 0.0) >= RISK]
     own = chosen.collision or 0.0
     if not risky:
-        alone = message("RISK_ALONE", past=past, risk=Chance(own))
+        alone = message("RISK_ALONE", past=past, risk=Chance(own), when=None)
         return (alone,) if own >= RISK else ()
     return tuple(
         message(
             "BOTH_RISKS" if k == 0 or simple else "RISK_OF",
             past=past,
+            when=None,
             foil=own_verbs((option.action,), (chosen.action,)),
             risk=Chance(option.collision or 0.0),
             fact_risk=Chance(own if own >= RISK else 0.0),
