@@ -26,6 +26,9 @@ def question(text: str) -> object:
         "Is somebody walking in front of us?",
         "Is anybody on the crossing?",
         "Have the children walked across?",
+        "Are those people crossing the road?",
+        "Is the person on the right crossing?",
+        "Will any of the kids still walk out?",
     ],
 )
 def test_people_cross(text: str) -> None:

@@ -77,6 +77,7 @@ Manner: TypeAlias = Literal[
     "hard", "gently", "suddenly", "fast", "slowly", "early", "late", "close", "again", "first",
     "far", "long", "still", "already", "safely", "on-purpose",
 ]  # fmt: skip
+GENTLE: frozenset[Manner] = frozenset(("gently", "safely"))  # how one may want to be driven
 
 #: What can be measured or read off. Units stand beside each; words have none.
 Attribute: TypeAlias = Literal[

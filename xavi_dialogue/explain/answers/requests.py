@@ -13,7 +13,7 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Request
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
-from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
+from xavi_dialogue.domain.vocabulary import BEYOND, GENTLE, ActionName
 from xavi_dialogue.explain.answers.expectations.foreseen import (
     HALTS,
     STARTS,
@@ -38,6 +38,7 @@ from xavi_dialogue.explain.causes.plans.options import options_at
 SPEEDS: frozenset[ActionName] = frozenset(("slow-down", "speed-up", "brake"))
 ENDING: frozenset[ActionName] = frozenset(("stop", "pull-over", "drop-off", "park", "open"))
 STAYING: frozenset[ActionName] = frozenset(("continue", "keep-lane", "follow"))
+DRIVING: frozenset[ActionName] = frozenset(("go", "move", "continue", "do", "head"))
 KEPT = 1.8  # [s] behind somebody from which on we keep our distance
 ELSEWHERE = "the way to the destination leads elsewhere"
 SOON = 3.0  # [s] within which what is planned is as good as begun
@@ -56,7 +57,7 @@ def request(act: Request, asked: Asked) -> Answer:
     event = act.event
     able = event.action not in BEYOND
     now = activity(asked, Ego(), asked.now)
-    if not asked.ride.traces:
+    if not asked.ride.traces or _asks_manner(act):
         return Declined(act, able, doing=now)
     ahead = plan_ahead(asked)
     ahead = replace(ahead, measures=tuple(m for m in ahead.measures if m.attribute != "time-to-go"))
@@ -76,6 +77,12 @@ def request(act: Request, asked: Asked) -> Answer:
     facts = _instead(asked, event) if cause is None else ()
     already = already and cause is None
     return Declined(act, able, ahead, now, already, cannot, soon=soon, facts=facts, cause=cause)
+
+
+def _asks_manner(act: Request) -> bool:
+    """Tell whether nothing but the manner of driving is to change: "drive more gently"."""
+    gentle = not GENTLE.isdisjoint(act.event.manner)
+    return gentle and not act.negated and act.event.action in DRIVING
 
 
 def _paced(event: Event) -> Event:

@@ -42,7 +42,8 @@ def past_leader(asked: Asked, event: Event) -> Event:
     if event.action != "pass" or not is_us(event.actor) or look is None or not look.in_view:
         return event
     ahead = look.ahead > 0.0 and abs(look.left) < BESIDE and not look.oncoming
-    moving = look.bearing.startswith("ahead") and look.speed > 0.0
+    queued = asked.world.measure("speed", Ego(), asked.now).value == 0.0  # we stand behind it
+    moving = look.bearing.startswith("ahead") and (look.speed > 0.0 or queued)
     return replace(event, action="overtake") if ahead and moving else event
 
 

@@ -3,7 +3,7 @@
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Declined
-from xavi_dialogue.domain.vocabulary import BEYOND
+from xavi_dialogue.domain.vocabulary import BEYOND, GENTLE
 from xavi_dialogue.nlg.content.clauses.clauses import event_clause
 from xavi_dialogue.nlg.content.clauses.joint_measures import measure_messages
 from xavi_dialogue.nlg.content.clauses.measures import SOON
@@ -18,6 +18,7 @@ from xavi_dialogue.nlg.surface.values import Clause, Quantity, Who
 STAYING = frozenset(("follow", "continue", "keep-lane", "move"))
 HOW = frozenset(("hard", "suddenly", "close", "fast", "slowly", "late", "early"))
 GOING = frozenset(("go", "move", "continue"))
+DRIVING = GOING | {"head"}  # what may be done gently
 #: What is said without whom it concerns: "go before the bus" is going.
 BARE = frozenset(("go", "move", "speed-up"))
 
@@ -36,7 +37,8 @@ def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
         "verb": Clause(clause.subject, clause.verb, clause.rest),
         "braking": event.action in ("brake", "slow-down"),
         "negated": negated,
-        "open": event.action in ("do", "happen"),
+        "open": event.action in ("do", "happen")
+        or (event.action in DRIVING and not GENTLE.isdisjoint(event.manner)),
         "unable": not answer.able or event.action in BEYOND,
         "cause": None,
     }

@@ -121,11 +121,7 @@ class Nouns(Followers):
         if core.name == "anybody":
             return self._anybody(core, traits)
         if core.name == "driven":
-            held = self.read(cast(Node, core.parts[-1]))
-            if not isinstance(held, Noun) or held.key != "front":
-                return held
-            traits.fields["bearing"] = "ahead"  # "the guy in front"
-            return described("vehicle", traits)
+            return _at_place(self.read(cast(Node, core.parts[-1])), core, traits)
         if core.name == "quantity":
             amount = self._quantity(core)
             if isinstance(amount, Quantity) and amount.unit == "count" and traits.clause:
@@ -290,6 +286,18 @@ class Nouns(Followers):
         if isinstance(last, Node):
             return Vehicle(int(number_of(last)))
         return noun(last, traits)
+
+
+def _at_place(where: Sem, core: Node, traits: Traits) -> Sem:
+    """Take "the man in the red car" for the car, "the man on the left" for somebody there."""
+    if isinstance(where, Noun) and where.key == "front":
+        traits.fields["bearing"] = "ahead"  # "the guy in front"
+        return described("vehicle", traits)
+    if isinstance(where, Vehicle | Described | Pronoun | Specified | Group):
+        return where
+    if isinstance(where, SideOf) and where.side in ("left", "right"):
+        traits.fields.setdefault("bearing", where.side)
+    return described("vehicle", traits, plural=words_of(core).endswith("people"))
 
 
 def _is_reason(core: Node) -> bool:

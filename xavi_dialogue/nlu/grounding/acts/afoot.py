@@ -14,6 +14,7 @@ from xavi_dialogue.domain.terms import (
     Is,
     Junction,
     Lane,
+    Pronoun,
     Related,
     Road,
     Tense,
@@ -35,6 +36,7 @@ _OURS: Final = (Junction, Lane, Road, Feature)
 
 def afoot(event: Event, g: Grounder) -> Event:
     """Read "get across", "step out", "be over" of people on foot as crossing our way."""
+    event = replace(event, actor=_walker(event, g))
     if not on_foot(event.actor, g):
         return event
     action: ActionName = "cross" if event.action in ACROSS else event.action
@@ -42,6 +44,21 @@ def afoot(event: Event, g: Grounder) -> Event:
         return event
     ours = event.object is None or isinstance(event.object, _OURS)
     return replace(event, action=action, object=Ego() if ours else event.object, side=None)
+
+
+def _walker(event: Event, g: Grounder) -> Thing:
+    """Take somebody who crosses, of no kind that is said, for those on foot who are in view."""
+    actor = event.actor
+    ours = event.object is None or isinstance(event.object, Road | Junction)
+    plain = event.action == "cross" and ours
+    if not plain or not any(on_foot(Vehicle(n), g) for n in g.context.in_view(g.context.now)):
+        return actor
+    match actor:
+        case Described(kind="vehicle", doing=None, such=None):
+            return replace(actor, kind="pedestrian")
+        case Pronoun(form="they") if not g.context.discourse.mentions:
+            return Described(kind="pedestrian", plural=True)
+    return actor
 
 
 def on_foot(thing: Thing | None, g: Grounder) -> bool:
