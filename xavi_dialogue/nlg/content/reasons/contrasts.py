@@ -9,6 +9,7 @@ from typing import Any, Literal, TypeAlias
 from xavi_dialogue.domain.answers import Cause, Contrast, Effect
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.clauses.manoeuvres import CHANGES, other_verbs, plain
+from xavi_dialogue.nlg.content.clauses.tenses import PRESENT
 from xavi_dialogue.nlg.content.reasons import terms
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
@@ -138,7 +139,7 @@ def risks(
     if max(contrast.collision, contrast.fact_collision) < RISK:
         return None
     slots = consequence_slots(contrast, context, past=past)
-    when = Moment(contrast.decided) if past else None
+    when = Moment(contrast.decided) if context.now - contrast.decided > PRESENT else None
     if slots["kind"] == "alone":
         return message("RISK_ALONE", past=past, risk=Chance(contrast.fact_collision), when=when)
     if tells_risk(contrast) and not unsaid:
