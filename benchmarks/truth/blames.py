@@ -213,18 +213,18 @@ def no_alternative(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 
 @claim(
-    rf"I simulated (?P<options>{NUMBER}) options? against what (?:(?P<vehicles>{NUMBER}) vehicles?|"
+    rf"I simulated (?P<options>{NUMBER}) options? against what (?:(?P<others>{NUMBER}) road users?|"
     r"the others) around us might do, and chose the best: (?P<chosen>[^.]+)"
 )
 def method(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check how many options and vehicles there were, and that what was chosen did best."""
+    """Check how many options and others there were, and that what was chosen did best."""
     decision = said.decision
     if decision is None:
         return
     options = decision.records[0].first_actions
     if count(match["options"]) != len(options):
         yield Fault("options", f"{match[0]}: {', '.join(options)}")
-    if match["vehicles"] and count(match["vehicles"]) != len(decision.trace.predictions):
+    if match["others"] and count(match["others"]) != len(decision.trace.predictions):
         yield Fault("vehicles", f"{match[0]}: {len(decision.trace.predictions)} predicted")
     kinds = acts(match["chosen"])
     if kinds and not any(decision.plan[: len(kinds)] == one for one in _meant(kinds, decision)):

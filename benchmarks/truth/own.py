@@ -86,10 +86,10 @@ def not_applicable(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(
     r"(?:at (?P<clock>\d+:\d\d)|[Aa]bout (?P<ago>half a|\d+(?:\.\d+)?) seconds? ago|[Jj]ust now|"
-    r"\b[Nn]ow), I (?:simulated|decided)",
+    r"\b[Nn]ow), I (?:simulated|decided|put the risk)",
     r"I decided that (?:at (?P<clock>\d+:\d\d)|about (?P<ago>half a|\d+(?:\.\d+)?) seconds? ago|"
     r"just now)",
-    r"^At (?P<clock>\d+:\d\d)(?P<ago>), I (?:simulated|decided)",
+    r"^At (?P<clock>\d+:\d\d)(?P<ago>), I (?:simulated|decided|put the risk)",
 )
 def decided_when(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     """Check the time at which it was decided."""

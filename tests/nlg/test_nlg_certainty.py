@@ -10,9 +10,10 @@ from msgspec.structs import replace as replace_struct
 from tests.nlg.causal_cases import ALONE, CHANGED, LATER, MANY, ends
 from tests.nlg.scenery import CONTEXT
 from xavi_dialogue.domain.answers import Certainty, ChoiceReason, SupposedOfUs
-from xavi_dialogue.domain.evidence import calibrated
+from xavi_dialogue.domain.evidence import Share, calibrated
 from xavi_dialogue.domain.facts import OptionValue
 from xavi_dialogue.nlg.content.clauses.facts import option_message
+from xavi_dialogue.nlg.content.reasons.terms import foil_verbs, parted
 from xavi_dialogue.nlg.say import say
 from xavi_dialogue.nlg.surface.chances import chance
 from xavi_dialogue.nlg.surface.realiser import realised
@@ -123,3 +124,18 @@ def test_how_sure_tells_the_risk_of_a_collision_first(contrast, said):
         told = say(held, replace(CONTEXT, detail=detail)).text
         assert told.startswith("At 0:05, I put the risk of a collision")
         assert said in told
+
+
+def test_what_both_plans_begin_with_is_left_out_of_the_foil() -> None:
+    fact, foil = ("continue", "exit-left"), ("continue", "exit-right")
+    contrast = replace_struct(LATER, fact=fact, foil=foil)
+    assert [str(one.verb) for one in foil_verbs(contrast)] == ["turn right"]
+    longer = replace_struct(contrast, foil=("continue",))
+    assert parted(longer) == longer
+
+
+def test_whether_a_foil_is_better_tells_its_risk() -> None:
+    risky = (Share("collision", 20.0, 0.2),)
+    contrast = replace_struct(LATER, collision=0.2, told=risky, verdict="better", causes=())
+    told = say(SupposedOfUs(contrast, form="better"), CONTEXT).text
+    assert told.startswith("No: there would have been a 20 % risk of a collision")

@@ -15,6 +15,7 @@ from xavi_dialogue.nlg.content.clauses.manoeuvres import (
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.proposals import about_cause
 from xavi_dialogue.nlg.content.clauses.tenses import dated, goes_on
+from xavi_dialogue.nlg.content.reasons import terms
 from xavi_dialogue.nlg.content.reasons.contrasts import (
     RISK,
     cause_message,
@@ -192,7 +193,8 @@ def _differs(cause: MotionCause, context: SpeechContext) -> bool:
 
 def _denied(contrast: Contrast, *, past: bool) -> Clause:
     """Return that we did not, or do not, do what the foil is."""
-    verbs = own_verbs(contrast.foil, contrast.fact) or (Clause(Who(), "do otherwise"),)
+    apart = terms.parted(contrast)
+    verbs = own_verbs(apart.foil, apart.fact) or (Clause(Who(), "do otherwise"),)
     rest = tuple(part for one in verbs[1:] for part in (f"and then {one.verb}",))
     tense: Literal["past", "present"] = "past" if past else "present"
     return Clause(Who(), verbs[0].verb, rest, tense, progressive=not past, negated=True)

@@ -8,6 +8,8 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import Contrast, Share
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.clauses.manoeuvres import CHANGES, own_verbs
@@ -28,7 +30,7 @@ _OUTCOMES = {"collision": "collision", "dead": "dead", "late": "termination"}
 
 def foil_verbs(contrast: Contrast) -> tuple[Clause, ...]:
     """Return what was not done as verb phrases, with the further manoeuvres that it holds."""
-    further = contrast.further
+    contrast, further = parted(contrast), contrast.further
     if contrast.foil[-1:] == ("continue",) and further and further[0] in CHANGES:
         first = own_verbs(contrast.foil, contrast.fact)
         rest = own_verbs(further, contrast.fact)
@@ -40,6 +42,14 @@ def foil_verbs(contrast: Contrast) -> tuple[Clause, ...]:
             return (*row[:-1], Clause(row[0].subject, f"move two lanes to the {side}"))
         return (*row, Clause(row[0].subject, "move one lane further"))
     return row
+
+
+def parted(contrast: Contrast) -> Contrast:
+    """Leave out that both plans go straight on before they part."""
+    same = contrast.foil[:1] == contrast.fact[:1] == ("continue",)
+    if not same or len(contrast.foil) < 2:
+        return contrast
+    return replace(contrast, foil=contrast.foil[1:], fact=contrast.fact[1:])
 
 
 def sides(
