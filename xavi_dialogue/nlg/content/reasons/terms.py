@@ -42,9 +42,9 @@ def foil_verbs(contrast: Contrast) -> tuple[Clause, ...]:
             return (*row[:-1], Clause(row[0].subject, f"move two lanes to the {side}"))
         return (*row, Clause(row[0].subject, "move one lane further"))
     if row and contrast is not whole:  # the same may be done here
-        first = row[0]
-        rest = (*first.rest, "after going straight on")
-        return (Clause(first.subject, first.verb, rest), *row[1:])
+        head = row[0]
+        rest = (*head.rest, "after going straight on")
+        return (Clause(head.subject, head.verb, rest), *row[1:])
     return row
 
 
