@@ -43,8 +43,8 @@ def foil_verbs(contrast: Contrast) -> tuple[Clause, ...]:
         return (*row, Clause(row[0].subject, "move one lane further"))
     if row and contrast is not whole:  # the same may be done here
         head = row[0]
-        rest = (*head.rest, "after going straight on")
-        return (Clause(head.subject, head.verb, rest), *row[1:])
+        further_on = (*head.rest, "after going straight on")
+        return (Clause(head.subject, head.verb, further_on), *row[1:])
     return row
 
 
