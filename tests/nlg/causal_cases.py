@@ -332,6 +332,7 @@ INSIGHTS: tuple[Answer, ...] = (
     Certainty("plan", None, None, 0, 1, 10.0, SINGLE, ALONE, others=2),
     Method(10.0, OPTIONS, LATER.evidence, 4),
     Method(10.0, RISKS, LATER.evidence, 4),
+    Method(10.0, OPTIONS, LATER.evidence, 4, risk_now=0.68),
     Method(None),
     Pivot("conduct", LATER, 2, ("exit-right",), 0.12),
     Pivot("removal", LATER, 2),

@@ -57,6 +57,7 @@ class Method(Value, frozen=True):
     evidence: Evidence = Evidence()
     vehicles: int = 0  # whose behaviour was foreseen
     tried: int = 0  # options that were simulated; of some there may be too little to list them
+    risk_now: float | None = None  # of a collision by now, where that is not of this decision
 
 
 class Pivot(Value, frozen=True):

@@ -246,7 +246,10 @@ def how_decide(question: HowDecide, scene: Asked) -> Answer:
     count = len(found.trace.predictions)
     rows, rests_on = options.weighed(ride, found), options.situations(found)
     tried = len(ride.model(found.trace).options(found.node))
-    return Method(found.trace.sim_time, rows, rests_on, count, tried)
+    risk_now = None
+    if scene.past is None and found.trace is not ride.at(scene.now):
+        risk_now = collision_chance(scene, scene.now)
+    return Method(found.trace.sim_time, rows, rests_on, count, tried, risk_now)
 
 
 def _trace_at(scene: Asked) -> PlanTrace:

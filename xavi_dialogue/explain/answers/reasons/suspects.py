@@ -29,7 +29,7 @@ def with_suspect(
     elif suspect in named and _same_without(found, suspect):
         part = "same"
     else:
-        part = _part(named, suspect)
+        part = _part(found, named, suspect)
         if alone and part != "none":
             besides = tuple(vehicle for vehicle in named if vehicle != suspect)
             others = besides or _road_too(found) or _unnamed(found)
@@ -100,7 +100,11 @@ def _road_too(found: ChoiceReason | MotionReason) -> bool:
     )
 
 
-def _part(named: list[int], suspect: int) -> Suspected:
+def _part(found: ChoiceReason | MotionReason, named: list[int], suspect: int) -> Suspected:
     if suspect not in named:
         return "none"
-    return "main" if named[0] == suspect else "part"
+    causation = causation_of(found)
+    causes = found.causes if isinstance(found, MotionReason) else found.contrast.causes
+    told = any(cause.vehicle == suspect for cause in causes)
+    both = causation is not None and causation.kind == "both" and told
+    return "main" if both or named[0] == suspect else "part"

@@ -177,7 +177,13 @@ def plan_method(answer: Method, context: SpeechContext) -> Plan:
     )
     more = tuple(option_message(o) for o in others[:NAMED])
     details = () if basis is None or context.detail == "simpler" else (basis,)
-    return Plan((*risk, first), details, more)
+    by_now = answer.risk_now or 0.0
+    now = () if by_now < RISK else (_risk_now(by_now, context),)
+    return Plan((*now, *risk, first), details, more)
+
+
+def _risk_now(risk: float, context: SpeechContext) -> Message:
+    return message("RISK_NOW", risk=Chance(risk), simple=context.detail == "simpler")
 
 
 def _risks(
