@@ -16,6 +16,7 @@ from xavi_dialogue.domain.meaning import (
     HowLong,
     HowMany,
     HowMuch,
+    HowSure,
     Identify,
     Question,
     When,
@@ -95,7 +96,10 @@ def recast(spoken: Question, g: Grounder) -> Question:
         ) is not None:
             g.notes.leaned = True
             return apart
-        case Whether(that=Related(thing=Ego(), to=Road(which="right")), tag=False):
+        case (
+            Whether(that=Related(thing=Ego(), to=Road(which="right")), tag=False)
+            | HowSure(of=Related(thing=Ego(), to=Road(which="right")))
+        ):
             return Whither()
         case Whether(that=Related(relation="same-as", thing=Ego(), to=Road())):
             return Whither()
