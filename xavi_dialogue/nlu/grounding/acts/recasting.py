@@ -103,6 +103,14 @@ def recast(spoken: Question, g: Grounder) -> Question:
             return Whither()
         case Whether(that=Related(relation="same-as", thing=Ego(), to=Road())):
             return Whither()
+        case Whether(
+            that=Happens(
+                event=Event(actor=Ego(), action=action, object=Pronoun(form="it" | "that"))
+            )
+        ) if action in ("do", "continue") and _own_limit(g.context):
+            g.notes.leaned = True
+            relation: Any = "same" if action == "do" else "at-most"
+            return Whether(Compares(Measured("speed"), relation, Measured("limit")))
         case HowDecide(of=Happens(event=Event(actor=Ego(), action=action, tense=tense))) if (
             action in _ARRIVING and tense in ("present", "future")
         ):
@@ -249,6 +257,12 @@ def _own_measure(context: Context) -> HowMuch | None:
         case HowMuch(of=Measured(thing=Ego(), to=None, event=None) as of, extreme=None):
             return HowMuch(replace(of, time=Unsaid(), tense="present"))
     return None
+
+
+def _own_limit(context: Context) -> bool:
+    """Say whether the limit was asked for just now: "and are we keeping to it?"."""
+    known = _own_measure(context)
+    return known is not None and known.of.attribute == "limit"
 
 
 def _so_long(spoken: HowLong, g: Grounder) -> Question:
