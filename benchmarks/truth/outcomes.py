@@ -167,3 +167,6 @@ def the_way(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
         if known and max(g["dead"] + g["late"] + g["time"] for g in known) <= LONGER:
             arrive = percents(decision.chances("done", other))
             yield Fault("another way", f"{match[0]}: {road} arrives as soon, {arrive}")
+        elif known:
+            yield Told("time", other)
+            yield from (Told(OUTCOMES[o], other) for o in ("dead", "termination"))

@@ -43,6 +43,7 @@ COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", 
 
 def acts(text: str) -> list[frozenset[Action]]:
     """Find the macro actions that a phrase names, in order; moving back undoes a lane change."""
+    text = re.sub(r"\b(\w+ (?:left|right)) after (going straight on)", r"\2 and \1", text)
     found = [(m.start(), kinds) for p, kinds in ACTS for m in re.finditer(p, text, re.IGNORECASE)]
     found.sort(key=lambda one: one[0])
     for match in re.finditer(r"(?:(?:mov|chang)\w+|and) back\b", text, re.IGNORECASE):

@@ -192,14 +192,17 @@ def hold_ups(rows, window=None):
         if met <= 0.0:
             continue
         how = max(by_kind, key=by_kind.get)
-        sums = [0.0, 0.0, 0.0]
+        tops = []
         for w, stretches in longest:
             alike = [h for h in stretches if h.how == how]
             if alike:
                 top = max(alike, key=lambda h: h.until - h.since)
-                sums = [sums[0] + w, sums[1] + w * top.speed_from, sums[2] + w * top.speed_to]
+                tops.append((top.speed_to, top.speed_from, w))
         duration = sum(by_kind.values()) / met
-        speeds = (sums[1] / sums[0], sums[2] / sums[0])
+        mass = sum(w for *_, w in tops)
+        enough = [t for t in tops if sum(w for *s, w in tops if s <= [*t[:2]]) > 0.5 * mass - 1e-9]
+        lowest, start, _ = min(enough)
+        speeds = (start, lowest)
         found[vehicle] = (how, met, duration, *speeds, max(choices, key=choices.get))
     return found
 

@@ -15,8 +15,8 @@ class VehicleHoldUp:
     how: HoldUp  # the way in which it does so longest
     share: float  # weight of the results in which it does
     duration: float  # [s] mean over those results
-    speed_from: float  # [m/s] its mean speed when the longest stretch of that kind begins
-    speed_to: float  # [m/s] its mean lowest speed within it
+    speed_from: float  # [m/s] its speed when the longest stretch of that kind begins, ...
+    speed_to: float  # [m/s] ... and its lowest within it: both where the lowest is the median
     choice: Choice  # the goal and trajectory under which it does so most
     began: float  # [s] when the first stretch begins, at the earliest
     at_once: float  # share of the weight of those results in which it begins then
@@ -81,7 +81,7 @@ def _summary(vehicle: int, met: list[_Meeting]) -> VehicleHoldUp:
         for one in met
         if (alike := [stretch for stretch in one.stretches if stretch.how == how])
     ]
-    mass = sum(weight for _, weight in longest)
+    typical = _typical(longest)
     firsts = [(min(s.since for s in one.stretches), one.weight) for one in met]
     began = min(since for since, _ in firsts)
     return VehicleHoldUp(
@@ -89,12 +89,23 @@ def _summary(vehicle: int, met: list[_Meeting]) -> VehicleHoldUp:
         how=how,
         share=min(share, 1.0),
         duration=sum(lasted.values()) / share,
-        speed_from=sum(weight * s.speed_from for s, weight in longest) / mass,
-        speed_to=sum(weight * s.speed_to for s, weight in longest) / mass,
+        speed_from=typical.speed_from,
+        speed_to=typical.speed_to,
         choice=_likeliest_choice(vehicle, met) or (0, 0),
         began=began,
         at_once=sum(weight for since, weight in firsts if since <= began) / share,
     )
+
+
+def _typical(stretches: list[tuple[HeldUp, float]]) -> HeldUp:
+    """Return the stretch whose lowest speed is the weighted median: a mean may be nobody's."""
+    slowest = sorted(stretches, key=lambda one: (one[0].speed_to, one[0].speed_from))
+    half, known = sum(weight for _, weight in slowest) / 2.0, 0.0
+    for stretch, weight in slowest:
+        known += weight
+        if known >= half - 1e-9:
+            return stretch
+    return slowest[-1][0]
 
 
 def _likeliest_choice(vehicle: int, met: list[_Meeting]) -> Choice | None:

@@ -229,6 +229,7 @@ class SupposedOfOther(Value, frozen=True):
     still: bool | None = None  # ... and whether it would have come about; None: not known
     negated: bool = False  # it is supposed not to have done that
     slows: bool | None = None  # we would have to slow down for it, as we do not otherwise
+    faster: bool = False  # by the same plan we would drive faster
     form: Asking = "what-if"
     arrival: float | None = None  # [s] when we would be there
     others: tuple[int, ...] = ()  # further vehicles of which the same is supposed

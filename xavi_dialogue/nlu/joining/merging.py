@@ -169,7 +169,7 @@ def _of_reason(before: Act, later: Act) -> Act | None:
             return Ask(Why(Happens(event)))
         case Ask(question=Why(of=Not(content=Happens(event=Event(actor=Ego()) as event)))), Ask(
             question=Where(of=Ego())
-        ) if event.action in ("stand", "keep-lane"):  # "why don't we stay where we were?"
+        ) if event.action in ("wait", "stand", "keep-lane"):  # "why don't we stay where we were?"
             return Ask(Why(Not(Happens(structs.replace(event, action="keep-lane")))))
         case Repair(kind="why"), Request(event=event, negated=False):
             return Ask(Why(Happens(event)))  # "and why crawl along?"

@@ -111,9 +111,13 @@ def test_an_absence_that_cannot_be_planned_is_not_told() -> None:
     assert (found.kind, found.vehicle) == ("none", None)
 
 
-def test_who_is_hit_most_often_is_named() -> None:
+@pytest.mark.parametrize(("stops", "struck"), [(0.05, 2), (0.3, None)])
+def test_only_who_is_hit_in_nearly_all_collisions_is_named(
+    stops: float, struck: int | None
+) -> None:
+    going = 1.0 - stops
     aims = {
-        1: (Aim("stop", 0.3, (Way(("stop",)),)), Aim("continue", 0.7, (Way(("continue",)),))),
+        1: (Aim("stop", stops, (Way(("stop",)),)), Aim("continue", going, (Way(("continue",)),))),
         2: (Aim("continue", 1.0, (Way(("continue",)),)),),
     }
 
@@ -125,12 +129,12 @@ def test_who_is_hit_most_often_is_named() -> None:
     trace = decided(ends, aims, THREE[:2])
     needs = tuple(NeedRollout(trace_id=trace.trace_id, removed=gone) for gone in (1, 2, (1, 2)))
     found = contrast(ride(trace, refused=needs), trace, ("change-left",))
-    assert (found.collision, found.collided_with) == (approx(trusted(1.0)), 2)
+    assert (found.collision, found.collided_with) == (approx(trusted(1.0)), struck)
     assert found.outcome is not None
     assert (found.outcome.name, found.outcome.probability) == ("collision", approx(trusted(1.0)))
-    assert found.outcome.collided_with == 2
+    assert found.outcome.collided_with == struck
     rows = {r.action: r for r in weighed(ride(trace), Premise(trace, None))}
-    assert rows["change-left"].collided_with == 2
+    assert rows["change-left"].collided_with == struck
     assert [c.vehicle for c in found.causes] == [2, 1]
 
 

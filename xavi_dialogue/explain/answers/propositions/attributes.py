@@ -64,6 +64,7 @@ from xavi_dialogue.explain.answers.ride.places import gone, locate, where, whith
 from xavi_dialogue.explain.answers.ride.priority import right_of_way, where_rule_holds
 from xavi_dialogue.explain.causes.plans.options import options_at
 
+MOSTLY = 0.9  # probability of arriving from which the times of two choices are compared
 GOING: frozenset[ActionName] = frozenset(("move", "go", "follow", "continue"))
 #: What is chosen, and whose cost is shown by what else could have been chosen.
 CHOSEN: frozenset[ActionName] = frozenset(
@@ -144,8 +145,14 @@ def _instead(event: Event, asked: Asked) -> Answer | None:
 
 
 def _gained(explained: Answer) -> Measure | None:
-    """Tell what a choice cost or saved in time against what else there was, where that is known."""
+    """Tell what a choice cost or saved in time against what else there was, where that is known.
+
+    Where the other would mostly not arrive, the few times that it does tell nothing.
+    """
     if not isinstance(explained, ChoiceReason) or explained.deed is None:
+        return None
+    ends = (explained.contrast.outcome, explained.contrast.fact_outcome)
+    if any(end is None or end.name != "done" or end.probability < MOSTLY for end in ends):
         return None
     effects = explained.contrast.effects
     saved = next((e.delta for e in effects if e.component == "time"), None)

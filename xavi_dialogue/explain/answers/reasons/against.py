@@ -78,7 +78,7 @@ def against(
         found, earlier = Premise(last, found.deed), True
         compared = _compared(scene, found, foil)
     later = _later(event, scene, compared.decided, found.node)
-    open_at = _open_at(event, scene, found)
+    open_at = found.trace.sim_time if earlier else _open_at(event, scene, found)
     return Against(found, foil, compared, earlier, later, open_at)
 
 

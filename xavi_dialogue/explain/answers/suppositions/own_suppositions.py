@@ -213,7 +213,7 @@ def _standing_ahead(scene: Asked, against: Contrast) -> MotionCause | None:
 
 
 def _staying(event: Event, scene: Asked) -> Event:
-    """Read staying or waiting behind somebody whom we moved out for as staying in our lane."""
+    """Read staying, or waiting behind somebody whom we moved out for, as staying in our lane."""
     behind = event.where is not None and event.where.relation == "behind"
     lane = None if event.where is None else event.where.to
     if isinstance(lane, Lane) and lane.which == "own" and event.action in ("pass", "overtake"):

@@ -62,6 +62,7 @@ from xavi_dialogue.explain.answers.suppositions.supposed_when import (
 )
 from xavi_dialogue.explain.causes.driving.suppositions import (
     Supposed,
+    is_faster,
     otherwise,
     share_of,
     together,
@@ -250,6 +251,7 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
         still=still,
         form=form_of(question.then),
         slows=_slows(found) if event is not None and not of.negated else None,
+        faster=event is None and found.same and is_faster(found),
         arrival=arrival(scene, found.contrast),
         others=numbers[1:],
         left_out=left,

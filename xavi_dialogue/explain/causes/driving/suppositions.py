@@ -3,6 +3,7 @@
 import dataclasses
 from dataclasses import dataclass
 
+import numpy as np
 from msgspec.structs import replace
 
 from planner.record.trace import Action as MacroAction
@@ -18,6 +19,7 @@ from xavi_dialogue.explain.causes.vehicles.conduct import matching, probability
 from xavi_dialogue.explain.causes.vehicles.course import lines, speed_mark, stands
 from xavi_dialogue.explain.causes.vehicles.hindsight import in_hindsight
 from xavi_dialogue.explain.causes.vehicles.necessity import trial_of
+from xavi_dialogue.explain.causes.vehicles.profile import speeds
 from xavi_dialogue.explain.history.ride import (
     ROUNDING,
     Ride,
@@ -28,6 +30,7 @@ from xavi_dialogue.explain.history.ride import (
     thin,
 )
 
+QUICKER = 1.0  # [m/s] from which the ego drives faster than it did
 FASTER = 5.0  # [m/s] by which another drives faster where it is supposed to
 #: What is planned again where a way of driving is supposed, and no sample has it.
 STANDS_FOR: dict[ActionName, ActionName] = {
@@ -53,6 +56,12 @@ class Supposed:
     def same(self) -> bool:
         """Whether the ego would have begun with the same action."""
         return self.there.plan[:1] == self.here.plan[:1]
+
+
+def is_faster(found: Supposed) -> bool:
+    """Tell whether the ego would drive faster somewhere on the next stretch of road."""
+    here, there = speeds(found.trace, found.here), speeds(found.again, found.there)
+    return here is not None and there is not None and float(np.max(there - here)) >= QUICKER
 
 
 def known_to(ride: Ride, vehicle: int, moment: float) -> list[PlanTrace]:

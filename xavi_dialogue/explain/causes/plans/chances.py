@@ -12,6 +12,8 @@ from xavi_dialogue.causal.mixtures import Mixture
 from xavi_dialogue.domain.evidence import OutcomeEstimate
 from xavi_dialogue.explain.causes.plans.ranges import Ranges, table
 
+ALONE = 0.9  # of the probability of a collision that must be with one vehicle to name it
+
 
 @dataclass(frozen=True, slots=True)
 class Chances:
@@ -37,9 +39,14 @@ class Chances:
 
     @property
     def struck(self) -> int | None:
-        """The vehicle that is struck in most of the rollouts, by weight; None where none is."""
+        """The vehicle that nearly all collisions are with, by weight; None where several are hit.
+
+        A probability of any collision is not told of one of several vehicles.
+        """
         found = self.rollouts.collisions()
-        return max(found, key=lambda vehicle: found[vehicle], default=None)
+        first = max(found, key=lambda vehicle: found[vehicle], default=None)
+        alone = first is not None and found[first] >= ALONE * sum(found.values())
+        return first if alone else None
 
     @property
     def likeliest(self) -> OutcomeEstimate:

@@ -45,8 +45,9 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
     crash = _crash(answer)
     if crash is not None:
         slots |= {"crash": True, "risk": Chance(crash.collision), "struck": _struck(crash)}
-    first = Message("SUPPOSED_ASKED" if answer.asked is not None else "SUPPOSED", slots)
     outcome = _outcome(answer, context)
+    slots["faster"] = answer.faster and (outcome is None or crash is not None)
+    first = Message("SUPPOSED_ASKED" if answer.asked is not None else "SUPPOSED", slots)
     risky = outcome is not None and outcome.rule == "SUPPOSED_RISK"
     risky = risky and (crash is None or answer.asked is not None)
     core = (first, outcome) if risky and outcome is not None else (first,)

@@ -30,7 +30,7 @@ _OUTCOMES = {"collision": "collision", "dead": "dead", "late": "termination"}
 
 def foil_verbs(contrast: Contrast) -> tuple[Clause, ...]:
     """Return what was not done as verb phrases, with the further manoeuvres that it holds."""
-    contrast, further = parted(contrast), contrast.further
+    whole, contrast, further = contrast, parted(contrast), contrast.further
     if contrast.foil[-1:] == ("continue",) and further and further[0] in CHANGES:
         first = own_verbs(contrast.foil, contrast.fact)
         rest = own_verbs(further, contrast.fact)
@@ -41,6 +41,10 @@ def foil_verbs(contrast: Contrast) -> tuple[Clause, ...]:
         if row[-1].verb == f"move to the {side} lane":
             return (*row[:-1], Clause(row[0].subject, f"move two lanes to the {side}"))
         return (*row, Clause(row[0].subject, "move one lane further"))
+    if row and contrast is not whole:  # the same may be done here
+        head = row[0]
+        further_on = (*head.rest, "after going straight on")
+        return (Clause(head.subject, head.verb, further_on), *row[1:])
     return row
 
 

@@ -72,6 +72,8 @@ class Adjuncts:
             clause.time = time  # "back then, at 3 s"
         elif node.name == "time_adverb":
             self.notes.inner[id(node)] = SECOND
+        if words_of(node) == "right now" and _turns(clause):
+            clause.side = "right"
         leaf = leaf_of(node, "P")
         asking = leaf is not None and leaf.key in ("for", "about")
         asking = asking or words_of(node).startswith("about a ")
@@ -191,6 +193,12 @@ class Adjuncts:
             clause.contrast = sem.side if isinstance(sem, SideOf) else sem
         else:
             clause.contrast = self.slots.fill((inner,), Clause(subject=clause.subject))
+
+
+def _turns(clause: Clause) -> bool:
+    """Tell whether a clause says that somebody turns and not yet which way."""
+    said = clause.side or clause.particles or clause.objects or clause.complements
+    return clause.verb is not None and clause.verb.key == "turn" and not said
 
 
 def _relation(key: str, ended: bool) -> str:

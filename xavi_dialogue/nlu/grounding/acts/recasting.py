@@ -158,6 +158,13 @@ def _of_deed(spoken: Question, g: Grounder) -> Question | None:
             is_vague(thing) and (deed := _fresh(g.context)) is not None
         ):
             return replace(spoken, that=replace(of, thing=None, event=deed))
+        case Whether(
+            that=Compares(left=Measured("delay", event=None) as of, right=None) as that
+        ) if (
+            is_vague(of.thing) and (deed := discussed(g.context, Ego())) is not None
+        ):  # "did that save time?"
+            g.notes.leaned = True
+            return Whether(replace(that, left=replace(of, thing=Ego(), event=deed)))
     return None
 
 
