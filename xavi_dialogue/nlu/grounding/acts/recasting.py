@@ -16,7 +16,6 @@ from xavi_dialogue.domain.meaning import (
     HowLong,
     HowMany,
     HowMuch,
-    HowSure,
     Identify,
     Question,
     When,
@@ -40,7 +39,6 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Proposition,
     Related,
-    Road,
     That,
     Thing,
     Unsaid,
@@ -67,6 +65,7 @@ _VAGUE: Final = ("it", "that", "this")
 FRESH: Final = 4.0  # [s] since when what was begun strikes those who sit in the car
 _SUDDEN: Final = frozenset(("brake", "slow-down", "stop", "change-left", "change-right"))
 _HALTING: Final = frozenset(("stop", "stand", "wait", "give-way"))
+_LIMIT: Final = HowMuch(Measured("limit"))
 _SUCH: Final = Described(plural=True, definite=False)  # "how many are there"
 _ANYTHING: Final = (Described(definite=False), Described(kind="car", definite=False))
 
@@ -96,21 +95,14 @@ def recast(spoken: Question, g: Grounder) -> Question:
         ) is not None:
             g.notes.leaned = True
             return apart
-        case (
-            Whether(that=Related(thing=Ego(), to=Road(which="right")), tag=False)
-            | HowSure(of=Related(thing=Ego(), to=Road(which="right")))
-        ):
-            return Whither()
-        case Whether(that=Related(relation="same-as", thing=Ego(), to=Road())):
-            return Whither()
         case Whether(
             that=Happens(
                 event=Event(actor=Ego(), action=action, object=Pronoun(form="it" | "that"))
             )
-        ) if action in ("do", "continue") and _own_limit(g.context):
+        ) if action in ("do", "continue") and _own_measure(g.context) == _LIMIT:
             g.notes.leaned = True
-            relation: Any = "same" if action == "do" else "at-most"
-            return Whether(Compares(Measured("speed"), relation, Measured("limit")))
+            kept: Any = "same" if action == "do" else "at-most"
+            return Whether(Compares(Measured("speed"), kept, Measured("limit")))
         case HowDecide(of=Happens(event=Event(actor=Ego(), action=action, tense=tense))) if (
             action in _ARRIVING and tense in ("present", "future")
         ):
@@ -264,12 +256,6 @@ def _own_measure(context: Context) -> HowMuch | None:
         case HowMuch(of=Measured(thing=Ego(), to=None, event=None) as of, extreme=None):
             return HowMuch(replace(of, time=Unsaid(), tense="present"))
     return None
-
-
-def _own_limit(context: Context) -> bool:
-    """Say whether the limit was asked for just now: "and are we keeping to it?"."""
-    known = _own_measure(context)
-    return known is not None and known.of.attribute == "limit"
 
 
 def _so_long(spoken: HowLong, g: Grounder) -> Question:
