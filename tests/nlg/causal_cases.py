@@ -262,6 +262,7 @@ SUPPOSITIONS: tuple[Answer, ...] = tuple(
     for case in (
         SupposedOfOther(2, None, None, LATER.fact, ("continue",), False, SOONER, past),
         SupposedOfOther(2, None, None, LATER.fact, LATER.fact, True, None, past),
+        SupposedOfOther(2, None, None, LATER.fact, LATER.fact, True, None, past, faster=True),
         SupposedOfOther(
             2,
             LEFT,
