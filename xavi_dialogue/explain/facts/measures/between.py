@@ -6,7 +6,7 @@ from msgspec.structs import replace
 
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.terms import Destination, Exit, Junction, Thing, Vehicle
+from xavi_dialogue.domain.terms import Destination, Exit, Feature, Junction, Thing, Vehicle
 from xavi_dialogue.explain.facts import bodies
 from xavi_dialogue.explain.facts.approach import Following, following
 from xavi_dialogue.explain.facts.bearings import bearing
@@ -84,6 +84,8 @@ def to_place(asked: Asked, place: Thing | None) -> Measure:
     if trace is None or road is None or asked.at - trace.sim_time > 2.0 * STALE:
         return asked.none("not-recorded")
     far = road.distance
+    if isinstance(place, Feature):
+        return asked.none("not-recorded")  # houses and villages are not on our map
     if isinstance(place, Junction):
         if place.rank is not None and place.rank < 0:
             return asked.none("not-recorded")
@@ -152,4 +154,6 @@ def place(asked: Asked) -> Measure:
 
 
 def _is_place(thing: Thing | None) -> bool:
+    if isinstance(thing, Feature):
+        return thing.kind == "building"
     return isinstance(thing, (Destination, Junction, Exit))

@@ -176,8 +176,8 @@ def _amount(node: Node) -> Time:
         return Within(amount)
     if key in ("for", "over", "during"):
         return Unsaid()
-    if key in ("since", "from") and amount is not None and leaf_of(node, "PART"):
-        return Between(amount, UP_TO_NOW)  # "from ten seconds on"
+    if amount is not None and (key == "since" or (key == "from" and leaf_of(node, "PART"))):
+        return Between(amount, UP_TO_NOW)  # "since forty seconds", "from ten seconds on"
     return At(amount) if amount is not None else Unsaid()
 
 

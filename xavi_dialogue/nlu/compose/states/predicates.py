@@ -181,6 +181,10 @@ def _placed(thing: Thing, subject: Thing, time: Time, tense: Any) -> Proposition
     if not isinstance(subject, Pronoun) or subject.form not in ("it", "that", "this"):
         return None
     match thing:
+        case Feature(kind="way"):  # "is this the way?"
+            return Related("on", Ego(), Road("right"), time, tense)
+        case Road(which="side"):
+            return Exists(thing, time, tense)
         case Road() | Lane():
             return Related("on", Ego(), thing, time, tense)
         case Exit():

@@ -30,15 +30,19 @@ def roomy(clause: Clause, time: Time) -> Proposition:
     inner = clause.inner
     if inner is not None:
         named += [inner.object, inner.actor]
+    deed: Event | None = None
     if isinstance(clause.time, Relative):  # "before the red car gets here"
         anchor = clause.time.anchor
-        named.append(anchor.actor if isinstance(anchor, Event) else anchor)
+        if isinstance(anchor, Event) and isinstance(anchor.actor, Ego):
+            deed = anchor  # "when you turned left"
+        else:
+            named.append(anchor.actor if isinstance(anchor, Event) else anchor)
         time = Unsaid()
     sides = [b for b, _ in clause.bearings if b in ("left", "right")]
     named += [Lane(cast(Any, side)) for side in sides]
     others = (t for t in named if isinstance(t, _OTHERS) and not isinstance(t, (Ego, Passenger)))
     thing: Thing | None = next(others, None)
-    return Is("roomy", thing, time=time, tense=cast(Any, clause.tense))
+    return Is("roomy", thing, event=deed, time=time, tense=cast(Any, clause.tense))
 
 
 def _members(sem: Sem | None) -> tuple[Sem | None, ...]:

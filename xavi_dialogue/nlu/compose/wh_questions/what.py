@@ -124,7 +124,7 @@ class What:
                 effect = fact(value)
                 inner = effect.effect if isinstance(effect, Caused) else None
                 if clause.modal in ("would", "could") and isinstance(clause.subject, Wanted):
-                    return WhatWouldChange(inner)
+                    return _lacking(inner) or WhatWouldChange(inner)
                 if isinstance(inner, Happens) and is_idle(inner.event):
                     return Doing(inner.event.actor, time)  # "what makes the lorry there?"
                 if inner in (None, That()) and isinstance(time, AtDecision | At):
@@ -334,3 +334,11 @@ def _empty(clause: Clause) -> bool:
         clause.objects or clause.complements or clause.bearings or clause.adjectives
         or clause.comparisons or clause.manner or clause.feelings
     )  # fmt: skip
+
+
+def _lacking(effect: Proposition | None) -> Question | None:
+    """Ask what keeps us from another speed: no decision turns on it, so that none can be varied."""
+    match effect:
+        case Happens(event=Event(actor=Ego(), action="speed-up" | "slow-down" | "brake" | "stop")):
+            return Why(Not(effect))
+    return None

@@ -39,7 +39,6 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Proposition,
     Related,
-    Road,
     That,
     Thing,
     Unsaid,
@@ -66,6 +65,7 @@ _VAGUE: Final = ("it", "that", "this")
 FRESH: Final = 4.0  # [s] since when what was begun strikes those who sit in the car
 _SUDDEN: Final = frozenset(("brake", "slow-down", "stop", "change-left", "change-right"))
 _HALTING: Final = frozenset(("stop", "stand", "wait", "give-way"))
+_LIMIT: Final = HowMuch(Measured("limit"))
 _SUCH: Final = Described(plural=True, definite=False)  # "how many are there"
 _ANYTHING: Final = (Described(definite=False), Described(kind="car", definite=False))
 
@@ -95,10 +95,14 @@ def recast(spoken: Question, g: Grounder) -> Question:
         ) is not None:
             g.notes.leaned = True
             return apart
-        case Whether(that=Related(thing=Ego(), to=Road(which="right")), tag=False):
-            return Whither()
-        case Whether(that=Related(relation="same-as", thing=Ego(), to=Road())):
-            return Whither()
+        case Whether(
+            that=Happens(
+                event=Event(actor=Ego(), action=action, object=Pronoun(form="it" | "that"))
+            )
+        ) if action in ("do", "continue") and _own_measure(g.context) == _LIMIT:
+            g.notes.leaned = True
+            kept: Any = "same" if action == "do" else "at-most"
+            return Whether(Compares(Measured("speed"), kept, Measured("limit")))
         case HowDecide(of=Happens(event=Event(actor=Ego(), action=action, tense=tense))) if (
             action in _ARRIVING and tense in ("present", "future")
         ):

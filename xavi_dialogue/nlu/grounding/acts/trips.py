@@ -12,12 +12,14 @@ from xavi_dialogue.domain.meaning import (
     Doing,
     HowMany,
     HowMuch,
+    HowSure,
     Listing,
     Question,
     Summarise,
     When,
     Whether,
     Which,
+    Whither,
     Why,
 )
 from xavi_dialogue.domain.terms import (
@@ -35,6 +37,7 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Related,
+    Road,
     Unsaid,
     Wanted,
     WholeRide,
@@ -51,6 +54,12 @@ _LISTED: Final = frozenset(("change-lane", "brake", "stop"))
 def of_trip(spoken: Question) -> Question | None:
     """Put the question of the ride or our way that is meant; None where it is another one."""
     match spoken:
+        case (
+            Whether(that=Related(thing=Ego(), to=Road(which="right")), tag=False)
+            | Whether(that=Related(relation="same-as", thing=Ego(), to=Road()))
+            | HowSure(of=Related(thing=Ego(), to=Road(which="right")))
+        ):
+            return Whither()
         case Whether(that=that):
             meant = _whether(that)
             return meant if not isinstance(meant, Happens) else replace(spoken, that=meant)
