@@ -339,6 +339,6 @@ def _empty(clause: Clause) -> bool:
 def _lacking(effect: Proposition | None) -> Question | None:
     """Ask what keeps us from another speed: no decision turns on it, so that none can be varied."""
     match effect:
-        case Happens(event=Event(actor=Ego(), action="speed-up" | "slow-down" | "brake" | "stop")):
+        case Happens(event=Event(actor=Ego(), action="speed-up")):
             return Why(Not(effect))
     return None
