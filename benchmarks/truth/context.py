@@ -109,6 +109,7 @@ class Told:
 
     term: Term | Literal["close", "better"]
     foil: Actions
+    implied: bool = False  # it speaks of every other road, without naming one
 
 
 Check = Callable[[Said, re.Match[str]], Iterator[Fault | Told]]

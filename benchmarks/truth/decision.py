@@ -6,7 +6,7 @@ from functools import cached_property
 from itertools import product
 
 from benchmarks.truth.phrases import acts
-from benchmarks.truth.reckoning import Actions, Reckoning, Side, Term, gains
+from benchmarks.truth.reckoning import Actions, Reckoning, Side, Term, gains, recorded
 from planner.record.trace import Action, Outcome, PlanTrace
 
 
@@ -84,8 +84,13 @@ class Decision:
         return [side for record in self.records for side in record.chosen()]
 
     def gains(self, foil: Actions) -> list[dict[Term, float]]:
-        """Return the advantage [s] of the plan over a foil by term, by record and estimator."""
-        return [gains(fact, there) for fact, there in self.pairs(foil)]
+        """Return the advantage [s] of the plan over a foil by term, by record and estimator.
+
+        Each is taken apart by the drives that arrive, and as the drives have it recorded.
+        """
+        pairs = list(self.pairs(foil))
+        found = [gains(fact, there) for fact, there in pairs]
+        return found + [one for pair in pairs if (one := recorded(*pair)) is not None]
 
     def values(self, foil: Actions) -> list[float]:
         """Return the advantage [s] of the plan over a foil in all, by record and estimator."""

@@ -7,7 +7,7 @@ from benchmarks.truth.context import Fault, Said, Told, claim
 from benchmarks.truth.decision import Decision
 from benchmarks.truth.naming import PERCENT, foil_of, percents, seconds
 from benchmarks.truth.phrases import ADVERB, acts, is_chance, is_likely, trusted
-from benchmarks.truth.reckoning import OUTCOMES
+from benchmarks.truth.reckoning import OUTCOMES, Term
 from planner.record.trace import Action, Outcome
 
 ROADS: tuple[Action, ...] = ("exit-left", "exit-right", "exit-straight", "continue-next-exit")
@@ -168,5 +168,5 @@ def the_way(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
             arrive = percents(decision.chances("done", other))
             yield Fault("another way", f"{match[0]}: {road} arrives as soon, {arrive}")
         elif known:
-            yield Told("time", other)
-            yield from (Told(OUTCOMES[o], other) for o in ("dead", "termination"))
+            terms: tuple[Term, ...] = ("time", "dead", "late")
+            yield from (Told(term, other, implied=True) for term in terms)

@@ -8,9 +8,17 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
-from planner.record.trace import Action, Component, Costs, Outcome, PlanTrace, Rollout
+from planner.record.trace import (
+    Action,
+    Component,
+    Costs,
+    Outcome,
+    PlanTrace,
+    RewardTerm,
+    Rollout,
+)
 
 Comfort: TypeAlias = Literal["jerk", "angular-acceleration", "curvature"]
 Term: TypeAlias = Literal[
@@ -75,6 +83,25 @@ class Side:
     def effort_of(self, drive: Rollout) -> float:
         """Return what the actions of a drive cost by themselves [s]."""
         return sum(self.costs.effort.get(step.action, 0.0) for step in drive.actions)
+
+
+def recorded(fact: Side, foil: Side) -> dict[Term, float] | None:
+    """Take the advantage [s] of a plan over a foil apart as the drives have it recorded.
+
+    None where a drive records no terms, as in traces of before they were.
+    """
+    if not all(drive.terms for side in (fact, foil) for drive, _ in side.drives):
+        return None
+    found: dict[Term, float] = {}
+    for term in get_args(RewardTerm):
+        share = _recorded(foil, term) - _recorded(fact, term)
+        name: Term = "late" if term == "left" else term
+        found[name] = found.get(name, 0.0) + share
+    return found
+
+
+def _recorded(side: Side, term: RewardTerm) -> float:
+    return sum(weight * drive.terms.get(term, 0.0) for drive, weight in side.drives)
 
 
 def gains(fact: Side, foil: Side) -> dict[Term, float]:

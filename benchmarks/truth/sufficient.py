@@ -55,10 +55,10 @@ def insufficient(text: str, told: Sequence[Told], decision: Decision) -> Iterato
         did = f"the decision told of, at {decision.trace.sim_time:g} s, did that"
         yield Fault("another foil", f"asked {_named(decision.asked)}: {did}")
         return
-    foils = list(dict.fromkeys(one.foil for one in told))
+    foils = list(dict.fromkeys(one.foil for one in told if not one.implied))
     for foil in foils:
         yield from _sign(text, [one.term for one in told if one.foil == foil], foil, decision)
-    if decision.asked and not told:
+    if decision.asked and not foils:
         yield from _no_term(decision)
     if (
         decision.asked

@@ -1,9 +1,9 @@
 """Answers about our way, moments that stand out and decisions; golden/journey.txt has the texts."""
 
 from tests.nlg.scenery import BLUE, LORRY, NOW
-from xavi_dialogue.domain.answers import Altered, Answer, Course, Decided, Summit, Wavered
+from xavi_dialogue.domain.answers import Altered, Answer, Course, Decided, PeakMoment, Wavered
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure
-from xavi_dialogue.domain.journeys import Waver, WayStep
+from xavi_dialogue.domain.journeys import AbandonedPlan, WayStep
 from xavi_dialogue.domain.terms import Ego, Vehicle
 
 E = Ego()
@@ -54,32 +54,32 @@ CASES: tuple[Answer, ...] = (
     Course("roundabouts", (RING,), holds=True),
     Course("roundabouts", (), holds=False, left=200.0),
     Course("nearly", (), left=30.0, soon=3.0),
-    Summit("slowness", 9.0, (YIELD,), near("speed", 0.0)),
-    Summit("slowness", 9.0, (), near("speed", 5.0)),
-    Summit("speed", 9.0, (), near("speed", 13.0)),
-    Summit("braking", 9.0, (YIELD,), near("deceleration", 3.0)),
-    Summit("slowing", 9.0, (YIELD,), near("speed-change", 10.0)),
-    Summit("delay", 9.0, (YIELD,), lost(12.0, 21.0), (BLUE,)),
-    Summit("delay", 9.0, (YIELD,), lost(12.0, 21.0)),
-    Summit("delay", 9.0, (), lost(8.0, None), (BLUE,)),
-    Summit("waiting", 9.0, (YIELD,), near("duration", 3.0)),
-    Summit("waiting", 9.0, (YIELD,), near("duration", 0.5)),
-    Summit("closeness", 9.0, (), near("distance", 2.0), (BLUE,)),
-    Summit("danger", 9.0, (YIELD,), near("time-to-collision", 2.0), (BLUE,)),
-    Summit("difficulty", 9.0, (YIELD,), near("duration", 3.0), (BLUE, LORRY)),
-    Summit("danger", 9.0, (YIELD,), near("duration", 3.0), (BLUE,)),
-    Summit("difficulty", 9.0),
-    Summit("waiting"),
-    Summit("braking"),
-    Summit("slowing"),
-    Summit("delay"),
-    Summit("closeness"),
+    PeakMoment("slowness", 9.0, (YIELD,), near("speed", 0.0)),
+    PeakMoment("slowness", 9.0, (), near("speed", 5.0)),
+    PeakMoment("speed", 9.0, (), near("speed", 13.0)),
+    PeakMoment("braking", 9.0, (YIELD,), near("deceleration", 3.0)),
+    PeakMoment("slowing", 9.0, (YIELD,), near("speed-change", 10.0)),
+    PeakMoment("delay", 9.0, (YIELD,), lost(12.0, 21.0), (BLUE,)),
+    PeakMoment("delay", 9.0, (YIELD,), lost(12.0, 21.0)),
+    PeakMoment("delay", 9.0, (), lost(8.0, None), (BLUE,)),
+    PeakMoment("waiting", 9.0, (YIELD,), near("duration", 3.0)),
+    PeakMoment("waiting", 9.0, (YIELD,), near("duration", 0.5)),
+    PeakMoment("closeness", 9.0, (), near("distance", 2.0), (BLUE,)),
+    PeakMoment("danger", 9.0, (YIELD,), near("time-to-collision", 2.0), (BLUE,)),
+    PeakMoment("difficulty", 9.0, (YIELD,), near("duration", 3.0), (BLUE, LORRY)),
+    PeakMoment("danger", 9.0, (YIELD,), near("duration", 3.0), (BLUE,)),
+    PeakMoment("difficulty", 9.0),
+    PeakMoment("waiting"),
+    PeakMoment("braking"),
+    PeakMoment("slowing"),
+    PeakMoment("delay"),
+    PeakMoment("closeness"),
     BEFORE,
     AFTER,
     Decided(NOW, ("exit-left",), kept=True),
     Altered(BEFORE, AFTER, (LORRY,), ((OLD, NEW),), (YIELD,)),
     Altered(BEFORE, AFTER, (LORRY,)),
     Altered(BEFORE, BEFORE),
-    Wavered("change-left", (Waver(4.0, 0.2, 1),)),
-    Wavered("change-left", (Waver(4.0, 0.2, 1), Waver(6.0, 0.31)), resumed=True),
+    Wavered("change-left", (AbandonedPlan(4.0, 0.2, 1),)),
+    Wavered("change-left", (AbandonedPlan(4.0, 0.2, 1), AbandonedPlan(6.0, 0.31)), resumed=True),
 )

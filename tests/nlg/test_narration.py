@@ -8,7 +8,7 @@ from planner.record.trace import ACTIONS
 from sim.scene import VehicleState
 from xavi_dialogue.bus.messages import SceneReport
 from xavi_dialogue.chat.controller import ChatController
-from xavi_dialogue.nlg.narration import Teller, clock, narrate, plan_in_words, story
+from xavi_dialogue.nlg.narration import RideNarrator, clock, narrate, plan_in_words, story
 
 
 @pytest.mark.parametrize(
@@ -86,7 +86,7 @@ def test_clocks() -> None:
 def test_a_ride_that_is_driven_again_is_not_told_again_and_another_one_is() -> None:
     first = (Event("action-committed", 4.0, "exit-left", 4), Event("gave-way", 5.0, None, 3, 2))
     then = Event("action-ended", 6.0, "exit-left")
-    teller = Teller()
+    teller = RideNarrator()
 
     def told(events: tuple[Event, ...]) -> list[str | None]:
         return [teller.tell(number, event) for number, event in enumerate(events)]

@@ -17,7 +17,7 @@ from xavi_dialogue.nlg.content.reasons.terms import foil_verbs, parted
 from xavi_dialogue.nlg.say import say
 from xavi_dialogue.nlg.surface.chances import chance
 from xavi_dialogue.nlg.surface.realiser import realised
-from xavi_dialogue.nlg.surface.referring import Speaker
+from xavi_dialogue.nlg.surface.referring import ReferringContext
 from xavi_dialogue.nlg.surface.tables import table
 
 GRAMMARS = Path(__file__).parents[2] / "grammars"
@@ -47,19 +47,21 @@ def test_what_came_of_every_sample_is_as_likely_as_the_model_is_right(name):
     for answer in (ChoiceReason("why", CHANGED, ending), SupposedOfUs(ending)):
         assert "very likely" in say(answer, CONTEXT).text
     option = OptionValue("continue", False, name, calibrated(1.0, 0.4), None, None, -5.0)
-    assert "probably" in realised(option_message(option), CONTEXT, Speaker(CONTEXT))
+    assert "probably" in realised(option_message(option), CONTEXT, ReferringContext(CONTEXT))
 
 
 @pytest.mark.parametrize("name", ["collision", "termination"])
 def test_an_option_that_failed_in_every_sample_would_almost_certainly_have(name):
     option = OptionValue("continue", False, name, 1.0, None, None, -5.0)
-    assert "almost certainly" in realised(option_message(option), CONTEXT, Speaker(CONTEXT))
+    assert "almost certainly" in realised(
+        option_message(option), CONTEXT, ReferringContext(CONTEXT)
+    )
 
 
 @pytest.mark.parametrize("name", ["termination", "dead", "done"])
 def test_the_risk_of_a_collision_is_told_of_an_option_whatever_else_came_of_it(name):
     option = OptionValue("exit-right", False, name, 0.9, None, None, -5.0, 0.07)
-    assert "7 %" in realised(option_message(option), CONTEXT, Speaker(CONTEXT))
+    assert "7 %" in realised(option_message(option), CONTEXT, ReferringContext(CONTEXT))
 
 
 @pytest.mark.parametrize("form", ["adverb", "modal", "would", "verdict", "clause", "percent"])

@@ -8,8 +8,8 @@ from msgspec.structs import replace as replace_struct
 from tests.nlg.causal_cases import LATER
 from tests.nlg.scenery import CONTEXT
 from xavi_dialogue.domain.answers import (
-    Bystander,
     ChoiceReason,
+    CrossingVehicle,
     GoReason,
     MotionCause,
     PlaceReason,
@@ -35,19 +35,19 @@ FIRST = MotionCause("right-of-way", 1)
     [
         (GoReason(TURN, ()), ("I turned right then because the way was free",)),
         (
-            GoReason(TURN, (Bystander(1, "vehicle", "standing", 12.0),)),
+            GoReason(TURN, (CrossingVehicle(1, "vehicle", "standing", 12.0),)),
             ("(vehicle 1)", "which had right of way, was standing still"),
         ),
         (
-            GoReason(TURN, (Bystander(1, "vehicle", "standing", 12.0),), refrained="let-go"),
+            GoReason(TURN, (CrossingVehicle(1, "vehicle", "standing", 12.0),), refrained="let-go"),
             ("I went first because", "which had right of way, was standing still"),
         ),
         (
-            GoReason(TURN, (Bystander(1, "ego", "steady", 12.0),)),
+            GoReason(TURN, (CrossingVehicle(1, "ego", "steady", 12.0),)),
             ("(vehicle 1) had to let us go first",),
         ),
         (
-            GoReason(TURN, (Bystander(1, "vehicle", gone=True),)),
+            GoReason(TURN, (CrossingVehicle(1, "vehicle", gone=True),)),
             ("I had let", "go first"),
         ),
         (Unslowed(SLOWED, FIRST), ("had right of way", "had to brake for us")),
@@ -91,7 +91,7 @@ RISKY = replace_struct(
 
 def test_a_risk_of_waiting_is_told_with_why_we_went():
     """A risk of a collision is said, and first, whatever else the reason is."""
-    safe = GoReason(TURN, (Bystander(1, "ego", "steady", 12.0),))
+    safe = GoReason(TURN, (CrossingVehicle(1, "ego", "steady", 12.0),))
     text = say(replace_struct(safe, contrast=RISKY), CONTEXT).text
     assert "21 %" in text
     assert text.index("21 %") < text.index("had to let us go first")

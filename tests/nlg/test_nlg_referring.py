@@ -8,14 +8,14 @@ from xavi_dialogue.domain.terms import Destination, Ego, Lane, Vehicle, Vehicles
 from xavi_dialogue.nlg.content.clauses.clauses import episode_clause
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.morphology import clause
-from xavi_dialogue.nlg.surface.referring import Speaker
+from xavi_dialogue.nlg.surface.referring import ReferringContext
 from xavi_dialogue.nlg.surface.values import Who
 
 V, W, X = Vehicle(1), Vehicle(2), Vehicle(3)
 
 
 def said(*whos: Who, context: SpeechContext = CONTEXT, form: str = "plain") -> list[str]:
-    speaker = Speaker(context)
+    speaker = ReferringContext(context)
     return [speaker.refer(who, form) for who in whos]
 
 
@@ -81,14 +81,14 @@ def test_looks_may_come_from_a_function():
 
 def test_a_clause_names_its_object_once():
     told = episode_clause(Episode(V, "cut-in", 19.5, 20.0, object=Ego()), NOW)
-    words = clause(told, "plain", Speaker(CONTEXT))
+    words = clause(told, "plain", ReferringContext(CONTEXT))
     assert words == "the red lorry ahead of us on the left (vehicle 1) is cutting in ahead of us"
 
 
 def test_somebody_on_foot_is_no_it():
     walks = look(5, NOW, "pedestrian", None, "ahead")
     context = SpeechContext(now=NOW, looks={(5, NOW): walks, (1, NOW): LORRY})
-    speaker = Speaker(context)
+    speaker = ReferringContext(context)
     assert speaker.refer(Who(Vehicle(5)), "plain") == "the pedestrian ahead of us (vehicle 5)"
     assert speaker.refer(Who(Vehicle(5)), "object") == "them"
     assert speaker.refer(Who(Vehicle(5)), "possessive") == "their"

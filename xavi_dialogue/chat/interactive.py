@@ -15,7 +15,7 @@ from xavi_dialogue.chat.backend import Backend
 from xavi_dialogue.chat.client import Client
 from xavi_dialogue.chat.controller import ChatController
 from xavi_dialogue.chat.history import SessionHistory
-from xavi_dialogue.nlg.narration import Teller
+from xavi_dialogue.nlg.narration import RideNarrator
 
 if TYPE_CHECKING:  # a quarter of a second that only a terminal needs
     from xavi_dialogue.storage.input_history import InputHistory, UnsavedInputHistory
@@ -27,7 +27,7 @@ class Notices:
     """Notes above the input line; before the terminal is ready, plain notes."""
 
     def __init__(self, note: Write) -> None:
-        self._note, self._teller = note, Teller()
+        self._note, self._teller = note, RideNarrator()
         self._tell: Write | None = None
 
     def show(self, tell: Write) -> None:

@@ -17,12 +17,12 @@ from xavi_dialogue.domain.answers import (
     Comforting,
     Compared,
     Contrast,
+    DecisiveFactor,
     Evidence,
     Judged,
     Method,
     MotionReason,
     Options,
-    Pivot,
     Refusal,
     SupposedOfOther,
     SupposedOfUs,
@@ -35,8 +35,8 @@ from xavi_dialogue.domain.terms import Vehicle, Vehicles
 Result: TypeAlias = Answer | Refusal
 
 #: Answers about what our own car did, does or might do.
-OURS = (ChoiceReason, MotionReason, SupposedOfUs, SupposedOfOther, Compared, Pivot, Avoidance,
-        Certainty, Options, Method)  # fmt: skip
+OURS = (ChoiceReason, MotionReason, SupposedOfUs, SupposedOfOther, Compared, DecisiveFactor,
+        Avoidance, Certainty, Options, Method)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

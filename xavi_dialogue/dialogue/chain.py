@@ -27,6 +27,7 @@ from xavi_dialogue.domain.answers import (
     Comforting,
     Contrast,
     Decided,
+    DecisiveFactor,
     Declined,
     DidNotHappen,
     Grounds,
@@ -39,10 +40,9 @@ from xavi_dialogue.domain.answers import (
     NotApplicable,
     Options,
     OtherReason,
-    Pivot,
+    PeakMoment,
     PlanAhead,
     Refusal,
-    Summit,
     SupposedOfOther,
     SupposedOfUs,
     TooLittle,
@@ -120,7 +120,7 @@ def deeper(last: Turn) -> Deeper:
             return Ask(Why(Happens(driving)))
         case Activity(doing=doing) if doing:
             return Ask(Why(Happens(event_of(_telling(doing)))))
-        case Summit(deeds=deeds) if deeds:
+        case PeakMoment(deeds=deeds) if deeds:
             return Ask(Why(Happens(event_of(deeds[0]))))
         case Decided(time=time, steps=steps) if steps:
             return Ask(Why(Happens(Event(steps[0], time=At(time)))))
@@ -133,7 +133,7 @@ def deeper(last: Turn) -> Deeper:
         case Options(options=options, decided=decided):
             chosen = [one.action for one in options if one.chosen]
             return Ask(Why(Happens(Event(chosen[0], time=At(decided))))) if chosen else "bottom"
-        case OtherReason() | Grounds() | Certainty() | Method() | Pivot() | Avoidance():
+        case OtherReason() | Grounds() | Certainty() | Method() | DecisiveFactor() | Avoidance():
             return "bottom"
         case CannotSay() | NotApplicable() | TooLittle():
             return "bottom"

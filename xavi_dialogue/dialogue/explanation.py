@@ -19,6 +19,7 @@ from xavi_dialogue.domain.answers import (
     Comforting,
     Compared,
     Contrast,
+    DecisiveFactor,
     Declined,
     Effect,
     Evidence,
@@ -30,7 +31,6 @@ from xavi_dialogue.domain.answers import (
     NothingToAsk,
     OtherReason,
     OutcomeEstimate,
-    Pivot,
     Posed,
     Share,
     Sociable,
@@ -81,7 +81,9 @@ def contrastive(result: Result) -> Contrastive | None:
             deed = () if result.deed is None else _macro(result.deed)
             causes = tuple(_cause(c) for c in result.causes if c.vehicle is not None)
             return Contrastive(kind=kind, factual=deed, causes=causes, evidence=result.evidence)
-        case Compared() | Pivot() | Avoidance() | Certainty() if result.contrast is not None:
+        case Compared() | DecisiveFactor() | Avoidance() | Certainty() if (
+            result.contrast is not None
+        ):
             return _of_contrast(kind, result.contrast)
         case Comforting(fact=inner) | Again(answer=inner) | Judged(answer=inner):
             return None if inner is None else contrastive(inner)

@@ -43,12 +43,12 @@ from xavi_dialogue.domain.findings import (
     Verdict,
 )
 from xavi_dialogue.domain.hidden_areas import HiddenAnswer
-from xavi_dialogue.domain.journeys import Altered, Course, Decided, Summit, Wavered
-from xavi_dialogue.domain.knowing import Avoidance, Certainty, Grounds, Method, Pivot
+from xavi_dialogue.domain.journeys import Altered, Course, Decided, PeakMoment, Wavered
+from xavi_dialogue.domain.knowing import Avoidance, Certainty, DecisiveFactor, Grounds, Method
 from xavi_dialogue.domain.meaning import Act, Feel, Question, Request
 from xavi_dialogue.domain.reasons import (
-    Bystander,
     ChoiceReason,
+    CrossingVehicle,
     GoReason,
     MotionCause,
     MotionReason,
@@ -67,16 +67,16 @@ from xavi_dialogue.domain.traffic_lights import LightAnswer
 
 __all__ = [
     "Acknowledged", "Activity", "Again", "Aim", "Altered", "Answer", "Avoidance", "Beliefs",
-    "Bound", "Bystander", "CannotSay", "Cause", "Certainty", "ChoiceReason", "Closeness", "Comfort",
-    "Comforting", "Compared", "Contrast", "Counted", "Course", "Decided", "Declined",
-    "DidNotHappen", "Effect", "Evidence", "GoReason", "Grounds", "Happenings", "Helpful",
-    "Identified", "Judged", "Lasted", "Located", "Measures", "Mechanism", "Method", "MotionCause",
-    "MotionReason", "NeedRollout", "NoSuchVehicle", "NobodyElse", "NotApplicable", "NotRecorded",
-    "NotUnderstood", "NothingToAsk", "Options", "OtherReason", "OutcomeEstimate", "OwnSignal",
-    "Pivot", "PlaceReason", "PlanAhead", "Posed", "Priority", "PullingUp", "Reaction", "Reason",
-    "Refusal", "Share", "SignalReason", "Slowing", "Sociable", "Staying", "Summit",
-    "SupposedOfOther", "SupposedOfUs", "TakenAs", "Term", "TooLittle", "Unavailable", "Unblocking",
-    "Unfamiliar", "Unslowed", "Verdict", "Wavered", "Weighing", "WhichOne",
+    "Bound", "CannotSay", "Cause", "Certainty", "ChoiceReason", "Closeness", "Comfort",
+    "Comforting", "Compared", "Contrast", "Counted", "Course", "CrossingVehicle", "Decided",
+    "DecisiveFactor", "Declined", "DidNotHappen", "Effect", "Evidence", "GoReason", "Grounds",
+    "Happenings", "Helpful", "Identified", "Judged", "Lasted", "Located", "Measures", "Mechanism",
+    "Method", "MotionCause", "MotionReason", "NeedRollout", "NoSuchVehicle", "NobodyElse",
+    "NotApplicable", "NotRecorded", "NotUnderstood", "NothingToAsk", "Options", "OtherReason",
+    "OutcomeEstimate", "OwnSignal", "PeakMoment", "PlaceReason", "PlanAhead", "Posed", "Priority",
+    "PullingUp", "Reaction", "Reason", "Refusal", "Share", "SignalReason", "Slowing", "Sociable",
+    "Staying", "SupposedOfOther", "SupposedOfUs", "TakenAs", "Term", "TooLittle", "Unavailable",
+    "Unblocking", "Unfamiliar", "Unslowed", "Verdict", "Wavered", "Weighing", "WhichOne",
 ]  # fmt: skip
 
 # --- talk ---------------------------------------------------------------------------------------
@@ -311,14 +311,14 @@ Answer: TypeAlias = (
     | Slowing
     | Unblocking
     | Course
-    | Summit
+    | PeakMoment
     | Decided
     | Altered
     | Wavered
     | Grounds
     | Certainty
     | Method
-    | Pivot
+    | DecisiveFactor
     | Avoidance
     | Comforting
     | Declined

@@ -30,7 +30,7 @@ class Course(Value, frozen=True):
     then: bool = False  # it is asked what comes after what was stated
 
 
-class Summit(Value, frozen=True):
+class PeakMoment(Value, frozen=True):
     """The moment of the ride at which something was at its most."""
 
     of: str  # of `meaning.Peak`
@@ -59,7 +59,7 @@ class Altered(Value, frozen=True):
     did: tuple[Episode, ...] = ()  # what happened between them
 
 
-class Waver(Value, frozen=True):
+class AbandonedPlan(Value, frozen=True):
     """A decision at which a plan was given up for its risk."""
 
     time: float  # [s]
@@ -71,6 +71,6 @@ class Wavered(Value, frozen=True):
     """Why a plan was given up and taken up again and again."""
 
     plan: MacroAction  # that was given up
-    turns: tuple[Waver, ...]
+    turns: tuple[AbandonedPlan, ...]
     resumed: bool = False  # it was taken up again in the end
     claim: bool = False  # it answers a charge

@@ -60,7 +60,7 @@ class Method(Value, frozen=True):
     risk_now: float | None = None  # of a collision by now, where that is not of this decision
 
 
-class Pivot(Value, frozen=True):
+class DecisiveFactor(Value, frozen=True):
     """What a decision hangs on: what would have changed it, or what mattered most."""
 
     kind: Literal["conduct", "removal", "factor", "none"]

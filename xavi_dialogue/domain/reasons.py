@@ -106,7 +106,7 @@ class MotionReason(Value, frozen=True):
     peak: float | None = None  # [m/s2] of braking, where it is asked why so hard
 
 
-class Bystander(Value, frozen=True):
+class CrossingVehicle(Value, frozen=True):
     """Somebody whose way crosses ours at the moment when we go: who goes first, what it does."""
 
     vehicle: int
@@ -131,10 +131,11 @@ class GoReason(Value, frozen=True):
     """Why the ego went then: whom it had let go, who had to let it, who was not in its way."""
 
     deed: Episode | None
-    others: tuple[Bystander, ...]  # () nobody's way crossed ours
+    others: tuple[CrossingVehicle, ...]  # () nobody's way crossed ours
     contrast: Contrast | None = None  # with waiting
     past: bool = True
     refrained: ActionName | None = None  # what was asked: why we did not wait, stop, ...
+    evidence: Evidence = Evidence()  # the decision in force when we went
 
 
 #: What is asked of a supposition about us: what would come of it, whether we would collide, whether

@@ -35,7 +35,7 @@ class Narrator:
         return narrate(event)
 
 
-class Teller:
+class RideNarrator:
     """Tells what happens once, also where the same ride is driven again from its beginning."""
 
     def __init__(self) -> None:

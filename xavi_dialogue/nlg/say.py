@@ -23,7 +23,7 @@ from xavi_dialogue.nlg.surface.generator import ExpansionError
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.orthography import capitalise
 from xavi_dialogue.nlg.surface.realiser import realised
-from xavi_dialogue.nlg.surface.referring import Speaker
+from xavi_dialogue.nlg.surface.referring import ReferringContext
 
 #: The planner of each type of answer and refusal.
 PLANNERS: dict[type, Planner] = {**FACTS, **CAUSES, **REFUSALS}
@@ -57,7 +57,8 @@ def say(answer: Answer | Refusal, context: SpeechContext) -> Utterance:
             lead = message("NOT_OTHERWISE", how=answer.how, it=said[0])
             text, named = _told([lead, *said[1:]], wanted)
     choices = tuple(
-        realised(m, wanted, Speaker(wanted, passenger=True)).removesuffix(".") for m in plan.choices
+        realised(m, wanted, ReferringContext(wanted, passenger=True)).removesuffix(".")
+        for m in plan.choices
     )
     return Utterance(capitalise(text), named, choices, plan.suggestions)
 
@@ -67,7 +68,7 @@ def _told(said: list[Message], context: SpeechContext) -> tuple[str, tuple[int, 
 
     A message that lacks a value that its rule needs is left out.
     """
-    speaker = Speaker(context)
+    speaker = ReferringContext(context)
     found: list[str] = []
     for one in said:
         with suppress(ExpansionError):

@@ -29,8 +29,8 @@ from xavi_dialogue.domain.answers import (
     Measures,
     MotionCause,
     MotionReason,
+    PeakMoment,
     PlanAhead,
-    Summit,
     Verdict,
 )
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct, Span
@@ -163,7 +163,7 @@ def test_the_last_of_several_beliefs_is_what_was_expected(history: Any) -> None:
 
 
 def test_the_first_of_a_peak_or_plan_and_the_last_of_what_is_shown() -> None:
-    assert deeper(turn(Summit("danger", 5.0, THREE))) == why(event_of(BRAKED))
+    assert deeper(turn(PeakMoment("danger", 5.0, THREE))) == why(event_of(BRAKED))
     plan = PlanAhead((("stop", 11.0), ("continue", 12.0), ("exit-left", 13.0)))
     will = Event("stop", tense="future", modal="will")
     assert discourse_of([turn(plan)]).propositions == (Happens(will),)

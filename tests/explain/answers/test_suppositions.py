@@ -9,12 +9,12 @@ from xavi_dialogue.domain.answers import (
     Beliefs,
     Certainty,
     Compared,
+    DecisiveFactor,
     Grounds,
     Method,
     MotionReason,
     NotRecorded,
     Options,
-    Pivot,
     SupposedOfOther,
     SupposedOfUs,
     TooLittle,
@@ -146,7 +146,7 @@ def test_how_we_decide_tells_the_options_and_the_samples() -> None:
 
 def test_what_would_change_it_is_a_vehicles_conduct() -> None:
     found = told(single(squeezed(10.0), (2,)), WhatWouldChange(Not(Happens(LEFT))), 10.0)
-    assert isinstance(found, Pivot)
+    assert isinstance(found, DecisiveFactor)
     assert found.kind == "conduct"
     assert found.vehicle == 2
 

@@ -24,10 +24,10 @@ from xavi_dialogue.domain.answers import (
     MotionCause,
     MotionReason,
     OtherReason,
+    PeakMoment,
     PlanAhead,
     Priority,
     Refusal,
-    Summit,
     SupposedOfOther,
     SupposedOfUs,
     Verdict,
@@ -173,7 +173,7 @@ def _answered(part: Part) -> Iterator[Proposition]:
             yield Happens(event_of(episodes[-1]))
         case Identified(facts=facts) if deeds := [f for f in facts if isinstance(f, Episode)]:
             yield Happens(event_of(deeds[-1]))
-        case Summit(deeds=deeds) if deeds:
+        case PeakMoment(deeds=deeds) if deeds:
             yield Happens(event_of(deeds[0]))
         case DidNotHappen(asked=asked, instead=instead):
             yield from (Happens(event_of(one)) for one in instead[-1:])

@@ -45,6 +45,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.explain.answers import owing
+from xavi_dialogue.explain.answers.abandoned_plans import wavered
 from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.propositions import reasons
 from xavi_dialogue.explain.answers.reasons import choices, knowing, suspects
@@ -54,7 +55,6 @@ from xavi_dialogue.explain.answers.reference.moments import window
 from xavi_dialogue.explain.answers.reference.reading import is_own, unwrapped, vehicle_in
 from xavi_dialogue.explain.answers.ride.delays import held_up, let_past
 from xavi_dialogue.explain.answers.suppositions import deciding, possible, risks
-from xavi_dialogue.explain.answers.wavering import wavered
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 

@@ -30,8 +30,8 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.explain.answers.events.accounts import listing, summarise
 from xavi_dialogue.explain.answers.events.beliefs import how_sure
 from xavi_dialogue.explain.answers.events.decisions import changed
+from xavi_dialogue.explain.answers.measuring.peak_moments import peak
 from xavi_dialogue.explain.answers.measuring.rivals import rivals
-from xavi_dialogue.explain.answers.measuring.summits import peak
 from xavi_dialogue.explain.answers.propositions.duties import blamed
 from xavi_dialogue.explain.answers.propositions.happenings import doing, when
 from xavi_dialogue.explain.answers.propositions.identify import identify

@@ -36,7 +36,7 @@ CAUSES: dict[type, Planner] = {
     answers.Grounds: insights.plan_grounds,
     answers.Certainty: insights.plan_certainty,
     answers.Method: insights.plan_method,
-    answers.Pivot: insights.plan_pivot,
+    answers.DecisiveFactor: insights.plan_pivot,
     answers.Avoidance: insights.plan_avoidance,
 }
 REFUSALS: dict[type, Planner] = {

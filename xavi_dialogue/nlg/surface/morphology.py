@@ -16,7 +16,7 @@ from xavi_dialogue.nlg.surface.chances import chance
 from xavi_dialogue.nlg.surface.generator import Slot, Token
 from xavi_dialogue.nlg.surface.ordinals import ordinal
 from xavi_dialogue.nlg.surface.quantities import moment, number, quantity, span
-from xavi_dialogue.nlg.surface.referring import Speaker, listed
+from xavi_dialogue.nlg.surface.referring import ReferringContext, listed
 from xavi_dialogue.nlg.surface.rules import GrammarError, Word
 from xavi_dialogue.nlg.surface.tables import afoot
 from xavi_dialogue.nlg.surface.values import (
@@ -40,21 +40,21 @@ class FormError(GrammarError):
 
 
 def inflect(
-    tokens: tuple[Token, ...], context: SpeechContext, speaker: Speaker | None = None
+    tokens: tuple[Token, ...], context: SpeechContext, speaker: ReferringContext | None = None
 ) -> tuple[tuple[str, ...], tuple[int, ...]]:
     """The words of the tokens in order, and the vehicles they name in order of first mention.
 
     Raises:
         FormError: a slot's value has no such form.
     """
-    speaker = Speaker(context) if speaker is None else speaker
+    speaker = ReferringContext(context) if speaker is None else speaker
     words = tuple(t.text if isinstance(t, Word) else fill(t, speaker) for t in tokens)
     if speaker.passenger:
         words = tuple(re.sub(r"\bmy\b", "your", one) for one in words)
     return words, tuple(speaker.mentioned)
 
 
-def fill(slot: Slot, speaker: Speaker) -> str:
+def fill(slot: Slot, speaker: ReferringContext) -> str:
     """Return the words for a value in the form that the slot asks for.
 
     Raises:
@@ -96,7 +96,7 @@ def fill(slot: Slot, speaker: Speaker) -> str:
     raise FormError(f"no form {form!r} of {value!r}")
 
 
-def clause(value: Clause, form: str, speaker: Speaker) -> str:
+def clause(value: Clause, form: str, speaker: ReferringContext) -> str:
     """Return a clause: "I did not turn right"; its question, or its verb phrase in a form.
 
     Raises:
@@ -136,7 +136,7 @@ def clause(value: Clause, form: str, speaker: Speaker) -> str:
     return " ".join(words.split()).replace("can not ", "cannot ")
 
 
-def bare(value: Clause, speaker: Speaker) -> str:
+def bare(value: Clause, speaker: ReferringContext) -> str:
     """Return the verb phrase in the form that goes with the auxiliary of the clause before."""
     simple = value.tense in ("past", "present") and value.modal is None
     if value.progressive:
@@ -147,7 +147,7 @@ def bare(value: Clause, speaker: Speaker) -> str:
     return clause(value, "participle" if perfect else "base", speaker)
 
 
-def _subject(value: Clause, speaker: Speaker) -> str:
+def _subject(value: Clause, speaker: ReferringContext) -> str:
     subject = value.subject
     if isinstance(subject, str):
         return subject
@@ -156,7 +156,7 @@ def _subject(value: Clause, speaker: Speaker) -> str:
     return fill(Slot(subject, "gerund" if isinstance(subject, Clause) else "plain"), speaker)
 
 
-def _owned(value: Owned, speaker: Speaker) -> str:
+def _owned(value: Owned, speaker: ReferringContext) -> str:
     """Return a noun with its owner: "its speed", but "the speed of the blue car ahead of us"."""
     owner = speaker.refer(value.owner, "possessive")
     if " " not in owner:
@@ -165,7 +165,7 @@ def _owned(value: Owned, speaker: Speaker) -> str:
     return f"the {value.noun} of {words}"
 
 
-def _person(value: Clause, speaker: Speaker) -> Person:
+def _person(value: Clause, speaker: ReferringContext) -> Person:
     subject = value.subject
     if isinstance(subject, str):
         return "we" if value.plural or subject in ("we", "you", "they") else "it"
@@ -179,7 +179,7 @@ def _person(value: Clause, speaker: Speaker) -> Person:
     return "we" if many or getattr(subject.thing, "plural", False) else "it"
 
 
-def _rest(value: Clause, speaker: Speaker) -> str:
+def _rest(value: Clause, speaker: ReferringContext) -> str:
     return " ".join(
         part
         if isinstance(part, str)

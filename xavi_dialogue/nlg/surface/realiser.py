@@ -5,7 +5,7 @@ from xavi_dialogue.nlg.surface.generator import fill
 from xavi_dialogue.nlg.surface.message import Message
 from xavi_dialogue.nlg.surface.morphology import inflect
 from xavi_dialogue.nlg.surface.orthography import capitalise, join, sentence
-from xavi_dialogue.nlg.surface.referring import Speaker
+from xavi_dialogue.nlg.surface.referring import ReferringContext
 from xavi_dialogue.nlg.surface.rules import Grammar, load_grammars
 
 #: The grammars of the passenger's style; their rules may call each other.
@@ -19,7 +19,7 @@ def grammar() -> Grammar:
     return load_grammars(*GRAMMARS)
 
 
-def realised(said: Message, context: SpeechContext, speaker: Speaker) -> str:
+def realised(said: Message, context: SpeechContext, speaker: ReferringContext) -> str:
     """Return a message as a sentence with its capital and its full stop."""
     words, _ = inflect(fill(grammar(), said), context, speaker)
     return capitalise(sentence(join(words)))

@@ -50,7 +50,7 @@ COUNTED = 3  # people from which they are counted rather than named
 
 
 @dataclass(slots=True)
-class Speaker:
+class ReferringContext:
     """Who speaks, and the vehicles that have been named so far, in order."""
 
     context: SpeechContext
@@ -191,7 +191,7 @@ def _article(head: str) -> str:
     return "an" if head[:1] in "aeiou" else "a"
 
 
-def _described(thing: Described, speaker: Speaker) -> str:
+def _described(thing: Described, speaker: ReferringContext) -> str:
     kind = word("vehicles", "kind", thing.kind)
     head = " ".join(part for part in (thing.size, thing.colour, kind) if part)
     place = _place_of(thing, speaker)
@@ -208,7 +208,7 @@ def _described(thing: Described, speaker: Speaker) -> str:
     return " ".join(f"the {counted} {order} {other} {head} {place}".split())
 
 
-def _place_of(thing: Described, speaker: Speaker) -> str:
+def _place_of(thing: Described, speaker: ReferringContext) -> str:
     if thing.bearing is not None:
         place = word("vehicles", "place", thing.bearing)
         if thing.of is not None and not isinstance(thing.of, Ego):
@@ -242,7 +242,7 @@ _ROADS = {"own": "our road", "side": "the side road", "main": "the main road",
           "any": "a road"}  # fmt: skip
 
 
-def _lane(thing: Lane, speaker: Speaker) -> str:
+def _lane(thing: Lane, speaker: ReferringContext) -> str:
     if thing.which == "own":
         owner = "our" if thing.of is None else speaker.refer(Who(thing.of, ride=True), "possessive")
         return f"{owner} lane"

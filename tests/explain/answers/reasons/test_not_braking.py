@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from planner.record.events import Event as Recorded
 from tests.explain.answers.given import NOW, Given, Told, look, plan, refused, stand_in
 from xavi_dialogue.domain.answers import (
-    Bystander,
+    CrossingVehicle,
     GoReason,
     NeedRollout,
     NotApplicable,
@@ -68,7 +68,7 @@ def kept(seen: Any = None, theirs: Any = 10.0, ours: Any = 10.0, action: Any = "
 
 def test_somebody_far_ahead_who_is_no_slower_needs_no_braking() -> None:
     found = kept()
-    ahead = Bystander(1, first="ahead", trend="steady", distance=15.5)
+    ahead = CrossingVehicle(1, first="ahead", trend="steady", distance=15.5)
     assert found == GoReason(None, (replace(ahead, distance=look(1).distance),), past=False,
                              refrained="brake")  # fmt: skip
     assert kept(action="slow-down").refrained == "slow-down"

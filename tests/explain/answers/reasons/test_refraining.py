@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from planner.record.events import Event as Recorded
 from tests.explain.answers.given import NOW, Given, Told, deed, look, plan, refused, stand_in
 from xavi_dialogue.domain.answers import (
-    Bystander,
+    CrossingVehicle,
     DidNotHappen,
     GoReason,
     MotionReason,
@@ -158,7 +158,7 @@ def test_who_drives_aside_is_followed_by_a_change_of_lanes(seen: Any, action: An
 CROSSED = done("exit-left", 16.0, 18.0)
 
 
-def went(event: Event, *others: Bystander, **more: Any) -> Any:
+def went(event: Event, *others: CrossingVehicle, **more: Any) -> Any:
     """What is told of not waiting at a junction where these others were."""
     with pytest.MonkeyPatch.context() as patch:
         reason = GoReason(None, others, past=False)
@@ -168,22 +168,22 @@ def went(event: Event, *others: Bystander, **more: Any) -> Any:
 
 
 def test_not_waiting_at_a_junction_is_told_by_who_was_there() -> None:
-    one, two = Bystander(1, "ego"), Bystander(2, "vehicle")
+    one, two = CrossingVehicle(1, "ego"), CrossingVehicle(2, "vehicle")
     found = went(Event("give-way"), one, two)
     assert found == GoReason(None, (one, two), refrained="give-way", past=True)
     assert went(Event("wait", object=ONE), one, two).others == (one,)
-    assert went(Event("wait", object=ONE), two).others == (Bystander(1, first="none"),)
+    assert went(Event("wait", object=ONE), two).others == (CrossingVehicle(1, first="none"),)
     assert went(Event("slow-down"), one).refrained == "wait"
     assert went(Event("stop"), one).refrained == "stop"
 
 
 def test_whom_we_had_let_go_is_told_as_done(monkeypatch: pytest.MonkeyPatch) -> None:
-    gone = Bystander(1, "vehicle", gone=True)
+    gone = CrossingVehicle(1, "vehicle", gone=True)
     event = Event("wait", object=ONE)
     yielded = Event("give-way", object=ONE, tense="past")
     assert went(event, gone) == ("motions.motion", (yielded,))
     assert isinstance(went(Event("wait"), gone), GoReason)
-    assert isinstance(went(event, Bystander(2, "vehicle", gone=True)), GoReason)
+    assert isinstance(went(event, CrossingVehicle(2, "vehicle", gone=True)), GoReason)
     reason = MotionReason(deed("give-way", 10.0), ())
     monkeypatch.setattr(motions, "motion", lambda *args, **more: reason)
     assert went(event, gone) == replace(reason, form="did")

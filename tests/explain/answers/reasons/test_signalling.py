@@ -11,7 +11,7 @@ from tests.explain.answers.given import NOW, Given, Told, deed, option, plan, re
 from tests.explain.answers.imagined import Drive, decided
 from xavi_dialogue.domain.answers import DidNotHappen, Evidence, Options, OwnSignal
 from xavi_dialogue.domain.discourse import Span
-from xavi_dialogue.domain.journeys import Waver
+from xavi_dialogue.domain.journeys import AbandonedPlan
 from xavi_dialogue.domain.meaning import Doing, WhatIf, Which, Why
 from xavi_dialogue.domain.terms import (
     At,
@@ -23,7 +23,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
-from xavi_dialogue.explain.answers import wavering
+from xavi_dialogue.explain.answers import abandoned_plans
 from xavi_dialogue.explain.answers.propositions import reasons
 from xavi_dialogue.explain.answers.reasons import signalling
 from xavi_dialogue.explain.answers.suppositions import risks, supposing
@@ -113,7 +113,7 @@ def test_what_is_announced_now_may_still_come() -> None:
     assert why_signal("right", deeds=(over,), **did(1.0, 2.0)).came is False
 
 
-# --- wavering -----------------------------------------------------------------------------------
+# --- abandoned plans ---------------------------------------------------------------------------
 
 PIPELINE = Event("change-plan")
 
@@ -128,7 +128,7 @@ def wavered(
         risky = risk if isinstance(risk, float) else risk[trace.sim_time]
         return (option("stop"), option("exit-right", collision=risky, collided_with=3), *others)
 
-    patch.setattr(wavering, "of_trace", options)
+    patch.setattr(abandoned_plans, "of_trace", options)
     patch.setattr(reasons, "why", lambda question, asked: Told("why"))
     event = PIPELINE if time is None else replace(PIPELINE, time=time)
     traces = tuple(plan(t, *((one,) if one else ())) for t, one in plans)
@@ -136,7 +136,7 @@ def wavered(
         deed("change-plan", b, b) for (_, old), (b, new) in pairwise(plans) if old != new
     )
     given = Given(traces=traces, now=now, deeds=changes)
-    return wavering.wavered(Why(Happens(event)), given.asked())
+    return abandoned_plans.wavered(Why(Happens(event)), given.asked())
 
 
 TURN: Any = "exit-right"
@@ -149,7 +149,7 @@ def test_a_plan_was_given_up_for_a_stop_each_time_for_its_risk(
     plans = ((10.0, TURN), (11.0, STOP), (12.0, TURN), (13.0, STOP), (14.0, STOP))
     found = wavered(monkeypatch, *plans)
     assert found.plan == TURN
-    assert found.turns == (Waver(11.0, 0.2, 3), Waver(13.0, 0.2, 3))
+    assert found.turns == (AbandonedPlan(11.0, 0.2, 3), AbandonedPlan(13.0, 0.2, 3))
     assert found.resumed is False
     assert wavered(monkeypatch, *plans, (15.0, TURN)).resumed is True
     assert wavered(monkeypatch, *plans[:3]).resumed is True
@@ -168,14 +168,14 @@ def test_only_a_plan_given_up_for_a_stop_and_its_risk_counts(
     assert wavered(monkeypatch, (10.0, "change-left"), (11.0, STOP)) == Told("why")
     twice = ((10.0, TURN), (11.0, STOP), (12.0, TURN), (13.0, STOP))
     risk = {11.0: 0.01, 13.0: 0.3}
-    assert wavered(monkeypatch, *twice, risk=risk).turns == (Waver(13.0, 0.3, 3),)
+    assert wavered(monkeypatch, *twice, risk=risk).turns == (AbandonedPlan(13.0, 0.3, 3),)
 
 
 def test_the_plan_given_up_last_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     plans = ((10.0, TURN), (11.0, STOP), (12.0, "change-left"), (13.0, STOP))
     left = option("change-left", collision=0.4, collided_with=2)
     found = wavered(monkeypatch, *plans, others=(left,))
-    assert (found.plan, found.turns) == ("change-left", (Waver(13.0, 0.4, 2),))
+    assert (found.plan, found.turns) == ("change-left", (AbandonedPlan(13.0, 0.4, 2),))
 
 
 def test_each_time_reaches_back_twenty_seconds(monkeypatch: pytest.MonkeyPatch) -> None:

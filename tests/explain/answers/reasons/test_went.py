@@ -6,7 +6,7 @@ import pytest
 
 from planner.record.events import Event as Told
 from tests.explain.answers.stated import decision, did, look, result, roads, scene
-from xavi_dialogue.domain.answers import Bystander, GoReason
+from xavi_dialogue.domain.answers import CrossingVehicle, GoReason
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.terms import Ego, Event, Exit, Junction, Vehicle
 from xavi_dialogue.explain.answers.reasons import choices
@@ -127,7 +127,7 @@ def test_waiting_is_the_last_chance_to_stop(
 
 ROAD = roads((1, "vehicle"))
 TRACES = (decision(10.0, road=ROAD), decision(18.0, road=ROAD))
-ONE, TWO = Bystander(1, "vehicle"), Bystander(2, "ego")
+ONE, TWO = CrossingVehicle(1, "vehicle"), CrossingVehicle(2, "ego")
 
 
 class Setting:
@@ -135,7 +135,7 @@ class Setting:
 
     def __init__(self, patch: pytest.MonkeyPatch) -> None:
         self.deed: Deed | None = None
-        self.others: tuple[Bystander, ...] = (ONE, TWO)
+        self.others: tuple[CrossingVehicle, ...] = (ONE, TWO)
         self.at: list[float] = []
         patch.setattr(room, "premise", lambda _, about: Premise(TRACES[1], self.deed))
         patch.setattr(room, "bystanders", self._bystanders)
@@ -143,7 +143,7 @@ class Setting:
         patch.setattr(room, "contrast", lambda _, trace, foil: None)
         patch.setattr(choices, "why", lambda event, _: ("choice", event))
 
-    def _bystanders(self, _ride: Any, _world: Any, time: float) -> tuple[Bystander, ...]:
+    def _bystanders(self, _ride: Any, _world: Any, time: float) -> tuple[CrossingVehicle, ...]:
         self.at.append(time)
         return self.others
 

@@ -13,6 +13,7 @@ from xavi_dialogue.domain.answers import (
     ChoiceReason,
     Compared,
     Contrast,
+    DecisiveFactor,
     DidNotHappen,
     Evidence,
     Measures,
@@ -20,7 +21,6 @@ from xavi_dialogue.domain.answers import (
     MotionReason,
     NeedRollout,
     Options,
-    Pivot,
     SupposedOfUs,
 )
 from xavi_dialogue.domain.discourse import Span
@@ -217,7 +217,7 @@ def test_what_would_have_made_the_best_alternative_the_choice() -> None:
     found = pivoted(Happens(Event("change-left")))
     assert (found.kind, found.contrast.decided, found.contrast.foil) == ("none", 6.0, STAY)
     lonely = [decision(6.0, LEFT)]
-    assert pivoted(Happens(Event("change-left")), traces=lonely) == Pivot("none", None)
+    assert pivoted(Happens(Event("change-left")), traces=lonely) == DecisiveFactor("none", None)
 
 
 def test_what_would_have_made_what_was_not_done_the_choice() -> None:
@@ -248,7 +248,7 @@ LEADER = MotionCause("leader", 1, ("continue",), 0.7)
 def test_a_way_of_driving_hangs_on_whom_it_was_for(motions: list[Any]) -> None:
     brake = Happens(Event("brake"))
     for most, kind in ((False, "removal"), (True, "factor")):
-        expected = Pivot(kind, None, 1, ("continue",), 0.7, most, "brake")  # type: ignore[arg-type]
+        expected = DecisiveFactor(kind, None, 1, ("continue",), 0.7, most, "brake")  # type: ignore[arg-type]
         for causes in ((LEADER,), (replace(LEADER, necessary=True), MotionCause("limit"))):
             motions[0][:] = [motive(*causes)]
             assert pivoted(brake, most=most) == expected
@@ -296,7 +296,7 @@ def test_what_mattered_most_is_the_weightiest_cause(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(choices, "why", told_by("why"))
     monkeypatch.setattr(choices, "why_not", told_by("why-not"))
     against = found.contrast
-    told_ = Pivot("factor", against, 2, ("exit-left",), 0.6, most=True)
+    told_ = DecisiveFactor("factor", against, 2, ("exit-left",), 0.6, most=True)
     assert pivoted(None, most=True) == told_
     for event, way in (
         (Event("change-left"), "why"),

@@ -30,11 +30,11 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.explain.answers import owing
+from xavi_dialogue.explain.answers.abandoned_plans import wavered
 from xavi_dialogue.explain.answers.propositions import reasons
 from xavi_dialogue.explain.answers.reasons import knowing
 from xavi_dialogue.explain.answers.reasons.provoked import because_of_us
 from xavi_dialogue.explain.answers.suppositions import deciding, risks
-from xavi_dialogue.explain.answers.wavering import wavered
 
 # --- by type ------------------------------------------------------------------------------------
 

@@ -7,7 +7,7 @@ import pytest
 from planner.record.events import Event as Told
 from planner.record.places import PriorityFact, RoadFacts
 from tests.explain.facts.scenes import Actor, made, speeds, straight
-from xavi_dialogue.domain.answers import Bystander
+from xavi_dialogue.domain.answers import CrossingVehicle
 from xavi_dialogue.explain.causes.driving.going import bystanders
 from xavi_dialogue.explain.causes.driving.yielding import goes_first
 from xavi_dialogue.explain.facts.world import World
@@ -64,7 +64,7 @@ def test_who_was_let_go_is_gone_once_it_is_past(
     whole = made(actors, 8.0, roads=lambda _: RoadFacts({}, priority=RULES[1:]), events=events)
     (found,) = bystanders(whole, World(whole), 6.0)
     assert found.gone is gone
-    assert (found == Bystander(2, "vehicle", gone=True)) is gone
+    assert (found == CrossingVehicle(2, "vehicle", gone=True)) is gone
 
 
 @pytest.mark.parametrize(
@@ -75,4 +75,4 @@ def test_who_was_let_go_lately(waited: float, known: bool) -> None:
     actors = {0: Actor(straight(0.0, 0.0, 0.0)), 2: Actor(straight(0.0, 40.0, 0.0))}
     whole = made(actors, 9.0, events=(Told("gave-way", waited, vehicle=2),))
     found = bystanders(whole, World(whole), 8.0)
-    assert found == ((Bystander(2, "vehicle", gone=True),) if known else ())
+    assert found == ((CrossingVehicle(2, "vehicle", gone=True),) if known else ())

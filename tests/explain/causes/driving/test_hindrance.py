@@ -13,7 +13,7 @@ from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import CausalModel
 from xavi_dialogue.domain.answers import Cause, Mechanism, MotionCause
 from xavi_dialogue.explain.causes.driving.hindrance import at_present, slowed, stood
-from xavi_dialogue.explain.causes.plans.pivot import weight
+from xavi_dialogue.explain.causes.plans.decisive_factor import weight
 from xavi_dialogue.explain.causes.vehicles.involved import (
     contrastive_causes,
     expected_actions,

@@ -21,8 +21,8 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
 from xavi_dialogue.explain.answers.expectations.approaching import foreseen_closeness
+from xavi_dialogue.explain.answers.measuring.peak_moments import peak
 from xavi_dialogue.explain.answers.measuring.rivals import rivals
-from xavi_dialogue.explain.answers.measuring.summits import peak
 from xavi_dialogue.explain.answers.propositions.attributes import SPECIAL
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import (

@@ -3,6 +3,7 @@
 from msgspec import structs
 
 from xavi_dialogue.domain.answers import Answer, Contrast, GoReason
+from xavi_dialogue.domain.evidence import Evidence
 from xavi_dialogue.domain.terms import Event, Exit, Junction
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reasons import choices
@@ -53,7 +54,8 @@ def went(event: Event, scene: Asked) -> Answer:
     deed = choices.deed_of(scene, found)
     if deed is not None and open_:
         deed = structs.replace(deed, begin=begun)
-    return GoReason(deed, others, against, past=past)
+    rests_on = Evidence(traces=() if trace is None else (trace.trace_id,))
+    return GoReason(deed, others, against, past=past, evidence=rests_on)
 
 
 def sideways(event: Event, scene: Asked) -> Event:

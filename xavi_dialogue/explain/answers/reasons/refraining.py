@@ -8,8 +8,8 @@ from msgspec import structs
 from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.answers import (
     Answer,
-    Bystander,
     ChoiceReason,
+    CrossingVehicle,
     DidNotHappen,
     GoReason,
     MotionCause,
@@ -120,7 +120,7 @@ def _went(event: Event, scene: Asked, crossed: Deed) -> Answer:
         named = tuple(one for one in others if one.vehicle == asked)
         if any(one.gone for one in named):
             return _done(event, scene)
-        others = named or (Bystander(asked, first="none"),)
+        others = named or (CrossingVehicle(asked, first="none"),)
     short = event.action if event.action in HALTS else "wait"
     return structs.replace(reason, others=others, refrained=short, past=True)
 
@@ -165,7 +165,7 @@ def _kept_speed(event: Event, vehicle: int, scene: Asked) -> Answer:
         return motions.fast(scene)
     in_front = look.ahead > 0.0 and abs(look.left) < BESIDE and not look.oncoming
     rule = None if in_front else priority_at(scene, vehicle, Window(at, at), blame=True).rule
-    found = Bystander(
+    found = CrossingVehicle(
         vehicle,
         first="ahead" if in_front else WHO_FIRST.get(rule or "", "none"),
         trend="steady" if theirs >= ours - SLOWER else "slowing",

@@ -12,11 +12,11 @@ from xavi_dialogue.domain.answers import (
     ChoiceReason,
     Compared,
     Contrast,
+    DecisiveFactor,
     DidNotHappen,
     MotionCause,
     MotionReason,
     Options,
-    Pivot,
 )
 from xavi_dialogue.domain.meaning import Compare, HowAvoid, Listing, WhatWouldChange, Whether
 from xavi_dialogue.domain.reasons import Asking
@@ -32,7 +32,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
     unwrapped,
 )
 from xavi_dialogue.explain.answers.suppositions.own_suppositions import of_us
-from xavi_dialogue.explain.causes.plans import avoidance, options, pivot
+from xavi_dialogue.explain.causes.plans import avoidance, decisive_factor, options
 from xavi_dialogue.explain.causes.plans.contrast import contrast
 from xavi_dialogue.explain.causes.plans.premise import Premise, Subject, about_foil, premise
 from xavi_dialogue.explain.causes.vehicles.actions import (
@@ -149,10 +149,10 @@ def what_would_change(question: WhatWouldChange, scene: Asked) -> Answer:
         event = None
     if event is not None and (negated or not _was_done(scene, event)):
         found, foil = foils.foil_at(event, scene)
-        return pivot.towards(ride, found, foil)
+        return decisive_factor.towards(ride, found, foil)
     if event is None:
-        return pivot.otherwise(ride, options.in_force(ride, scene.moment))
-    return pivot.otherwise(ride, options.free(ride, premise(ride, subject(scene, event))))
+        return decisive_factor.otherwise(ride, options.in_force(ride, scene.moment))
+    return decisive_factor.otherwise(ride, options.free(ride, premise(ride, subject(scene, event))))
 
 
 def how_avoid(question: HowAvoid, scene: Asked) -> Answer:
@@ -210,11 +210,13 @@ def _factor(event: Event | None, scene: Asked, *, negated: bool) -> Answer:
         found = choices.why(event, scene)
     assert isinstance(found, ChoiceReason)
     against = found.contrast
-    ranked = sorted(against.causes, key=pivot.weight)
+    ranked = sorted(against.causes, key=decisive_factor.weight)
     if not ranked:
-        return Pivot("factor", against, most=True)
+        return DecisiveFactor("factor", against, most=True)
     first = ranked[0]
-    return Pivot("factor", against, first.vehicle, first.actions, first.probability, most=True)
+    return DecisiveFactor(
+        "factor", against, first.vehicle, first.actions, first.probability, most=True
+    )
 
 
 def _motive(event: Event, scene: Asked, *, most: bool = False) -> Answer:
@@ -226,7 +228,9 @@ def _motive(event: Event, scene: Asked, *, most: bool = False) -> Answer:
     if first is None or first.vehicle is None or not _is_needed(first, found):
         return found
     kind: Literal["removal", "factor"] = "factor" if most else "removal"
-    return Pivot(kind, None, first.vehicle, first.actions, first.probability, most, event.action)
+    return DecisiveFactor(
+        kind, None, first.vehicle, first.actions, first.probability, most, event.action
+    )
 
 
 def _is_needed(cause: MotionCause, reason: MotionReason) -> bool:

@@ -2,7 +2,7 @@
 
 from planner.record.events import Event as RideEvent
 from planner.record.trace import PlanTrace
-from xavi_dialogue.domain.answers import Bystander
+from xavi_dialogue.domain.answers import CrossingVehicle
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.ride import Ride
 
@@ -12,7 +12,7 @@ MOVING = 0.5  # [m/s] from which a vehicle is on its way
 PASSED = 6.0  # [s] before a deed within which way was given for it
 
 
-def bystanders(ride: Ride, world: World, time: float) -> tuple[Bystander, ...]:
+def bystanders(ride: Ride, world: World, time: float) -> tuple[CrossingVehicle, ...]:
     """Tell of those whose way crossed ours at a moment who goes first, and what they did."""
     trace = ride.at(time)
     found = [] if trace is None else [_one(ride, world, trace, time, v) for v in _met(trace)]
@@ -23,7 +23,7 @@ def bystanders(ride: Ride, world: World, time: float) -> tuple[Bystander, ...]:
     others = [e.vehicle for e in let_go if e.vehicle is not None and e.vehicle not in known]
     gone = dict.fromkeys((*others, *(v for v in known if v in past)))
     still = tuple(one for one in found if one.vehicle not in gone)
-    return (*(Bystander(v, first="vehicle", gone=True) for v in gone), *still)
+    return (*(CrossingVehicle(v, first="vehicle", gone=True) for v in gone), *still)
 
 
 def _parts(world: World, wait: RideEvent, time: float) -> bool:
@@ -41,9 +41,9 @@ def _met(trace: PlanTrace) -> tuple[int, ...]:
     return () if trace.road is None else tuple(f.vehicle for f in trace.road.priority)
 
 
-def _one(ride: Ride, world: World, trace: PlanTrace, time: float, vehicle: int) -> Bystander:
+def _one(ride: Ride, world: World, trace: PlanTrace, time: float, vehicle: int) -> CrossingVehicle:
     facts = () if trace.road is None else trace.road.priority
     first = next(fact.who for fact in facts if fact.vehicle == vehicle)
     look = world.look(vehicle, time)
     motion = ride.motion(vehicle).until(time)
-    return Bystander(vehicle, first, motion.trend, None if look is None else look.distance)
+    return CrossingVehicle(vehicle, first, motion.trend, None if look is None else look.distance)

@@ -1,6 +1,6 @@
 """Going: why we went when we did, and what can be said of not having slowed down."""
 
-from xavi_dialogue.domain.answers import Bystander, GoReason, MotionCause, Unslowed
+from xavi_dialogue.domain.answers import CrossingVehicle, GoReason, MotionCause, Unslowed
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.clauses.clauses import doing
 from xavi_dialogue.nlg.content.clauses.manoeuvres import deed_clause
@@ -47,7 +47,7 @@ def plan_going(answer: GoReason, context: SpeechContext) -> Plan:
     return Plan(whole, (), () if waiting is None else (waiting,), (), proposed)
 
 
-def _free(one: Bystander, time: float | None, *, past: bool) -> Message:
+def _free(one: CrossingVehicle, time: float | None, *, past: bool) -> Message:
     near = one.distance is not None and one.distance < FAR
     return message(
         "WAY_FREE",

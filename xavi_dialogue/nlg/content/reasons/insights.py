@@ -2,7 +2,14 @@
 
 from typing import Any
 
-from xavi_dialogue.domain.answers import Avoidance, Certainty, Contrast, Grounds, Method, Pivot
+from xavi_dialogue.domain.answers import (
+    Avoidance,
+    Certainty,
+    Contrast,
+    DecisiveFactor,
+    Grounds,
+    Method,
+)
 from xavi_dialogue.domain.facts import OptionValue
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.nlg.content.clauses.clauses import doing, episode_clause, subject_of
@@ -211,7 +218,7 @@ def _risks(
     )
 
 
-def plan_pivot(answer: Pivot, context: SpeechContext) -> Plan:
+def plan_pivot(answer: DecisiveFactor, context: SpeechContext) -> Plan:
     """Plan what a decision hangs on, or what mattered most."""
     contrast = answer.contrast
     past = contrast is None or context.now - contrast.decided > PRESENT

@@ -7,7 +7,7 @@ from xavi_dialogue.nlg.content.talk.questions import Asking, meant
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.realiser import realised
-from xavi_dialogue.nlg.surface.referring import Speaker
+from xavi_dialogue.nlg.surface.referring import ReferringContext
 from xavi_dialogue.nlg.surface.values import Who
 
 
@@ -40,7 +40,7 @@ def _told_apart(
     """
     for timed in (False, True):
         items = tuple(one.message("MEANT", timed=timed) for one in askings)
-        said = {realised(item, context, Speaker(context)) for item in items}
+        said = {realised(item, context, ReferringContext(context)) for item in items}
         if len(said) == len(items):
             return items, tuple(one.message("ASKED", timed=timed) for one in askings)
     return (), ()

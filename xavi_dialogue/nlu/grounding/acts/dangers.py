@@ -4,12 +4,14 @@ from typing import Final
 
 from msgspec.structs import replace
 
+from xavi_dialogue.domain.meaning import Why
 from xavi_dialogue.domain.terms import (
     Ago,
     Described,
     Ego,
     Event,
     Is,
+    Not,
     Passenger,
     Pronoun,
     Relative,
@@ -63,3 +65,10 @@ def spoken_of(g: Grounder) -> Vehicle | None:
     look = context.look(vehicle, context.now)
     near = look is not None and look.distance <= NEAR
     return Vehicle(vehicle) if recent and near and salience >= SPOKEN * 0.6 else None
+
+
+def is_of_undone(spoken: Is, g: Grounder) -> bool:
+    """Tell whether it is said of now after what we do not do: "why don't we stop? Is it safe?"."""
+    question = g.context.discourse.question
+    undone = isinstance(question, Why) and isinstance(question.of, Not)
+    return undone and spoken.state in STATES and spoken.tense == "present"

@@ -6,7 +6,6 @@ from typing import Final
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.meaning import Why
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     Back,
@@ -44,7 +43,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.nlu.grounding.acts.afoot import walked
-from xavi_dialogue.nlu.grounding.acts.dangers import STATES, threatened
+from xavi_dialogue.nlu.grounding.acts.dangers import is_of_undone, threatened
 from xavi_dialogue.nlu.grounding.acts.generic import come_along, in_order
 from xavi_dialogue.nlu.grounding.acts.hiding import behind_hider, past_hider, somebody_behind
 from xavi_dialogue.nlu.grounding.acts.measuring import just_named, measured, spoken_of
@@ -286,9 +285,7 @@ def _of_event(spoken: Is, g: Grounder) -> Is:
     if spoken.state == "close" and spoken.tense == "present" and near is not None:
         g.notes.leaned = True
         return replace(spoken, thing=Vehicle(near))  # "that's tight, isn't it?"
-    if spoken.state in STATES and spoken.tense == "present" and _is_of_undone(g):
-        return replace(spoken, thing=None)  # "why don't we stop? Is it safe?"
-    if isinstance(spoken.time, WholeRide):
+    if isinstance(spoken.time, WholeRide) or is_of_undone(spoken, g):
         return replace(spoken, thing=None)  # "would you do anything differently?"
     if spoken.state in _ONLY_EVENTS or spoken.tense == "past":
         known = discussed(g.context)
@@ -298,12 +295,6 @@ def _of_event(spoken: Is, g: Grounder) -> Is:
         g.notes.leaned = True
         return replace(spoken, thing=None, event=known)
     return spoken if vehicles_of(g.context.discourse.mentions) else replace(spoken, thing=None)
-
-
-def _is_of_undone(g: Grounder) -> bool:
-    """Tell whether the question under discussion is why we do not do something."""
-    question = g.context.discourse.question
-    return isinstance(question, Why) and isinstance(question.of, Not)
 
 
 def inferred(interval: tuple[float, float], g: Grounder) -> Window:

@@ -5,7 +5,7 @@ from typing import Final
 
 from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.domain.answers import Answer, DidNotHappen, Wavered
-from xavi_dialogue.domain.journeys import Waver
+from xavi_dialogue.domain.journeys import AbandonedPlan
 from xavi_dialogue.domain.meaning import Why
 from xavi_dialogue.domain.terms import Ego, Happens
 from xavi_dialogue.explain.answers.propositions import reasons
@@ -53,9 +53,9 @@ def _given_up(before: PlanTrace, after: PlanTrace) -> Action | None:
     return old[0] if new == ("stop",) and old and old != new else None
 
 
-def _turn(asked: Asked, trace: PlanTrace, plan: Action) -> Waver | None:
+def _turn(asked: Asked, trace: PlanTrace, plan: Action) -> AbandonedPlan | None:
     """Give the risk that a plan carried at a decision; None where it was not for that."""
     found = next((o for o in of_trace(asked.ride, trace) if o.action == plan), None)
     if found is None or found.collision < RISKY:
         return None
-    return Waver(trace.sim_time, found.collision, found.collided_with)
+    return AbandonedPlan(trace.sim_time, found.collision, found.collided_with)

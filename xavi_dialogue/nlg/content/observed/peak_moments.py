@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from xavi_dialogue.domain.answers import Altered, Decided, Summit, Wavered
+from xavi_dialogue.domain.answers import Altered, Decided, PeakMoment, Wavered
 from xavi_dialogue.domain.facts import Belief, Episode
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.clauses.clauses import episode_clause
@@ -20,7 +20,7 @@ NAMED = 3  # vehicles that are named
 LONG = 1.5  # [s] from which it is stated how long something took
 
 
-def plan_summit(answer: Summit, context: SpeechContext) -> Plan:
+def plan_peak_moment(answer: PeakMoment, context: SpeechContext) -> Plan:
     """Plan the moment at which something was at its most."""
     if answer.time is None:
         return Plan((message("SUMMIT_NONE", of=answer.of),))

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 
-from xavi_dialogue.domain.answers import Answer, Happenings, Summit
+from xavi_dialogue.domain.answers import Answer, Happenings, PeakMoment
 from xavi_dialogue.domain.facts import Episode, Look, Measure
 from xavi_dialogue.domain.meaning import Peak
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
@@ -76,13 +76,13 @@ def _loss(asked: Asked, deed: Episode) -> float:
     return asked.world.delay(deed).value or 0.0
 
 
-def _at(asked: Asked, of: str, measure: Measure, vehicle: int | None = None) -> Summit:
+def _at(asked: Asked, of: str, measure: Measure, vehicle: int | None = None) -> PeakMoment:
     """Give a moment by what was measured then."""
     deeds = deeds_at(asked, measure.time)
     if vehicle is not None:
         deeds = tuple(e for e in deeds if e.object == Vehicle(vehicle))
     look = None if vehicle is None else asked.world.look(vehicle, measure.time)
-    return Summit(of, measure.time, deeds, measure, () if look is None else (look,))
+    return PeakMoment(of, measure.time, deeds, measure, () if look is None else (look,))
 
 
 def deeds_at(asked: Asked, at: float) -> tuple[Episode, ...]:
@@ -93,14 +93,14 @@ def deeds_at(asked: Asked, at: float) -> tuple[Episode, ...]:
     return tuple(sorted(told, key=lambda e: (TELLING.index(e.action), e.begin)))
 
 
-def _closest(of: str, asked: Asked, about: Window) -> Summit:
+def _closest(of: str, asked: Asked, about: Window) -> PeakMoment:
     vehicle = nearest_vehicle(asked, about)
     if vehicle is None:
-        return Summit(of)
+        return PeakMoment(of)
     return _at(asked, of, closest_approach(asked, vehicle, about), vehicle)
 
 
-def _dangerous(of: str, asked: Asked, about: Window) -> Summit:
+def _dangerous(of: str, asked: Asked, about: Window) -> PeakMoment:
     """Give the moment with the least time to react; else when we had to mind others most."""
     times = ((v, shortest_time(asked, v, about)) for v in asked.world.vehicles)
     short = [(m.value, v, m) for v, m in times if m is not None and m.value is not None]
@@ -111,47 +111,47 @@ def _dangerous(of: str, asked: Asked, about: Window) -> Summit:
     return _minding(of, asked, about) or _closest(of, asked, about)
 
 
-def _slowest(of: str, asked: Asked, about: Window) -> Summit:
+def _slowest(of: str, asked: Asked, about: Window) -> PeakMoment:
     return _at(asked, of, asked.world.extreme("speed", Ego(), "lowest", about.begin, about.end))
 
 
-def _fastest(of: str, asked: Asked, about: Window) -> Summit:
+def _fastest(of: str, asked: Asked, about: Window) -> PeakMoment:
     return _at(asked, of, asked.world.extreme("speed", Ego(), "highest", about.begin, about.end))
 
 
-def _braking(of: str, asked: Asked, about: Window) -> Summit:
+def _braking(of: str, asked: Asked, about: Window) -> PeakMoment:
     found = asked.world.extreme("deceleration", Ego(), "highest", about.begin, about.end)
     if found.gap is not None or not found.value:
-        return Summit(of)
+        return PeakMoment(of)
     return _at(asked, of, found)
 
 
-def _slowing(of: str, asked: Asked, about: Window) -> Summit:
+def _slowing(of: str, asked: Asked, about: Window) -> PeakMoment:
     """Give the slowing down in which we lost most speed."""
     found = asked.world.episodes(Ego(), SLOWING, about.begin, about.end)
     if not found:
-        return Summit(of)
+        return PeakMoment(of)
     most = for_whom(asked, max(found, key=lambda e: (_drop(asked, e), -e.begin)))
     drop = Measure("speed-change", Ego(), most.begin, value=_drop(asked, most))
-    return Summit(of, most.begin, (most,), drop)
+    return PeakMoment(of, most.begin, (most,), drop)
 
 
-def _losing(of: str, asked: Asked, about: Window) -> Summit:
+def _losing(of: str, asked: Asked, about: Window) -> PeakMoment:
     """Give the slowing down that cost most time, and all who held us up in it."""
     found = asked.world.episodes(Ego(), SLOWING, about.begin, about.end)
     costs = [(asked.world.delay(e), e) for e in found]
     told = [(m, e) for m, e in costs if m.value]
     if not told:
-        return Summit(of)
+        return PeakMoment(of)
     cost, deed = max(told, key=lambda one: (one[0].value or 0.0, -one[1].begin))
     held = held_up(asked, Window(deed.begin, cost.until or asked.now))
     named = dict.fromkeys(number(e.object) for e in held.episodes)
     seen = (first_look(asked, v, deed.begin) for v in named if v is not None)
-    return Summit(of, deed.begin, (for_whom(asked, deed),), cost,
+    return PeakMoment(of, deed.begin, (for_whom(asked, deed),), cost,
                   tuple(look for look in seen if look is not None))  # fmt: skip
 
 
-def _waiting(of: str, asked: Asked, about: Window) -> Summit:
+def _waiting(of: str, asked: Asked, about: Window) -> PeakMoment:
     """Give the longest time that we stood, else that we gave way."""
     for actions in (HALTING, YIELDING):
         every = asked.world.episodes(Ego(), actions, about.begin, about.end)
@@ -159,15 +159,15 @@ def _waiting(of: str, asked: Asked, about: Window) -> Summit:
         if found:
             longest = max(found, key=lambda e: (duration(asked, e), bool(e.object), -e.begin))
             return _of_deed(asked, of, longest)
-    return Summit(of)
+    return PeakMoment(of)
 
 
-def _hardest(of: str, asked: Asked, about: Window) -> Summit:
+def _hardest(of: str, asked: Asked, about: Window) -> PeakMoment:
     """Give where we had to mind most others at once, else where it was most dangerous."""
     return _minding(of, asked, about) or _dangerous(of, asked, about)
 
 
-def _minding(of: str, asked: Asked, about: Window) -> Summit | None:
+def _minding(of: str, asked: Asked, about: Window) -> PeakMoment | None:
     """Give where we gave way to most others at once, else where we changed lanes among others."""
     yields = asked.world.episodes(Ego(), YIELDING, about.begin, about.end)
     moves = asked.world.episodes(Ego(), ("change-left", "change-right"), about.begin, about.end)
@@ -191,13 +191,13 @@ def _partners(asked: Asked, deed: Episode) -> tuple[int, ...]:
     return tuple(dict.fromkeys(found))
 
 
-def _of_deed(asked: Asked, of: str, deed: Episode) -> Summit:
+def _of_deed(asked: Asked, of: str, deed: Episode) -> PeakMoment:
     """Give the moment of a deed, with all on whose account it was."""
     seen = (first_look(asked, v, deed.begin) for v in _partners(asked, deed))
     looks: tuple[Look, ...] = tuple(look for look in seen if look is not None)
     rest = tuple(e for e in deeds_at(asked, deed.begin) if e != deed)
     length = Measure("duration", Ego(), deed.begin, value=round(duration(asked, deed), 1))
-    return Summit(of, deed.begin, (deed, *rest), length, looks)
+    return PeakMoment(of, deed.begin, (deed, *rest), length, looks)
 
 
 #: What is ranked where several are asked for, and by what.
@@ -207,7 +207,7 @@ RANKS: Mapping[str, tuple[tuple[ActionName, ...], Callable[[Asked, Episode], flo
     "delay": (SLOWING, _loss),
     "waiting": (HALTING, duration),
 }
-FINDERS: Mapping[str, Callable[[str, Asked, Window], Summit]] = {
+FINDERS: Mapping[str, Callable[[str, Asked, Window], PeakMoment]] = {
     "closeness": _closest,
     "danger": _dangerous,
     "slowness": _slowest,

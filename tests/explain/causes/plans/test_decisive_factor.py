@@ -16,8 +16,8 @@ from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.explain.causes.plans.contrast import (
     contrast,
 )
+from xavi_dialogue.explain.causes.plans.decisive_factor import towards
 from xavi_dialogue.explain.causes.plans.options import weighed
-from xavi_dialogue.explain.causes.plans.pivot import towards
 from xavi_dialogue.explain.causes.plans.premise import Premise
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 

@@ -5,21 +5,21 @@ from typing import Any
 import pytest
 
 from tests.explain.answers.given import NOW, Given, deed, look, their
-from xavi_dialogue.domain.answers import Summit
+from xavi_dialogue.domain.answers import PeakMoment
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Peak
 from xavi_dialogue.domain.terms import Between, Ego, Vehicle
-from xavi_dialogue.explain.answers.measuring import summits
+from xavi_dialogue.explain.answers.measuring import peak_moments
 
 ONE, TWO = Vehicle(1), Vehicle(2)
 
 
-def peak(of: Any, time: Any = None, span: Span | None = None, **more: Any) -> Summit:
+def peak(of: Any, time: Any = None, span: Span | None = None, **more: Any) -> PeakMoment:
     given = {"looks": {1: look(1), 2: look(2)}} | more
     question = Peak(of) if time is None else Peak(of, time)
-    found = summits.peak(question, Given(**given).asked(span))
-    assert isinstance(found, Summit)
+    found = peak_moments.peak(question, Given(**given).asked(span))
+    assert isinstance(found, PeakMoment)
     assert found.of == of
     return found
 
@@ -40,13 +40,13 @@ def test_a_measure_is_at_its_most_at_its_extreme(of: Any, which: str, attribute:
     found = at(attribute, 12.0, 2.0)
     braked = deed("brake", 11.0, 13.0)
     told = peak(of, extremes={(attribute, Ego(), which): found}, deeds=(braked,))
-    assert told == Summit(of, 12.0, (braked,), found)
+    assert told == PeakMoment(of, 12.0, (braked,), found)
 
 
 def test_without_braking_there_is_no_hardest_braking() -> None:
     for value in (0.0, None):
         known = {("deceleration", Ego(), "highest"): value}
-        assert peak("braking", extremes=known) == Summit("braking")
+        assert peak("braking", extremes=known) == PeakMoment("braking")
 
 
 def test_extremes_are_looked_for_in_the_time_asked_about() -> None:
@@ -76,9 +76,13 @@ def test_what_we_did_then_is_told_the_most_telling_first() -> None:
         their(1, "brake", 11.0, 13.0),
     )
     asked = Given(deeds=deeds).asked()
-    assert [e.action for e in summits.deeds_at(asked, 12.0)] == ["give-way", "change-left", "brake"]
+    assert [e.action for e in peak_moments.deeds_at(asked, 12.0)] == [
+        "give-way",
+        "change-left",
+        "brake",
+    ]
     twice = (deed("brake", 11.0, 13.0), deed("brake", 10.0, 12.0))
-    found = summits.deeds_at(Given(deeds=twice).asked(), 12.0)
+    found = peak_moments.deeds_at(Given(deeds=twice).asked(), 12.0)
     assert [e.begin for e in found] == [10.0, 11.0]
 
 
@@ -91,8 +95,8 @@ NEAR = {
 def test_the_closest_moment_is_with_the_vehicle_that_came_closest() -> None:
     passed, other = deed("pass", 13.0, 15.0, to=2), deed("pass", 13.0, 15.0, to=1)
     found = peak("closeness", extremes=NEAR, deeds=(passed, other))
-    assert found == Summit("closeness", 14.0, (passed,), at("distance", 14.0, 3.0), (look(2),))
-    assert peak("closeness", looks={}) == Summit("closeness")
+    assert found == PeakMoment("closeness", 14.0, (passed,), at("distance", 14.0, 3.0), (look(2),))
+    assert peak("closeness", looks={}) == PeakMoment("closeness")
 
 
 def soon(*times: float | None) -> dict[tuple[Any, ...], Any]:
@@ -153,14 +157,14 @@ def test_those_minded_at_about_the_same_time_belong_together() -> None:
     first = deed("give-way", 4.0, 5.0, to=1)
     for begin, others in ((6.0, [1, 2]), (6.1, [1])):
         asked = Given(deeds=(first, deed("give-way", begin, 9.0, to=2))).asked()
-        assert list(summits._partners(asked, first)) == others
+        assert list(peak_moments._partners(asked, first)) == others
     going = deed("give-way", 12.0, to=1)
     later = Given(deeds=(going, deed("wait", 19.0, to=2))).asked()
-    assert list(summits._partners(later, going)) == [1, 2]
+    assert list(peak_moments._partners(later, going)) == [1, 2]
     before = Given(deeds=(deed("give-way", 2.0, 3.0, to=2), first)).asked()
-    assert list(summits._partners(before, first)) == [1, 2]
+    assert list(peak_moments._partners(before, first)) == [1, 2]
     long_before = Given(deeds=(deed("give-way", 2.0, 2.9, to=2), first)).asked()
-    assert list(summits._partners(long_before, first)) == [1]
+    assert list(peak_moments._partners(long_before, first)) == [1]
 
 
 def test_the_longest_wait_is_a_standstill_or_else_giving_way() -> None:
@@ -170,7 +174,7 @@ def test_the_longest_wait_is_a_standstill_or_else_giving_way() -> None:
     rolled = (deed("let-go", 6.0, 8.0, to=1), deed("let-go", 10.0, 11.0, to=2))
     yielded = peak("waiting", deeds=rolled)
     assert (yielded.time, [one.vehicle for one in yielded.others]) == (6.0, [1])
-    assert peak("waiting") == Summit("waiting")
+    assert peak("waiting") == PeakMoment("waiting")
     late = peak("waiting", Between(15.0, 20.0), deeds=stood)
     assert late.time == 16.0
     going = peak("waiting", deeds=(*stood, deed("stand", 15.0)))

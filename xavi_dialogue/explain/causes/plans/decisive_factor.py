@@ -1,10 +1,10 @@
-"""Pivot: what a decision hangs on: what would have made another option the best."""
+"""DecisiveFactor: what a decision hangs on: what would have made another option the best."""
 
 from collections.abc import Mapping
 
 from planner.record.trace import Action
 from xavi_dialogue.causal.model import Actions, CausalModel, Choice
-from xavi_dialogue.domain.answers import Cause, Contrast, NeedRollout, Pivot
+from xavi_dialogue.domain.answers import Cause, Contrast, DecisiveFactor, NeedRollout
 from xavi_dialogue.explain.causes.plans.contrast import (
     alternatives,
     check_applicable,
@@ -21,7 +21,7 @@ TRIED = 2  # vehicles that are taken away one by one
 WORTH = 0.02  # probability from which a vehicle's conduct is worth speaking of
 
 
-def towards(ride: Ride, found: Premise, foil: Actions) -> Pivot:
+def towards(ride: Ride, found: Premise, foil: Actions) -> DecisiveFactor:
     """Find what would have made the foil the best option: a vehicle's conduct, or its absence.
 
     Raises:
@@ -39,15 +39,15 @@ def towards(ride: Ride, found: Premise, foil: Actions) -> Pivot:
             raise
         explained = sides(ride, seen, here, there, (*node, *foil))
     if there.likeliest == "dead":
-        return Pivot("none", explained)
-    pivot = _conduct(model, (*node, *foil), node, explained)
-    if pivot is not None:
-        return pivot
+        return DecisiveFactor("none", explained)
+    factor = _conduct(model, (*node, *foil), node, explained)
+    if factor is not None:
+        return factor
     causes = explained.causes or contrastive_causes(seen, there, here, ())
     return _removal(ride, found, (*node, *foil), causes, explained)
 
 
-def otherwise(ride: Ride, found: Premise) -> Pivot:
+def otherwise(ride: Ride, found: Premise) -> DecisiveFactor:
     """Find what would have made any other option the best.
 
     That is the conduct or the absence of one vehicle; of what is best else where there is none.
@@ -57,24 +57,26 @@ def otherwise(ride: Ride, found: Premise) -> Pivot:
     """
     plan, node = planned(found.trace), found.node
     if len(plan) <= len(node):
-        return Pivot("none", None)
+        return DecisiveFactor("none", None)
     rivals = alternatives(ride.model(found.trace), plan[len(node)], node)
     tried = [towards(ride, found, foil[len(node) :]) for foil, _ in rivals]
-    turning = (pivot for pivot in tried if pivot.kind != "none")
-    return next(turning, tried[0] if tried else Pivot("none", None))
+    turning = (factor for factor in tried if factor.kind != "none")
+    return next(turning, tried[0] if tried else DecisiveFactor("none", None))
 
 
-def _conduct(model: CausalModel, foil: Actions, node: Actions, contrast: Contrast) -> Pivot | None:
+def _conduct(
+    model: CausalModel, foil: Actions, node: Actions, contrast: Contrast
+) -> DecisiveFactor | None:
     """Return the likeliest conduct of one vehicle under which the foil is the best option."""
     blamed = {cause.vehicle for cause in contrast.causes}
-    pivots = [
-        Pivot("conduct", contrast, vehicle, actions, chance)
+    factors = [
+        DecisiveFactor("conduct", contrast, vehicle, actions, chance)
         for vehicle in model.vehicles
         if not blamed or vehicle in blamed  # of no other is it known that it matters
         for actions, (choices, chance) in _conducts(model, vehicle).items()
         if chance >= WORTH and _wins(model, vehicle, choices, foil, node)
     ]
-    return max(pivots, key=lambda p: p.probability or 0.0, default=None)
+    return max(factors, key=lambda p: p.probability or 0.0, default=None)
 
 
 def _conducts(
@@ -111,13 +113,13 @@ def _wins(
 
 def _removal(
     ride: Ride, found: Premise, foil: Actions, causes: tuple[Cause, ...], contrast: Contrast
-) -> Pivot:
+) -> DecisiveFactor:
     """Return the first of the causes without which the plan begins with the foil."""
     for cause in causes[:TRIED]:
         again = ride.without(found.trace, cause.vehicle)
         if again is not None and planned(again)[: len(foil)] == foil:
-            return Pivot("removal", contrast, cause.vehicle)
-    return Pivot("none", contrast)
+            return DecisiveFactor("removal", contrast, cause.vehicle)
+    return DecisiveFactor("none", contrast)
 
 
 def weight(cause: Cause) -> tuple[int, float]:
