@@ -59,6 +59,7 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 Acts = tuple[Act, ...]
 Found = list[tuple[Acts, float]]
+UNFELT = 0.3  # of a manner that a feeling leaves out: "I am scared, slow down"
 UNLIKE = 0.6  # cost of a subject and a verb of different number
 STATED = 0.15  # of a statement taken for a question
 #: What is felt of how something was done, and asks for nothing.
@@ -116,12 +117,14 @@ class Statements:
         for candidate in candidates:
             acts = self._stated(clause, candidate.value, tagged, unit)
             acts = tuple(_asked(act, asking) for act in acts)
-            found.append((acts, candidate.cost + (UNLIKE if _disagrees(clause) else 0.0)))
+            cost = candidate.cost + (UNLIKE if _disagrees(clause) else 0.0)
+            found.append((acts, cost + _unfelt(acts, clause)))
         others = isinstance(clause.subject, Described) or clause.subject == Pronoun("he")
         if not candidates and clause.feelings and not others:
             feeling = feeling_of(clause, None)
             if feeling is not None:
-                found.append(((feeling,), ungoverned(clause)))
+                cost = ungoverned(clause) + _unfelt((feeling,), clause)
+                found.append(((feeling,), cost))
         return found
 
     def _meant(self, clause: Clause) -> Act | None:
@@ -299,3 +302,8 @@ def _disputes(of: Proposition, clause: Clause) -> bool:
             return True
     state = getattr(of, "state", "")
     return state in ("wrong", "dangerous")
+
+
+def _unfelt(acts: Acts, clause: Clause) -> float:
+    """Return the cost of a manner beside a feeling: nobody is scared slowly."""
+    return UNFELT if clause.manner and any(isinstance(act, Feel) for act in acts) else 0.0
