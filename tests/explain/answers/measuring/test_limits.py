@@ -6,7 +6,7 @@ import pytest
 
 from tests.explain.answers.stated import did, look, scene
 from xavi_dialogue.domain.facts import Episode, Measure
-from xavi_dialogue.domain.terms import At, Ego, Event, Is, Lane, Vehicle
+from xavi_dialogue.domain.terms import At, Between, Ego, Event, Is, Lane, Vehicle
 from xavi_dialogue.explain.answers.measuring import limits
 from xavi_dialogue.explain.causes.vehicles.course import Expected
 
@@ -82,6 +82,17 @@ def test_fast_is_over_the_limit_and_slow_far_below(
     coming: Any, of: Is, speed: Any, holds: Any
 ) -> None:
     assert limits.fast(of, driving(speed)).holds is holds
+
+
+def test_fast_in_the_past_is_over_the_limit_at_the_fastest(coming: Any) -> None:
+    asked = driving(lambda at: 12.0 if at == 5.0 else 8.0)
+    was = limits.fast(Is("fast", Ego(), time=Between(2.0, 9.0), tense="past"), asked)
+    assert was.holds is True
+    assert [(m.attribute, m.time, m.value) for m in was.facts] == [  # type: ignore[union-attr]
+        ("speed", 5.0, 12.0),
+        ("limit", 5.0, 10.0),
+    ]
+    assert limits.fast(Is("fast", Ego()), asked).holds is False
 
 
 def test_another_one_is_fast_by_its_own_limit(coming: Any) -> None:

@@ -10,7 +10,7 @@ from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.plans import foreseen, slowest_ahead
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import EXPECTED, Finding, known, unknown
-from xavi_dialogue.explain.answers.reference.moments import SHORT, instant
+from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, instant, window
 from xavi_dialogue.explain.answers.reference.naming import is_us, somebodies
 
 OVER = 0.5  # [m/s] above the limit that is no more than rounding
@@ -34,6 +34,9 @@ def within_limit(asked: Asked, thing: Thing, at: float, *, allowed: bool) -> Fin
 def fast(of: Is, asked: Asked) -> Finding:
     """Tell whether somebody is fast, over the limit, or slow, far below it."""
     at = instant(asked, of.time, of.tense)
+    about = window(asked, of.time, of.tense)
+    if of.state == "fast" and of.tense in ("past", "perfect") and not about.instant:
+        return _ever_fast(asked, _whose(of), about)
     if of.state == "fast":
         found = within_limit(asked, _whose(of), at, allowed=False)
         ours = is_us(_whose(of)) and asked.now - at < SHORT
@@ -43,6 +46,17 @@ def fast(of: Is, asked: Asked) -> Finding:
     if speed is None or speed.value is None or speed.reference is None:
         return found
     return Finding(speed.value < SLOW * speed.reference, found.facts)
+
+
+def _ever_fast(asked: Asked, thing: Thing, about: Window) -> Finding:
+    """Tell whether somebody was over the limit at its fastest in a stretch of the ride."""
+    who = (somebodies(asked, thing, about.end) or (Ego(),))[0]
+    fastest = asked.world.extreme("speed", who, "highest", about.begin, about.end)
+    limit = asked.world.measure("limit", who, fastest.time)
+    if fastest.value is None or limit.value is None:
+        return unknown(fastest.gap or limit.gap or "not-recorded", *known(fastest, limit))
+    over = fastest.value > limit.value + OVER
+    return Finding(over, (fastest, limit))
 
 
 def slowing(asked: Asked) -> tuple[Episode, ...]:
