@@ -97,6 +97,7 @@ CASES: tuple[tuple[Measure, ...], ...] = (
     (Measure("route", E, NOW, 320.0),),
     (Measure("count", E, NOW, 3.0),),
     (Measure("weather", E, NOW, gap="not-sensed"),),
+    (Measure("sound", E, NOW, gap="not-sensed"),),
     (Measure("battery", E, NOW, gap="not-recorded"),),
     (Measure("money", E, NOW, gap="not-recorded"),),
     (Measure("law", E, NOW, gap="not-recorded"),),

@@ -121,7 +121,7 @@ Attribute: TypeAlias = Literal[
     "turn",  # which way at the next junction
     "route",  # the way to the destination
     "count",
-    "weather", "battery", "money", "law", "world",  # what no record holds
+    "weather", "sound", "battery", "money", "law", "world",  # what no record holds
     "load", "occupant", "writing", "parts",  # of a vehicle: what cannot be seen from outside
 ]  # fmt: skip
 

@@ -69,7 +69,7 @@ _TIMES = frozenset(("time-to-go", "arrival-time", "waiting-time", "duration"))
 _WAYS = frozenset(("heading", "exit-number", "route", "turn"))
 #: What is done on account of its object: whom one waits for is why one waits.
 _CAUSED = frozenset(("wait", "stop", "brake", "slow-down"))
-_OUTSIDE = {"law": "legality", "weather": "off-topic", "money": "off-topic",
+_OUTSIDE = {"law": "legality", "weather": "off-topic", "sound": "perception", "money": "off-topic",
             "world": "off-topic", "battery": "capability"}  # fmt: skip
 #: What is listed as it is now.
 _STANDING = frozenset(("vehicles", "options", "capabilities"))

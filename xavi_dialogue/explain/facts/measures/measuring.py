@@ -94,6 +94,7 @@ LACKING: Mapping[Attribute, Gap] = {
     "probability": "not-applicable",  # World.belief, World.probability
     "cost": "not-applicable",  # causes.options
     "weather": "not-sensed",
+    "sound": "not-sensed",
     "battery": "not-sensed",
     "money": "not-recorded",
     "law": "not-recorded",

@@ -21,9 +21,10 @@ UNITS: Mapping[Attribute, Unit] = {
     "waiting-time": "s", "duration": "s", "delay": "s", "probability": "%", "turn": "m",
     "route": "m", "cost": "s",
 }  # fmt: skip
-WORLDLY = frozenset(("weather", "battery", "money", "law", "world"))
-TOPICS = {"weather": "the weather", "battery": "my battery", "money": "the price of this ride",
-          "law": "the law", "world": "the world outside this ride"}  # fmt: skip
+WORLDLY = frozenset(("weather", "sound", "battery", "money", "law", "world"))
+TOPICS = {"weather": "the weather", "sound": "sounds and smells", "battery": "my battery",
+          "money": "the price of this ride", "law": "the law",
+          "world": "the world outside this ride"}  # fmt: skip
 UNSEEN = frozenset(("load", "occupant", "writing", "parts"))  # of a vehicle, from outside
 INSIDE = frozenset(("load", "occupant"))  # of what is inside a vehicle
 _NAMES = {"distance-to-go": "the distance to our destination", "turn": "the next turn on our way",

@@ -11,6 +11,7 @@ from xavi_dialogue.domain.meaning import (
     HowAvoid,
     HowKnow,
     HowMany,
+    HowMuch,
     HowSure,
     Listing,
     Question,
@@ -30,6 +31,7 @@ from xavi_dialogue.domain.terms import (
     Feature,
     Happens,
     Is,
+    Measured,
     Nobody,
     Not,
     Pronoun,
@@ -197,6 +199,8 @@ class Polar(Comparing):
         return None if event is None else HowSure(Happens(event), clause.time)
 
     def _special(self, clause: Clause, value: Special) -> Question | None:
+        if value.name == "hear" and clause.that is None and clause.question is None:
+            return HowMuch(Measured("sound", tense=cast(Any, clause.tense)))
         found = self._whether_special(clause, value)
         if isinstance(found, Whether):  # "did you exceed the limit or brake hard?"
             return structs.replace(found, that=self.propositions.joined(clause, found.that))
