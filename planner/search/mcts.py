@@ -230,7 +230,10 @@ class Search:
         return cost_by(self.task.roads, end.location, ahead, self.task.goal)
 
     def _options(self, samples: Samples, node: Node, legs: Sequence[Leg]) -> Options:
-        """Return what can be done at a node that was reached under these samples."""
+        """Return what can be done at a node that was reached under these samples.
+
+        Microseconds are no reason for an order: the last digit differs between processors.
+        """
         key = (samples, node) if legs else ((), node)
         found = self._plans.get(key)
         if found is None:
@@ -241,7 +244,7 @@ class Search:
                     self.refusals.setdefault((node, action), plan.reason)
                 else:
                     options[action] = plan
-            inviting = sorted(options, key=lambda action: self._invites(options[action]))
+            inviting = sorted(options, key=lambda action: round(self._invites(options[action]), 6))
             found = self._plans[key] = (options, tuple(inviting))
         return found
 
