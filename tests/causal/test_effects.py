@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from tests.traces import Aim, End, Way, World, random_world, s1_world, s2_world, trace_of
 from xavi_dialogue.causal.effects import SCALES, effects, quantile
 from xavi_dialogue.causal.holdups import colliding_choice, hold_ups
-from xavi_dialogue.causal.model import CausalModel
+from xavi_dialogue.causal.mixtures import Result
+from xavi_dialogue.causal.model import CausalModel, Intervention
 
 worlds = st.integers(0, 10_000).map(lambda seed: random_world(random.Random(seed)))
 
@@ -102,3 +104,27 @@ def test_collisions_name_the_vehicle_and_its_choice():
     assert foil.collisions() == {1: pytest.approx(0.8)}
     assert colliding_choice(foil, 1) == (0, 0)
     assert colliding_choice(foil, 2) is None
+
+
+def timed(rows):
+    """Results in the first choice, second choice, ... of vehicle 1: choice -> weight, time [s]."""
+    drive = trace_of(s1_world()).rollouts[0]
+    results = [
+        Result(((1, goal, 0),), replace(drive, outcome="done", components={"time": time}), 1, 1)
+        for goal, (_, time) in rows.items()
+    ]
+    return Intervention(tuple(results), tuple(w for w, _ in rows.values()), ("continue",), 1.0)
+
+
+@pytest.mark.parametrize(
+    ("there", "here", "low", "high"),
+    [
+        ({0: (0.5, 12.0), 1: (0.5, 30.0)}, {0: (0.5, 10.0), 1: (0.5, 28.0)}, 2.0, 2.0),
+        ({0: (0.2, 12.0), 1: (0.8, 30.0)}, {0: (1.0, 10.0)}, 2.0, 20.0),  # most has no partner
+        ({0: (1.0, 12.0)}, {0: (0.2, 10.0), 1: (0.8, 30.0)}, -18.0, 2.0),
+        ({0: (0.5, 12.0), 1: (0.5, 30.0)}, {0: (1.0, 10.0)}, 2.0, 11.0),  # half of it has one
+    ],
+)
+def test_differences_are_by_sample_where_half_of_either_side_has_a_partner(there, here, low, high):
+    (found,) = effects(timed(there), timed(here))
+    assert (found.low, found.high) == (pytest.approx(low), pytest.approx(high))

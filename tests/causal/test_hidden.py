@@ -4,6 +4,7 @@ import pytest
 from msgspec.structs import replace
 
 from planner.record.hidden_record import Phantom, PhantomSample
+from planner.record.light_record import LightCourse, LightPrediction, LightSample, Showing
 from tests.traces import End, World, recorded
 from xavi_dialogue.causal.model import CausalModel
 
@@ -39,3 +40,19 @@ def test_that_somebody_comes_weighs_its_chance():
 
 def test_who_is_imagined_is_no_vehicle_of_the_model():
     assert model().vehicles == ()
+
+
+def test_who_is_imagined_is_numbered_after_the_lights():
+    assert {row.joint for row in model().intervene(("continue",)).results} == {
+        ((-1, 0, 0),),
+        ((-1, 1, 0),),
+    }
+    trace = model().trace
+    seen = (Showing(0.0, "r"),)
+    light = LightPrediction("J", (0,), seen, (LightCourse(0.3, seen), LightCourse(0.7, seen)))
+    drives = tuple(replace(r, lights=(LightSample("J", 1),)) for r in trace.rollouts)
+    lit = CausalModel(replace(trace, rollouts=drives, lights=(light,)))
+    comes, stays = lit.intervene(("continue",)).results
+    assert comes.joint == ((-2, 1, 0), (-1, 1, 0))
+    assert lit.prior(comes.joint) == pytest.approx(0.7 * CHANCE)
+    assert lit.prior(stays.joint) == pytest.approx(0.7 * (1.0 - CHANCE))

@@ -20,7 +20,8 @@ from tests.traces import (
     recorded,
     trace_of,
 )
-from xavi_dialogue.causal.model import CausalModel, InconsistentTrace
+from xavi_dialogue.causal.mixtures import Mixture, Result
+from xavi_dialogue.causal.model import CausalModel, InconsistentTrace, shared_out
 
 worlds = st.integers(0, 10_000).map(lambda seed: random_world(random.Random(seed)))
 
@@ -211,3 +212,28 @@ def test_the_continuation_is_the_one_that_the_decision_compared():
     assert model.intervene(("stop",)).plan == right
     assert model.intervene(("stop",)).coverage == pytest.approx(1.0)
     assert model.intervene(on).plan == on  # where it is asked for
+
+
+def test_samples_stand_for_those_that_were_not_drawn_by_how_easily_they_are_missed():
+    # Of three draws, 0.5 goes missing with 0.5^3 = 0.125, and 0.3 with 0.7^3 = 0.343.
+    odds = {"a": 0.5 * 0.125 / 0.875, "b": 0.3 * 0.343 / 0.657}
+    total = sum(odds.values())
+    assert shared_out({"a": 0.5, "b": 0.3}, 3) == pytest.approx(
+        {"a": 0.5 + 0.2 * odds["a"] / total, "b": 0.3 + 0.2 * odds["b"] / total}
+    )
+
+
+def test_what_cannot_happen_stands_for_nothing():
+    assert shared_out({"never": 0.0, "often": 0.5}, 4) == {"never": 0.0, "often": 1.0}
+    assert shared_out({"never": 0.0}, 4) == {"never": 0.0}
+
+
+def test_only_a_collision_with_somebody_counts_as_one_with_a_vehicle():
+    world = World({}, (("continue",),), lambda plan, chosen: (End("done"), 1))
+    one = recorded(world, [(("continue",), (), 1, False)]).rollouts[0]
+    known = (("collision", 2), ("collision", None), ("done", 3), ("collision", 2))
+    rows = tuple(
+        Result((), msgspec.structs.replace(one, outcome=outcome, collided_with=whom), 1, 1)
+        for outcome, whom in known
+    )
+    assert Mixture(rows, (0.4, 0.3, 0.2, 0.1)).collisions() == {2: pytest.approx(0.5)}

@@ -12,6 +12,7 @@ from planner.motion.obstacles import NOBODY, Obstacle, Traffic
 from planner.record.trace import Action, EgoGoal
 from planner.roads.routes import Refusal
 from planner.roads.trajectory import Roads
+from planner.rollouts import rollout
 from planner.rollouts.rollout import Leg, Task, summarise, take
 from sim.roads.network import Location
 from tests.planner.drives import LENGTH, SIZE, WIDTH, avenue, corner, standing
@@ -198,3 +199,21 @@ def test_moving_on_at_constant_acceleration(
     found = advance(Motion(3.0, 4.0, 9.0), acceleration, dt)
     assert (found.arc, found.speed) == pytest.approx((arc, speed))
     assert found.acceleration == acceleration
+
+
+@pytest.mark.parametrize(("turn", "place", "matters"), [
+    (math.pi / 2.0, (0.0, 10.0), True), (math.pi / 2.0, (0.0, -10.0), False),
+    (math.pi / 2.0, (10.0, -1.0), False), (0.0, (10.0, -30.0), True), (math.pi, (10.0, 0.0), False),
+])  # fmt: skip
+def test_who_brakes_behind_us_on_an_open_road_makes_no_difference(
+    turn: float, place: tuple[float, float], matters: bool
+) -> None:
+    """We stand at (0, 0) and head some way; somebody brakes at a place."""
+    traffic = Traffic.of([standing(*place)])
+    traffic = replace(traffic, braking=np.array([True]))
+    ours = np.array([[0.0, 0.0, turn, 0.0]])
+    open_road = plan_of(task(), at(50.0, 10.0), "continue")
+    assert not open_road.lines
+    assert rollout._matters(open_road, ours, 0, traffic) is matters
+    calm = replace(traffic, braking=np.array([False]))
+    assert rollout._matters(open_road, ours, 0, calm) is False

@@ -1,9 +1,12 @@
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+from planner.kernels.projection import SIDE_MARGIN
 from planner.motion.forward import DT
 from planner.motion.obstacles import Obstacle
-from planner.motion.tracks import aligned, coast, lanes_at, links_of
+from planner.motion.tracks import PASSING, aligned, berth_of, coast, lanes_at, links_of
 from planner.search.decide import observed
 from tests.planner.worlds import Seen, before_end, driven, link, roads, row, situation
 
@@ -93,3 +96,24 @@ def test_inside_a_junction_all_ways_that_fit_are_possible() -> None:
 def test_off_the_road_there_is_no_lane() -> None:
     assert lanes_at(roads("s2"), (500.0, 500.0), 0.0) == ()
     assert links_of(roads("s2"), ("south_in_0",)) == frozenset()
+
+
+def test_a_vehicle_that_comes_just_past_its_lane_has_the_way_on_as_its_own() -> None:
+    line = roads("s1").line(row("s1", "main_in_0", "straight"))
+    motion = coasting("s1", driven(line, before_end("s1", "main_in_0", 62.0), [8.0] * 10))
+    assert motion.links == {("J", link("s1", "main_in_0", "straight").index)}
+
+
+@pytest.mark.parametrize(("kind", "own", "kept"), [
+    ("bicycle", False, PASSING), ("bicycle", True, SIDE_MARGIN), ("car", False, SIDE_MARGIN),
+])  # fmt: skip
+def test_a_bicycle_is_passed_with_more_room_where_it_has_no_lane_of_its_own(
+    kind: str, own: bool, kept: float
+) -> None:
+    """The lane is that on which it was seen last."""
+    lanes = {"road": frozenset(("passenger", "bicycle")), "cycle": frozenset(("bicycle",))}
+    seen = ["road" if own else "cycle"] * 4 + ["cycle" if own else "road"]
+    network = SimpleNamespace(lanes={n: SimpleNamespace(permits=p) for n, p in lanes.items()})
+    places = [SimpleNamespace(location=SimpleNamespace(lane=name)) for name in seen]
+    observed = SimpleNamespace(kind=kind, situation=lambda roads, k, aside: [places[k]])
+    assert berth_of(SimpleNamespace(network=network), observed) == kept  # type: ignore[arg-type]

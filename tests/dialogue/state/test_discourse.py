@@ -1,12 +1,16 @@
 """What a conversation comes to: mentions, episode, question, propositions."""
 
+from typing import Any
+
+import pytest
+
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.discourse import after, discourse_of
 from xavi_dialogue.dialogue.state.turn import Part, Turn
-from xavi_dialogue.domain.answers import Identified, MotionCause, MotionReason, Verdict
+from xavi_dialogue.domain.answers import Activity, Identified, MotionCause, MotionReason, Verdict
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct, Span
-from xavi_dialogue.domain.facts import Episode, Look
-from xavi_dialogue.domain.meaning import Act, Ask, Claim, Identify, Social, Whether, Why
+from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Look
+from xavi_dialogue.domain.meaning import Act, Ask, Claim, Doing, Identify, Social, Whether, Why
 from xavi_dialogue.domain.terms import (
     At,
     Described,
@@ -86,3 +90,17 @@ def test_a_time_that_was_named_is_the_episode_where_the_answer_has_none() -> Non
         [turn(asked, Verdict(Not(Happens(Event("stop"))), None), span=Span(2.0, 4.0))]
     )
     assert found.episode == (2.0, 4.0)
+
+
+@pytest.mark.parametrize(
+    "actions", [("change-left",), ("slow-down", "change-left"), ("stop", "give-way", "change-left")]
+)
+def test_of_what_somebody_is_expected_to_do_the_last_is_what_that_is(actions: Any) -> None:
+    belief = Belief(3, 10.0, (Expectation(actions, 0.9), Expectation(("stop",), 0.1)))
+    told = Activity(Vehicle(3), 10.0, (), 9.0, None, LOOK, belief)
+    found = discourse_of([turn(Ask(Doing(Vehicle(3))), told, (3,))])
+    expected = Happens(Event("change-left", Vehicle(3), tense="future", modal="will"))
+    assert [p for p in found.propositions if p == expected] == [expected]
+    assert not [
+        p for p in found.propositions if isinstance(p, Happens) and p.event.action == "stop"
+    ]

@@ -125,3 +125,11 @@ def test_who_goes_next_is_who_goes_before_us() -> None:
     going = Happens(Event("go", Wanted(), time=Next(), tense="present"))
     found = told(at_junction({1: "ego", 2: "vehicle", 3: "vehicle"}), going)
     assert found == Priority(NOW, "give-way", 2, others=(3,), after=(1,), why="across")
+
+
+def test_who_is_out_of_view_is_in_no_order() -> None:
+    given = at_junction({1: "vehicle", 2: "vehicle", 3: "vehicle"})
+    given.looks = {1: look(1, in_view=False, seen=3.0), 2: look(2, distance=20.0, oncoming=True)}
+    found = told(given)
+    assert isinstance(found, Priority)
+    assert (found.vehicle, found.others) == (2, ())

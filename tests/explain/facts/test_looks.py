@@ -20,8 +20,10 @@ def car(x: float, y: float, turn: float = 0.0, speed: float = 0.0, **other: obje
     ("kind", "length", "seen"),
     [
         ("truck", 4.9, "truck"),
+        ("truck", 5.0, "truck"),
         ("truck", 5.1, "van"),
         ("truck", 7.9, "van"),
+        ("truck", 8.0, "truck"),
         ("truck", 8.1, "truck"),
         ("bus", 6.0, "bus"),
         ("car", 6.0, "car"),

@@ -3,8 +3,9 @@
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
-from planner.record.trace import HeldUp
+from planner.record.trace import GoalPrediction, HeldUp, TrajectoryPrediction, VehiclePrediction
 from tests.explain.answers.given import NOW, Given
 from tests.explain.answers.imagined import Drive, decided
 from xavi_dialogue.domain.answers import Slowing
@@ -54,3 +55,18 @@ def test_nothing_is_told_of_what_is_not_asked(told: Any) -> None:
     assert told("turn", Drive(1.0, STEADY)) is None
     assert told("stop", Drive(1.0, STOPS), whom=None) is None  # the plan tells when
     assert told("stop", Drive(1.0, STOPS), speed=0.0) is None  # we stand already
+
+
+def test_who_is_likely_to_be_first_is_not_known_of_who_is_not_predicted() -> None:
+    ours = decided(("continue",), Drive(1.0, (10.0,) * 31))
+    count = 40  # samples of somebody who drives north across our way at 10 m/s
+    way = TrajectoryPrediction(
+        1.0, ("continue",), tuple((40.0, -20.0 + 2.0 * k) for k in range(count)), (10.0,) * count
+    )
+    goal = GoalPrediction("continue", "the road", "a", 1.0, 1.0, 1.0, (way,))
+    trace = replace(ours, predictions=(VehiclePrediction(1, (goal,)),))
+    assert room._likeliest_order(trace, 1) == "they"
+    assert room._likeliest_order(trace, 2) is None
+    unsure = replace(goal, probability=0.5)
+    trace = replace(ours, predictions=(VehiclePrediction(1, (unsure,)),))
+    assert room._likeliest_order(trace, 1) is None

@@ -205,3 +205,10 @@ def test_the_last_light_is_the_one_that_we_passed():
     none = answer(Ask(Whether(last)), 20.0)
     assert isinstance(none, LightPassed)
     assert none.crossed is None
+
+
+def test_how_long_a_light_has_shown_what_it_shows_is_told_of_its_colour():
+    shows = Has("colour", "what", LIGHT)
+    found = answer(Ask(HowLong(shows)), 20.0)
+    assert (found.asked, found.wanted, found.shown.colour) == ("how-long", "red", "red")
+    assert answer(Ask(HowLong(is_lit("green"))), 20.0).wanted == "green"

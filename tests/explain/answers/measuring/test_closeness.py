@@ -116,3 +116,13 @@ def test_the_risk_is_that_of_the_plan_at_that_time() -> None:
         found = closeness(asked, vehicle, about, "safe", past=past)
         assert found.risk == pytest.approx(trusted(risk))
     assert found.vehicle == Vehicle(1).number
+
+
+def test_what_lies_further_back_counts_no_less_unless_it_is_to_fade() -> None:
+    values = {
+        ("distance", 0, 1): lambda t: 2.0 + abs(t - 4.0),
+        ("distance", 0, 2): lambda t: 5.0 + abs(t - 9.0),
+    }
+    asked = scene(values=values, looks=LOOKS)
+    assert nearest_vehicle(asked, Window(0.0, 9.0)) == 1
+    assert nearest_vehicle(asked, Window(0.0, 9.0), 1.0) == 2  # 2 m five seconds ago, 5 m now

@@ -4,10 +4,12 @@ import pytest
 
 from tests.explain.answers.given import NOW, Given, look, their
 from xavi_dialogue.domain.terms import Ego, Event, Now, Vehicle
+from xavi_dialogue.explain.answers.measuring import nearing
 from xavi_dialogue.explain.answers.measuring.nearing import (
     ASIDE_IN,
     SINCE,
     closes,
+    comes_before,
     moves_over,
     past_leader,
 )
@@ -64,3 +66,20 @@ def test_going_past_who_drives_ahead_in_our_lane_is_overtaking(
 ) -> None:
     asked = Given(looks={1: look(1, **where)}).asked()
     assert past_leader(asked, Event("pass", Ego(), Vehicle(1))).action == action
+
+
+@pytest.mark.parametrize(("share", "holds"), [(0.9, True), (0.2, False), (None, None)])
+def test_whether_somebody_comes_out_before_us_is_what_is_expected(
+    share: float | None, holds: bool | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(nearing, "chance", lambda *_: share)
+    monkeypatch.setattr(nearing, "rule_between", lambda *_: None)
+    asked = Given(looks={1: look(1), 2: look(2, in_view=False)}).asked()
+    found = comes_before(asked, Event("pull-out", Vehicle(1), tense="future"))
+    assert (None if found is None else (found.holds, found.probability)) == (
+        None if share is None else (holds, share)
+    )
+    assert comes_before(asked, Event("pull-out", Vehicle(2), tense="future")) is None
+    assert comes_before(asked, Event("pull-out", Ego(), tense="future")) is None
+    assert comes_before(asked, Event("brake", Vehicle(1), tense="future")) is None
+    assert comes_before(asked, Event("cross", Vehicle(1), Vehicle(2), tense="future")) is None

@@ -5,6 +5,7 @@ from typing import Any
 import pytest
 
 from tests.explain.answers.given import NOW, Given, deed, look, their
+from tests.explain.answers.stated import did, scene
 from xavi_dialogue.domain.answers import PeakMoment
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Measure
@@ -179,3 +180,25 @@ def test_the_longest_wait_is_a_standstill_or_else_giving_way() -> None:
     assert late.time == 16.0
     going = peak("waiting", deeds=(*stood, deed("stand", 15.0)))
     assert going.measure == Measure("duration", Ego(), 15.0, value=5.0)
+
+
+def test_a_slowing_down_of_unknown_speeds_is_not_the_greatest() -> None:
+    unknown, slight = deed("brake", 3.0, 5.0), deed("brake", 8.0, 9.0, speed_from=9.0, speed_to=8.5)
+    found = peak("slowing", deeds=(unknown, slight))
+    assert found.time == 8.0
+    assert found.measure == Measure("speed-change", Ego(), 8.0, value=0.5)
+
+
+def test_what_cost_most_time_is_told_with_who_held_us_up_until_we_were_as_fast_again() -> None:
+    short, long = did("brake", 3.0, 5.0), did("slow-down", 8.0, 10.0)
+    behind = (did("follow", 8.5, 9.5, object=ONE), did("follow", 12.0, 18.0, object=TWO))
+    asked = scene(
+        episodes=(short, long, *behind),
+        looks={1: look(1), 2: look(2)},
+        delays={"brake": 2.0, "slow-down": 6.0},
+    )
+    found = peak_moments.peak(Peak("delay"), asked)
+    assert isinstance(found, PeakMoment)
+    assert (found.time, found.measure and found.measure.value) == (8.0, 6.0)
+    none = peak_moments.peak(Peak("delay"), scene(episodes=(short,)))
+    assert none == PeakMoment("delay")

@@ -282,3 +282,20 @@ def test_what_is_not_known_of_a_wait_stays_open(monkeypatch: pytest.MonkeyPatch)
     moving = {("speed", ONE): 5.0}
     found = waiting(denied, monkeypatch, relations=none, measures=moving)
     assert (found.holds, found.gap, len(found.facts)) == (False, "hidden", 1)
+
+
+@pytest.mark.parametrize(
+    ("near", "far", "holds"), [(10.0, 10.0, True), (10.0, 15.0, False), (30.0, 5.0, False)]
+)
+def test_who_is_between_two_is_no_detour_from_one_to_the_other(
+    near: float, far: float, holds: bool
+) -> None:
+    third = Vehicle(3)
+    gaps = {("distance", ONE, third): near, ("distance", third, TWO): far}
+    known = {**gaps, ("distance", ONE, TWO): 25.0}
+    of = Related("between", third, Vehicles((1, 2)))
+    found = related(of, measures=known, looks={n: look(n) for n in (1, 2, 3)})
+    assert found.holds is holds
+    assert [one.vehicle for one in found.facts] == [3]
+    assert related(of, measures=gaps).gap == "out-of-view"
+    assert related(Related("between", ONE, Vehicles((1, 2))), measures=known).holds is False

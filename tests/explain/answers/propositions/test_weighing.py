@@ -306,3 +306,19 @@ def test_of_stopping_for_us_or_coming_out_the_stop_is_weighed(parts: Parts) -> N
     assert weigh(Both((stops, comes), "or")) is YES
     parts.known = {for_us: NO, stops: YES, comes: YES}
     assert weigh(Both((stops, comes), "and")).holds is True  # both are said
+
+
+def test_of_a_collision_beside_what_comes_before_it_the_collision_is_asked() -> None:
+    crash = Happens(Event("collide", Ego(), ONE, tense="future", modal="will"))
+    goes = Happens(Event("move", ONE, tense="future", modal="will"))
+    assert weighing._feared(Both((goes, crash)), Given().asked()) == crash
+    past = Happens(Event("collide", Ego(), ONE, tense="past"))
+    assert weighing._feared(Both((goes, past)), Given().asked()) is None
+    assert weighing._feared(Both((goes,)), Given().asked()) is None
+
+
+def test_the_collision_is_weighed_and_not_what_comes_before_it(parts: Parts) -> None:
+    crash = Happens(Event("collide", Ego(), ONE, tense="future", modal="will"))
+    goes = Happens(Event("move", ONE, tense="future", modal="will"))
+    parts.known[crash], parts.known[goes] = Finding(False, probability=0.01), Finding(True)
+    assert weigh(Both((goes, crash))).probability == 0.01

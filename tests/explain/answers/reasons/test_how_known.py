@@ -35,6 +35,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.explain.answers.reasons import choices
 from xavi_dialogue.explain.answers.reasons import knowing as room
 from xavi_dialogue.explain.answers.reference.asked import Unanswered
+from xavi_dialogue.explain.answers.reference.findings import Finding
 from xavi_dialogue.explain.answers.reference.moments import Window
 
 IT, US = Vehicle(1), Ego()
@@ -158,3 +159,20 @@ def test_rollouts_that_are_needed_are_asked_for(told: Any) -> None:
     assert result(room._because_of, Event("stop"), scene()) == need
     told.setattr(room, "motion", refuses(DidNotHappen(Event("stop"))))
     assert room._because_of(Event("stop"), scene()) is None
+
+
+@pytest.mark.parametrize(
+    ("told_of", "answer"),
+    [
+        (Finding(True, answer=YIELD), YIELD),
+        (Finding(True, answer=YIELD, probability=0.9), YIELD),
+        (Finding(False, answer=YIELD, probability=0.0), "assured"),
+        (None, "assured"),
+    ],
+)
+def test_that_somebody_may_come_out_before_us_is_known_by_the_rule(
+    told_of: Any, answer: Any, told: pytest.MonkeyPatch
+) -> None:
+    told.setattr(room, "comes_before", lambda *_: told_of)
+    told.setattr(room, "assured", lambda *_: "assured")
+    assert known(Event("pull-out", IT, tense="future")) == answer

@@ -313,3 +313,13 @@ def test_without_a_cause_it_is_what_the_choice_turned_on() -> None:
     found = pivoted(Happens(Event("change-left")), most=True)
     assert (found.kind, found.vehicle, found.most) == ("factor", None, True)
     assert found.contrast.decided == 6.0
+
+
+def test_options_are_those_of_the_moment_that_is_said() -> None:
+    for said, decided in ((Span(2.0, 2.0, said=True), 2.0), (Span(14.0, 14.0, said=True), 12.0)):
+        found = listed(Listing("options"), chosen(said))
+        assert isinstance(found, Options)
+        assert found.decided == decided
+    over = listed(Listing("options"), chosen(Span(1.0, 8.0, said=True)))
+    assert isinstance(over, Options)
+    assert over.decided == 6.0  # of what was done then

@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 
+from tests.explain.answers.chosen import chosen
 from tests.explain.answers.given import NOW
 from xavi_dialogue.domain.answers import (
     Contrast,
@@ -11,6 +12,7 @@ from xavi_dialogue.domain.answers import (
     Measures,
     SupposedOfUs,
 )
+from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import Compare, Doing, HowMuch, When, Whether
 from xavi_dialogue.domain.terms import (
     Compares,
@@ -23,6 +25,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.explain.answers.suppositions import own_suppositions as own
+from xavi_dialogue.explain.answers.suppositions import supposed_when
 
 ONE = Vehicle(1)
 SPEED = Measured("speed")
@@ -109,3 +112,26 @@ def test_a_gain_that_is_claimed_is_held_against_what_it_would_be() -> None:
 )
 def test_being_faster_is_read_as_driving_so(of: Any, event: Any) -> None:
     assert own.paced(of) == event
+
+
+@pytest.mark.parametrize(
+    ("then", "of_now"),
+    [
+        (Doing(tense="present"), True),
+        (Doing(tense="future"), True),
+        (Doing(tense="past"), False),
+        (Whether(Happens(Event("arrive", tense="present", modal="would"))), True),
+        (Whether(Happens(Event("arrive", tense="past", modal="would"))), False),
+        (None, False),
+    ],
+)
+def test_a_supposition_in_the_past_tense_is_of_now_where_the_rest_is(
+    then: Any, of_now: bool
+) -> None:
+    turned = Event("change-left", tense="past")
+    asked = chosen(Span(3.0, 5.0))
+    event, scene = supposed_when.imagined(turned, then, asked)
+    assert event.tense == ("present" if of_now else "past")
+    assert (scene.span is None) is of_now
+    said = chosen(Span(3.0, 5.0, said=True))
+    assert supposed_when.imagined(turned, then, said) == (turned, said)

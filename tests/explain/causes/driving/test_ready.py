@@ -88,6 +88,12 @@ def test_who_might_have_come_first() -> None:
     assert readied(both, (1, 2)) == MotionCause("give-way-line", 1)  # longest
 
 
+@pytest.mark.parametrize("longer", [1, 2])
+def test_less_than_a_second_counts_by_its_length_as_well(longer: int) -> None:
+    some = tuple(in_the_way(v, 4.0, 4.8 if v == longer else 4.4) for v in (1, 2))
+    assert readied(some, (1, 2)) == MotionCause("give-way-line", longer)
+
+
 @pytest.mark.parametrize(
     ("kind", "since", "told"),
     [("pedestrian", 4.0, True), ("wheelchair", 5.9, True), ("car", 4.0, False),
