@@ -186,3 +186,11 @@ def test_several_are_told_by_their_speeds_and_deeds() -> None:
     assert isinstance(found, Identified)
     assert [one.vehicle for one in found.looks] == [1, 2]
     assert found.facts == (Measure("speed", IT, 20.0, value=4.0), episodes[1], episodes[2])
+
+
+@pytest.mark.parametrize(("speed", "doing"), [(5.0, ["pass", "wait"]), (0.0, ["wait"])])
+def test_who_stands_drives_past_nobody(speed: float, doing: list[str]) -> None:
+    deeds = (did("pass", 18.0, 20.0, object=IT), did("wait", 19.0))
+    asked = scene(episodes=deeds, values={("speed", 0): speed}, looks=SEEN)
+    found = room.activity(asked, US, 20.0)
+    assert [one.action for one in found.doing] == doing

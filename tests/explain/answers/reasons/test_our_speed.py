@@ -5,9 +5,22 @@ from typing import Any
 import pytest
 
 from tests.explain.answers.stated import did, driven, scene
+from xavi_dialogue.domain.answers import Verdict
 from xavi_dialogue.domain.evidence import Cause
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Compares, Measured, Quantity, Vehicle
+from xavi_dialogue.domain.meaning import Why
+from xavi_dialogue.domain.terms import (
+    Compares,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Measured,
+    Not,
+    Quantity,
+    Vehicle,
+)
+from xavi_dialogue.explain.answers.propositions import reasons
 from xavi_dialogue.explain.answers.reasons import motions as room
 
 IT = Vehicle(1)
@@ -75,3 +88,34 @@ def test_our_speed_is_compared(of: Compares, ours: bool) -> None:
 def test_we_are_slowing_down_while_we_drive(episode: Episode, speed: float, slowing: bool) -> None:
     assert room.is_slowing(scene(episodes=(episode,), motions=driving(speed))) is slowing
     assert room.is_slowing(scene(episodes=(episode,))) is False
+
+
+@pytest.mark.parametrize(
+    "of",
+    [
+        Is("stationary", Ego(), tense="present"),
+        Not(Is("moving", Ego(), tense="present")),
+        Not(Happens(Event("move", tense="present"))),
+    ],
+)
+@pytest.mark.parametrize(("speed", "told"), [(9.0, True), (2.4, False), (0.0, False)])
+def test_that_we_stand_is_denied_where_we_drive(
+    of: Any, speed: float, told: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("slow", "standing_or_slow", "motion"):
+        monkeypatch.setattr(room, name, lambda *_, **__: "why")
+    asked = scene(values={("speed", 0): speed}, motions=driving(speed))
+    found = reasons.why(Why(of), asked)
+    assert (found != "why") is told
+    if told:
+        assert isinstance(found, Verdict)
+        assert (found.that, found.holds) == (Is("stationary", Ego(), tense="present"), False)
+
+
+def test_why_we_do_not_go_somewhere_is_no_question_of_standing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(room, "slow", lambda *_: "why")
+    asked = scene(values={("speed", 0): 9.0}, motions=driving(9.0))
+    slowly = Event("move", tense="present", manner=("slowly",))
+    assert reasons.why(Why(Not(Happens(slowly))), asked) == "why"

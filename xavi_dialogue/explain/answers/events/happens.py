@@ -96,6 +96,8 @@ def _moves(asked: Asked, event: Event) -> Finding | None:
         return None
     moving = speed.value >= MOVING
     begun = occasion(asked, with_fields(event, action="go")) if moving else None
+    if begun is not None and begun.end is not None and begun.end < asked.now - RECENT:
+        begun = None  # we may have stood since
     doing = _under_way(asked, event, Window(asked.now, asked.now))
     facts: tuple[Fact, ...] = (begun,) if begun is not None else (speed,) if moving else doing
     return Finding(moving, facts or (speed,))

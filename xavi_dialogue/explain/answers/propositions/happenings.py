@@ -55,6 +55,7 @@ from xavi_dialogue.explain.answers.ride.places import time_to_go, whither
 from xavi_dialogue.explain.answers.ride.reaching import reaching
 from xavi_dialogue.explain.causes.vehicles.announced import announced
 from xavi_dialogue.explain.history.motion import Trend
+from xavi_dialogue.explain.history.thresholds import STANDING
 
 CHANGING = 0.1  # [m/s2] from which a speed still changes
 
@@ -152,6 +153,8 @@ def activity(asked: Asked, actor: Ego | Vehicle, at: float) -> Activity:
     if not on and isinstance(actor, Ego):
         on = world.episodes(actor=actor, actions=("continue",), begin=at, end=at)
     speed = world.measure("speed", actor, at)
+    if speed.value is not None and speed.value < STANDING:  # to drive past is over
+        on = tuple(e for e in on if e.action not in ("pass", "overtake"))
     vehicle = number(actor)
     trend = _trend(asked, EGO if vehicle is None else vehicle, at)
     look = look_of(asked, actor, at)

@@ -10,6 +10,7 @@ from xavi_dialogue.domain.answers import (
     DidNotHappen,
     MotionReason,
     NotApplicable,
+    Verdict,
 )
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import HowAvoid, Why
@@ -18,6 +19,7 @@ from xavi_dialogue.domain.terms import (
     Believed,
     Caused,
     Compares,
+    Ego,
     Event,
     Exists,
     Exit,
@@ -301,8 +303,18 @@ def _not_going(event: Event, scene: Asked) -> Answer:
             if not isinstance(unanswered.result, DidNotHappen):
                 raise
     if event.action in ("go", "move"):
-        return motions.slow(scene)
+        plain = event.tense == "present" and event.where is None and not event.manner
+        moving = _moving(scene, event.object) if plain else None
+        return motions.slow(scene) if moving is None else moving
     return choices.why_not(event, scene)
+
+
+def _moving(scene: Asked, where: object = None) -> Answer | None:
+    """Tell that we are moving, where it is taken for granted that we stand; None where we do."""
+    speed = scene.world.measure("speed", Ego(), scene.now)
+    if where is not None or scene.past is not None or (speed.value or 0.0) < motions.CREEPING:
+        return None
+    return Verdict(Is("stationary", Ego(), tense="present"), False, (speed,), claim=True)
 
 
 def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
@@ -311,6 +323,11 @@ def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
     if of.event is not None and is_own(of.event.actor):
         return own(of.event, scene, question)
     vehicle = vehicle_in(of.thing)
+    still = (of.state == "moving") if negated else (of.state == "stationary")
+    if still and of.tense == "present" and is_own(of.thing or Ego()) and vehicle is None:
+        moving = _moving(scene)
+        if moving is not None:
+            return moving
     if of.state in ("moving", "fast") and negated and vehicle is None:
         return motions.standing_or_slow(scene, Event("move", tense=of.tense))
     if of.thing is not None and vehicle is not None and of.state in SLOW | {"moving", "fast"}:

@@ -249,7 +249,8 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
         if isinstance(found.actor, Ego) and (held := g.context.holds(moved, *_searched(g, window))):
             found = moved
     present = mode == "asked" and found.tense == "present" and _is_present(window)
-    if held and present and found.action in _ONGOING and not window.said:  # "are we speeding up?"
+    now = present and not window.said
+    if held and now and found.action in _ONGOING | _LASTING:  # "are we speeding up?"
         held = tuple(e for e in held if e.end is None or e.end >= g.context.now - JUST)
     if held:
         return _at(found, _pick(held, window, g), g, window, inner)
@@ -288,6 +289,7 @@ def _is_next(found: Event, g: Grounder) -> bool:
 
 
 _ONGOING: Final = frozenset(("speed-up", "slow-down", "brake", "cross"))
+_LASTING: Final = frozenset(("move", "stand", "wait"))
 
 
 def _is_present(window: Window) -> bool:
