@@ -187,7 +187,8 @@ def _stretch(of: object, scene: Asked, asked: Any) -> Answer:
         return LightTold(asked, wanted=wanted, past=past, time=time)
     rows = [s for s in stretches(scene.ride, signal) if s.begin <= time + ROUNDING]
     seen = [told(scene.ride, signal, one, light) for one in rows]
-    such = [one for one in seen if wanted is None or alike(one, wanted)]
+    such = [one for one in seen if wanted is None or one.colour == wanted]
+    such = such or [one for one in seen if wanted is not None and alike(one, wanted)]
     one = next(iter(such[-1:] or seen[-1:]), None)
     return LightTold(asked, one, wanted or (one.colour if one else None), past=past, time=time)
 
