@@ -54,7 +54,7 @@ from xavi_dialogue.nlu.compose.clauses.nominal import asked_of, event_in
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.propositions.tally import counts, exits_passed, how_often, tallied
-from xavi_dialogue.nlu.compose.states.pacing import not_rather, permitted
+from xavi_dialogue.nlu.compose.states.pacing import kept_to, not_rather, permitted
 from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
 from xavi_dialogue.nlu.compose.verbs.sheltering import concealed
 from xavi_dialogue.nlu.compose.wh_questions.wh import fact
@@ -287,7 +287,8 @@ class Polar(Comparing):
 
     def _whether_special(self, clause: Clause, value: Special) -> Question | None:
         if value.name == "obey":
-            return Fault(None, value.subject, legal=True)
+            kept = kept_to(value)
+            return Fault(None, value.subject, legal=True) if kept is None else Whether(kept)
         if value.name == "violate":
             return Fault(None, value.subject, legal=True)
         if value.name == "blame":

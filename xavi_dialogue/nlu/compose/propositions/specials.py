@@ -69,6 +69,7 @@ from xavi_dialogue.nlu.compose.verbs.trends import SINCE
 _BELIEF = frozenset({"know", "believe", "conclude", "say", "assign", "mistake", "lie", "hear",
                      "report", "understand", "wish", "fear", "trust", "ask"})  # fmt: skip
 _JUDGING = frozenset({"opinion", "rude", "kind", "dangerous"})
+_FEARING = frozenset({"feel:nervous", "feel:afraid"})
 _LIKING = frozenset({"like", "dislike", "mind"})
 _DECISION = frozenset({"decide", "plan", "choose", "consider", "want"})
 
@@ -102,6 +103,8 @@ def _positive(special: Special) -> Proposition:
     rule = _RULES.get(name)
     if rule is not None:
         return rule(special)
+    if name in _FEARING and special.clause.modal in ("should", "must"):
+        return Is("dangerous", Ego(), time=time_of(special), tense=tense_of(special))  # "worry"?
     if name.startswith("feel"):
         return Is("comfortable", as_thing(special.object) or Passenger())
     verb = cast(Any, special.clause.verb).key

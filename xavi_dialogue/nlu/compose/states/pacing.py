@@ -16,7 +16,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.sem import as_speed
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, as_speed
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.verbs.deeds import tense_of, time_of
 
@@ -66,6 +66,18 @@ def at_pace(clause: Clause, of: Proposition) -> Proposition:
     return Compares(
         Measured("speed", event.actor, time=event.time, tense=event.tense), "same", said
     )
+
+
+def kept_to(special: Special) -> Proposition | None:
+    """Read "are we keeping to the limit?"; None where it is the law that is kept."""
+    clause = special.clause
+    kept = [*(sem for sem, _ in clause.objects), *(phrase.sem for phrase in clause.complements)]
+    if not any(isinstance(sem, Measure) and sem.of.attribute == "limit" for sem in kept):
+        return None
+    speed = Measured("speed", special.subject, time=time_of(special), tense=tense_of(special))
+    limit = Measured("limit", special.subject)
+    within = Compares(speed, "at-most", limit)
+    return Not(within) if clause.negated else within
 
 
 _PERMITTED = frozenset(

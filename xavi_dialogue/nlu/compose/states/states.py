@@ -166,7 +166,8 @@ def _found(clause: Clause) -> list[Found]:
             return [(_is(clause, "uncomfortable", degree == "too"), 0.0)]  # "that was sudden"
         if key in STATES or key in _NEGATED:
             beside = any(isinstance(sem, Pronoun) for sem, _ in clause.objects)
-            return [(_is(clause, key, degree == "too"), BESIDE * beside)]
+            unread = bool(clause.comparisons)  # "are you not moving faster?"
+            return [(_is(clause, key, degree == "too"), BESIDE * (beside + unread))]
     if clause.comparisons and (clause.comparisons[0][1] != "as" or clause.than is not None):
         compared = _compares(clause)
         if compared is not None:

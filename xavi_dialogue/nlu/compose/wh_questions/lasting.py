@@ -22,10 +22,12 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Related,
     Relative,
+    That,
     Thing,
     Unknown,
     Unsaid,
     Vehicle,
+    WholeRide,
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
@@ -100,6 +102,9 @@ def _round(clause: Clause) -> bool:
 
 def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
     """Ask how long something lasts, or how long it is until it happens."""
+    spent = clause.verb is not None and clause.verb.key == "spend"
+    if spent and event is not None and event.action == "stand" and isinstance(event.time, Unsaid):
+        return HowLong(with_fields(event, time=WholeRide()))  # "how much time is spent standing"
     place = _passed_through(clause, event or _deed_in(value), actor)
     if place is not None:
         return HowLong(Related("on", Ego(), place, tense=cast(Any, clause.tense)))
@@ -142,6 +147,12 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
         return HowMuch(Measured("time" if clause.tense == "past" else "time-to-go"))
     if isinstance(actor, Pronoun) or (isinstance(actor, Ego) and clause.bearings):
         return measured("duration", clause, actor)
+    timed = isinstance(subject, Noun) and subject.key == "time"  # "how much time do we have"
+    if (actor is None or timed) and clause.that is not None:
+        return HowLong(That())  # "how much time do you say"
+    ours = clause.verb is not None and clause.verb.key == "have" and isinstance(actor, Ego)
+    if timed or ours:
+        return HowMuch(Measured("time-to-go"))
     return measured("size", clause, actor) if actor is not None else HowMuch(Measured("time-to-go"))
 
 
