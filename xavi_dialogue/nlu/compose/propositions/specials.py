@@ -85,17 +85,14 @@ def _positive(special: Special) -> Proposition:
     if name == "assign":
         return rated(special, special.content or _about(special))
     thought = special.clause.that
-    if (
-        name in _BELIEF
-        and is_other(special.subject)
-        and thought is not None
-        and (thought.feelings or {key for key, _ in thought.adjectives} & _JUDGING)
-    ):  # "he will think that we are rude"
+    judged = thought is not None and (
+        thought.feelings or {key for key, _ in thought.adjectives} & _JUDGING
+    )
+    if is_other(special.subject) and (name in _LIKING or (name in _BELIEF and judged)):
+        # "He will think that we are rude."
         return Is("upset", special.subject, time=time_of(special), tense=tense_of(special))
     if name in _BELIEF and is_other(special.subject):
         return Related("can-see", special.subject, Ego(), time_of(special), tense_of(special))
-    if name in _LIKING and is_other(special.subject):
-        return Is("upset", special.subject, time=time_of(special), tense=tense_of(special))
     if name in _BELIEF:
         return believed(special, special.content or _about(special))
     if name in _DECISION:
