@@ -237,3 +237,12 @@ def test_only_a_collision_with_somebody_counts_as_one_with_a_vehicle():
         for outcome, whom in known
     )
     assert Mixture(rows, (0.4, 0.3, 0.2, 0.1)).collisions() == {2: pytest.approx(0.5)}
+
+
+def test_mass_is_shared_out_within_what_goes_on():
+    # Half of the mass goes on, so that 0.3 of it is 0.6 of what goes on; after two draws.
+    odds = {"a": 0.6 * 0.16 / 0.84, "b": 0.2 * 0.64 / 0.36}
+    total = sum(odds.values())
+    assert shared_out({"a": 0.3, "b": 0.1}, 2, 0.5) == pytest.approx(
+        {"a": 0.3 + 0.1 * odds["a"] / total, "b": 0.1 + 0.1 * odds["b"] / total}
+    )
