@@ -61,6 +61,7 @@ from xavi_dialogue.explain.answers.ride.delays import held_up
 from xavi_dialogue.explain.answers.ride.priority import priority_at
 from xavi_dialogue.explain.answers.suppositions import deciding
 from xavi_dialogue.explain.history.nearing import speed_at
+from xavi_dialogue.explain.history.ride import planned
 
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "pass", "come", "approach"))
 #: Names for going somewhere, that ask for the way where a place or side is said.
@@ -304,9 +305,16 @@ def _not_going(event: Event, scene: Asked) -> Answer:
                 raise
     if event.action in ("go", "move"):
         plain = event.tense == "present" and event.where is None and not event.manner
-        moving = _moving(scene, event.object) if plain else None
+        going_on = event.action == "move" or _plans_straight(scene)
+        moving = _moving(scene, event.object) if plain and going_on else None
         return motions.slow(scene) if moving is None else moving
     return choices.why_not(event, scene)
+
+
+def _plans_straight(scene: Asked) -> bool:
+    """Check whether driving on is what is planned, so that asking why not is about standing."""
+    trace = scene.ride.at(scene.now)
+    return trace is not None and planned(trace)[:1] == ("continue",)
 
 
 def _moving(scene: Asked, where: object = None) -> Answer | None:
