@@ -7,10 +7,10 @@ from typer.testing import CliRunner
 
 from tests.traces import s1_ride
 from xavi_dialogue.__main__ import app
-from xavi_dialogue.transcripts.coverage import Coverage, Item, _alternatives, measure
-from xavi_dialogue.transcripts.replay import RIDES, transcripts_in
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.ride_file import RecordedRide
+from xavi_dialogue.transcripts.coverage import Coverage, Item, _alternatives, measure
+from xavi_dialogue.transcripts.replay import RIDES, transcripts_in
 
 HEADER = "scenario: s1\nseed: 0\n\n! planner fails\n\n"
 

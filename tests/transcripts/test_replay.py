@@ -9,6 +9,10 @@ from planner.record.trace import PlanTrace, encode
 from tests.planted import decision, without
 from tests.stories import squeezed
 from tests.traces import s1_ride
+from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.service.in_process import make_pipeline
+from xavi_dialogue.storage import ride_file
+from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError
 from xavi_dialogue.transcripts.replay import (
     BESIDE,
     by_ride,
@@ -17,10 +21,6 @@ from xavi_dialogue.transcripts.replay import (
     replay_recorded,
     transcripts_in,
 )
-from xavi_dialogue.service.in_process import make_pipeline
-from xavi_dialogue.domain.answers import NeedRollout
-from xavi_dialogue.storage import ride_file
-from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError
 from xavi_dialogue.transcripts.transcript import TranscriptError
 
 QUESTION = "\n> What if vehicle 1 hadn't been there?\n"

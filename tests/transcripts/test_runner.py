@@ -6,9 +6,9 @@ from planner.record.trace import PlanTrace
 from tests.fakes import again as same_again
 from tests.fakes import inputs_of
 from tests.traces import s1_ride
+from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.service.in_process import Replan, make_pipeline
 from xavi_dialogue.transcripts.runner import Played, latest, play
-from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.transcripts.transcript import TranscriptError, read, write
 
 RIDE = s1_ride()

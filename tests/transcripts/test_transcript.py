@@ -7,9 +7,9 @@ from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError
 from xavi_dialogue.transcripts.transcript import (
     At,
-    Incident,
     Comment,
     Exchange,
+    Incident,
     TranscriptError,
     moment,
     read,

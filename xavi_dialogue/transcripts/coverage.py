@@ -15,9 +15,6 @@ from importlib.resources import files
 from types import FrameType
 from typing import TypeAlias, get_args
 
-from xavi_dialogue.process.caches import forget
-from xavi_dialogue.transcripts.replay import Written, by_ride, recording, replay_recorded
-from xavi_dialogue.service.in_process import make_pipeline
 from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Answer, Reason, Refusal
@@ -34,6 +31,9 @@ from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.rules import GRAMMAR_FILES
 from xavi_dialogue.nlu.grammar.rules import grammar as question_grammar
 from xavi_dialogue.nlu.grounding.result import Grounding
+from xavi_dialogue.process.caches import forget
+from xavi_dialogue.service.in_process import make_pipeline
+from xavi_dialogue.transcripts.replay import Written, by_ride, recording, replay_recorded
 
 _RULE = re.compile(r"(?:^!?|->\s*)([a-z]\w*)(?=(?:\.-?\d+)?\s*:|\s*$)")
 PAPER = "answer_paper"
@@ -123,7 +123,10 @@ def _types(group: str, union: object) -> Iterator[Item]:
 
 
 def _exercised(
-    replies: Iterable[Reply], readings: "_ReadingRecorder", texts: "_TextRecorder", answers: Sequence[dict[int, Item]]
+    replies: Iterable[Reply],
+    readings: "_ReadingRecorder",
+    texts: "_TextRecorder",
+    answers: Sequence[dict[int, Item]],
 ) -> Iterator[Item]:
     """Yield each item that one conversation exercises, as often as it does."""
     said = tuple(reply.text.casefold() for reply in replies)

@@ -13,19 +13,25 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from planner.errors import TraceError
-from planner.record.trace import (PlanTrace, decode)
 from planner.counterfactuals.whatif import WhatIfError
+from planner.errors import TraceError
+from planner.record.trace import PlanTrace, decode
 from sim.setup.scenario import load as load_scenario
-from xavi_dialogue.service.in_process import Conversation, Replan, drive_to, make_pipeline, planner_for
-from xavi_dialogue.transcripts.runner import Played, latest, play
-from xavi_dialogue.vehicle.episode import clock, network_of, start
-from xavi_dialogue.dialogue.state.events import EventRecorded, Input, RideEnded, TraceRecorded
 from xavi_dialogue.dialogue.pipeline import Pipeline
+from xavi_dialogue.dialogue.state.events import EventRecorded, Input, RideEnded, TraceRecorded
 from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.service.in_process import (
+    Conversation,
+    Replan,
+    drive_to,
+    make_pipeline,
+    planner_for,
+)
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError, key
+from xavi_dialogue.transcripts.runner import Played, latest, play
 from xavi_dialogue.transcripts.transcript import Transcript, TranscriptError, read, write
+from xavi_dialogue.vehicle.episode import clock, network_of, start
 
 RIDES = "rides"  # the folder of the recordings, in that of the transcripts
 TRACES = "traces"  # the folder of transcripts that are not driven

@@ -9,18 +9,18 @@ from dataclasses import dataclass, field, replace
 from typing import get_args
 
 from planner.record.trace import PlanTrace
-from xavi_dialogue.service.in_process import SESSION, Conversation, NoPlan, Replan
-from xavi_dialogue.dialogue.state.events import Input, Resumed
 from xavi_dialogue.dialogue.manager import fold
 from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.state.events import Input, Resumed
 from xavi_dialogue.domain.answers import NeedRollout, Reason
 from xavi_dialogue.nlg.context import Style
+from xavi_dialogue.service.in_process import SESSION, Conversation, NoPlan, Replan
 from xavi_dialogue.transcripts.transcript import (
     At,
     Befallen,
-    Incident,
     Exchange,
+    Incident,
     Step,
     Transcript,
     TranscriptError,
@@ -79,7 +79,9 @@ class _Player:
     conversation: Conversation = field(init=False)
 
     def __post_init__(self) -> None:
-        self.conversation = Conversation(self.pipeline, self._plan, fold(self.pipeline, self.record))
+        self.conversation = Conversation(
+            self.pipeline, self._plan, fold(self.pipeline, self.record)
+        )
 
     def play(self, transcript: Transcript) -> Played:
         steps: list[Step] = []
