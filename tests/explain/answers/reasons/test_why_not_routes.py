@@ -20,7 +20,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.explain.answers.propositions import reasons
-from xavi_dialogue.explain.answers.reasons import choices, motions, refraining
+from xavi_dialogue.explain.answers.reasons import choices, motions, not_going, refraining
 from xavi_dialogue.explain.answers.reference.asked import Unanswered
 from xavi_dialogue.explain.answers.ride import onward
 
@@ -139,9 +139,9 @@ def test_not_coming_in_is_tried_as_a_change_of_lanes_at_any_time(
 
 
 def test_entering_a_junction_is_no_change_of_lanes() -> None:
-    found = reasons._not_joining(Event("enter", object=Junction()), scene(), None)
+    found = not_going.not_joining(Event("enter", object=Junction()), scene(), None)
     assert rest(found) == (Event("enter", object=Junction()), None)  # type: ignore[arg-type]
-    out = reasons._not_joining(Event("enter", object=Exit(1)), scene(), None)
+    out = not_going.not_joining(Event("enter", object=Exit(1)), scene(), None)
     assert rest(out) == (Event("enter", object=Exit(1)), None)  # type: ignore[arg-type]
 
 
@@ -181,9 +181,9 @@ def test_not_going_without_giving_way_is_slowness_or_a_choice(
     event: Event, by: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(motions, "motion", raising(DidNotHappen(Event("give-way"))))
-    assert reasons._not_going(event, scene()).by == by  # type: ignore[union-attr]
+    assert not_going.not_going(event, scene()).by == by  # type: ignore[union-attr]
     monkeypatch.setattr(motions, "motion", raising(NotRecorded("gap-in-record")))
-    assert refused(reasons._not_going, event, scene()) == NotRecorded("gap-in-record")
+    assert refused(not_going.not_going, event, scene()) == NotRecorded("gap-in-record")
 
 
 def test_not_going_somewhere_is_a_choice_of_the_way() -> None:

@@ -1,7 +1,5 @@
 """Reasons: answers to why: of our choices, of how we drive, of states, and of others."""
 
-import dataclasses
-
 from msgspec import structs
 
 from xavi_dialogue.domain.answers import (
@@ -10,7 +8,6 @@ from xavi_dialogue.domain.answers import (
     DidNotHappen,
     MotionReason,
     NotApplicable,
-    Verdict,
 )
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import HowAvoid, Why
@@ -22,11 +19,9 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Exists,
-    Exit,
     Happens,
     Has,
     Is,
-    Junction,
     Measured,
     Proposition,
     Related,
@@ -39,6 +34,7 @@ from xavi_dialogue.explain.answers.reasons import (
     going,
     motions,
     nobody_else,
+    not_going,
     others,
     refraining,
     signalling,
@@ -60,12 +56,8 @@ from xavi_dialogue.explain.answers.ride import onward
 from xavi_dialogue.explain.answers.ride.delays import held_up
 from xavi_dialogue.explain.answers.ride.priority import priority_at
 from xavi_dialogue.explain.answers.suppositions import deciding
-from xavi_dialogue.explain.history.nearing import speed_at
-from xavi_dialogue.explain.history.ride import planned
 
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "pass", "come", "approach"))
-#: Names for going somewhere, that ask for the way where a place or side is said.
-WAY = frozenset[ActionName](("go", "move", "head", "come", "pass"))
 #: Names for coming in among others: a change of lanes, or a turn into a road.
 JOINING = frozenset[ActionName](("cut-in", "pull-out", "merge", "enter"))
 CHANGING = frozenset[ActionName](("change-left", "change-right", "change-lane"))
@@ -84,8 +76,6 @@ YIELDING = frozenset[ActionName](
 HOLDING = frozenset[ActionName](("follow", "keep-distance", "approach"))
 #: How long something of ours takes, which waiting explains.
 LASTING = frozenset[Attribute](("duration", "delay", "waiting-time"))
-STANDING = 0.3  # [m/s]
-AGO = 2.0  # [s] since when a giving way is still what keeps us from going
 
 
 def why(question: Why, scene: Asked) -> Answer:
@@ -207,7 +197,7 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     ahead |= vehicle_in(event.object) is not None
     if event.action in JOINING or (ahead and event.action in CROSSINGS):
         return _joined(event, scene, instead)
-    if event.action in WAY and _tells_way(event):  # the way that we take
+    if event.action in not_going.WAY and not_going.tells_way(event):  # the way that we take
         return choices.why(structs.replace(event, action="do"), scene, instead)
     if event.action in CROSSINGS and manner_of(event, "suddenly", "early", "late") is not None:
         return going.went(event, scene)
@@ -235,11 +225,6 @@ def _joined(event: Event, scene: Asked, instead: Proposition | None) -> Answer:
     return going.went(structs.replace(event, action="go"), scene)
 
 
-def _tells_way(event: Event) -> bool:
-    """Check whether going is asked about as a way: round a junction, to a side, out of an exit."""
-    return isinstance(event.object, Junction | Exit) or bool(event.side or event.where)
-
-
 def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     """Tell why we did not do something, or do not.
 
@@ -250,11 +235,11 @@ def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     if (stays := onward.stays_on(scene, event)) is not None:
         return stays
     if event.then is not None and event.then.action in JOINING | CHANGING:
-        return _not_joining(structs.replace(event.then, tense=event.tense), scene, None)
+        return not_going.not_joining(structs.replace(event.then, tense=event.tense), scene, None)
     if event.action == "speed-up" or manner_of(event, "fast") is not None:
         return motions.standing_or_slow(scene)
     if event.action in GOING:
-        return _not_going(event, scene)
+        return not_going.not_going(event, scene)
     if refraining.is_refraining(event):
         return refraining.refrained(event, scene)
     left = refraining.left_lane(event, scene)
@@ -262,7 +247,7 @@ def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         return choices.why_not(Event("keep-lane"), scene, left)
     instead = None if question is None else event_of(question.instead)
     if event.action in JOINING:
-        return _not_joining(event, scene, instead)
+        return not_going.not_joining(event, scene, instead)
     try:
         return choices.why_not(event, scene, instead)
     except Unanswered as unanswered:
@@ -270,59 +255,6 @@ def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         if event.action not in ("overtake", "pass") or not isinstance(thin, NotApplicable):
             raise
         raise Unanswered(structs.replace(thin, overtaking=True)) from None
-
-
-def _not_joining(event: Event, scene: Asked, instead: Event | None) -> Answer:
-    """Why we did not come in among others: the change of lanes, or going into the junction."""
-    lane = event
-    if event.action == "enter" and not isinstance(event.object, Junction | Exit):
-        lane = structs.replace(event, action="merge", object=None)
-    spoken = scene.past is not None and scene.past.said
-    for setting in (scene,) if spoken else (scene, dataclasses.replace(scene, span=None)):
-        try:
-            return choices.why_not(lane, setting, instead)
-        except Unanswered as unanswered:
-            if not isinstance(unanswered.result, NotApplicable):
-                raise
-    return _not_going(structs.replace(event, action="go", object=None, where=None), scene)
-
-
-def _not_going(event: Event, scene: Asked) -> Answer:
-    """Return why we did not go: whom we stood or slowed for; else why we did otherwise."""
-    speed = speed_at(scene.ride, scene.moment)
-    if not is_past(scene, event) and (speed is None or speed < STANDING):
-        return motions.motion(Event("stand", tense="present"), scene)
-    if event.action in WAY and _tells_way(event):
-        return choices.why_not(event, scene)
-    asked = Event("give-way", tense=event.tense, object=event.object)
-    past = scene.past
-    begin, end = (scene.now - AGO, scene.now) if past is None else (past.begin, past.end)
-    if is_past(scene, event) or scene.world.holds(asked, begin, end):
-        try:
-            return motions.motion(asked, scene, asked="wait")
-        except Unanswered as unanswered:
-            if not isinstance(unanswered.result, DidNotHappen):
-                raise
-    if event.action in ("go", "move"):
-        plain = event.tense == "present" and event.where is None and not event.manner
-        going_on = event.action == "move" or _plans_straight(scene)
-        moving = _moving(scene, event.object) if plain and going_on else None
-        return motions.slow(scene) if moving is None else moving
-    return choices.why_not(event, scene)
-
-
-def _plans_straight(scene: Asked) -> bool:
-    """Check whether driving on is what is planned, so that asking why not is about standing."""
-    trace = scene.ride.at(scene.now)
-    return trace is not None and planned(trace)[:1] == ("continue",)
-
-
-def _moving(scene: Asked, where: object = None) -> Answer | None:
-    """Tell that we are moving, where it is taken for granted that we stand; None where we do."""
-    speed = scene.world.measure("speed", Ego(), scene.now)
-    if where is not None or scene.past is not None or (speed.value or 0.0) < motions.CREEPING:
-        return None
-    return Verdict(Is("stationary", Ego(), tense="present"), False, (speed,), claim=True)
 
 
 def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
@@ -333,7 +265,7 @@ def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
     vehicle = vehicle_in(of.thing)
     still = (of.state == "moving") if negated else (of.state == "stationary")
     if still and of.tense == "present" and is_own(of.thing or Ego()) and vehicle is None:
-        moving = _moving(scene)
+        moving = not_going.moving_on(scene)
         if moving is not None:
             return moving
     if of.state in ("moving", "fast") and negated and vehicle is None:
