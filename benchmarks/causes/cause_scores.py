@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import msgspec
 
 from benchmarks.causes.deed_question import Deed
-from benchmarks.figures import in_columns
+from benchmarks.figures import Aimed, aimed, at_least, in_columns, targets_table
 from benchmarks.worlds.values import KINDS, Family, Kind
 
 OURS, ALL = "ours", "all"
@@ -81,7 +81,7 @@ class Row(msgspec.Struct, frozen=True):
     kind_right: float  # share of worlds in which the answer says how the deed hangs on them
 
 
-class CausesReport(msgspec.Struct, frozen=True):
+class CausesReport(Aimed, frozen=True, kw_only=True):
     """What the benchmark found."""
 
     bench: str
@@ -89,8 +89,6 @@ class CausesReport(msgspec.Struct, frozen=True):
     rejected: int  # worlds drawn that are not of their kind
     replans: tuple[int, int]  # for an answer: median, most
     latency: tuple[float, float]  # [ms] of an answer: median, most
-    targets: dict[str, float]
-    met: bool
     cases: tuple[Case, ...]
 
     def table(self) -> str:
@@ -109,9 +107,17 @@ class CausesReport(msgspec.Struct, frozen=True):
             f" time [ms]: median {self.latency[0]:.0f}, most {self.latency[1]:.0f}"
         )
         drawn = f"{self.rejected} worlds were drawn that are not of their kind"
-        goal = f"targets {self.targets}: {'met' if self.met else 'missed'}"
         wrong = [_what(case) for case in self.cases if not case.right] or ["none"]
-        parts = [in_columns(rows), "", times, drawn, goal, "", "answers that were not right:"]
+        parts = [
+            in_columns(rows),
+            "",
+            times,
+            drawn,
+            "",
+            targets_table(self.targets),
+            "",
+            "answers that were not right:",
+        ]
         return "\n".join([*parts, *wrong])
 
 
@@ -122,19 +128,23 @@ def report(cases: Sequence[Case]) -> CausesReport:
     rows = [*(row for row in rows if row.worlds), _row(ALL, cases, names)]
     total = rows[-1].scores
     rivals = [score.f1 for name, score in total.items() if name != OURS]
-    met = OURS in total and total[OURS].f1 >= max(F1, max(rivals, default=0.0) + LEAD)
+    own = total[OURS].f1 if OURS in total else None
+    lead = None if own is None else own - max(rivals, default=0.0)
     done = [case for case in cases if case.error is None]
     replans, times = sorted(c.replans for c in done), sorted(c.took for c in done)
     middle = len(done) // 2
-    return CausesReport(
+    whole = CausesReport(
         bench="causes",
         rows=tuple(rows),
         rejected=sum(case.rejected for case in cases),
         replans=(replans[middle], replans[-1]) if done else (0, 0),
         latency=(times[middle], times[-1]) if done else (0.0, 0.0),
-        targets={"f1": F1, "above the better rival": LEAD},
-        met=met,
         cases=tuple(cases),
+    )
+    return aimed(
+        whole,
+        at_least("F1", "", own, F1),
+        at_least("F1, above the better rival", "", lead, LEAD),
     )
 
 

@@ -6,9 +6,22 @@ import msgspec
 
 from benchmarks.drive.monitor import Drive
 from benchmarks.drive.runs import Run, in_processes, run
-from benchmarks.figures import Figure, figure, in_columns, mean, quantile
+from benchmarks.figures import (
+    Aimed,
+    Figure,
+    aimed,
+    at_least,
+    at_most,
+    figure,
+    in_columns,
+    mean,
+    quantile,
+    targets_table,
+)
 
 WORST = 20
+ARRIVING = 0.98  # target: share of the runs in which SUMO's driver arrives
+TAKING = 1.03  # target: times what SUMO's driver takes, in the mean
 SLOW = 1.05  # times what SUMO's driver takes
 EVERY = 25  # runs between notes on progress
 ALL = "all"
@@ -46,7 +59,7 @@ class Bad(msgspec.Struct, frozen=True):
     reproduce: str
 
 
-class DriveReport(msgspec.Struct, frozen=True):
+class DriveReport(Aimed, frozen=True, kw_only=True):
     """What the benchmark found."""
 
     bench: str
@@ -74,6 +87,7 @@ class DriveReport(msgspec.Struct, frozen=True):
         parts = [in_columns(rows), "", in_columns(times), "", "runs that did not go well:", *worst]
         if self.left_out:
             parts += ["", f"left out for want of netconvert: {', '.join(self.left_out)}"]
+        parts += ["", targets_table(self.targets)]
         return "\n".join(parts)
 
 
@@ -112,12 +126,21 @@ def report(runs: Sequence[Run]) -> DriveReport:
     names = list(dict.fromkeys(run.scenario for run in runs))
     by_name = {name: [run for run in runs if run.scenario == name] for name in names}
     taken = {name: [ms for run in by_name[name] for ms in run.decisions] for name in names}
-    return DriveReport(
+    whole = DriveReport(
         bench="drive",
         figures=tuple(figure(name, "ms", times) for name, times in taken.items() if times),
         scenarios=tuple(tally(name, some) for name, some in by_name.items()),
         all=tally(ALL, runs),
         worst=worst(runs),
+    )
+    every = whole.all
+    return aimed(
+        whole,
+        at_most("runs that failed", "", float(every.failed), 0.0),
+        at_most("collisions caused", "", float(every.caused), 0.0),
+        at_least("arrives where SUMO's driver does", "share", every.reached_share, ARRIVING),
+        at_most("hard brakes provoked", "", float(every.provoked), float(every.sumo_provoked)),
+        at_most("time ratio", "", every.time_ratio, TAKING),
     )
 
 

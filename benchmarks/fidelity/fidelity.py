@@ -7,7 +7,7 @@ arrives later at the destination than it did. Beside it stands what would be sai
 a rollout did not react to the ego, and what the foil's name alone lets one expect.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import msgspec
 
@@ -36,9 +36,12 @@ from benchmarks.fidelity.ranging import (
     learn,
 )
 from benchmarks.fidelity.rivals import by_name
+from benchmarks.figures import Aimed, Target, aimed, at_least, at_most, targets_table
 from xavi_dialogue.explain.causes.plans.ranges import Ranges, table
 
 KINDS = ("stop", "exit", "manoeuvre")  # of foils
+AHEAD = 10.0  # target: points by which outcomes are named better than by the name of the foil
+NOMINAL, OFF = 90.0, 3.0  # target: [%] of ranges that hold, and by how much that may be missed
 
 
 class Wrong(msgspec.Struct, frozen=True):
@@ -48,7 +51,7 @@ class Wrong(msgspec.Struct, frozen=True):
     reproduce: str
 
 
-class FidelityReport(msgspec.Struct, frozen=True):
+class FidelityReport(Aimed, frozen=True, kw_only=True):
     """What the benchmark found."""
 
     bench: str
@@ -73,6 +76,7 @@ class FidelityReport(msgspec.Struct, frozen=True):
             parts.append("\n".join(("failed:", *self.failed)))
         if self.left_out:
             parts.append(f"left out for want of netconvert: {', '.join(self.left_out)}")
+        parts.append(targets_table(self.targets))
         return "\n\n".join(parts)
 
 
@@ -162,7 +166,7 @@ def report(found: Sequence[Compared], ranges: Ranges) -> FidelityReport:
     kinds = {kind: [case for case in cases if case.kind == kind] for kind in KINDS}
     named = by_name(cases)
     every = {**groups, **kinds, ALL: cases}
-    return FidelityReport(
+    whole = FidelityReport(
         bench="fidelity",
         scenarios=tuple(agreement(name, own, named) for name, own in groups.items()),
         kinds=tuple(agreement(name, own, named) for name, own in kinds.items()),
@@ -177,6 +181,20 @@ def report(found: Sequence[Compared], ranges: Ranges) -> FidelityReport:
         wrong=tuple(Wrong(_what(case), _command(case)) for case in cases if _is_wrong(case)),
         failed=_failed(found),
     )
+    return aimed(whole, *_targets(whole))
+
+
+def _targets(found: FidelityReport) -> Iterator[Target]:
+    """Yield what is to be reached over all rides."""
+    own, name = found.all.agree, found.all.agree_name
+    ahead = None if own is None or name is None else 100.0 * (own - name)
+    yield at_least("outcomes named right, ahead of the name", "points", ahead, AHEAD)
+    yield at_least("skill in time over the name", "", found.all.skill, 0.0)
+    covered = found.coverage[-1].covered
+    percent = None if covered is None else 100.0 * covered
+    yield at_least("ranges of nine in ten that hold", "%", percent, NOMINAL - OFF)
+    yield at_most("ranges of nine in ten that hold", "%", percent, NOMINAL + OFF)
+    yield at_most("rides that failed", "", float(len(found.failed)), 0.0)
 
 
 def _failed(found: Sequence[Compared]) -> tuple[str, ...]:

@@ -11,7 +11,18 @@ from statistics import median
 
 import msgspec
 
-from benchmarks.figures import Figure, Watch, figure, figures_table, in_columns
+from benchmarks.figures import (
+    Aimed,
+    Figure,
+    Target,
+    Watch,
+    aimed,
+    at_most,
+    figure,
+    figures_table,
+    in_columns,
+    targets_table,
+)
 from benchmarks.planning.dense_scenes import crowd
 from benchmarks.planning.process_cost import Memory, memory, start_up
 from benchmarks.service.dialogue import SCENARIOS, SEED, ride
@@ -32,7 +43,7 @@ DEPTHS = (1, 2, 3, 4, 5)
 ROLLOUTS = (25, 50, 100, 200, 400)
 USUAL = 3  # vehicles, where something else grows
 REPEATS = 3
-CROWDS = (3, 12, 40)  # others in view, for which decisions have a bound
+BOUNDS = {3: 100.0, 12: 300.0, 40: 500.0}  # [ms] of the p99 of decisions, by others in view
 SHIFTS = tuple(-6.0 + 0.5 * k for k in range(25))  # [m]
 YARDSTICK = 200_000  # turns of the plain loop
 PARTS = ("decision", "recognition", "search", "record")
@@ -54,7 +65,7 @@ class Growth(msgspec.Struct, frozen=True):
     vehicle_steps_per_s: float  # steps of 0.2 s of all vehicles in them, over the same
 
 
-class PlanReport(msgspec.Struct, frozen=True):
+class PlanReport(Aimed, frozen=True, kw_only=True):
     """What the benchmark found."""
 
     bench: str
@@ -72,7 +83,7 @@ class PlanReport(msgspec.Struct, frozen=True):
         kept += [["", f"{m.hours:.3f}", str(m.decisions), f"{m.resident:.1f}"] for m in self.memory]
         parts = [f"yardstick {self.yardstick:.2f} ms", figures_table(self.figures)]
         parts += [in_columns(rows)] + ([in_columns(kept)] if self.memory else [])
-        return "\n\n".join(parts)
+        return "\n\n".join([*parts, targets_table(self.targets)])
 
     def plot(self) -> str:
         """Growth as an SVG document."""
@@ -94,13 +105,15 @@ def measure(hours: float) -> PlanReport:
     for name in SCENARIOS:
         _ride_again(watch, name)
     starts = figure("start-up to the first decision", "ms", start_up())
-    return PlanReport(
+    dense = crowded(tuple(BOUNDS), SHIFTS)
+    whole = PlanReport(
         bench="plan",
         yardstick=round(1000.0 * yardstick, 3),
-        figures=(*watch.figures(), starts, *crowded(CROWDS, SHIFTS)),
+        figures=(*watch.figures(), starts, *dense),
         growth=growth(yardstick, VEHICLES, DEPTHS, ROLLOUTS, REPEATS),
         memory=memory(hours) if hours > 0.0 else (),
     )
+    return aimed(whole, *bounded(dense))
 
 
 def timed_yardstick() -> float:
@@ -132,6 +145,12 @@ def crowded(sizes: Sequence[int], shifts: Sequence[float]) -> tuple[Figure, ...]
             with settled(), watch.time(f"{others} others, processor time"):
                 decide(frame, moment)
     return watch.figures()
+
+
+def bounded(dense: Sequence[Figure]) -> list[Target]:
+    """Return the bounds of decisions in dense scenes, one for each of `BOUNDS`."""
+    pairs = zip(dense, BOUNDS.values(), strict=True)
+    return [at_most(f"{one.name}, p99", one.unit, one.p99, bound) for one, bound in pairs]
 
 
 def growth(

@@ -1,11 +1,21 @@
 """The report of `xavi bench recognise`: its rows, and its tables for people."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 import msgspec
 
-from benchmarks.figures import Figure, figure, in_columns
+from benchmarks.figures import (
+    Aimed,
+    Figure,
+    Target,
+    aimed,
+    at_least,
+    at_most,
+    figure,
+    in_columns,
+    targets_table,
+)
 from benchmarks.prediction.constants import VariedRow, varied_rows
 from benchmarks.prediction.displacement import HORIZONS, METHODS, Error
 from benchmarks.prediction.foretold import Foretold
@@ -42,7 +52,7 @@ class Part(msgspec.Struct, frozen=True):
     lines: tuple[LineRow, ...]
 
 
-class RecogniseReport(msgspec.Struct, frozen=True):
+class RecogniseReport(Aimed, frozen=True, kw_only=True):
     """What the benchmark found."""
 
     bench: str
@@ -64,6 +74,7 @@ class RecogniseReport(msgspec.Struct, frozen=True):
             parts.append(in_columns([told, *map(_story, self.stories)]))
         if self.failed:
             parts.append("\n".join(("failed:", *self.failed)))
+        parts.append(targets_table(self.targets))
         return "\n\n".join(parts)
 
 
@@ -74,7 +85,7 @@ def report(watched: Sequence[Watched]) -> RecogniseReport:
         DEVELOPMENT: [one for one in watched if one.task.scenario is not None],
         HELD_OUT: [one for one in watched if one.task.scenario is None],
     }
-    return RecogniseReport(
+    whole = RecogniseReport(
         bench="recognise",
         figures=_ahead(stories),
         parts=tuple(_found(name, those) for name, those in sets.items() if those),
@@ -87,6 +98,16 @@ def report(watched: Sequence[Watched]) -> RecogniseReport:
             if one.error is not None
         ),
     )
+    return aimed(whole, *_targets(whole))
+
+
+def _targets(found: RecogniseReport) -> Iterator[Target]:
+    """Yield what is to be reached: all of it on networks that were never used before."""
+    unseen = next((part.goals[-1] for part in found.parts if part.name == HELD_OUT), None)
+    sure = None if unseen is None else unseen.ahead - 2.0 * unseen.error
+    name = "log score ahead of the better rival, less two standard errors"
+    yield at_least(name, "", sure, 0.0)
+    yield at_most("rides that failed", "", float(len(found.failed)), 0.0)
 
 
 def groups(moments: Sequence[Foretold]) -> list[Group]:

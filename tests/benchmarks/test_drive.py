@@ -265,3 +265,14 @@ def test_the_command_prints_one_object() -> None:
 def test_a_scenario_that_is_not_there_is_wrong_usage() -> None:
     done = CliRunner().invoke(app, ["bench", "drive", "--scenario", "nowhere"])
     assert (done.exit_code, done.stdout) == (2, "")
+
+
+def test_a_drive_misses_its_targets_by_a_provoked_brake_or_a_failed_run() -> None:
+    fine = drive(time=10.0)
+    assert report([Run("s1", 0, fine, fine)]).met
+    provoking = report([Run("s1", 0, drive(time=10.0, provoked=1), fine)])
+    assert [one.name for one in provoking.targets if not one.met] == ["hard brakes provoked"]
+    late = report([Run("s1", 0, drive(time=10.4), fine)])
+    assert [one.name for one in late.targets if not one.met] == ["time ratio"]
+    failed = report([Run("s1", 0, fine, fine), Run("s1", 1, error="SumoFailed: no")])
+    assert [one.name for one in failed.targets if not one.met] == ["runs that failed"]

@@ -202,3 +202,19 @@ def test_foils_of_a_story_are_foreseen() -> None:
     assert found.all.agree > found.all.commonest
     assert found.all.sign is not None
     assert found.all.sign > 0.9
+
+
+def test_a_measurement_whose_rides_all_failed_meets_no_target() -> None:
+    found = report([Compared("s1", 0, error="SumoFailed: no")], RANGES)
+    assert not any(target.met for target in found.targets)
+    assert not found.met
+    assert "rides that failed" in found.table()
+
+
+def test_fidelity_is_held_against_the_name_of_the_foil() -> None:
+    other = tuple(msgspec.structs.replace(case, seed=1) for case in CASES)
+    found = report([Compared("s1", 0, tuple(CASES)), Compared("s1", 1, other)], RANGES)
+    ahead = found.targets[0]
+    assert found.all.agree_name is not None
+    assert ahead.value == pytest.approx(100.0 * (0.75 - found.all.agree_name))
+    assert ahead.met

@@ -18,6 +18,7 @@ from benchmarks.planning.plan import (
     VEHICLES,
     Growth,
     PlanReport,
+    bounded,
     crowded,
     growth,
     timed_yardstick,
@@ -134,7 +135,13 @@ def report() -> PlanReport:
         for n in (1, 2, 3)
     ]
     figures = (figure("s1 decision", "ms", [50.0]),)
-    return PlanReport("plan", 10.0, figures, tuple(rows), (Memory(0.1, 30, 200.0),))
+    return PlanReport(
+        bench="plan",
+        yardstick=10.0,
+        figures=figures,
+        growth=tuple(rows),
+        memory=(Memory(0.1, 30, 200.0),),
+    )
 
 
 def test_the_report_is_one_object_and_a_table() -> None:
@@ -211,3 +218,8 @@ def test_the_command_prints_the_report_and_draws_the_plot(
     assert (done.exit_code, json.loads(done.stdout)["bench"]) == (0, "plan")
     assert path.read_text(encoding="utf-8") == report().plot()
     assert CliRunner().invoke(app, ["bench", "plan"]).stdout == report().table() + "\n"
+
+
+def test_decisions_in_dense_scenes_have_a_bound_each() -> None:
+    dense = [figure(f"{n} others", "ms", [taken]) for n, taken in ((3, 100), (12, 301), (40, 500))]
+    assert [target.met for target in bounded(dense)] == [True, False, True]

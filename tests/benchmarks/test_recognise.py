@@ -177,3 +177,16 @@ def test_an_approach_that_breaks_is_told() -> None:
     assert found.error is not None
     assert found.error.startswith("ScenarioNotFound")
     assert found.moments == ()
+
+
+def test_recognition_is_held_against_its_rivals_on_networks_never_used_before() -> None:
+    def both(first: float, network: str) -> tuple[Foretold, Foretold]:
+        chances = (first, 1.0 - first)
+        return moment(chances, 0, network), moment(chances[::-1], 1, network)
+
+    known = Watched(Task("s1", 0), both(0.9, "s1/0"))
+    sure = [Watched(Task(None, k), both(0.9, f"network {k}/{k}")) for k in range(4)]
+    wrong = [Watched(Task(None, k), both(0.1, f"network {k}/{k}")) for k in range(4)]
+    assert report([known, *sure]).targets[0].met
+    assert not report([known, *wrong]).targets[0].met
+    assert report([known]).targets[0].value is None
