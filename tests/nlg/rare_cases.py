@@ -349,4 +349,23 @@ CASES: tuple[Answer, ...] = (
     MotionReason(LONG_AGO, (MotionCause("right-of-way", 1),), asked="let-go"),
     MotionReason(LONG_AGO, (MotionCause("right-of-way", 1),), asked="slow-down"),
     MotionReason(BRAKED, (MotionCause("turn"),), premise=False, asked="wait"),
+    *(
+        MotionReason(SLOWED, (LEADER,), suspect=suspect, suspected=part, besides=besides)
+        for suspect, besides in ((2, (3,)), (3, (1, 2)))
+        for part in ("all", "some", "which", "all-alike")
+    ),
+    *(
+        SupposedOfUs(one, past=past, form=form, struck=3, struck_risk=risk)
+        for one, form, risk in (
+            (LATER, "chance", 0.0),
+            (replace(LATER, collision=0.3), "chance", 0.2),
+            (replace(LATER, collision=0.3), "crash", 0.0),
+            (LATER, "crash", 0.1),
+            (LATER, "crash", 0.7),
+        )
+        for past in (True, False)
+    ),
+    SupposedOfUs(LATER, form="chance"),
+    SupposedOfUs(replace(LATER, collision=0.3, collided_with=2), form="chance"),
+    SupposedOfUs(replace(LATER, collision=0.3, fact_collision=0.05), form="chance"),
 )

@@ -12,10 +12,13 @@ from xavi_dialogue.domain.vocabulary import ActionName, Manner, Relation
 
 #: Whether a vehicle that a question takes for the cause is one; of two, one of them, or neither;
 #: where it is taken for the only one, whether it is ("alone"), or there is more ("beside").
-#: "same": it speaks against the alternative, but without it the same is done.
+#: "same": it speaks against the alternative, but without it the same is done. Of several that are
+#: taken for the cause together, "all" or only "some" are; asked which is more of it, "which" is, or
+#: all are alike.
 Suspected: TypeAlias = Literal[
-    "main", "part", "none", "either", "neither", "alone", "beside", "same"
-]
+    "main", "part", "none", "either", "neither", "alone", "beside", "same",
+    "all", "some", "which", "all-alike",
+]  # fmt: skip
 
 
 class Performed(Value, frozen=True):
@@ -138,10 +141,10 @@ class GoReason(Value, frozen=True):
     evidence: Evidence = Evidence()  # the decision in force when we went
 
 
-#: What is asked of a supposition about us: what would come of it, whether we would collide, whether
-#: we could do it, when we would be there.
+#: What is asked of a supposition about us: what would come of it, whether or how probably we would
+#: collide, whether we could do it, when we would be there.
 Asking: TypeAlias = Literal[
-    "what-if", "crash", "could", "arrival", "quicker", "better", "safe", "safer"
+    "what-if", "crash", "chance", "could", "arrival", "quicker", "better", "safe", "safer"
 ]
 
 
@@ -213,6 +216,8 @@ class SupposedOfUs(Value, frozen=True):
     ahead: MotionCause | None = None  # who stood in the lane that we would have stayed in
     later: Performed | None = None  # it was done after that decision, or is planned
     open_at: float | None = None  # [s] when it could last be done, before the decision in force
+    struck: int | None = None  # the vehicle of which a collision is asked about ...
+    struck_risk: float | None = None  # ... and its probability under the foil
 
 
 class SupposedOfOther(Value, frozen=True):

@@ -101,12 +101,17 @@ def _said(turn: Turn) -> Iterator[Ask | Claim | Request | Feel]:
 
 
 def _mentions(turn: Turn, number: int) -> Iterator[Mention]:
-    """Yield what the passenger spoke of, and the parts that vehicles have in the answers."""
+    """Yield what the passenger spoke of, and the parts that vehicles have in the answers.
+
+    A cause that the words of the reply leave out has not been spoken of.
+    """
     for act in turn.acts:
         yield from mentions_of(act.act, number)
     for part in turn.parts:
         for thing, role in _roles(part.result):
-            yield mention(thing, number, role, by_car=True)
+            unsaid = role == "cause" and isinstance(thing, Vehicle)
+            if not unsaid or not turn.mentioned or thing.number in turn.mentioned:
+                yield mention(thing, number, role, by_car=True)
 
 
 def _roles(result: Answer | Refusal) -> Iterator[tuple[Thing, str]]:

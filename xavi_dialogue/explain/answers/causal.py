@@ -52,7 +52,12 @@ from xavi_dialogue.explain.answers.reasons import choices, knowing, suspects
 from xavi_dialogue.explain.answers.reasons.provoked import because_of_us
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import window
-from xavi_dialogue.explain.answers.reference.reading import is_own, unwrapped, vehicle_in
+from xavi_dialogue.explain.answers.reference.reading import (
+    is_own,
+    numbers_in,
+    unwrapped,
+    vehicle_in,
+)
 from xavi_dialogue.explain.answers.ride.delays import held_up, let_past
 from xavi_dialogue.explain.answers.suppositions import deciding, possible, risks
 
@@ -251,7 +256,8 @@ def _because_of(event: Event, scene: Asked) -> Answer:
     if event.tense in ("future", "present") and action in ("stop", "wait"):
         action = "stand" if stands(scene) else "slow-down"
     plain = Happens(replace(event, action=action, object=None, tense=tense))
-    found = reasons.why(Why(plain, suspect=event.object), scene)
+    first = Vehicle(others[0]) if others else event.object
+    found = reasons.why(Why(plain, suspect=first), scene)
     if not isinstance(found, ChoiceReason | MotionReason) or found.suspected != "none":
         return found
     named = [vehicle for vehicle in suspects.blamed(found) if vehicle in others]
@@ -273,7 +279,9 @@ def _who_caused(question: Which, scene: Asked) -> Answer:
     """Because of whom something came about: the reason."""
     of, _ = unwrapped(question.such)
     assert isinstance(of, Caused)
-    return reasons.why(Why(of), scene)
+    found = reasons.why(Why(of), scene)
+    among = tuple(number for thing in question.among for number in numbers_in(thing))
+    return suspects.with_suspects(found, among, which=True) if len(among) > 1 else found
 
 
 def _reasons(question: Listing, scene: Asked) -> Answer:

@@ -36,7 +36,7 @@ from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.hedged import as_when, supposing
 from xavi_dialogue.nlu.compose.clauses.peaks import extreme_told
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, as_thing
-from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, node_of, words_of
+from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, lifted, node_of, words_of
 from xavi_dialogue.nlu.compose.fragments import Fragments
 from xavi_dialogue.nlu.compose.orders import Orders
 from xavi_dialogue.nlu.compose.propositions.phrases import Phrases
@@ -115,7 +115,7 @@ class Composer(Statements):
         whs = [p for p in unit.parts if isinstance(p, Node) and p.name.startswith("wh_")
                and p.name not in ("wh_clause", "wh_np_clause")]  # fmt: skip
         wh = whs[0] if whs else None
-        return wh, [p for p in unit.parts if p is not wh]
+        return wh, lifted([p for p in unit.parts if p is not wh])
 
     def _ask(self, unit: Node) -> Found:
         wh_node, parts = self.split(unit)

@@ -13,6 +13,7 @@ from xavi_dialogue.domain.meaning import (
     Request,
     Social,
     Whether,
+    Why,
 )
 from xavi_dialogue.domain.terms import (
     SOMEBODY_ELSE,
@@ -192,7 +193,9 @@ class Fragments(BareQuestions):
             return [((suppose(supposed),), 0.0)]
         if clause.because is not None and thing is None:
             thing = as_thing(clause.because) if not isinstance(clause.because, Clause) else None
-            return [((Elliptic(thing, form="why"),), 0.0)]
+            if thing is None or thing == Pronoun("who"):
+                return [((Elliptic(thing, form="why"),), 0.0)]
+            return [((Ask(Why(That(), suspect=thing)),), 0.0)]
         if clause.else_:
             return [((Elliptic(besides=True),), 0.1)]
         if thing is None and event is None and isinstance(clause.time, Unsaid):

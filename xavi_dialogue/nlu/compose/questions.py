@@ -200,7 +200,11 @@ class Questions(Options):
             if wh.preposition == "for":  # "for whom did you stop?"
                 stranded = Node("stranded", (), 0, 0, 0.0)
                 clause.complements.append(Complement("for", None, stranded))
-        nominal = self.effect(wh, clause) or self._nominal(wh, clause)
+        nominal = (
+            self.mattering(wh, clause, options)
+            or self.effect(wh, clause)
+            or self._nominal(wh, clause)
+        )
         if nominal is not None:
             return [(self.framed(nominal, clause, None), 0.0)]
         if options is not None:

@@ -25,6 +25,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Proposition,
     Related,
+    Vehicles,
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute, State
@@ -39,7 +40,7 @@ from xavi_dialogue.explain.answers.reasons import (
     refraining,
     signalling,
 )
-from xavi_dialogue.explain.answers.reasons.suspects import with_suspect
+from xavi_dialogue.explain.answers.reasons.suspects import with_suspect, with_suspects
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, window
 from xavi_dialogue.explain.answers.reference.reading import (
@@ -95,6 +96,8 @@ def why(question: Why, scene: Asked) -> Answer:
     found = _why(of, scene, question, negated=negated)
     if of_causes and isinstance(found, ChoiceReason | MotionReason):
         found = structs.replace(found, of_causes=True)
+    if isinstance(question.suspect, Vehicles) and len(question.suspect.numbers) > 1:
+        return with_suspects(found, question.suspect.numbers)
     return with_suspect(found, blamed, check_seen(scene, question.rival), alone=question.alone)
 
 

@@ -35,11 +35,34 @@ def with_suspect(
             others = besides or _road_too(found) or _unnamed(found)
             part = "beside" if others else _alone(found)
     if isinstance(found, ChoiceReason):
+        if part == "none" and found.ahead is not None and found.ahead.vehicle == suspect:
+            found = replace(found, ahead=None)  # where it is decides nothing
         ranked = sorted(found.contrast.causes, key=lambda cause: cause.vehicle != suspect)
         against = replace(found.contrast, causes=tuple(ranked))
         return replace(found, contrast=against, suspect=suspect, suspected=part, besides=besides)
     motive = sorted(found.causes, key=lambda cause: cause.vehicle != suspect)
     return replace(found, causes=tuple(motive), suspect=suspect, suspected=part, besides=besides)
+
+
+def with_suspects(found: Answer, suspects: tuple[int, ...], *, which: bool = False) -> Answer:
+    """Tell of several vehicles that the question takes for the cause whether all of them are.
+
+    Where it is asked which of them is, or is more of it, that is told instead.
+    """
+    if not isinstance(found, ChoiceReason | MotionReason):
+        return found
+    guilty = tuple(v for v in blamed(found) if v in suspects and not _same_without(found, v))
+    if not guilty:
+        told = with_suspect(found, suspects[0])
+        assert isinstance(told, ChoiceReason | MotionReason)
+        return replace(told, suspected="neither" if which else "none", besides=suspects[1:])
+    told = with_suspect(found, guilty[0])
+    assert isinstance(told, ChoiceReason | MotionReason)
+    if len(guilty) == len(suspects):
+        return replace(told, suspected="all-alike" if which else "all", besides=guilty[1:])
+    besides = tuple(vehicle for vehicle in suspects if vehicle not in guilty)
+    single = which and len(guilty) == 1
+    return replace(told, suspected="which" if single else "some", besides=besides)
 
 
 def blamed(found: ChoiceReason | MotionReason) -> list[int]:
@@ -51,9 +74,18 @@ def blamed(found: ChoiceReason | MotionReason) -> list[int]:
     named = [cause.vehicle for cause in against.causes]
     if against.decisive == "collision" and against.collided_with is not None:
         named = [against.collided_with, *named]
-    if found.ahead is not None and found.ahead.vehicle is not None:
+    if found.ahead is not None and found.ahead.vehicle is not None and not _by_the_way(found):
         named = [found.ahead.vehicle, *named]
     return list(dict.fromkeys((*named, *_jointly(found))))
+
+
+def _by_the_way(found: ChoiceReason) -> bool:
+    """Check whether who is in the lane that was left alone has no part in what decided."""
+    ahead, against = found.ahead, found.contrast
+    if ahead is None or ahead.kind not in ("lane-beside", "lane-ahead"):
+        return False
+    caused = any(cause.vehicle == ahead.vehicle for cause in against.causes)
+    return not caused and against.decisive not in (None, "time", "late", "collision")
 
 
 def causation_of(found: ChoiceReason | MotionReason) -> Causation | None:

@@ -62,11 +62,14 @@ def is_own(thing: Thing | None) -> bool:
 
 def vehicle_in(thing: Thing | Proposition | None) -> int | None:
     """Tell the number of another vehicle; the first of several."""
+    return next(iter(numbers_in(thing)), None)
+
+
+def numbers_in(thing: Thing | Proposition | None) -> tuple[int, ...]:
+    """Tell the numbers of other vehicles."""
     if isinstance(thing, Vehicle) and thing.number != EGO:
-        return thing.number
-    if isinstance(thing, Vehicles) and thing.numbers:
-        return thing.numbers[0]
-    return None
+        return (thing.number,)
+    return thing.numbers if isinstance(thing, Vehicles) else ()
 
 
 def somebody(vehicle: int) -> Somebody:

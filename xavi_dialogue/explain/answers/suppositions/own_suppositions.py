@@ -14,7 +14,7 @@ from xavi_dialogue.domain.answers import (
     SupposedOfUs,
 )
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.meaning import Compare, HowMuch, Question, When, Whether
+from xavi_dialogue.domain.meaning import Compare, HowMuch, HowSure, Question, When, Whether
 from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
     Compares,
@@ -28,10 +28,11 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Quantity,
     Unsaid,
+    Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.measuring.closeness import closeness
-from xavi_dialogue.explain.answers.reasons import choices
+from xavi_dialogue.explain.answers.reasons import choices, knowing
 from xavi_dialogue.explain.answers.reasons.against import against
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.foils import Did
@@ -46,6 +47,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
 from xavi_dialogue.explain.answers.suppositions import reacting
 from xavi_dialogue.explain.answers.suppositions.hastening import hastened
 from xavi_dialogue.explain.causes.driving.blocking import blocking
+from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.plans.contrast import alone, factual
 from xavi_dialogue.explain.causes.plans.natural import STAYING, natural
 from xavi_dialogue.explain.causes.plans.premise import happened, manoeuvre
@@ -63,6 +65,8 @@ def form_of(then: Question | None) -> Asking:
     """Tell what is asked of a supposed world."""
     if reacting.asks(then) == "collide":
         return "crash"
+    if _collision_in(then) is not None:
+        return "chance"
     if is_sooner(then):
         return "quicker"
     match then:
@@ -116,10 +120,33 @@ def is_sooner(then: Question | None) -> bool:
 
 def struck_in(then: Question | None) -> int | None:
     """Tell whom it is asked whether we would collide with."""
-    event = event_of(then.that) if isinstance(then, Whether) else None
-    if event is None or event.action not in reacting.COLLIDING:
-        return None
-    return vehicle_in(event.object) or vehicle_in(event.actor)
+    event = _collision_in(then)
+    return None if event is None else vehicle_in(event.object) or vehicle_in(event.actor)
+
+
+def _collision_in(then: Question | None) -> Event | None:
+    """Read the collision that it is asked of whether it would happen, or how probably."""
+    of = then.that if isinstance(then, Whether) else then.of if isinstance(then, HowSure) else None
+    event = event_of(of)
+    return event if event is not None and event.action in reacting.COLLIDING else None
+
+
+def with_chance(found: Answer, vehicle: int | None, scene: Asked) -> Answer:
+    """Add how probably we would have collided with the vehicle that is asked about.
+
+    Raises:
+        Unanswered: rollouts are needed.
+    """
+    of_risk = isinstance(found, SupposedOfUs) and found.form in ("crash", "chance")
+    if vehicle is None or not isinstance(found, SupposedOfUs) or not of_risk:
+        return found
+    trace, foil = scene.ride.at(found.contrast.decided), found.contrast.foil
+    if trace is None or not foil or found.done is not None:
+        return found
+    _, there = scene.ride.evidence(trace, foil)
+    return structs.replace(
+        found, struck=vehicle, struck_risk=chances(there).collision_with(vehicle)
+    )
 
 
 def stays_ahead(event: Event | None) -> TypeGuard[Event]:
@@ -177,6 +204,9 @@ def of_us(
     except Did as did:
         if form == "crash":
             return closeness(scene, struck, Window(scene.now, scene.now), "hit", past=False)
+        if form == "chance":
+            collide = Event("collide", object=None if struck is None else Vehicle(struck))
+            return knowing.how_sure(HowSure(Happens(collide)), scene)
         return _done(did, scene, form)
     compared = tried.contrast
     nearest = event.action if event.action in ("brake", "slow-down") else None

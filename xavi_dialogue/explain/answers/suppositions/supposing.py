@@ -50,6 +50,7 @@ from xavi_dialogue.explain.answers.suppositions.own_suppositions import (
     stays_ahead,
     struck_in,
     undone,
+    with_chance,
 )
 from xavi_dialogue.explain.answers.suppositions.supposed_when import (
     driven,
@@ -112,10 +113,11 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
         raise Unanswered(CannotSay("unsupported-condition"))
     struck = struck_in(question.then)
     if negated:
-        return undone(event, scene, form, struck)
+        return with_chance(undone(event, scene, form, struck), struck, scene)
     asked = question.then.that if isinstance(question.then, Whether) else None
     event, scene = imagined(event, question.then, scene)
-    return claimed(of_us(event, scene, form, struck), claimed_in(asked))
+    found = with_chance(of_us(event, scene, form, struck), struck, scene)
+    return claimed(found, claimed_in(asked))
 
 
 def _mistaken(

@@ -29,7 +29,9 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Moment, Who
 
-OF_RISKS = frozenset[Asking](("crash", "safe", "safer"))  # questions that are of risks themselves
+OF_RISKS = frozenset[Asking](
+    ("crash", "chance", "safe", "safer")
+)  # questions that are of risks themselves
 TIMED = frozenset[Asking](("arrival", "could", "quicker"))  # those that are of times
 SAFER = 0.01  # probability of a collision by which something is safer
 ALIKE = 0.1  # difference of probabilities up to which two outcomes are stated as one
@@ -106,11 +108,18 @@ def _held_against(claimed: float | None, size: float) -> str | None:
     return "less" if claimed > ABOUT * size else "more" if size > ABOUT * claimed else "same"
 
 
+def _told_in_all(answer: SupposedOfUs) -> bool:
+    """Check whether the risk of any collision is more than that with the vehicle asked about."""
+    more = answer.contrast.collision - (answer.struck_risk or 0.0)
+    return answer.struck is not None and more >= SAFER
+
+
 def _asked(answer: SupposedOfUs, slots: dict[str, Any]) -> dict[str, Any]:
     """Return the slots for whether we could, would have collided, or when we would be there."""
     contrast = answer.contrast
     worse = contrast.value is None or contrast.value > 0.0
-    risk = contrast.collision
+    asked = answer.struck_risk
+    risk = contrast.collision if asked is None else asked
     cause = told_cause(contrast)
     how = None if cause is None or cause.mechanism is None else cause.mechanism.how
     behind = cause is not None and how in ("leader", "blocked", "cut-in")
@@ -122,6 +131,8 @@ def _asked(answer: SupposedOfUs, slots: dict[str, Any]) -> dict[str, Any]:
         "judged": contrast.verdict,
         "verdict": "yes" if risk >= LIKELY else "maybe" if risk >= RISK else "no",
         "good": not worse and slots["kind"] not in ("collision", "dead", "late"),
+        "rival": None if answer.struck is None else Who(Vehicle(answer.struck), contrast.decided),
+        "in_all": Chance(contrast.collision) if _told_in_all(answer) else None,
         "behind": Who(Vehicle(cause.vehicle), contrast.decided) if behind and cause else None,
         "arrival": None if answer.arrival is None else Moment(answer.arrival),
         "sooner": effect is not None and effect.delta < 0.0,
@@ -131,6 +142,7 @@ def _asked(answer: SupposedOfUs, slots: dict[str, Any]) -> dict[str, Any]:
         "risk": Chance(risk),
         "fact_risk": Chance(contrast.fact_collision),
         "risky": max(risk, contrast.fact_collision) >= RISK,
+        "fact_risky": contrast.fact_collision >= RISK,
         "even": effect is None and any(e.component == "time" for e in contrast.effects),
         "afterwards": own_verbs(later, contrast.fact) if later else None,
         "cause": None,

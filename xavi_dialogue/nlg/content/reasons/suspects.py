@@ -38,12 +38,14 @@ def suspected(
     if suspect is None or part is None:
         return (reason,)
     without_part = part in ("none", "neither")
-    group = without_part and besides
+    group = besides and (without_part or part in ("all", "all-alike"))
     slots = {
         "who": Who(Vehicles((suspect, *besides))) if group else Who(Vehicle(suspect), time),
         "part": part,
         "cleared": suspect in cleared,
         "besides": all_of(besides, time),
+        "whole": part in ("all", "all-alike"),
+        "two": len(besides) == 1,
         "past": past,
     }
     if told or without_part:

@@ -4,6 +4,7 @@ from typing import Any, cast
 
 from xavi_dialogue.domain.meaning import Compare, Question, Which
 from xavi_dialogue.domain.terms import (
+    Caused,
     Described,
     Ego,
     Event,
@@ -13,6 +14,7 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Related,
+    That,
     Thing,
     Wanted,
 )
@@ -21,11 +23,12 @@ from xavi_dialogue.nlu.compose.alternatives.comparing import BY
 from xavi_dialogue.nlu.compose.alternatives.effects import Effects
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Sem, as_thing, is_thing
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Noun, Sem, as_thing, is_thing
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, fact
 
 WEAK = 1.0  # cost of a clause of which nothing is said
 _YIELDS = frozenset({"give-way", "let-go", "wait"})
+_MATTERING = frozenset({"matter", "influence", "cause"})
 
 #: What tells nobody apart: "a man", "somebody".
 _SORTS = (Described(definite=False), Described(kind="pedestrian", definite=False))
@@ -92,14 +95,33 @@ class Options(Effects):
         if options:
             return Compare(tuple(_option(s) for s in options[0].members),
                            cast(Any, BY.get(clause.comparisons[0][0], "best")))  # fmt: skip
-        among = [wh.of, wh.sem, *(c.sem for c in clause.complements if c.key == "of")]
-        those = next((thing for sem in among if (thing := several_of(sem)) is not None), None)
-        bare = wh.kind == "which" and wh.sem is None and wh.of is None and clause.gap is None
-        if those is None and (bare or {"them", "those", "these", "both"} & set(wh.words)):
-            those = Pronoun("them-all")
+        those = _those(wh, clause)
         if those is None or clause.than is not None:
             return None
         return Compare((those,), cast(Any, by_of(clause)), least_of(clause))
+
+    def mattering(self, wh: Wh, clause: Clause, options: tuple[Any, ...] | None) -> Question | None:
+        """Ask "which of the two mattered more", "who was the main reason, he or the bus"."""
+        nouns = [sem for sem, _ in clause.objects if isinstance(sem, Noun)]
+        reasons = any(sem.key in ("reason", "factor") for sem in nouns)
+        verb = clause.verb is not None and clause.verb.key in _MATTERING
+        weighty = bool(clause.comparisons) and clause.comparisons[0][0] == "important"
+        if wh.kind not in ("which", "what", "who") or not (verb or reasons or weighty):
+            return None
+        things = options is not None and all(is_thing(option) for option in options)
+        those = _those(wh, clause) if options is None else None
+        among = options if things and options is not None else () if those is None else (those,)
+        return Which(Wanted(), Caused(Wanted(), That()), among) if among else None
+
+
+def _those(wh: Wh, clause: Clause) -> Thing | None:
+    """Give those of whom one is asked for, where the question word says that there are several."""
+    among = [wh.of, wh.sem, *(c.sem for c in clause.complements if c.key == "of")]
+    those = next((thing for sem in among if (thing := several_of(sem)) is not None), None)
+    bare = wh.kind == "which" and wh.sem is None and wh.of is None and clause.gap is None
+    if those is None and (bare or {"them", "those", "these", "both"} & set(wh.words)):
+        return Pronoun("them-all")
+    return those
 
 
 def rivals(options: tuple[Any, ...]) -> tuple[Any, ...]:

@@ -1,5 +1,7 @@
 """Trees: small looks at a parse."""
 
+from collections.abc import Sequence
+
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 from xavi_dialogue.nlu.text.tables import load
@@ -58,6 +60,21 @@ def _digits(word: str) -> float:
     """Read a number in decimal digits; 0 for other signs that look like digits."""
     plain = word.isascii() and word.replace(".", "", 1).isdecimal()
     return float(word) if plain else 0.0
+
+
+def lifted(parts: Sequence[Part]) -> list[Part]:
+    """Put what is supposed at the end of a deed behind all: "the risk of hitting him if ...".
+
+    It is supposed of all that is asked, not of that deed.
+    """
+    if not parts or not isinstance(last := parts[-1], Node):
+        return list(parts)
+    inner = lifted(last.parts)
+    ends = inner[-1] if last.name in ("gerund", "infinitive") or inner != list(last.parts) else None
+    if not isinstance(ends, Node) or ends.name != "if_clause" or len(inner) < 2:
+        return list(parts)
+    kept = Node(last.name, tuple(inner[:-1]), last.start, ends.start, last.cost)
+    return [*parts[:-1], kept, ends]
 
 
 def is_negated(node: Node) -> bool:

@@ -59,6 +59,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     PROPOSITIONS,
     affirmed,
     asserted,
+    explained,
     hindrance,
     interval,
     questioned,
@@ -78,19 +79,17 @@ def question(spoken: Question, g: Grounder) -> Question:
 
 
 def _why(spoken: Why, g: Grounder) -> Why:
-    of = g.proposition(spoken.of, "presupposed")
+    blames = spoken.suspect is not None and isinstance(spoken.of, That)
+    of = g.proposition((blames and explained(g.context)) or spoken.of, "presupposed")
     instead = None if spoken.instead is None else g.proposition(spoken.instead, "supposed")
     event = first(of, Event)
     if spoken.suspect == SOMEBODY_ELSE:
         return replace(spoken, of=of, instead=instead)
     blamed: Thing | None = None if isinstance(spoken.suspect, Nobody) else spoken.suspect
-    if blamed is not None and isinstance(spoken.of, That) and asked_who(g.context):
-        g.notes.cost += UNASKED
     if blamed is not None:
+        g.notes.cost += UNASKED * (blames and asked_who(g.context))
         blamed = suspect(blamed, event, g, _during(event, g))
-    rival = spoken.rival
-    if rival is not None:
-        rival = suspect(rival, event, g, _during(event, g))
+    rival = None if spoken.rival is None else suspect(spoken.rival, event, g, _during(event, g))
     return replace(spoken, of=of, instead=instead, suspect=blamed, rival=rival)
 
 

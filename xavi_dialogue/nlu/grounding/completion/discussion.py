@@ -16,9 +16,11 @@ from xavi_dialogue.domain.meaning import (
     Question,
     Request,
     Where,
+    Which,
     Whither,
+    Why,
 )
-from xavi_dialogue.domain.rewriting import first, parts
+from xavi_dialogue.domain.rewriting import first, parts, rewrite
 from xavi_dialogue.domain.terms import (
     At,
     Believed,
@@ -33,6 +35,7 @@ from xavi_dialogue.domain.terms import (
     Has,
     Is,
     Not,
+    Now,
     Proposition,
     Related,
     That,
@@ -88,6 +91,14 @@ def questioned(context: Context) -> Proposition | None:
     found = spoken_of(context)
     event = last_deed(context) if found is None else None
     return found if event is None else Happens(event)
+
+
+def explained(context: Context) -> Proposition | None:
+    """Give what it was asked the reason of, where that is under discussion: "because of him?"."""
+    match context.discourse.question:
+        case Why(of=of) | Which(such=Caused(effect=of)):
+            return rewrite(of, lambda part: Unsaid() if isinstance(part, Now) else part)
+    return None
 
 
 def spoken_of(context: Context) -> Proposition | None:
