@@ -368,4 +368,22 @@ CASES: tuple[Answer, ...] = (
     SupposedOfUs(LATER, form="chance"),
     SupposedOfUs(replace(LATER, collision=0.3, collided_with=2), form="chance"),
     SupposedOfUs(replace(LATER, collision=0.3, fact_collision=0.05), form="chance"),
+    *(
+        ChoiceReason("why", CHANGED, replace(LATER, causation=mixed), past=past, of_causes=True)
+        for mixed in (Causation("both", (1, 2), decides=False, alters=(2,)),)
+        for past in (True, False)
+    ),
+    *(
+        SupposedOfUs(one, form=form)
+        for form in ("slower", "worse", "riskier")
+        for one in (
+            LATER,
+            QUICK,
+            replace(LATER, effects=(), verdict="close", told=()),
+            replace(LATER, collision=0.3),
+            replace(LATER, fact_collision=0.3),
+            replace(LATER, collision=0.3, fact_collision=0.3),
+            ends("collision", 0.8, 2),
+        )
+    ),
 )

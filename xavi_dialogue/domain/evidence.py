@@ -86,6 +86,7 @@ class Causation(Value, frozen=True):
     vehicles: tuple[int, ...] = ()
     cleared: tuple[int, ...] = ()  # tried, and of no matter
     decides: bool = True  # without them something else is done; else the same, for less of a reason
+    alters: tuple[int, ...] = ()  # of "both": without each of these, something else is done
     minimal: bool = True  # False: "several" are together enough, but maybe not all of them needed
 
     @property

@@ -144,8 +144,9 @@ class GoReason(Value, frozen=True):
 #: What is asked of a supposition about us: what would come of it, whether or how probably we would
 #: collide, whether we could do it, when we would be there.
 Asking: TypeAlias = Literal[
-    "what-if", "crash", "chance", "could", "arrival", "quicker", "better", "safe", "safer"
-]
+    "what-if", "crash", "chance", "could", "arrival", "quicker", "better", "safe", "safer",
+    "slower", "worse", "riskier",
+]  # fmt: skip
 
 
 class Unslowed(Value, frozen=True):

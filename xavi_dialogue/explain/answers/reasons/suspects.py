@@ -51,7 +51,9 @@ def with_suspects(found: Answer, suspects: tuple[int, ...], *, which: bool = Fal
     """
     if not isinstance(found, ChoiceReason | MotionReason):
         return found
-    guilty = tuple(v for v in blamed(found) if v in suspects and not _same_without(found, v))
+    counted = tuple(v for v in blamed(found) if v in suspects)
+    deciding = tuple(v for v in counted if not _same_without(found, v))
+    guilty = (deciding or counted) if which else counted
     if not guilty:
         told = with_suspect(found, suspects[0])
         assert isinstance(told, ChoiceReason | MotionReason)

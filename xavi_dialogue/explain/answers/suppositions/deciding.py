@@ -49,6 +49,7 @@ from xavi_dialogue.explain.history.ride import planned
 EQUAL = 0.25  # [s] of value within which two options are the same
 #: What is asked of one option that is compared with what was decided.
 FORMS: dict[str, Asking] = {"safety": "safer", "best": "better"}
+LEAST: dict[str, Asking] = {"safety": "riskier", "best": "worse"}
 EVEN = 0.01  # probability of a collision within which two options are equally safe
 
 
@@ -122,6 +123,8 @@ def compared(question: Compare, scene: Asked) -> Answer:
     single = len(question.options) == 1 and (kept or not _was_done(scene, events[0]))
     if single and question.by in ("time", "speed", "best", "safety"):
         form: Asking = FORMS.get(question.by, "quicker")
+        if question.least:
+            form = LEAST.get(question.by, "slower")
         return of_us(replace(events[0], tense="past"), scene, form)
     found, fact, foil = _sides(scene, events)
     ride = scene.ride

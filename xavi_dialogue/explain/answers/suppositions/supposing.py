@@ -194,9 +194,10 @@ def _of_other(
             event, question.then, scene, vehicle, here, negated=negated, past=past
         )
     quick = manner_of(event, "fast", "slowly", "early", "late") is not None
-    if quick or (event is None and not negated):  # nobody can be put where or how he was not
+    away = is_absence(of, negated=negated)
+    if quick or (event is None and not negated and not away):  # nobody can be put where he was not
         raise Unanswered(CannotSay("unsupported-condition"))
-    supposed = None if is_absence(of, negated=negated) else event
+    supposed = None if away else event
     if supposed is None and not past and asks_pace(question.then):
         return Measures((scene.world.measure("speed", Ego(), scene.now),))
     one = Joint((vehicle,), supposed, negated=negated)

@@ -18,6 +18,7 @@ from xavi_dialogue.explain.facts.episodes.light_waits import Hold, holding
 from xavi_dialogue.explain.facts.episodes.waiting import top_holders
 from xavi_dialogue.explain.facts.traffic_lights import told
 from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.explain.history.nearing import with_speeds
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride
 from xavi_dialogue.explain.history.traffic_lights import ahead, shown
 
@@ -47,6 +48,11 @@ def light_causes(
     end = ride.now if deed.end is None else deed.end
     yielded = deed.action == "give-way" and isinstance(deed.object, Vehicle)
     hold = None if yielded or deed.action not in HELD else holding(ride, EGO, deed.begin, end)
+    if hold is not None and deed.end is None and not hold.goes_on and at > hold.end + ROUNDING:
+        last = ride.at(at)  # it lets us go by now: who stands before us still holds us
+        queue = () if last is None else tuple(_queue(world, last))
+        if last is not None and queue:
+            return with_speeds(ride, queue, at), last
     trace = None if hold is None else _decision(ride, hold, deed, at)
     if hold is None or trace is None:
         return None

@@ -100,7 +100,9 @@ def proven(
         for cause in told
     )
     decides = tests.decides(found, causes)
-    return Proven(causes, replace(found, decides=decides), tests.replaced(found))
+    alters = tuple(cause.vehicle for cause in causes if foil is not None and cause.decision_changes)
+    found = replace(found, decides=decides, alters=alters if found.kind == "both" else ())
+    return Proven(causes, found, tests.replaced(found))
 
 
 def trial_of(

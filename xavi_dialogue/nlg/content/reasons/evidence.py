@@ -90,12 +90,14 @@ def hangs_on(causation: Causation | None, time: float, *, past: bool) -> Message
     """Tell how it hangs on vehicles, where it does not on one alone."""
     if causation is None or causation.kind in ("one", "open"):
         return None
-    one, other = (*(Who(Vehicle(v), time) for v in causation.vehicles[:2]), None, None)[:2]
+    first = sorted(causation.vehicles, key=lambda vehicle: vehicle not in causation.alters)
+    one, other = (*(Who(Vehicle(v), time) for v in first[:2]), None, None)[:2]
+    mixed = not causation.decides and any(v in causation.alters for v in causation.vehicles)
     few = causation.kind == "several" and causation.minimal and len(causation.vehicles) <= NAMED
     every = all_of(causation.vehicles, time) if few else None
     return message(
         "HANGS_ON",
-        kind=causation.kind,
+        kind="mixed" if mixed else causation.kind,
         one=one,
         other=other,
         every=every,

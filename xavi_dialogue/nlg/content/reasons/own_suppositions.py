@@ -29,10 +29,9 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Moment, Who
 
-OF_RISKS = frozenset[Asking](
-    ("crash", "chance", "safe", "safer")
-)  # questions that are of risks themselves
-TIMED = frozenset[Asking](("arrival", "could", "quicker"))  # those that are of times
+#: Questions that are of risks themselves.
+OF_RISKS = frozenset[Asking](("crash", "chance", "safe", "safer", "riskier"))
+TIMED = frozenset[Asking](("arrival", "could", "quicker", "slower"))  # those that are of times
 SAFER = 0.01  # probability of a collision by which something is safer
 ALIKE = 0.1  # difference of probabilities up to which two outcomes are stated as one
 ABOUT = 1.5  # factor up to which a time is about as long as it is said to be

@@ -48,6 +48,7 @@ class Comparing(Frames):
         if not clause.comparisons or clause.comparisons[0][1] == "as":
             return None
         by = cast(Any, BY.get(clause.comparisons[0][0], "best"))
+        least = any(word in _WORSE for _, word in clause.comparisons)
         deed: Any = clause.subject if isinstance(clause.subject, Event) else None
         governed = clause.infinitive or clause.gerund
         if deed is None and governed is not None and isinstance(clause.subject, Pronoun):
@@ -67,17 +68,17 @@ class Comparing(Frames):
             deed = self.propositions.as_event(governed)
         ours = isinstance(clause.subject, Ego) and clause.verb is None and not clause.than
         if deed is None and key in ("better", "safe", "fast") and ours and unreal:
-            return Compare((That(), *self._other(clause)), by)
+            return Compare((That(), *self._other(clause)), by, least)
         if not isinstance(deed, Event):
             judged = key in ("safe", "better", "comfortable", "dangerous")
             hypothetical = unreal or judged or isinstance(clause.than, Event | Clause)
             if not (spoken and hypothetical) or clause.verb is not None:
                 return None
-            return Compare((That(), *self._other(clause)), by)
+            return Compare((That(), *self._other(clause)), by, least)
         if unreal:
             deed = with_fields(deed, modal=clause.modal)
         options = (Happens(deed), *self._other(clause))
-        return Compare(tuple(_at(option, clause.tense) for option in options), by)
+        return Compare(tuple(_at(option, clause.tense) for option in options), by, least)
 
     def weighed_deed(self, clause: Clause) -> Happens | None:
         """Read the deed of "stopping would have been worse"; what was worse was not done."""
