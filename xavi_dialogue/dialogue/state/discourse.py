@@ -109,8 +109,8 @@ def _mentions(turn: Turn, number: int) -> Iterator[Mention]:
         yield from mentions_of(act.act, number)
     for part in turn.parts:
         for thing, role in _roles(part.result):
-            unsaid = role == "cause" and isinstance(thing, Vehicle)
-            if not unsaid or not turn.mentioned or thing.number in turn.mentioned:
+            cause = thing.number if role == "cause" and isinstance(thing, Vehicle) else None
+            if cause is None or not turn.mentioned or cause in turn.mentioned:
                 yield mention(thing, number, role, by_car=True)
 
 

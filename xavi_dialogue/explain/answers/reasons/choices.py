@@ -87,8 +87,8 @@ def _beside(scene: Asked, found: Premise, against: Contrast) -> MotionCause | No
     """Return who is in the lane that was left alone: beside us, or slower than we drive."""
     if found.node or against.foil[0] not in CHANGES or against.route is not None:
         return None
-    found = in_lane_beside(scene.ride, scene.world, against.decided, against.foil[0])
-    return None if found is not None and found.vehicle in against.cleared else found
+    there = in_lane_beside(scene.ride, scene.world, against.decided, against.foil[0])
+    return None if there is not None and there.vehicle in against.cleared else there
 
 
 def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:

@@ -35,11 +35,13 @@ def with_suspect(
             others = besides or _road_too(found) or _unnamed(found)
             part = "beside" if others else _alone(found)
     if isinstance(found, ChoiceReason):
-        if part == "none" and found.ahead is not None and found.ahead.vehicle == suspect:
-            found = replace(found, ahead=None)  # where it is decides nothing
+        ahead = found.ahead
+        if part == "none" and ahead is not None and ahead.vehicle == suspect:
+            ahead = None  # where it is decides nothing
         ranked = sorted(found.contrast.causes, key=lambda cause: cause.vehicle != suspect)
         against = replace(found.contrast, causes=tuple(ranked))
-        return replace(found, contrast=against, suspect=suspect, suspected=part, besides=besides)
+        told = replace(found, contrast=against, ahead=ahead)
+        return replace(told, suspect=suspect, suspected=part, besides=besides)
     motive = sorted(found.causes, key=lambda cause: cause.vehicle != suspect)
     return replace(found, causes=tuple(motive), suspect=suspect, suspected=part, besides=besides)
 
@@ -51,8 +53,9 @@ def with_suspects(found: Answer, suspects: tuple[int, ...], *, which: bool = Fal
     """
     if not isinstance(found, ChoiceReason | MotionReason):
         return found
-    counted = tuple(v for v in blamed(found) if v in suspects)
-    deciding = tuple(v for v in counted if not _same_without(found, v))
+    reason: ChoiceReason | MotionReason = found
+    counted = tuple(v for v in blamed(reason) if v in suspects)
+    deciding = tuple(v for v in counted if not _same_without(reason, v))
     guilty = (deciding or counted) if which else counted
     if not guilty:
         told = with_suspect(found, suspects[0])
