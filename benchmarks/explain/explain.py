@@ -31,6 +31,7 @@ from xavi_dialogue.domain.terms import Event, Happens, Measured, Not
 from xavi_dialogue.explain.answers.engine import explain
 from xavi_dialogue.explain.causes.vehicles.involved import contrastive_causes
 from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.process.garbage import settled
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.ride_file import RecordedRide
 
@@ -117,8 +118,9 @@ def measure(folder: Path, note: Callable[[str], None]) -> ExplainReport:
     if not rides:
         note(f"no recorded rides in {folder}: their explanations are left out")
     known = {path.name.split(".")[0]: ride_file.load(path.read_bytes()) for path in rides}
-    for name, ride in known.items():
-        recorded(name, ride, watch)
+    with settled():  # as the service does once it is warm
+        for name, ride in known.items():
+            recorded(name, ride, watch)
     if not available():
         note("pgmpy is not installed (extra `compare`): the comparison is left out")
     figures = watch.figures()

@@ -45,7 +45,7 @@ from xavi_dialogue.nlu.screen import on_screen
 from xavi_dialogue.nlu.segments import CLAUSES, RARE, Path, segment
 from xavi_dialogue.nlu.shares import is_unknown, shares_of, unknown_shares, unread_of
 from xavi_dialogue.nlu.text.languages import is_foreign
-from xavi_dialogue.nlu.text.lattice import Lattice, build
+from xavi_dialogue.nlu.text.lattice import HEARD, Lattice, build
 from xavi_dialogue.nlu.text.tokens import Typed, tokenise
 
 MAX_STEPS = 6_500  # of a sentence
@@ -143,7 +143,7 @@ def _sentence(typed: Typed, budget: Budget) -> tuple[Reading, ...]:
     if len(typed.tokens) > LONG and not _asks(readings):
         readings = _ending(typed, budget) or readings
     if not readings or not _plain(readings[0]):
-        readings = _by_ear(typed, readings, budget) + readings
+        readings = _by_ear(typed, lattice, readings, budget) + readings
     if not readings:
         return (unreadable(typed),)
     return tuple(readings)
@@ -169,14 +169,23 @@ def _understood(lattice: Lattice, budget: Budget) -> list[Reading]:
     return readings
 
 
-def _by_ear(typed: Typed, plain: list[Reading], budget: Budget) -> list[Reading]:
-    """Read a sentence as it sounds; what that gives has to be complete, and much cheaper."""
-    known = lexicon()
-    lattice = build(typed, known.vocabulary, known.nouns, by_ear=True)
+def _by_ear(typed: Typed, lattice: Lattice, plain: list[Reading], budget: Budget) -> list[Reading]:
+    """Read a sentence as it sounds; what that gives has to be complete, and much cheaper.
+
+    Args:
+        typed: the sentence.
+        lattice: the words that it may consist of as it was typed.
+        plain: how that was read.
+        budget: the steps that are left.
+    """
     limit = NOTHING
     if plain:
         limit = plain[0].cost - (GAIN if plain[0].unknown or plain[0].unread else GAIN_OF_WHOLE)
-    found = _understood(lattice, budget)
+    known = lexicon()
+    heard = build(typed, known.vocabulary, known.nouns, by_ear=True)
+    if limit <= HEARD or heard.edges == lattice.edges:
+        return []  # no reading with a word by ear is so cheap, or there is no such word
+    found = _understood(heard, budget)
     return [r for r in found[:1] if r.acts and not r.unknown and not r.unread and r.cost < limit]
 
 

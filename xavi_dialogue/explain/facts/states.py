@@ -225,10 +225,11 @@ class States:
         time = time[held]
         x, y, heading, speed = (column[held] for column in theirs.arrays[1:])
         ex, ey, eh, es = (np.interp(time, ours[0], column) for column in ours[1:])
-        dx = x - b.length / 2 * np.cos(heading) - ex + a.length / 2 * np.cos(eh)
-        dy = y - b.length / 2 * np.sin(heading) - ey + a.length / 2 * np.sin(eh)
+        forward, aside = np.cos(eh), np.sin(eh)  # of the heading of the one who sees
+        dx = x - b.length / 2 * np.cos(heading) - ex + a.length / 2 * forward
+        dy = y - b.length / 2 * np.sin(heading) - ey + a.length / 2 * aside
         turn = np.mod(heading - eh + np.pi, 2.0 * np.pi) - np.pi
-        ahead, left = dx * np.cos(eh) + dy * np.sin(eh), dy * np.cos(eh) - dx * np.sin(eh)
+        ahead, left = dx * forward + dy * aside, dy * forward - dx * aside
         return Pair(time, ahead, left, turn, speed, es, (a.length + b.length) / 2.0)
 
     def lost(self, begin: float, end: float) -> bool:

@@ -34,6 +34,7 @@ MIN_DISTINCT = 11
 #: they spread over what may follow the actions, of which only the best counts.
 ROUNDS = (40, 160)
 ROUNDING = 1e-6  # [s]
+MODELS = 8  # causal models that are kept from one question to the next
 
 
 class ExplainError(XaviError):
@@ -136,9 +137,10 @@ class Ride:
 
     def model(self, trace: PlanTrace) -> CausalModel:
         """Return the causal model of a trace."""
-        if id(trace) not in self._models:
-            self._models[id(trace)] = CausalModel(trace)
-        return self._models[id(trace)]
+        known = self._models.get(id(trace))
+        if known is None:
+            known = self._models[id(trace)] = _model(trace)
+        return known
 
     @cached_property
     def _joined(self) -> Joined:
@@ -289,6 +291,16 @@ class Ride:
             raise Unanswered(need)
         known = [intervention for _, intervention in found if intervention is not None]
         raise thin(actions, max(known, key=lambda i: i.draws, default=None))
+
+
+_models: list[CausalModel] = []  # of the decisions asked about last, latest first
+
+
+def _model(trace: PlanTrace) -> CausalModel:
+    """Return the causal model of a decision, which questions after one another share."""
+    found = next((one for one in _models if one.trace is trace), None) or CausalModel(trace)
+    _models[:] = [found, *(one for one in _models if one is not found)][:MODELS]
+    return found
 
 
 def _of_other(what_if: WhatIf) -> tuple[object, ...]:

@@ -9,7 +9,7 @@ from planner.record.places import RoadFacts, RoadPlace, RouteStep
 from planner.record.trace import Action
 from tests.explain.facts.scenes import Actor, made, speeds
 from xavi_dialogue.domain.terms import Destination, Ego, Junction, Vehicle
-from xavi_dialogue.explain.facts.episodes.own import own
+from xavi_dialogue.explain.facts.episodes.own import driving_on, told
 from xavi_dialogue.explain.facts.episodes.ways import ways
 from xavi_dialogue.explain.facts.states import States
 
@@ -103,7 +103,8 @@ def test_what_our_events_tell() -> None:
         Event("collided", 6.0),
         Event("arrived", 7.0),
     )
-    found = own(States(made({0: SLOWING}, 8.0, events=events)))
+    states = States(made({0: SLOWING}, 8.0, events=events))
+    found = [*told(states), *driving_on(states)]
     assert [(e.actor, e.action, e.begin, e.end, e.object) for e in found] == [
         (Ego(), "collide", 5.0, 5.0, Vehicle(3)),
         (Ego(), "collide", 6.0, 6.0, None),

@@ -1,6 +1,6 @@
 """What happened: the episodes of all kinds, and those that are an event asked about."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias, TypeGuard
 
 from sim.scene import EGO
@@ -25,7 +25,7 @@ from xavi_dialogue.explain.facts.episodes.meetings import (
     passings,
 )
 from xavi_dialogue.explain.facts.episodes.misses import misses
-from xavi_dialogue.explain.facts.episodes.own import own
+from xavi_dialogue.explain.facts.episodes.own import bearing, changed_plans, driving_on, told
 from xavi_dialogue.explain.facts.episodes.seeing import sights, signals
 from xavi_dialogue.explain.facts.episodes.speeds import moves, speeds
 from xavi_dialogue.explain.facts.episodes.waiting import waits
@@ -61,7 +61,13 @@ MEETINGS: dict[str, tuple[Reader, Names]] = {
     "movings-in": (movings_in, frozenset(("cut-in", "pull-out"))),
     "misses": (misses, frozenset(("nearly-collide",))),
 }
-OWN: Names = frozenset(("arrive", "collide", "change-plan", "continue", "swerve"))
+#: The same for what only the ego has.
+OWN: dict[str, tuple[Callable[[States], Iterator[Episode]], Names]] = {
+    "told": (told, frozenset(("arrive", "collide"))),
+    "changed-plans": (changed_plans, frozenset(("change-plan",))),
+    "driving-on": (driving_on, frozenset(("continue",))),
+    "bearing": (bearing, frozenset(("swerve",))),
+}
 ON_REQUEST: Names = frozenset(("move", "nearly-collide", "continue", "swerve"))  # not of everything
 #: What is worth telling of a ride: of the ego, and of what others did to it.
 OF_OURS: Names = frozenset(
@@ -104,8 +110,9 @@ def happening(
             for name, (reader, actions) in MEETINGS.items():
                 if _asked(actions, wanted):
                     found += _kept(states, name, reader, vehicle)
-    if (actors is None or EGO in actors) and _asked(OWN, wanted):
-        found += states.memo(("episodes", "own"), lambda: own(states))
+    for name, (of_ours, actions) in OWN.items():
+        if (actors is None or EGO in actors) and _asked(actions, wanted):
+            found += _own(states, name, of_ours)
     fits = [e for e in found if _fits(e, actors, wanted)]
     return tuple(sorted(fits, key=lambda e: (e.begin, e.action, str(e.actor), str(e.object))))
 
@@ -116,6 +123,10 @@ def _asked(actions: Names, wanted: Names | None) -> bool:
 
 def _kept(states: States, name: str, reader: Reader, vehicle: int) -> list[Episode]:
     return states.memo(("episodes", name, vehicle), lambda: reader(states, vehicle))
+
+
+def _own(states: States, name: str, reader: Callable[[States], Iterator[Episode]]) -> list[Episode]:
+    return states.memo(("episodes", name), lambda: list(reader(states)))
 
 
 def _fits(episode: Episode, actors: frozenset[int] | None, wanted: Names | None) -> bool:

@@ -13,6 +13,7 @@ from sim.scene import EGO, Signal
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Feature
 from xavi_dialogue.explain.facts.actions import named
+from xavi_dialogue.explain.history.kept import of_decision
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, prediction
 from xavi_dialogue.explain.history.thresholds import AT_ONCE, HELD_UP, STALE
 
@@ -32,13 +33,20 @@ class Hold:
 
 def held_at(trace: PlanTrace, vehicle: int) -> tuple[Signal, float] | None:
     """Find the light that holds a vehicle at a decision, and in what share of its drives."""
-    found: dict[Signal, float] = {}
+    return of_decision(trace, ("held by light", vehicle), lambda: _held_at(trace, vehicle))
+
+
+def _held_at(trace: PlanTrace, vehicle: int) -> tuple[Signal, float] | None:
+    found: dict[tuple[str, int], float] = {}
     for weight, holds in _ego(trace) if vehicle == EGO else _other(trace, vehicle):
-        for signal in {
-            Signal(h.controller, h.place) for h in holds if h.since <= trace.sim_time + AT_ONCE
+        for light in {
+            (h.controller, h.place) for h in holds if h.since <= trace.sim_time + AT_ONCE
         }:
-            found[signal] = found.get(signal, 0.0) + weight
-    return max(found.items(), key=lambda item: item[1]) if found else None
+            found[light] = found.get(light, 0.0) + weight
+    if not found:
+        return None
+    (controller, place), share = max(found.items(), key=lambda item: item[1])
+    return Signal(controller, place), share
 
 
 def _ego(trace: PlanTrace) -> Iterator[tuple[float, tuple[HeldByLight, ...]]]:

@@ -72,6 +72,8 @@ def movings_in(states: States, vehicle: int) -> list[Episode]:
 
 def _runs(mask: Flags, time: Array) -> Iterator[tuple[int, int]]:
     """Yield the stretches of samples in which something holds, first and last."""
+    if not mask.any():
+        return
     edges = np.flatnonzero(np.diff(np.concatenate(([0], mask.astype(np.int8), [0]))))
     for first, after in zip(edges[::2], edges[1::2], strict=True):
         yield int(first), int(after) - 1
@@ -159,6 +161,8 @@ def _following(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:
 
 def _closed(mask: Flags, time: Array) -> Flags:
     """Return the same with breaks of up to a second closed, as where a road winds."""
+    if not mask.any():
+        return mask
     closed = mask.copy()
     for first, last in _runs(~mask, time):
         inner = first > 0 and last + 1 < len(mask)

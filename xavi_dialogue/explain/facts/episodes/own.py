@@ -21,12 +21,8 @@ AROUND = 1.0  # [s] around a turn or change of lanes in which bearing to a side 
 SAME_JUNCTION = 6.0  # [m] by which the distance to one junction varies between decisions
 
 
-def own(states: States) -> list[Episode]:
-    """What the ego's events tell, where its plan changed, and where its lane bore to a side."""
-    return [*_told(states), *_changed_plans(states), *_driving_on(states), *_bearing(states)]
-
-
-def _told(states: States) -> Iterator[Episode]:
+def told(states: States) -> Iterator[Episode]:
+    """Yield where the ego arrived, and with whom it collided."""
     for event in states.ride.events:
         time = event.sim_time
         if event.kind == "arrived":
@@ -36,14 +32,14 @@ def _told(states: States) -> Iterator[Episode]:
             yield Episode(named(EGO), "collide", time, time, other)
 
 
-def _driving_on(states: States) -> Iterator[Episode]:
+def driving_on(states: States) -> Iterator[Episode]:
     """Yield the stretches in which the ego just drove on."""
     for deed in states.ride.deeds:
         if deed.action == "continue":
             yield Episode(named(EGO), "continue", deed.time, deed.ended)
 
 
-def _bearing(states: States) -> Iterator[Episode]:
+def bearing(states: States) -> Iterator[Episode]:
     """Yield the stretches in which the ego bore to one side, in no turn and no change of lanes."""
     others = [deed.span for deed in states.ride.deeds if deed.action not in ALONG]
     for bend in bends(states.motion(EGO)):
@@ -52,7 +48,7 @@ def _bearing(states: States) -> Iterator[Episode]:
             yield Episode(named(EGO), "swerve", bend.start, bend.end, None, side)
 
 
-def _changed_plans(states: States) -> Iterator[Episode]:
+def changed_plans(states: States) -> Iterator[Episode]:
     """Yield where the next thing to be done beside driving on was not what had been planned."""
     traces = states.ride.traces
     for before, after in itertools.pairwise(traces):

@@ -16,6 +16,7 @@ from xavi_dialogue.explain.facts.actions import named
 from xavi_dialogue.explain.facts.episodes.light_waits import held_then, waits_at_lights
 from xavi_dialogue.explain.facts.episodes.speeds import speeds
 from xavi_dialogue.explain.facts.states import States
+from xavi_dialogue.explain.history.kept import of_decision
 from xavi_dialogue.explain.history.ride import prediction
 from xavi_dialogue.explain.history.thresholds import AT_ONCE, FOLLOWING_GAP, HELD_UP, YIELDING
 
@@ -213,7 +214,7 @@ def _let_us_go(states: States, vehicle: int, still: Episode) -> Iterator[Episode
 
 def top_holders(states: States, trace: PlanTrace, vehicle: int) -> tuple[Holder, ...]:
     """Who holds a vehicle up at a decision, in most of its drives imagined; most often first."""
-    shares = states.memo(("holders", id(trace), vehicle), lambda: _holders(trace, vehicle))
+    shares = of_decision(trace, ("holders", vehicle), lambda: _holders(trace, vehicle))
     found = sorted(shares.items(), key=lambda item: (-item[1], item[0]))
     return tuple(holder for holder, share in found if share >= HELD_UP)
 
