@@ -52,9 +52,11 @@ from xavi_dialogue.explain.causes.plans.contrast import alone, factual
 from xavi_dialogue.explain.causes.plans.natural import STAYING, natural
 from xavi_dialogue.explain.causes.plans.premise import happened, manoeuvre
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, DRIVING, names_of
+from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.ride import planned
 
 STANDING = 0.5  # [m/s]
+FAST = 15.0  # [m/s] from which staying is staying in the lane
 LATELY = 12.0  # [s] since when it may be our braking that is meant
 PAST = frozenset[ActionName](("overtake", "pass", "avoid"))
 SQUEEZING = frozenset[ActionName](("cut-in", "merge", "pull-out", "pass"))
@@ -255,7 +257,8 @@ def _staying(event: Event, scene: Asked) -> Event:
         return event
     deed = manoeuvre(scene.ride, None if bides else scene.span)
     if bides and (deed is None or deed.action not in CHANGES):
-        return event
+        driving = (speed_at(scene.ride, scene.moment) or 0.0) >= FAST  # where nobody waits
+        return structs.replace(event, action="keep-lane") if driving else event
     if deed is None or deed.action not in CHANGES:
         return event if event.action != "follow" else structs.replace(event, action="slow-down")
     time = Unsaid() if bides else event.time
