@@ -267,6 +267,7 @@ class Slowing(Value, frozen=True):
     time: float | None = None  # [s] when we stand
     share: float | None = None  # of the drives foreseen in which we come to a standstill
     order: Literal["we", "they", "nobody"] | None = None  # who comes first where our ways meet
+    yields: bool = False  # we have to give way to some where our way leads next
 
 
 class PullingUp(Value, frozen=True):

@@ -2,7 +2,7 @@
 
 from typing import Literal
 
-from planner.record.places import JunctionKind, Turn
+from planner.record.places import JunctionKind, Rule, Turn
 from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
@@ -17,12 +17,14 @@ class WayStep(Value, frozen=True):
     rank: int  # 1: the next junction
     exit: int | None = None  # of a roundabout
     inside: bool = False  # we are on it: the exits still to come are counted
+    rule: Rule | None = None  # who goes first there, where that is told
+    light: bool = False  # a traffic light is in view there
 
 
 class Course(Value, frozen=True):
     """Our way ahead: which way we take, how many turns are left, whether we stay on the road."""
 
-    form: Literal["way", "turns", "junctions", "roundabouts", "road", "nearly"]
+    form: Literal["way", "turns", "junctions", "roundabouts", "road", "nearly", "halt"]
     steps: tuple[WayStep, ...]
     holds: bool | None = None  # of a yes or no question
     left: float | None = None  # [m] to the destination

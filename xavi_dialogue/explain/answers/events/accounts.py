@@ -33,6 +33,7 @@ from xavi_dialogue.explain.answers.reference.naming import (
     somebodies,
 )
 from xavi_dialogue.explain.answers.reference.occasions import (
+    belongs,
     did_not_happen,
     duration,
     occasion,
@@ -98,7 +99,7 @@ def listing(question: Listing, asked: Asked) -> Answer:
 
 def _of_kind(asked: Asked, event: Event, about: Window) -> Happenings:
     """List all that was such an event in a stretch of the ride."""
-    found = tuple(for_whom(asked, e) for e in occasions(asked, event) if overlaps(asked, e, about))
+    found = tuple(for_whom(asked, e) for e in occasions(asked, event) if belongs(asked, e, about))
     if not found and event.action == "brake":
         return _of_kind(asked, replace(event, action="slow-down"), about)
     return Happenings("list", found, event.actor, about.begin, about.end, asked=event)
@@ -144,7 +145,7 @@ def summary(asked: Asked, about: Thing | None, time: Window, *, ride: bool = Fal
     near = time.widened(2.0) if time.instant else time
     begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
     vehicle = number(about)
-    told = list(asked.world.account(begin, end))
+    told = [e for e in asked.world.account(begin, end) if belongs(asked, e, Window(begin, end))]
     if not told and not time.said and not (asked.past is not None and asked.past.said):
         told = _before(asked, begin)
         begin = min((e.begin for e in told), default=begin)
@@ -224,7 +225,7 @@ def _listed(asked: Asked, of: str, actor: Thing | None, about: Window) -> tuple[
     begin, end = max(about.begin, asked.world.begin), min(about.end, asked.now)
     if of == "decisions":
         mine = asked.world.episodes(actor=Ego(), begin=begin, end=end)
-        return tuple(e for e in mine if e.action in MACROS)
+        return tuple(e for e in mine if e.action in MACROS and belongs(asked, e, about))
     told = list(asked.world.account(begin, end))
     vehicle = number(actor)
     if vehicle is not None:

@@ -11,12 +11,14 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.naming import somebodies
 from xavi_dialogue.explain.causes.vehicles.course import expected
 from xavi_dialogue.explain.history.motion import Motion
+from xavi_dialogue.explain.history.nearing import junctions_ahead
 from xavi_dialogue.explain.history.ride import prediction
 from xavi_dialogue.explain.history.thresholds import STANDING
 
 SLOWS: frozenset[ActionName] = HALTS | {"brake", "slow-down", "give-way", "let-go"}
 POSSIBLE = 0.1  # share of the drives from which somebody may hold us up
 SURE = 0.8  # probability from which it is stated who comes first
+NEXT = 150.0  # [m] within which the next junction is meant
 SLOWER = 1.5  # [m/s] by which one is slower to passengers
 
 
@@ -48,7 +50,18 @@ def slowing(asked: Asked, event: Event) -> Slowing | None:
         time=stop.moment if stop is not None and stops else None,
         share=stop.share if stop is not None and stops else None,
         order=None if held or not others else _order(asked, others),
+        yields=not others and event.action in HALTS and _yields(asked),
     )  # fmt: skip
+
+
+def _yields(asked: Asked) -> bool:
+    """Tell whether we have to give way to some at the next junction, or where roads merge."""
+    road = asked.world.road(asked.now)
+    if road is None:
+        return False
+    near = [step for step in junctions_ahead(asked.ride, asked.now)[:1] if step.distance <= NEXT]
+    owed = any(fact.who != "ego" for fact in road.priority)
+    return owed or any(step.rule != "priority" for step in near)
 
 
 def _others(asked: Asked, thing: Thing | None) -> tuple[int, ...]:

@@ -168,7 +168,7 @@ def _probability(of: Measured, asked: Asked) -> Answer:
 
 
 def _place(of: Measured, asked: Asked) -> Answer:
-    return where(Where(of.thing, of.time), asked)
+    return where(Where(of.thing if of.event is None else of.event, of.time), asked)
 
 
 def _heading(of: Measured, asked: Asked) -> Answer:

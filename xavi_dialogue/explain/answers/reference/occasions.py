@@ -16,6 +16,7 @@ from xavi_dialogue.explain.causes.vehicles.when import LEEWAY
 
 PAUSE = 0.5  # [s] between two of one kind, by which the second is another one
 CHANGED: frozenset[ActionName] = frozenset(("change-left", "change-right"))
+INSIDE = 1.0  # [s] of a stretch of the ride from which on something is of it
 GOING = 0.5  # [s] since when something still counts as going on
 TOLD = 2  # episodes that are stated in place of what did not happen
 #: What goes on most of the time, and is stated only where nothing else is there.
@@ -199,6 +200,14 @@ def away(asked: Asked, episode: Episode, about: Window) -> float:
 def overlaps(asked: Asked, episode: Episode, about: Window) -> bool:
     """Tell whether an episode lies in a stretch of the ride, at least in part."""
     return episode.begin <= about.end + 1e-6 and _end(asked, episode) >= about.begin - 1e-6
+
+
+def belongs(asked: Asked, episode: Episode, about: Window) -> bool:
+    """Tell whether an episode is of a stretch of the ride and does not only end or begin in it."""
+    if about.instant:
+        return overlaps(asked, episode, about)
+    inside = min(_end(asked, episode), about.end) - max(episode.begin, about.begin)
+    return inside >= min(INSIDE, duration(asked, episode) / 2.0) - 1e-6
 
 
 def merged(asked: Asked, episodes: Iterable[Episode]) -> tuple[Episode, ...]:

@@ -28,12 +28,12 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.answers.expectations.precedence import on_ring
+from xavi_dialogue.explain.answers.expectations.precedence import SAME_PLACE, on_ring
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import SHORT, instant, is_past, window
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
 from xavi_dialogue.explain.answers.reference.occasions import occasion, overlaps
-from xavi_dialogue.explain.history.nearing import junctions_ahead
+from xavi_dialogue.explain.history.nearing import junctions_ahead, still_to
 
 WAYS: tuple[ActionName, ...] = ("turn", "exit-left", "exit-right", "exit-straight")
 STRAIGHT: frozenset[ActionName] = frozenset(("exit-straight", "continue"))
@@ -86,6 +86,19 @@ def which_way(of: Measured, asked: Asked) -> Answer:
         turning = tuple(s for s in steps_ahead(asked) if s.turn != "exit-straight")[:1]
         return course(asked, "way" if turning else "road", turning)
     return course(asked, "way", found, then=rank > 1)
+
+
+def next_halt(asked: Asked) -> Course:
+    """Tell the next junction at which we may have to stop: for a light, or to give way."""
+    road = asked.world.road(asked.now)
+    trace = asked.ride.at(asked.now)
+    lights = () if road is None or trace is None else road.lights
+    red = [still_to(asked.ride, light.distance, asked.now) for light in lights]
+    for way, step in zip(steps_ahead(asked), junctions_ahead(asked.ride, asked.now), strict=True):
+        light = any(abs(far - step.distance) < SAME_PLACE for far in red)
+        if light or (step.rule != "priority" and not way.inside):
+            return course(asked, "halt", (replace(way, rule=step.rule, light=light),))
+    return course(asked, "halt", ())
 
 
 def _to_come(of: Measured) -> bool:

@@ -12,6 +12,7 @@ from xavi_dialogue.domain.terms import (
     Exit,
     Junction,
     Lane,
+    Next,
     Nobody,
     Passenger,
     Road,
@@ -20,17 +21,19 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
-from xavi_dialogue.explain.answers.expectations.foreseen import came_of
+from xavi_dialogue.explain.answers.expectations.foreseen import HALTS, YIELDS, came_of
 from xavi_dialogue.explain.answers.expectations.plans import current_plan, plan_ahead
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import SHORT, instant
 from xavi_dialogue.explain.answers.reference.naming import (
     check_sense,
     first_look,
+    is_us,
     looks,
     somebodies,
 )
 from xavi_dialogue.explain.answers.reference.occasions import taken_place
+from xavi_dialogue.explain.answers.ride.onward import next_halt
 from xavi_dialogue.explain.causes.vehicles.announced import announced
 from xavi_dialogue.explain.history.nearing import still_to
 
@@ -55,6 +58,8 @@ def where(question: Where, asked: Asked) -> Answer:
             return gone(asked, of.actor)
         if isinstance(of.actor, Everyone) and of.action in LEAVING:
             return _vehicles(asked, Vehicles(_left_behind(asked)), asked.now)
+        if _may_come(of):
+            return next_halt(asked)
         return took_place(asked, of)
     at = instant(asked, question.time)
     if isinstance(of, Everyone) and not asked.world.in_view(at):
@@ -84,6 +89,13 @@ def locate(asked: Asked, thing: Thing, at: float) -> Answer:
         case Nobody():
             return Located(thing, looks(asked, asked.world.in_view(at), at))
     raise Unanswered(NotRecorded("not-recorded", thing=thing, about="place"))
+
+
+def _may_come(event: Event) -> bool:
+    """Tell whether it is asked where we may have to stop or give way, and not where we did."""
+    halting = is_us(event.actor) and event.action in HALTS | YIELDS | {"brake", "slow-down"}
+    ahead = event.tense == "future" or event.modal is not None or isinstance(event.time, Next)
+    return halting and ahead and event.tense not in ("past", "perfect")
 
 
 EVEN = 0.5  # chance from which somebody is expected to go somewhere

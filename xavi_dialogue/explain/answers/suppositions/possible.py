@@ -15,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
 )
 from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
+from xavi_dialogue.explain.answers.expectations.foreseen import HALTS
 from xavi_dialogue.explain.answers.reasons import motions
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.occasions import occasion
@@ -60,7 +61,9 @@ def is_must(of: Proposition | None) -> bool:
         return False
     named = event.object is not None or event.tense == "present"
     owed = event.action in ("give-way", "let-go", "wait") and named
-    return event.modal == "must" and event.action not in NOT_DRIVING and not owed
+    coming = event.action in HALTS and event.tense == "future"  # the plan tells
+    driving = event.action not in NOT_DRIVING and not coming
+    return event.modal == "must" and driving and not owed
 
 
 def could(question: Whether, scene: Asked) -> Answer:

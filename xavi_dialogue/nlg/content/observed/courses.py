@@ -19,6 +19,8 @@ def plan_course(answer: Course, context: SpeechContext) -> Plan:
     del context
     if answer.form in COUNTED:
         return Plan((_turns(answer),))
+    if answer.form == "halt":
+        return Plan((_halt(answer),))
     if answer.form == "nearly":
         soon, left = answer.soon or 0.0, answer.left or 0.0
         return Plan((message("NEARLY", left=Quantity(left, "m"), soon=Quantity(soon, "s")),))
@@ -48,6 +50,23 @@ def _step(step: WayStep) -> Message:
         straight=step.turn == "exit-straight",
         rank=None if step.rank == 1 else ordinal(step.rank),
         far=Quantity(step.distance, "m") if step.distance >= AT_HAND else None,
+    )
+
+
+def _halt(answer: Course) -> Message:
+    """Return the next junction at which we may have to stop, and why."""
+    left = None if answer.left is None else Quantity(answer.left, "m")
+    if not answer.steps:
+        return message("COURSE_HALT", none=True, left=left)
+    step = answer.steps[0]
+    return message(
+        "COURSE_HALT",
+        none=False,
+        place="roundabout" if step.kind == "roundabout" else "junction",
+        far=Quantity(step.distance, "m") if step.distance >= AT_HAND else None,
+        light=step.light,
+        ring=step.kind == "roundabout",
+        equal=step.rule == "equal",
     )
 
 

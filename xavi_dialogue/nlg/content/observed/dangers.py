@@ -56,6 +56,7 @@ def plan_slowing(answer: Slowing, context: SpeechContext) -> Plan:
         soon=None if soon is None or soon < AT_ONCE else Quantity(soon, "s"),
         chance=None if share is None or share >= CERTAIN else Chance(share),
         order=answer.order,
+        yields=answer.yields,
     )
     return Plan((first,))
 

@@ -80,6 +80,9 @@ def meanwhile(clause: Clause, event: Event | None) -> Any:
     """Tell the time of "how fast did you take the bend": that of the deed."""
     if event is None or clause.tense not in ("past", "perfect"):
         return clause.time
+    through = _junction(clause, event) if isinstance(clause.time, Unsaid) else None
+    if through is not None:
+        return Relative("during", through)
     if event.action in DRIVING and _round(clause) and isinstance(clause.time, Unsaid):
         return Relative("during", Event("turn", event.actor, tense=event.tense))
     if event.action in DRIVING:
@@ -89,6 +92,16 @@ def meanwhile(clause: Clause, event: Event | None) -> Any:
     if event.action == "head":
         return clause.time
     return clause.time if not isinstance(clause.time, Unsaid) else Relative("during", event)
+
+
+def _junction(clause: Clause, event: Event) -> Junction | None:
+    """Give the junction of which all the way through is meant: "how fast did we go round it?"."""
+    if event.action in ("pass", "cross", "turn") and isinstance(event.object, Junction):
+        return event.object
+    if event.action not in DRIVING:
+        return None
+    places = (as_thing(c.sem) for c in clause.complements if c.sem is not None)
+    return next((place for place in places if isinstance(place, Junction)), None)
 
 
 def _round(clause: Clause) -> bool:

@@ -190,7 +190,8 @@ def _where(spoken: Where, g: Grounder) -> Where:
         if isinstance(of.time, Unsaid):
             of = replace(of, time=spoken.time)
         away = of.action in _AWAY and of.object is None  # nobody need have set off
-        return replace(spoken, of=g.event(of, "asked" if away else "presupposed"), time=Unsaid())
+        free = away or of.tense == "future" or of.modal is not None
+        return replace(spoken, of=g.event(of, "asked" if free else "presupposed"), time=Unsaid())
     window = at_moment(spoken.time, "present", g, None)
     return replace(spoken, of=g.thing(of, window), time=window.term)
 
