@@ -123,6 +123,7 @@ class Junction(Value, frozen=True):
     form: Literal["junction", "roundabout"] = "junction"
     rank: int | None = None  # None: the one in question
     time: float | None = None  # [s] grounded: when we are or were there
+    turning: bool = False  # where we turn off: "our turning"
 
 
 class Exit(Value, frozen=True):

@@ -23,6 +23,7 @@ from xavi_dialogue.explain.answers.expectations.slowing import slowing
 from xavi_dialogue.explain.answers.measuring.closeness import closeness
 from xavi_dialogue.explain.answers.measuring.nearing import (
     closes,
+    keeps,
     nears,
     past_leader,
     settled,
@@ -71,7 +72,12 @@ def happens(of: Happens, asked: Asked) -> Finding:
         coming = comes(asked, event)
         if coming is not None:
             return coming
-    if moves := _moves(asked, event) or closes(asked, event) or trails(asked, event):
+    if (
+        moves := _moves(asked, event)
+        or closes(asked, event)
+        or trails(asked, event)
+        or keeps(asked, event)
+    ):
         return moves
     ahead = is_ahead(asked, event.time, event.tense) or _all_the_way(event)
     if ahead or _intended(asked, event):

@@ -5,11 +5,10 @@ from dataclasses import replace
 from msgspec import structs
 
 from xavi_dialogue.domain.facts import Episode, Measure
-from xavi_dialogue.domain.terms import Ego, Event, Is, Thing
+from xavi_dialogue.domain.terms import Ego, Is, Thing
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.answers.expectations.plans import foreseen, slowest_ahead
 from xavi_dialogue.explain.answers.reference.asked import Asked
-from xavi_dialogue.explain.answers.reference.findings import EXPECTED, Finding, known, unknown
+from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, instant, window
 from xavi_dialogue.explain.answers.reference.naming import is_us, somebodies
 
@@ -60,20 +59,10 @@ def _ever_fast(asked: Asked, thing: Thing, about: Window) -> Finding:
 
 
 def slowing(asked: Asked) -> tuple[Episode, ...]:
-    """Give our braking that is under way, or about to begin, with the speed it leads to."""
-    world = asked.world
-    found = world.episodes(actor=Ego(), actions=SLOWING)
-    if going := [e for e in found if e.end is None]:
-        low = slowest_ahead(asked)
-        slower = low is not None and low < (going[-1].speed_to or 0.0)
-        return (structs.replace(going[-1], speed_to=low) if slower else going[-1],)
-    coming = foreseen(asked, Event("slow-down"))
-    if coming is None or coming.share < EXPECTED or coming.moment > asked.now + SOON:
-        return ()
-    speed = world.measure("speed", Ego(), asked.now).value
-    begin, low = max(coming.moment, asked.now), slowest_ahead(asked)
-    speed = None if low is None else speed
-    return (Episode(Ego(), "slow-down", begin, speed_from=speed, speed_to=low),)
+    """Give our braking that is under way, without the speed that it will have led to."""
+    found = asked.world.episodes(actor=Ego(), actions=SLOWING)
+    going = [e for e in found if e.end is None and e.begin <= asked.now]
+    return tuple(structs.replace(e, speed_from=None, speed_to=None) for e in going[-1:])
 
 
 def _whose(of: Is) -> Thing:

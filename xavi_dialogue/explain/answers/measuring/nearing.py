@@ -148,6 +148,16 @@ def _speeds(asked: Asked, look: Look) -> tuple[tuple[Measure, ...], float | None
     return found, next((m.value for m in found if isinstance(m.thing, Ego)), None)
 
 
+def keeps(asked: Asked, event: Event) -> Finding | None:
+    """Tell that we keep a distance to the vehicle that we follow: how far it is ahead."""
+    ours = event.action == "keep-distance" and is_us(event.actor)
+    found = occasion(asked, event) if ours and event.tense in ("present", "perfect") else None
+    if found is None or found.end is not None or (asked.past is not None and asked.past.said):
+        return None
+    gaps = (asked.world.measure(a, Ego(), asked.now, found.object) for a in ("gap", "headway"))
+    return Finding(True, (found, *known(*gaps)))
+
+
 def trails(asked: Asked, event: Event) -> Finding | None:
     """Tell that somebody behind us goes our way, who is too far behind to be following us."""
     look = look_of(asked, event.actor, asked.now)

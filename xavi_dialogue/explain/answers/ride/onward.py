@@ -101,6 +101,12 @@ def next_halt(asked: Asked) -> Course:
     return course(asked, "halt", ())
 
 
+def next_turning(asked: Asked) -> Course | None:
+    """Tell where we turn off next; None where we do not turn any more."""
+    turning = [s for s in steps_ahead(asked) if _turned(s) and s.kind == "junction"]
+    return course(asked, "way", tuple(turning[:1])) if turning else None
+
+
 def _to_come(of: Measured) -> bool:
     return isinstance(of.time, Next) or of.tense == "future"
 

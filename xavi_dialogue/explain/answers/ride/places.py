@@ -33,7 +33,7 @@ from xavi_dialogue.explain.answers.reference.naming import (
     somebodies,
 )
 from xavi_dialogue.explain.answers.reference.occasions import taken_place
-from xavi_dialogue.explain.answers.ride.onward import next_halt
+from xavi_dialogue.explain.answers.ride.onward import next_halt, next_turning
 from xavi_dialogue.explain.causes.vehicles.announced import announced
 from xavi_dialogue.explain.history.nearing import still_to
 
@@ -81,6 +81,8 @@ def locate(asked: Asked, thing: Thing, at: float) -> Answer:
             return Located(thing, (), to_go(asked, at))
         case Ego() | Passenger() | Lane() | Road():
             return Located(Ego(), (), here(asked, at))
+        case Junction(turning=True) if at >= asked.now - SHORT and (turn := next_turning(asked)):
+            return turn
         case Junction():
             found = (junction(asked, thing, at), *measured(asked, ("turn", "exit-number"), at))
             return Located(thing, (), told(found), gap=found[0].gap)

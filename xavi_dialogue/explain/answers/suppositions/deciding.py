@@ -64,6 +64,8 @@ def needed(question: Whether, scene: Asked) -> Answer:
     state = of.state if isinstance(of, Is) else "necessary"
     if event is not None and isinstance(of, Is) and of.tense == "past":
         event = replace(event, tense="past")
+    if event is not None and event.action in ("go", "move") and "fast" in event.manner:
+        return motions.fast(scene)
     form: Literal["necessary", "worth-it"] = "necessary" if state == "necessary" else "worth-it"
     if event is not None and not choices.is_choice(event):
         found = _moved(event, scene)

@@ -164,7 +164,9 @@ def _place(head: Leaf, traits: Traits) -> Sem:
     side = traits.side if traits.side != "straight" else None
     match head.key:
         case "junction" | "roundabout":
-            return Junction(cast(Any, head.key), rank)
+            definite = traits.owner is not None or traits.determiner == "def" or head.words[:-1]
+            turning = bool(definite) and head.words[-1] in ("turning", "turn-off", "turnoff")
+            return Junction(cast(Any, head.key), rank, turning=turning and rank is None)
         case "exit":
             return Exit(rank, cast(Any, side))
         case "road":

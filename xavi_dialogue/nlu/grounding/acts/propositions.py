@@ -250,6 +250,9 @@ def _is(spoken: Is, g: Grounder, mode: Mode, outer: Window | None) -> Is:
     spoken = _of_event(threatened(spoken, g), g)
     if spoken.state == "far" and spoken.thing == Pronoun("it") and not spoken_of(g):
         spoken = replace(spoken, thing=Destination())  # "is it far?"
+    pace = spoken.state in ("fast", "slow") and spoken.thing in (Pronoun("this"), Pronoun("that"))
+    if pace and not spoken_of(g):
+        spoken = replace(spoken, thing=Ego())  # "this is rather fast"
     if spoken.thing is None and spoken.event is None and spoken.state in _NEAR:
         spoken = replace(spoken, thing=just_named(g))
     event = spoken.event

@@ -89,7 +89,8 @@ def junction(thing: Junction, g: Grounder, window: Window) -> Junction:
             g.notes.cost += NOWHERE
             return thing
         return replace(thing, time=behind[thing.rank - 1].begin)
-    rank = thing.rank or 1
+    turns = [k for k, step in enumerate(ahead or (), 1) if step.turn != "exit-straight"]
+    rank = thing.rank or (turns[0] if thing.turning and turns else 1)
     if here is not None and rank == 1:
         return replace(thing, time=here.begin)
     if ahead is None or len(ahead) >= rank:
