@@ -96,6 +96,7 @@ CASES: tuple[Answer, ...] = (
     Slowing((1,), stops=False, held=0.0, slows=True),
     *(Slowing((2,), False, 0.0, order=first) for first in ("they", "we", "nobody")),
     Slowing((), stops=False, held=0.0, slow=5.0),
+    Slowing((), stops=False, held=0.0, slow=5.0, yields=True),
     Bound(V, ON, unconsidered=TURNS),
     Bound(V, ON, unconsidered=TURNS, signal=Episode(V, "signal", 17.0, side="left")),
     Bound(V, replace(ON, time=5.0), unconsidered=TURNS),

@@ -1,5 +1,7 @@
 """Answers about our way, moments that stand out and decisions; golden/journey.txt has the texts."""
 
+from msgspec.structs import replace
+
 from tests.nlg.scenery import BLUE, LORRY, NOW
 from xavi_dialogue.domain.answers import Altered, Answer, Course, Decided, PeakMoment, Wavered
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure
@@ -54,6 +56,11 @@ CASES: tuple[Answer, ...] = (
     Course("roundabouts", (RING,), holds=True),
     Course("roundabouts", (), holds=False, left=200.0),
     Course("nearly", (), left=30.0, soon=3.0),
+    Course("halt", (replace(LEFT, rule="give-way"),)),
+    Course("halt", (replace(LEFT, rule="give-way", light=True),)),
+    Course("halt", (replace(RING, rule="give-way"),)),
+    Course("halt", (replace(THERE, rule="equal"),)),
+    Course("halt", (), left=200.0),
     PeakMoment("slowness", 9.0, (YIELD,), near("speed", 0.0)),
     PeakMoment("slowness", 9.0, (), near("speed", 5.0)),
     PeakMoment("speed", 9.0, (), near("speed", 13.0)),

@@ -7,7 +7,16 @@ reads them at a high cost, the plain questions of likely intents stand beside it
 from collections.abc import Sequence
 from typing import Final
 
-from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, HowMany, Reading, TokenShare, WhatIf
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Elliptic,
+    HowMany,
+    HowMuch,
+    Reading,
+    TokenShare,
+    WhatIf,
+)
 from xavi_dialogue.domain.terms import Both
 from xavi_dialogue.nlu.intents.classifier import Intent, judge
 from xavi_dialogue.nlu.intents.features import asking, features
@@ -57,8 +66,12 @@ def _is_half(acts: Sequence[Act], plain: Sequence[Act]) -> bool:
 
 
 def _counts(acts: Sequence[Act]) -> bool:
-    """Tell whether it is asked how many: nothing but a number answers that."""
-    return any(isinstance(act, Ask) and isinstance(act.question, HowMany) for act in acts)
+    """Tell whether it is asked how many, or how much at most: nothing else answers that."""
+    asked = (act.question for act in acts if isinstance(act, Ask))
+    return any(
+        isinstance(one, HowMany) or (isinstance(one, HowMuch) and one.extreme is not None)
+        for one in asked
+    )
 
 
 def _leaves_open(best: Reading, intent: Intent, incomplete: bool) -> bool:

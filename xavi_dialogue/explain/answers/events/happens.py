@@ -68,17 +68,12 @@ def happens(of: Happens, asked: Asked) -> Finding:
         return _blocks(asked, event)
     if event.action in ("collide", "nearly-collide"):
         return _collides(asked, event)
-    if event.action == "come" and event.tense == "present":
-        coming = comes(asked, event)
-        if coming is not None:
-            return coming
-    if (
-        moves := _moves(asked, event)
-        or closes(asked, event)
-        or trails(asked, event)
-        or keeps(asked, event)
-    ):
-        return moves
+    here = event.action == "come" and event.tense == "present"
+    if here and (coming := comes(asked, event)) is not None:
+        return coming
+    for told_by in (_moves, closes, trails, keeps):
+        if (moves := told_by(asked, event)) is not None:
+            return moves
     ahead = is_ahead(asked, event.time, event.tense) or _all_the_way(event)
     if ahead or _intended(asked, event):
         return _to_come(asked, past_leader(asked, event))

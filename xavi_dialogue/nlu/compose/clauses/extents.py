@@ -2,7 +2,16 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.terms import Described, Ego, Event, Measured, Pronoun, Vehicle, Wanted
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Measured,
+    Pronoun,
+    Related,
+    Vehicle,
+    Wanted,
+)
 from xavi_dialogue.nlu.compose.clauses.sem import Measure
 from xavi_dialogue.nlu.compose.clauses.traits import Traits
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
@@ -12,6 +21,7 @@ _EXTENTS: dict[str, tuple[str, str]] = {
     "nearest": ("distance", "lowest"), "farthest": ("distance", "highest"),
     "highest": ("deceleration", "highest"), "lowest": ("deceleration", "lowest"),
 }  # fmt: skip
+_PACES = ("fastest", "slowest")
 _GOING = frozenset({"go", "move", "do"})
 SLOWING = frozenset({"brake", "slow-down", "stop"})
 
@@ -19,6 +29,10 @@ SLOWING = frozenset({"brake", "slow-down", "stop"})
 def extent_of(traits: Traits) -> Measure | None:
     """Read "the fastest we went", "the closest it came to us" as the extreme of a measure."""
     event, extreme = traits.event, traits.extreme or ""
+    match traits.clause:
+        case Related("same-as", Ego(), Wanted(), time=time, tense=tense) if extreme in _PACES:
+            of = Measured("speed", Ego(), time=time, tense=tense)  # "the fastest we have been"
+            return Measure(of, cast(Any, _EXTENTS[extreme][1]))
     if event is None or isinstance(event.actor, Wanted):
         return None
     if extreme == "difficult" and event.action in SLOWING:

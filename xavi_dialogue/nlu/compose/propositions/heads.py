@@ -29,7 +29,6 @@ from xavi_dialogue.domain.terms import (
     Unknown,
     Unsaid,
     Vehicle,
-    Wanted,
 )
 from xavi_dialogue.nlu.compose.clauses.extents import SLOWING, extent_of
 from xavi_dialogue.nlu.compose.clauses.peaks import deed_peak, done_most, quality_of
@@ -244,7 +243,7 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
         key = "limit"  # "the speed that is permitted"
     if key == "place" and event is not None:
         action = "stop" if event.action == "block" else event.action  # the place is no vehicle
-        of = event = structs.replace(event, action=action, object=_named(event.object))
+        of = event = structs.replace(event, action=action, object=None)
     if traits.deed is not None and key in ("duration", "delay") and event is None:
         event = of = Event(cast(Any, traits.deed), tense="past")
     if key == "risk":  # of a collision, where nothing else is said
@@ -270,11 +269,6 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
     if "peak" in head.words:
         extreme = "highest"
     return Measure(measured, cast(Any, extreme), plural, isinstance(traits.owner, Ego))
-
-
-def _named(thing: Thing | None) -> Thing | None:
-    """Give the object of a deed; none where that is what a relative clause is of."""
-    return None if isinstance(thing, Wanted) else thing
 
 
 def _deed(head: Leaf, traits: Traits) -> Sem:

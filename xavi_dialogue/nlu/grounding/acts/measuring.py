@@ -14,8 +14,10 @@ from xavi_dialogue.domain.terms import (
     Back,
     Between,
     Described,
+    Destination,
     Ego,
     Event,
+    Is,
     Measured,
     Pronoun,
     Relative,
@@ -104,6 +106,15 @@ def just_named(g: Grounder) -> Vehicle | None:
 def spoken_of(g: Grounder) -> bool:
     """Tell whether another vehicle was just spoken of."""
     return any(salience >= PRESENT for _, salience in vehicles_of(g.context.discourse.mentions))
+
+
+def of_ride(spoken: Is) -> Is:
+    """Take what "it is far" is said of for the destination, and "this is fast" for our car."""
+    if spoken.state == "far" and spoken.thing == Pronoun("it"):
+        return replace(spoken, thing=Destination())
+    if spoken.state in ("fast", "slow") and spoken.thing in (Pronoun("this"), Pronoun("that")):
+        return replace(spoken, thing=Ego())
+    return spoken
 
 
 def _speaks_of_others(g: Grounder) -> bool:

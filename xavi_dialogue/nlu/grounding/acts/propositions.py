@@ -15,7 +15,6 @@ from xavi_dialogue.domain.terms import (
     Caused,
     Compares,
     Described,
-    Destination,
     Ego,
     Event,
     Exists,
@@ -46,7 +45,7 @@ from xavi_dialogue.nlu.grounding.acts.afoot import walked
 from xavi_dialogue.nlu.grounding.acts.dangers import is_of_undone, threatened
 from xavi_dialogue.nlu.grounding.acts.generic import come_along, in_order
 from xavi_dialogue.nlu.grounding.acts.hiding import behind_hider, past_hider, somebody_behind
-from xavi_dialogue.nlu.grounding.acts.measuring import just_named, measured, spoken_of
+from xavi_dialogue.nlu.grounding.acts.measuring import just_named, measured, of_ride, spoken_of
 from xavi_dialogue.nlu.grounding.acts.recasting import of_nobody, something_wrong, within_limit
 from xavi_dialogue.nlu.grounding.acts.restating import restated
 from xavi_dialogue.nlu.grounding.acts.timing import believed_then
@@ -248,11 +247,7 @@ def _exists(spoken: Exists, g: Grounder, outer: Window | None) -> Exists:
 
 def _is(spoken: Is, g: Grounder, mode: Mode, outer: Window | None) -> Is:
     spoken = _of_event(threatened(spoken, g), g)
-    if spoken.state == "far" and spoken.thing == Pronoun("it") and not spoken_of(g):
-        spoken = replace(spoken, thing=Destination())  # "is it far?"
-    pace = spoken.state in ("fast", "slow") and spoken.thing in (Pronoun("this"), Pronoun("that"))
-    if pace and not spoken_of(g):
-        spoken = replace(spoken, thing=Ego())  # "this is rather fast"
+    spoken = spoken if spoken_of(g) else of_ride(spoken)
     if spoken.thing is None and spoken.event is None and spoken.state in _NEAR:
         spoken = replace(spoken, thing=just_named(g))
     event = spoken.event
