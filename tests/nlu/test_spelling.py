@@ -40,10 +40,24 @@ def test_a_word_is_not_taken_for_one_with_other_consonants(name: str) -> None:
             "has the gap too the lorry got bigger since you changed lanes",
             "has the gap to the lorry got bigger since you changed lanes",
         ),
+        ("why dont you over take the bike", "why don't you overtake the bike"),
+        ("would you also have st opped here", "would you also have stopped here"),
+        (
+            "are those people going to walk ac ross the road",
+            "are those people going to walk across the road",
+        ),
+        ("why are we braking forno reason", "why are we braking for no reason"),
+        ("who has to give way hree, us or them?", "who has to give way here, us or them?"),
+        ("Is that becuase of us?", "Is that because of us?"),
     ],
 )
 def test_a_text_written_wrongly_is_read_as_the_one_that_was_meant(wrong: str, right: str) -> None:
     assert interpret(wrong)[0].acts == interpret(right)[0].acts
+
+
+def test_both_halves_of_a_word_typed_as_two_are_accounted_for() -> None:
+    shares = interpret("why are we st anding")[0].shares
+    assert [(s.text, s.read) for s in shares[3:]] == [("st", "standing"), ("anding", "standing")]
 
 
 @pytest.mark.parametrize(

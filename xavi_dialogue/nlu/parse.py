@@ -272,7 +272,8 @@ class _Draft:
         """Account for the words."""
         shares = shares_of(self.units, list(self.owners), list(self.unknown), lattice)
         unread = unread_of(self.units, list(self.owners), shares)
-        return Reading(self.acts, shares, round(self.cost, 3), unread)
+        cost = max(0.0, self.cost - lattice.misspelling)
+        return Reading(self.acts, shares, round(cost, 3), unread)
 
 
 def _along(

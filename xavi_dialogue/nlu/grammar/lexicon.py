@@ -193,7 +193,7 @@ def _walk(
     end = path[-1].end
     if trie.entries:
         words = tuple(edge.word for edge in path)
-        tokens = tuple(dict.fromkeys(edge.token for edge in path))
+        tokens = tuple(dict.fromkeys(token for edge in path for token in edge.tokens))
         cost = sum(edge.cost for edge in path) - PHRASE * (len(path) - 1)
         for e in trie.entries:
             _put(found, Leaf(e.category, e.key, e.form, words, tokens, start, end, cost + e.cost))
@@ -209,19 +209,21 @@ def _single(found: list[dict[str, list[Leaf]]], known: Lexicon, start: int, edge
     if is_number or word in load("nlu_text.toml")["numbers"]:
         name = "CLOCK" if ":" in word else "NUM"
         heard = HEARD if word in load("nlu_text.toml")["homophones"] else 0.0
-        _put(found, Leaf(name, word, "", (word,), (edge.token,), start, edge.end,
+        _put(found, Leaf(name, word, "", (word,), edge.tokens, start, edge.end,
                          edge.cost + heard))  # fmt: skip
     if word == "hundred":
-        _put(found, Leaf("HUNDRED", word, "", (word,), (edge.token,), start, edge.end, edge.cost))
+        _put(found, Leaf("HUNDRED", word, "", (word,), edge.tokens, start, edge.end, edge.cost))
     has_sense = known.vocabulary.words.get(word) == 0 or is_number
     if word in known.fillers:
-        _put(found, Leaf("FILLER", word, "", (word,), (edge.token,), start, edge.end,
+        _put(found, Leaf("FILLER", word, "", (word,), edge.tokens, start, edge.end,
                          FILLER + edge.cost))  # fmt: skip
     elif not has_sense:
-        _put(found, Leaf("UNK", word, "", (word,), (edge.token,), start, edge.end,
+        _put(found, Leaf("UNK", word, "", (word,), edge.tokens, start, edge.end,
                          UNKNOWN + edge.cost))  # fmt: skip
+    if len(edge.tokens) > 1:
+        return
     cost = (SKIPPED if has_sense else UNKNOWN) + edge.cost
-    _put(found, Leaf("SKIP", word, "", (word,), (edge.token,), start, edge.end, cost))
+    _put(found, Leaf("SKIP", word, "", (word,), edge.tokens, start, edge.end, cost))
 
 
 def _put(found: list[dict[str, list[Leaf]]], leaf: Leaf) -> None:

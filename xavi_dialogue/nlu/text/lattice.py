@@ -7,6 +7,7 @@ a path from the node before the token to the node behind it, at a cost.
 import re
 from dataclasses import dataclass, field
 from functools import lru_cache
+from itertools import product
 
 from xavi_dialogue.nlu.text.spelling import Vocabulary, corrections
 from xavi_dialogue.nlu.text.tables import apart, homophones, load
@@ -18,6 +19,8 @@ CONFUSED = 0.2  # of words often mistaken for each other, the one typed being ra
 PHONE = 0.15
 LATER = 0.1  # cost of each further expansion of a contraction
 PLURAL_GENITIVE = 0.45  # "the blue cars fault"
+APART = 0.3  # a word typed as two that are words: "over take"
+TORN = 0.1  # ... of which one at least is none: "st opping"
 _NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
 _CLOCK = re.compile(r"\d{1,3}:\d{2}")
 _SUFFIXES: tuple[tuple[str, tuple[str, ...]], ...] = (
@@ -43,6 +46,7 @@ _GOVERNING = frozenset(
 _TO = frozenset(("too", "two"))
 _EXITS = frozenset({"out", "exit", "off", "ramp"})
 TYPED_NUMBER = 0.05  # cost of "#2" as the number alone: "car #2"
+SHORTEST = 4  # letters of a word that may have been typed as two
 _DRAWN = re.compile(r"([a-z])\1\1+")
 
 Alternative = tuple[tuple[str, ...], float]
@@ -55,7 +59,7 @@ class Edge:
     end: int
     word: str
     cost: float
-    token: int
+    tokens: tuple[int, ...]
 
 
 @dataclass(slots=True)
@@ -66,6 +70,7 @@ class Lattice:
     marks: dict[int, str] = field(default_factory=dict)  # node before the mark -> "," "." "?"
     tokens: tuple[str, ...] = ()
     end_mark: str = ""
+    misspelling: float = 0.0  # what every way to read the text costs for its spelling
 
     @property
     def size(self) -> int:
@@ -78,6 +83,7 @@ def build(
 ) -> Lattice:
     """Lay out the alternatives of every token; by ear, words that sound alike are cheap."""
     lattice = Lattice(edges=[[]], tokens=tuple(t.text for t in typed.tokens), end_mark=typed.end)
+    before = 0
     for index, token in enumerate(typed.tokens):
         if token.mark and index:
             lattice.marks[len(lattice.edges) - 1] = token.mark
@@ -88,11 +94,33 @@ def build(
             found = tuple((w, PHONE if w == ("to",) else cost) for w, cost in found)
         if by_ear:
             found = _by_ear(token.text, found)
-        longest = max(len(words) for words, _ in found)
-        lattice.edges.extend([] for _ in range(longest))
+        end = start + max(len(words) for words, _ in found)
+        lattice.edges.extend([] for _ in range(end - start))
         for words, cost in found:
-            _lay(lattice, start, start + longest, words, cost, index)
+            _lay(lattice, start, end, words, cost, (index,))
+        if index and not token.mark:
+            for words, cost in _in_one(typed.tokens[index - 1].text, token.text, vocabulary):
+                _lay(lattice, before, end, words, cost, (index - 1, index))
+        lattice.misspelling += _least(found, vocabulary)
+        before = start
     return lattice
+
+
+def _least(found: tuple[Alternative, ...], vocabulary: Vocabulary) -> float:
+    """Say what the cheapest row of words with a sense costs for spelling."""
+    costs = [cost for words, cost in found if all(vocabulary.words.get(w, 1) == 0 for w in words)]
+    return min(costs, default=0.0)
+
+
+def _in_one(first: str, second: str, vocabulary: Vocabulary) -> list[Alternative]:
+    """List what two tokens are in one, where a space was typed within a word."""
+    word = first + second
+    if len(word) < SHORTEST or not word.isalpha():
+        return []
+    known = all(part in vocabulary.words for part in (first, second))
+    if vocabulary.words.get(word) == 0:
+        return [((word,), (APART if known else TORN) + vocabulary.rarity(word))]
+    return [] if known else _listed("contractions", word, TORN)
 
 
 def _by_ear(token: str, found: tuple[Alternative, ...]) -> tuple[Alternative, ...]:
@@ -104,13 +132,18 @@ def _by_ear(token: str, found: tuple[Alternative, ...]) -> tuple[Alternative, ..
 
 
 def _lay(
-    lattice: Lattice, start: int, end: int, words: tuple[str, ...], cost: float, index: int
+    lattice: Lattice,
+    start: int,
+    end: int,
+    words: tuple[str, ...],
+    cost: float,
+    tokens: tuple[int, ...],
 ) -> None:
     for step, word in enumerate(words):
         last = step == len(words) - 1
         target = end if last else start + step + 1
         edges = lattice.edges[start + step]
-        edge = Edge(target, word, cost if step == 0 else 0.0, index)
+        edge = Edge(target, word, cost if step == 0 else 0.0, tokens)
         if not any(e.end == target and e.word == word and e.cost <= edge.cost for e in edges):
             edges.append(edge)
 
@@ -148,7 +181,6 @@ def alternatives(
         found = [(words, PHONE) for words, _ in _sounding(token)]
     if not found:
         found = _corrected(token, vocabulary)
-        found += [entry for words, _ in found[:1] for entry in _sounding(words[0])]
     if not any(words == (token,) for words, _ in found):
         found.append(((token,), 0.0 if token not in known else HOMOPHONE))
     return tuple(found)
@@ -201,11 +233,17 @@ def _listed(table: str, token: str, cost: float) -> list[Alternative]:
 
 def _corrected(token: str, vocabulary: Vocabulary) -> list[Alternative]:
     """List what a word that is none may have been; "dotn" as what "dont" is short for."""
-    return [
-        (full, cost + guessed)
-        for words, guessed in corrections(token, vocabulary)
-        for full, cost in _listed("contractions", words[0], 0.0) or [(words, 0.0)]
-    ]
+    found: list[Alternative] = []
+    for words, guessed in corrections(token, vocabulary):
+        for row in product(*map(_meant, words)):
+            full = tuple(word for part, _ in row for word in part)
+            found.append((full, guessed + sum(cost for _, cost in row)))
+    return found
+
+
+def _meant(word: str) -> list[Alternative]:
+    """List what a guessed word stands for: itself, one that sounds alike, or several."""
+    return _listed("contractions", word, 0.0) or [((word,), 0.0), *_sounding(word)[:1]]
 
 
 def _sounding(token: str) -> list[Alternative]:
