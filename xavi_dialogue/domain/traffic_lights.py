@@ -77,6 +77,7 @@ class LightTold(Value, frozen=True):
     crossed: tuple[Crossed, ...] = ()
     others: tuple[Crossed, ...] = ()  # passed while they showed something else than was asked of
     whose: Thing | None = None  # who faces it, where that is somebody else
+    own: Shown | None = None  # what ours showed then, where theirs is not known
 
 
 class LightForeseen(Value, frozen=True):

@@ -51,11 +51,12 @@ def meant(ride: Ride, light: Feature, time: float) -> Signal | None:
     """Find which light is meant at a time [s]; None where none was in view, or none is known.
 
     Ours is the next one on our way, or the one whose line we pass; where there is none ahead, the
-    one that we passed last. Of another vehicle, it is the one that holds it.
+    one that we passed last. Of another vehicle, it is the one that holds it; of others, none is known.
     """
     time = time if light.time is None else light.time
-    if isinstance(light.of, Vehicle):
-        return facing(ride, light.of.number, time)
+    if light.of is not None:
+        one = light.of.number if isinstance(light.of, Vehicle) else None
+        return None if one is None else facing(ride, one, time)
     done = [one for one in passings(ride) if one.time <= time + AROUND]
     near = [Signal(one.controller, one.place) for one in ahead(ride, time)]
     if light.rank is not None and light.rank > 0:

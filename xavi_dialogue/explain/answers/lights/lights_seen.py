@@ -81,7 +81,7 @@ def _judged(that: Proposition, scene: Asked, *, claim: bool) -> Answer:
     time, past = moment(of, scene, light)
     one = shown_at(scene.ride, light, time)
     if one is None:
-        return LightTold("colour", past=past, time=time, whose=light.of)
+        return _others(scene, light, time, past=past)
     if turned:
         holds = _has_turned(scene, light, wanted)
     else:
@@ -128,7 +128,15 @@ def colour(question: HowMuch | Doing, scene: Asked) -> Answer:
     light = light_in(*_asked_of(question)) or Feature("light")
     time, past = moment(getattr(question, "of", question), scene, light)
     one = shown_at(scene.ride, light, time)
+    if one is None:
+        return _others(scene, light, time, past=past)
     return LightTold("colour", one, past=past, time=time, whose=light.of)
+
+
+def _others(scene: Asked, light: Feature, time: float, *, past: bool) -> LightTold:
+    """Tell that it is not known what a light showed to others, beside what ours did."""
+    own = None if light.of is None else shown_at(scene.ride, Feature("light"), time)
+    return LightTold("colour", past=past, time=time, whose=light.of, own=own)
 
 
 def seen_any(question: Which, scene: Asked) -> Answer:

@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Vehicles,
     Wanted,
+    WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import causal
@@ -202,6 +203,8 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
     past = is_past(asked, event.time, event.tense)
     about = window(asked, event.time, "past") if past else Window(asked.now, asked.now)
     ours = is_us(yielder) or (yielder is None and not is_us(other))
+    if past and ours and isinstance(event.time, WholeRide):
+        return _ever(asked, event)
     if vehicle is None and other is None and ours and not past:
         told = _to_all(asked, about, yielder, other)
         if told is not None:
@@ -216,6 +219,15 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
     plain = replace(event, modal=None, tense="past" if past else "present")
     held = occasion(asked, plain)
     return found if held is None else Finding(True, (held,))
+
+
+def _ever(asked: Asked, event: Event) -> Finding:
+    """Tell to whom we gave way on the whole ride: what is recorded, not what the rules were."""
+    plain = replace(event, modal=None, tense="past", action="give-way")
+    given = asked.world.episodes(actor=Ego(), actions=YIELDING, end=asked.now)
+    whom = number(event.object)
+    held = tuple(e for e in given if number(e.object) and whom in (None, number(e.object)))
+    return Finding(bool(held), answer=Verdict(Happens(plain), bool(held), held))
 
 
 def owed_to_all(asked: Asked, among: tuple[int, ...], about: Window, *, ours: bool) -> Finding:
@@ -343,5 +355,7 @@ def _to_all(
 
 def _duty_of(event: Event) -> bool:
     """Tell whether it is asked who is to, not who did."""
-    first = event.action in GOING and event.tense == "present"
-    return event.modal in DUTIES or (first and event.modal in (None, "can"))
+    first = event.action in GOING and event.modal in (None, "can")
+    if first and event.tense == "past":  # "who went first, us or the cyclist?"
+        return "first" in event.manner and number(event.object) is not None
+    return event.modal in DUTIES or (first and event.tense == "present")

@@ -1,6 +1,6 @@
 """Traffic lights: what they show, how they are expected to go on, how we passed them."""
 
-from xavi_dialogue.domain.terms import Feature
+from xavi_dialogue.domain.terms import Everyone, Feature
 from xavi_dialogue.domain.traffic_lights import (
     Crossed,
     Foreseen,
@@ -38,7 +38,9 @@ def plan_light(answer: LightTold, context: SpeechContext) -> Plan:
     if answer.asked == "count":
         return _counted(answer)
     who = None if answer.whose is None else Who(answer.whose)
-    none = {"past": answer.past, "where": answer.asked == "where", "reply": reply, "who": who}
+    others = isinstance(answer.whose, Everyone)
+    none = {"past": answer.past, "where": answer.asked == "where", "reply": reply, "who": who,
+            "others": others, "own": None if answer.own is None else COLOURS[answer.own.colour]}
     if answer.shown is None and answer.passed is None:
         rule = "LIGHT_SEEN" if answer.asked == "seen" and reply else "LIGHT_NONE"
         return Plan((message(rule, **none),))

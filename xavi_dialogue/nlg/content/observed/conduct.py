@@ -26,6 +26,7 @@ AT_HAND = 4.0  # [m] below which a place is just ahead
 TOLD = 0.4  # probability from which an expectation is stated beside what somebody does
 PLAIN = frozenset(("continue", "move", "keep-lane", "go", "continue-next-exit"))
 _STOPPING = frozenset(("stop", "brake", "slow-down", "stand", "follow"))
+STILL = frozenset(("stand", "stop", "wait", "park"))
 CHANGES = frozenset(("slow-down", "speed-up"))
 TRENDS = {"slowing": "slowing down", "speeding-up": "speeding up"}
 #: Actions that say by themselves how the speed changes.
@@ -44,11 +45,12 @@ def plan_activity(answer: Activity, context: SpeechContext) -> Plan:
         "trend": answer.trend,
         "speed": _speed(answer),
         "walks": _walks(answer, context),
+        "off": _moves_off(answer),
     }
     if answer.look is not None and not answer.look.in_view and not past:
         return _lost(answer, answer.look, context)
     deeds = _deeds(answer)
-    if answer.trend in TRENDS:
+    if answer.trend in TRENDS or slots["off"]:
         slots["telling"] = "at" if past else "now at"
     if deeds and deeds[0].action == "signal" and answer.trend is not None:
         slots["also"] = _underway(deeds[0], answer, past)
@@ -92,14 +94,21 @@ def _speed(answer: Activity) -> Quantity | None:
 
 def _deeds(answer: Activity) -> list[Episode]:
     """Return what it does, the most telling first."""
-    standing = answer.trend == "standing"
+    standing, off = answer.trend == "standing", _moves_off(answer)
     deeds = [
         e for e in answer.doing
         if e.action not in PLAIN and not (standing and e.action in _STOPPING)
+        and not (off and e.action in STILL)
     ]  # fmt: skip
     if answer.trend is None and not deeds and answer.speed is None:
         deeds = list(answer.doing)
     return sorted(deeds, key=lambda e: (e.action == "signal", e.action in CHANGES, e.begin))
+
+
+def _moves_off(answer: Activity) -> bool:
+    """Tell whether who stood until now moves again."""
+    stood = any(e.action in STILL for e in answer.doing)
+    return stood and (answer.speed or 0.0) >= STANDING and answer.trend != "slowing"
 
 
 def _underway(deed: Episode, answer: Activity, past: bool) -> Clause:

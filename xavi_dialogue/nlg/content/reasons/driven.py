@@ -7,7 +7,7 @@ from xavi_dialogue.nlg.content.clauses.traffic_lights import COLOURS
 from xavi_dialogue.nlg.content.reasons.contrasts import SURE, chances
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
-from xavi_dialogue.nlg.surface.values import Quantity, Who
+from xavi_dialogue.nlg.surface.values import Moment, Quantity, Who
 
 STANDING = 0.5  # [m/s]
 TURNED = ("given-up", "next-move")
@@ -103,7 +103,9 @@ def _shown(cause: MotionCause, *, past: bool) -> dict[str, object]:
     if shown is None:
         return {}
     turned = shown.colour == "amber" and shown.begun
-    return {"colour": COLOURS[shown.colour], "turned": turned and past}
+    over = shown.end is not None and shown.ended and not past
+    until = Moment(shown.end) if over and shown.end is not None else None
+    return {"colour": COLOURS[shown.colour], "turned": turned and past, "until": until}
 
 
 def is_gone(cause: MotionCause, context: SpeechContext) -> bool:

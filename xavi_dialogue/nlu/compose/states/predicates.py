@@ -46,6 +46,7 @@ from xavi_dialogue.nlu.compose.clauses.sem import (
 )
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of, words_of
 from xavi_dialogue.nlu.compose.verbs.events import when
+from xavi_dialogue.nlu.compose.verbs.lights import faced_by
 from xavi_dialogue.nlu.grammar.chart import Part
 
 Found = tuple[Proposition, float]
@@ -87,7 +88,8 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
     if isinstance(sem, Described):
         plain = Described(colour=sem.colour, definite=sem.definite)
         if sem.colour and sem == plain and not isinstance(subject, Wanted):
-            return [(Has("colour", sem.colour, subject, time, tense), 0.0)]
+            faced = faced_by(sem.colour, subject, clause.complements)
+            return [(Has("colour", sem.colour, faced, time, tense), 0.0)]
         return _described(clause, sem, subject, time)
     if isinstance(sem, Measure) and sem.of.attribute == "right-of-way":
         other = sem.of.to or Everyone()

@@ -187,6 +187,7 @@ def _found(clause: Clause) -> list[Found]:
     if clause.objects:
         vague = isinstance(subject, Pronoun) and any(c.key == "for" for c in clause.complements)
         found = nominal(clause, clause.objects[0][0])
+        vague = vague and not any(isinstance(getattr(of, "thing", 0), Feature) for of, _ in found)
         return [(of, cost + FOR_WHOM) for of, cost in found] if vague else found
     if is_thing(subject) and (said := pace_said(clause)) is not None:  # "we are down to 30"
         who = cast(Thing, as_thing(subject))

@@ -20,6 +20,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.clause import Complement
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, Specified, as_thing
 from xavi_dialogue.nlu.compose.clauses.traits import Traits
 from xavi_dialogue.nlu.compose.verbs.deeds import event_of, tense_of, time_of
@@ -81,6 +82,16 @@ def _of_light(event: Event) -> Event:
         return event
     of = None if isinstance(who, _OURS) else who
     return replace(event, actor=Feature("light", of=of))
+
+
+def faced_by(colour: str, thing: Thing, complements: Iterable[Complement]) -> Thing:
+    """Take "it" in "it is red for the others" for the light that they face."""
+    if colour not in LIT or not isinstance(thing, Feature | Pronoun):
+        return thing
+    who = next((as_thing(c.sem) for c in complements if c.key == "for"), None)
+    if who is None:
+        return thing
+    return Feature("light", of=None if isinstance(who, Ego | Passenger) else who)
 
 
 def ran(special: Special) -> Proposition:

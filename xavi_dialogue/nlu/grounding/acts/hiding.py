@@ -42,9 +42,11 @@ def somebody_behind(spoken: Related, g: Grounder) -> Exists | None:
     if spoken.relation != "behind" or not isinstance(thing, Described) or not _unknown(thing):
         return None
     to = _hider(spoken.to, g)
-    if not isinstance(to, Described | Vehicle):
+    if not isinstance(to, Described | Vehicle | Feature):
         return None
-    return Exists(replace(thing, bearing="behind", of=to), time=spoken.time, tense=spoken.tense)
+    there: Thing = replace(thing, bearing="behind", of=to)
+    there = Nobody(described=there) if isinstance(to, Feature) else there
+    return Exists(there, time=spoken.time, tense=spoken.tense)
 
 
 def behind_hider(spoken: Exists, g: Grounder) -> Exists:
@@ -53,10 +55,10 @@ def behind_hider(spoken: Exists, g: Grounder) -> Exists:
     described = thing.described if isinstance(thing, Nobody) else thing
     if not isinstance(described, Described) or described.bearing != "behind":
         return spoken
-    if not isinstance(described.of, Pronoun) or described.definite:
+    if not isinstance(described.of, Pronoun | Feature) or described.definite:
         return spoken
     found = replace(described, of=_hider(described.of, g))
-    if found.of == BLIND:
+    if isinstance(found.of, Feature):
         return replace(spoken, thing=Nobody(described=found))
     return replace(spoken, thing=replace(thing, described=found) if thing != described else found)
 
