@@ -14,6 +14,7 @@ from xavi_dialogue.domain.answers import (
     Compared,
     Counted,
     Declined,
+    DidNotHappen,
     Evidence,
     Happenings,
     Helpful,
@@ -226,4 +227,9 @@ CASES: tuple[Answer, ...] = (
     Staying(V, off=0.8),
     Staying(V, left=Measure("time-to-go", E, NOW, 30.0)),
     Staying(V),
+    Priority(NOW, "give-way", walkers=True, holds=False),
+    Activity(V, NOW, (Episode(V, "stand", 8.0),), 1.0, "speeding-up"),
+    Activity(V, NOW, (Episode(V, "stand", 8.0),), 0.0, "standing"),
+    DidNotHappen(Event("turn", tense="present"), (Episode(E, "exit-right", 18.0),)),
+    DidNotHappen(Event("turn", side="left", tense="present"), (Episode(E, "exit-right", 18.0),)),
 )

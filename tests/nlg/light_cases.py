@@ -3,7 +3,7 @@
 from tests.nlg.scenery import NOW
 from xavi_dialogue.domain.answers import Answer, MotionCause, MotionReason, OtherReason, Verdict
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Event, Feature, Happens, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Everyone, Feature, Happens, Vehicle
 from xavi_dialogue.domain.traffic_lights import (
     Crossed,
     Foreseen,
@@ -117,4 +117,9 @@ CASES: tuple[Answer, ...] = (
             (Episode(E, "wait", 5.0, object=LIGHT, standing=True),)),
     LightTold("turn", RED),
     LightTold("turn", RED, holds=False),
+    LightTold("colour", whose=Everyone(), own=RED),
+    LightTold("colour", whose=Vehicle(1), own=RED, past=True),
+    LightTold("colour", whose=Vehicle(1)),
+    MotionReason(Episode(E, "stop", 4.0, speed_to=0.0, standing=True),
+                 (MotionCause("light", shown=WAS_RED),), asked="stand"),
 )  # fmt: skip

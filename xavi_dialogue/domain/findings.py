@@ -202,6 +202,7 @@ class Priority(Value, frozen=True):
     claim: bool = False  # it answers a claim
     ring: bool = False  # at a roundabout, asked of nobody in particular
     light: bool = False  # a red light holds us at that junction, asked of nobody in particular
+    walkers: bool = False  # at a crossing for people on foot, asked of nobody in particular
     grounds: bool = False  # asked how we know it
     after: tuple[int, ...] = ()  # who has to let us go first, where others go before us
     #: On what it rests that they go first: they come from the right, or we turn across their way;

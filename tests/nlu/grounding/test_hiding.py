@@ -23,7 +23,7 @@ IT = Pronoun("it")
 SOMEBODY = Described(definite=False)
 TRUCK = Described(kind="truck")
 WORLD = FakeWorld({1: Car(60.0, colour="red"), 2: Car(40.0, kind="truck", colour="blue")})
-BLIND = Feature("blind")
+BLIND, BARN = Feature("blind"), Feature("building")
 
 
 def hiders(question: Any) -> list[Any]:
@@ -46,6 +46,8 @@ def hiders(question: Any) -> list[Any]:
         (Whether(Related("behind", SOMEBODY, TRUCK)), Vehicle(2)),
         (Whether(Exists(Described(bearing="behind", of=TRUCK, definite=False))), Vehicle(2)),
         (Whether(Exists(Described(bearing="behind", of=IT, definite=False))), BLIND),
+        (Whether(Exists(Described(bearing="behind", of=BARN, definite=False))), BARN),
+        (Whether(Related("behind", SOMEBODY, IT)), BLIND),
         (HowKnow(Related("behind", Nobody(), IT)), BLIND),
         (WhatIf(Happens(Event("come", SOMEBODY, IT, tense="present"))), BLIND),
         (Whether(Related("sees-past", Ego(), IT)), BLIND),

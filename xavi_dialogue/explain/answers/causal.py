@@ -47,7 +47,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.explain.answers import owing
 from xavi_dialogue.explain.answers.abandoned_plans import wavered
 from xavi_dialogue.explain.answers.measuring.durations import stands
-from xavi_dialogue.explain.answers.propositions import reasons
+from xavi_dialogue.explain.answers.propositions import reasons, standing_rules
 from xavi_dialogue.explain.answers.reasons import choices, knowing, suspects
 from xavi_dialogue.explain.answers.reasons.provoked import because_of_us
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -113,6 +113,8 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
             return _why_safe
         case HowKnow(Happens(Event(actor=Ego(), where=Related("with", to=Vehicle())))):
             return _why_safe
+        case WhatIf() if standing_rules.supposes_walker(question):
+            return standing_rules.supposed
         case Which(such=such) if such is not None and isinstance(unwrapped(such)[0], Caused):
             return _who_caused
         case Compare(options) if options and all(_is_option(option) for option in options):
@@ -189,6 +191,8 @@ def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
         return _was_cause
     if not negated and _slowed_for(of, scene):
         return _slowed_because
+    if not negated and standing_rules.at_crossing(of):
+        return standing_rules.whether
     if possible.is_could(of):
         return possible.could
     if possible.is_must(of) and not _on_our_way(of):

@@ -51,7 +51,7 @@ def meant(ride: Ride, light: Feature, time: float) -> Signal | None:
     """Find which light is meant at a time [s]; None where none was in view, or none is known.
 
     Ours is the next one on our way, or the one whose line we pass; where there is none ahead, the
-    one that we passed last. Of another vehicle, it is the one that holds it; of others, none is known.
+    one that we passed last. Of another vehicle, it is the one that holds it; of others, none is.
     """
     time = time if light.time is None else light.time
     if light.of is not None:

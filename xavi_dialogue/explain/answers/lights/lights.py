@@ -78,6 +78,8 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
             return _asked(lights_ahead.when)
         case HowKnow(of) if of is not None and lights_ahead.is_change(of):
             return _asked(lights_ahead.how_known)
+        case WhatIf(supposed, then) if lights_turn.goes_now(supposed, then, scene):
+            return _asked(lights_turn.not_yet)
         case WhatIf(supposed) if lights_ahead.concerns(unwrapped(supposed)[0]):
             return _asked(lights_supposed.supposed)
     return _of_fact(act.question)

@@ -30,6 +30,7 @@ from xavi_dialogue.explain.answers.expectations.foreseen import chance
 from xavi_dialogue.explain.answers.expectations.precedence import on_ring
 from xavi_dialogue.explain.answers.lights.lights_turn import held
 from xavi_dialogue.explain.answers.propositions.halting import to_come
+from xavi_dialogue.explain.answers.propositions.standing_rules import ever_given
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding
 from xavi_dialogue.explain.answers.reference.moments import Window, is_past, window
@@ -61,9 +62,7 @@ def duty(asked: Asked, event: Event) -> Finding | None:
     """
     past = event.tense in ("past", "perfect")
     if event.modal == "could" and past and is_us(event.actor):
-        told = Whether(Happens(event))
-        explainer = causal.explainer(told, asked)
-        return None if explainer is None else Finding(None, answer=explainer(told, asked))
+        return _handed(asked, Whether(Happens(event)))
     if event.modal is None and past and event.action in GOING and "first" in event.manner:
         return _went_first(asked, event)
     if event.modal is None and event.action in INTO_PATH and is_us(event.actor):
@@ -204,7 +203,7 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
     about = window(asked, event.time, "past") if past else Window(asked.now, asked.now)
     ours = is_us(yielder) or (yielder is None and not is_us(other))
     if past and ours and isinstance(event.time, WholeRide):
-        return _ever(asked, event)
+        return ever_given(asked, event)
     if vehicle is None and other is None and ours and not past:
         told = _to_all(asked, about, yielder, other)
         if told is not None:
@@ -219,15 +218,6 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
     plain = replace(event, modal=None, tense="past" if past else "present")
     held = occasion(asked, plain)
     return found if held is None else Finding(True, (held,))
-
-
-def _ever(asked: Asked, event: Event) -> Finding:
-    """Tell to whom we gave way on the whole ride: what is recorded, not what the rules were."""
-    plain = replace(event, modal=None, tense="past", action="give-way")
-    given = asked.world.episodes(actor=Ego(), actions=YIELDING, end=asked.now)
-    whom = number(event.object)
-    held = tuple(e for e in given if number(e.object) and whom in (None, number(e.object)))
-    return Finding(bool(held), answer=Verdict(Happens(plain), bool(held), held))
 
 
 def owed_to_all(asked: Asked, among: tuple[int, ...], about: Window, *, ours: bool) -> Finding:
@@ -265,7 +255,7 @@ def _advised(asked: Asked, event: Event) -> Finding | None:
     return _handed(asked, Why(Not(Happens(plain))))
 
 
-def _handed(asked: Asked, question: Why) -> Finding | None:
+def _handed(asked: Asked, question: Why | Whether) -> Finding | None:
     """Give the answer of the causal explainers, where they have one."""
     explainer = causal.explainer(question, asked)
     return None if explainer is None else Finding(None, answer=explainer(question, asked))
@@ -274,11 +264,9 @@ def _handed(asked: Asked, question: Why) -> Finding | None:
 def _needed(asked: Asked, event: Event) -> Finding | None:
     """Tell whether what we did was necessary: the causal explainers know."""
     plain = replace(event, modal=None)
-    question = Whether(Is("necessary", event=plain))
-    explainer = causal.explainer(question, asked)
-    if explainer is None or occasion(asked, plain) is None:
+    if occasion(asked, plain) is None:
         return None
-    return Finding(None, answer=explainer(question, asked))
+    return _handed(asked, Whether(Is("necessary", event=plain)))
 
 
 def blamed(question: Fault, asked: Asked) -> Answer:

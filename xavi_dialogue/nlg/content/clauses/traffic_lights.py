@@ -39,8 +39,14 @@ def plan_light(answer: LightTold, context: SpeechContext) -> Plan:
         return _counted(answer)
     who = None if answer.whose is None else Who(answer.whose)
     others = isinstance(answer.whose, Everyone)
-    none = {"past": answer.past, "where": answer.asked == "where", "reply": reply, "who": who,
-            "others": others, "own": None if answer.own is None else COLOURS[answer.own.colour]}
+    none = {
+        "past": answer.past,
+        "where": answer.asked == "where",
+        "reply": reply,
+        "who": who,
+        "others": others,
+        "own": None if answer.own is None else COLOURS[answer.own.colour],
+    }
     if answer.shown is None and answer.passed is None:
         rule = "LIGHT_SEEN" if answer.asked == "seen" and reply else "LIGHT_NONE"
         return Plan((message(rule, **none),))

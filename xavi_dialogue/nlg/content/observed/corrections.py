@@ -55,11 +55,17 @@ def _bare(event: Event, context: SpeechContext) -> Clause:
     return Clause(clause.subject, clause.verb, clause.rest, "perfect", negated=True)
 
 
+def _turns(event: Event, episode: Episode) -> bool:
+    """Tell whether it is any turn that is spoken of, and one was made."""
+    sides = ("left", "right") if event.side is None else (event.side,)
+    return event.action == "turn" and episode.action in [f"exit-{side}" for side in sides]
+
+
 def _same(event: Event, episode: Episode, context: SpeechContext) -> bool:
     """Check whether an episode is what was asked about, if at another time."""
     if event.actor != episode.actor:
         return False
-    if event.action == episode.action:
+    if event.action == episode.action or _turns(event, episode):
         return True
     one, two = event_clause(event, context.now), episode_clause(episode, context.now)
     return one.verb.split(" for ")[0] == two.verb.split(" for ")[0]

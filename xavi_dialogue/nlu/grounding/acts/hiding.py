@@ -44,8 +44,8 @@ def somebody_behind(spoken: Related, g: Grounder) -> Exists | None:
     to = _hider(spoken.to, g)
     if not isinstance(to, Described | Vehicle | Feature):
         return None
-    there: Thing = replace(thing, bearing="behind", of=to)
-    there = Nobody(described=there) if isinstance(to, Feature) else there
+    described = replace(thing, bearing="behind", of=to)
+    there = Nobody(described=described) if isinstance(to, Feature) else described
     return Exists(there, time=spoken.time, tense=spoken.tense)
 
 
