@@ -76,4 +76,4 @@ def test_over_the_ride_it_counts_to_whom_we_gave_way(other: Any) -> None:
     event = Event("let-go", object=other, time=WholeRide(), modal="must")
     found: Finding = standing_rules.ever_given(SimpleNamespace(world=world, now=10.0), event)  # type: ignore[arg-type]
     assert found.holds is (other != Vehicle(2))
-    assert getattr(found.answer, "facts", None) == ((given,) if found.holds else ())
+    assert getattr(found.answer, "facts", None) == (given,)  # to whom else, where not to him

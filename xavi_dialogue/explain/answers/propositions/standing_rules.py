@@ -65,10 +65,10 @@ def ever_given(asked: Asked, event: Event) -> Finding:
     """Tell to whom we gave way on the whole ride: what is recorded, not what the rules were."""
     kinds: tuple[ActionName, ...] = ("give-way", "let-go", "wait")
     given = asked.world.episodes(actor=Ego(), actions=kinds, end=asked.now)
-    whom = number(event.object)
-    held = tuple(e for e in given if number(e.object) and whom in (None, number(e.object)))
+    whom, those = number(event.object), tuple(e for e in given if number(e.object))
+    held = tuple(e for e in those if whom in (None, number(e.object)))
     that = Happens(Event("give-way", object=event.object, time=event.time))
-    return Finding(bool(held), answer=Verdict(that, bool(held), held))
+    return Finding(bool(held), answer=Verdict(that, bool(held), held or those[-2:]))
 
 
 def _rule(asked: Asked, *, holds: bool) -> Priority:

@@ -1,6 +1,6 @@
 """Traffic lights: what they show, how they are expected to go on, how we passed them."""
 
-from xavi_dialogue.domain.terms import Everyone, Feature
+from xavi_dialogue.domain.terms import Everyone, Feature, Nobody
 from xavi_dialogue.domain.traffic_lights import (
     Crossed,
     Foreseen,
@@ -38,7 +38,7 @@ def plan_light(answer: LightTold, context: SpeechContext) -> Plan:
     if answer.asked == "count":
         return _counted(answer)
     who = None if answer.whose is None else Who(answer.whose)
-    others = isinstance(answer.whose, Everyone)
+    others = isinstance(answer.whose, Everyone | Nobody)
     none = {
         "past": answer.past,
         "where": answer.asked == "where",
