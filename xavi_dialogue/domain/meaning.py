@@ -338,6 +338,7 @@ class Reading(Value, frozen=True):
     cost: float = 0.0  # lower is likelier, by the words alone
     unread: tuple[Unread, ...] = ()
     paraphrase: str = ""  # the plain question that the text as a whole was taken for
+    ignored: tuple[tuple[str, ...], ...] = ()  # clauses without which the acts are the same
 
     @property
     def unknown(self) -> tuple[str, ...]:

@@ -28,6 +28,7 @@ from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
 from xavi_dialogue.nlu.honesty import is_dear, well_typed
+from xavi_dialogue.nlu.ignored import PASSED_OVER, asks_nothing, ignored
 from xavi_dialogue.nlu.joining.alternatives import chosen_between
 from xavi_dialogue.nlu.joining.meanwhile import at_same_time, in_its_world
 from xavi_dialogue.nlu.joining.outcomes import struck_by
@@ -43,7 +44,7 @@ from xavi_dialogue.nlu.joining.topics import fold
 from xavi_dialogue.nlu.plausible import oddity
 from xavi_dialogue.nlu.screen import on_screen
 from xavi_dialogue.nlu.segments import CLAUSES, RARE, Path, segment
-from xavi_dialogue.nlu.shares import is_unknown, shares_of, unknown_shares, unread_of
+from xavi_dialogue.nlu.shares import is_unknown, shares_of, unknown_shares, unread_of, words_in
 from xavi_dialogue.nlu.text.languages import is_foreign
 from xavi_dialogue.nlu.text.lattice import HEARD, Lattice, build
 from xavi_dialogue.nlu.text.tokens import Typed, tokenise
@@ -76,7 +77,8 @@ GAIN_OF_WHOLE = 0.8  # ... and than one that leaves none
 ENOUGH = 2  # readings, with which those that cost much more are not looked for
 NEAR = 0.5
 
-Row = tuple[tuple[Act, ...], float, tuple[Leaf, ...]]  # acts, their cost, words without a part
+#: Acts, their cost, words without a part, and clauses that make no difference.
+Row = tuple[tuple[Act, ...], float, tuple[Leaf, ...], tuple[Node, ...]]
 Composed = tuple[list[Row], list[Leaf]]
 
 
@@ -267,13 +269,15 @@ class _Draft:
     units: tuple[Node, ...]
     owners: tuple[int | None, ...]
     unknown: tuple[Leaf, ...]
+    ignored: tuple[Node, ...]
 
     def reading(self, lattice: Lattice) -> Reading:
         """Account for the words."""
         shares = shares_of(self.units, list(self.owners), list(self.unknown), lattice)
         unread = unread_of(self.units, list(self.owners), shares)
         cost = max(0.0, self.cost - lattice.misspelling)
-        return Reading(self.acts, shares, round(cost, 3), unread)
+        passed = tuple(words_in(clause, lattice) for clause in self.ignored)
+        return Reading(self.acts, shares, round(cost, 3), unread, ignored=passed)
 
 
 def _along(
@@ -290,8 +294,9 @@ def _along(
     for combination in islice(product(*choices), _ALTERNATIVES * 2):
         owners: list[int | None] = []
         acts: list[Act] = []
-        pairs = [(acts, extra) for acts, extra, _ in combination]
-        without = [*unknown, *(leaf for _, _, leaves in combination for leaf in leaves)]
+        pairs = [(acts, extra) for acts, extra, *_ in combination]
+        without = [*unknown, *(leaf for _, _, leaves, _ in combination for leaf in leaves)]
+        passed = tuple(clause for *_, clauses in combination for clause in clauses)
         rows = at_same_time(path.units, chosen_between(path.units, pairs))
         for row in in_its_world(path.units, rows):
             owners.append(len(acts) - (row is None) if row or row is None else None)
@@ -302,7 +307,7 @@ def _along(
         loose = max(loose + len(acts), 0) if named else 0  # named first, and not taken up
         cost = path.cost + sum(extra for _, extra in pairs) + LOOSE * loose
         cost += PASSED * bool(unknown)
-        found.append(_Draft(tuple(acts), cost, path.units, tuple(owners), tuple(without)))
+        found.append(_Draft(tuple(acts), cost, path.units, tuple(owners), tuple(without), passed))
     return found
 
 
@@ -311,8 +316,8 @@ def _composed(
 ) -> Composed:
     key = id(unit)
     if key not in composed:
-        last = unit.end >= lattice.size
-        composer = Composer(budget, lattice.end_mark if last else lattice.marks.get(unit.end, ""))
+        mark = lattice.end_mark if unit.end >= lattice.size else lattice.marks.get(unit.end, "")
+        composer = Composer(budget, mark)
         read = composer.compose(unit)
         notes = composer.notes
         lost = DROPPED * sum(id(c) not in notes.taken for c in notes.chained)
@@ -321,13 +326,23 @@ def _composed(
                 for acts, cost in read]  # fmt: skip
         rows = [(acts, cost + LOST * len(leaves), leaves) for acts, cost, leaves in rows]
         rows.sort(key=lambda entry: entry[1])
-        found = [
-            (*_accepted(unit, acts, cost), leaves) for acts, cost, leaves in rows[:_ALTERNATIVES]
-        ]
+        found = [_row(unit, *row, mark) for row in rows[:_ALTERNATIVES]]
+        found.sort(key=lambda entry: entry[1])
         if not found or is_unknown(unit, composer.notes.unknown):
-            found = [((), _unread(unit), ())]
+            found = [((), _unread(unit), (), ())]
         composed[key] = (found, composer.notes.unknown)
     return composed[key]
+
+
+def _row(
+    unit: Node, acts: tuple[Act, ...], cost: float, leaves: tuple[Leaf, ...], mark: str
+) -> Row:
+    """Account for the clauses of a unit; without them, there has to be something left to ask."""
+    acts, cost = _accepted(unit, acts, cost)
+    clauses = ignored(unit, acts, mark)
+    if clauses and asks_nothing(acts):
+        return (), _unread(unit), leaves, ()
+    return acts, cost + PASSED_OVER * len(clauses), leaves, clauses
 
 
 def _accepted(unit: Node, acts: tuple[Act, ...], cost: float) -> tuple[tuple[Act, ...], float]:

@@ -124,8 +124,17 @@ def unread_of(
     """List the units that have words without a part, and no act."""
     found: list[Unread] = []
     for unit, owner in zip(units, owners, strict=True):
-        tokens = sorted({token for leaf in leaves_of(unit) for token in leaf.tokens})
+        tokens = _tokens_of(unit)
         if owner is None and any(shares[token].share == "unknown" for token in tokens):
             words = tuple(shares[token].text for token in tokens)
             found.append(Unread(words, unit.name.startswith(_ASKING)))
     return tuple(found)
+
+
+def words_in(phrase: Node, lattice: Lattice) -> tuple[str, ...]:
+    """List the words of a phrase as typed."""
+    return tuple(lattice.tokens[token] for token in _tokens_of(phrase))
+
+
+def _tokens_of(phrase: Node) -> list[int]:
+    return sorted({token for leaf in leaves_of(phrase) for token in leaf.tokens})

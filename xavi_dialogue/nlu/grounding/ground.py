@@ -24,6 +24,7 @@ from xavi_dialogue.domain.meaning import (
     Reading,
     Request,
     Social,
+    Unread,
     Whether,
     Which,
 )
@@ -237,6 +238,7 @@ def _told(best: Trial) -> tuple[list[Part], Failure | None]:
     lost = [part.failure for part in asking if part.failure is not None]
     unread = [one for one in best.reading.unread if one.asks]
     lost += [quoting.unread(best.reading, one) for one in unread]
+    lost += [quoting.unread(best.reading, Unread(words)) for words in best.reading.ignored]
     if not lost and not answered:
         lost = [part.failure for part in best.parts if part.failure is not None]
     misdescribed = [p.failure for p in best.parts if p.answerable and p.failure is not None]

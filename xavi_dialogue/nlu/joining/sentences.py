@@ -88,6 +88,7 @@ def _one(row: tuple[Reading, ...], ends: Sequence[str]) -> Reading:
         tuple(structs.replace(s, act=o) for s, o in zip(shares, owners, strict=True)),
         round(max(sum(reading.cost for reading in row) - TOLD * told, 0.0), 3),
         tuple(unread for reading in row for unread in reading.unread),
+        ignored=tuple(clause for reading in row for clause in reading.ignored),
     )
 
 
