@@ -16,8 +16,6 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import Extreme, FeelingKind, Merit
 
-# --- questions ----------------------------------------------------------------------------------
-
 
 class Why(Value, frozen=True):
     """Why something is so; with `Not`, why it is not ("why not", "why didn't you")."""

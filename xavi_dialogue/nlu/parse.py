@@ -77,7 +77,6 @@ GAIN_OF_WHOLE = 0.8  # ... and than one that leaves none
 ENOUGH = 2  # readings, with which those that cost much more are not looked for
 NEAR = 0.5
 
-#: Acts, their cost, words without a part, and clauses that make no difference.
 Row = tuple[tuple[Act, ...], float, tuple[Leaf, ...], tuple[Node, ...]]
 Composed = tuple[list[Row], list[Leaf]]
 
@@ -337,18 +336,12 @@ def _composed(
 def _row(
     unit: Node, acts: tuple[Act, ...], cost: float, leaves: tuple[Leaf, ...], mark: str
 ) -> Row:
-    """Account for the clauses of a unit; without them, there has to be something left to ask."""
-    acts, cost = _accepted(unit, acts, cost)
-    clauses = ignored(unit, acts, mark)
-    if clauses and asks_nothing(acts):
+    """Leave out acts that cost too much or have no sense; list the clauses passed over."""
+    row = () if is_dear(unit, cost) else well_typed(acts)
+    acts, cost = row, cost if row or not acts else max(cost, _unread(unit))
+    if (clauses := ignored(unit, acts, mark)) and asks_nothing(acts):
         return (), _unread(unit), leaves, ()
     return acts, cost + PASSED_OVER * len(clauses), leaves, clauses
-
-
-def _accepted(unit: Node, acts: tuple[Act, ...], cost: float) -> tuple[tuple[Act, ...], float]:
-    """Leave out acts that cost too much or rest on what has no sense."""
-    row = () if is_dear(unit, cost) else well_typed(acts)
-    return row, cost if row or not acts else max(cost, _unread(unit))
 
 
 def _unread(unit: Node) -> float:

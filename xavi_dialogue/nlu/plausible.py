@@ -209,9 +209,14 @@ def _is_vague(thing: object) -> bool:
     return isinstance(thing, Pronoun) and thing.form in ("it", "that", "this")
 
 
+def _is_ground(thing: object) -> bool:
+    return isinstance(thing, Feature) and thing.kind in ("building", "crossing")
+
+
 def _event(value: Event) -> float:
     cost = PLAIN
-    if isinstance(value.actor, _FIXED) and value.action not in _APPROACHES:
+    fixed = isinstance(value.actor, _FIXED) or _is_ground(value.actor)
+    if fixed and value.action not in _APPROACHES:
         cost += ODD
     if value.action == "do" and isinstance(value.object, Unknown):
         cost += DOUBTFUL

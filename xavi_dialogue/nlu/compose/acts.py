@@ -36,7 +36,15 @@ from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.hedged import as_when, supposing
 from xavi_dialogue.nlu.compose.clauses.peaks import extreme_told
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, as_thing
-from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, lifted, node_of, words_of
+from xavi_dialogue.nlu.compose.clauses.tree import (
+    is_not,
+    is_possessed,
+    leaf_of,
+    leaves_of,
+    lifted,
+    node_of,
+    words_of,
+)
 from xavi_dialogue.nlu.compose.fragments import Fragments
 from xavi_dialogue.nlu.compose.orders import Orders
 from xavi_dialogue.nlu.compose.propositions.phrases import Phrases
@@ -125,7 +133,7 @@ class Composer(Statements):
             at = unit.parts.index(wh_node)
             if any(isinstance(p, Node) and node_of(p, "tag") for p in unit.parts[at + 1 :]):
                 return []  # "you could have gone, why didn't you?"
-            parts = [p for p in parts if p not in unit.parts[at + 1 : at + 2] or not _is_not(p)]
+            parts = [p for p in parts if p not in unit.parts[at + 1 : at + 2] or not is_not(p)]
         if (also := node_of(unit, "also_wh")) is not None:
             return self._ask_both(unit, wh_node, also)
         wh = self.questions.wh_of(wh_node)
@@ -185,7 +193,9 @@ class Composer(Statements):
             return [((moved,), 0.1)]
         if says(clause) and clause.question is None:
             return [((AskHelp(),), 0.1)]
-        order = self.orders.polite(clause, refrain=_refrains(unit), please=_pleads(unit))
+        order = self.orders.polite(
+            clause, refrain=_refrains(unit), please="please" in words_of(unit).split()
+        )
         if order is not None:
             return [(order, 0.0)]
         if goes_on(unit) or supposing(unit):
@@ -246,6 +256,8 @@ class Composer(Statements):
         """Read what is named first and taken up by a pronoun of the next unit."""
         things = ("np", "aliased", "group", "accusative", "accusative_group")
         named = [p for p in unit.parts if isinstance(p, Node) and p.name in things]
+        if any(is_possessed(part) for part in named[0].parts):
+            return []  # "its green now" tells of a light
         sem = self.phrases.nouns.read(named[0])
         if leaf_of(unit, "TALLY"):
             counted = among(sem, named[0])
@@ -307,9 +319,8 @@ def _lead_act(part: Part) -> Act | None:
         return talk_act(cast(Leaf, part.parts[0]))
     if isinstance(part, Leaf) and part.category in _TALKING:
         return talk_act(part)
-    if isinstance(part, Leaf) and part.category == "NO":
-        return Social("disagree")
-    return None
+    denies = isinstance(part, Leaf) and part.category == "NO"
+    return Social("disagree") if denies else None
 
 
 def _missed(clause: Clause) -> bool:
@@ -321,11 +332,6 @@ def _missed(clause: Clause) -> bool:
 def _grounds(question: Question) -> Question:
     """Take "why do you think he stops" for the question what shows it."""
     return HowKnow(question.of) if isinstance(question, Why) else question
-
-
-def _pleads(unit: Node) -> bool:
-    """Say whether there is a "please" in a unit."""
-    return any("please" in leaf.words for leaf in leaves_of(unit))
 
 
 def _refrains(unit: Node) -> bool:
@@ -340,11 +346,5 @@ def _refrains(unit: Node) -> bool:
     return polite or not {"any", "anymore", "so", "again", "too", "that"}.isdisjoint(words)
 
 
-def _is_not(part: Part) -> bool:
-    """Say whether a part is "not"."""
-    late = isinstance(part, Node) and part.name == "late_not"
-    return late or (isinstance(part, Leaf) and part.category == "NOT")
-
-
 def _forbids(unit: Node) -> bool:
-    return any(_is_not(part) for part in unit.parts)
+    return any(is_not(part) for part in unit.parts)

@@ -15,7 +15,6 @@ from xavi_dialogue.domain.meaning import (
     HowMuch,
     Reading,
     TokenShare,
-    WhatIf,
 )
 from xavi_dialogue.domain.terms import Both
 from xavi_dialogue.nlu.intents.classifier import Intent, judge
@@ -45,7 +44,7 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
         if intent.probability >= (LIKELY if incomplete else CERTAIN)
         and _leaves_open(best, intent, incomplete)
         and (question := plain(intent, thing)) is not None
-        and (incomplete or not (question.vague or _is_half(best.acts, question.acts)))
+        and (incomplete or not (question.vague or _is_less(best.acts, question.acts)))
         and _counts(best.acts) <= _counts(question.acts)
     ]
     found = [_reading(best, [pair]) for pair in offered]
@@ -55,14 +54,22 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
 
 
 def _of_several(best: Reading) -> bool:
-    """Tell whether something is supposed of several: a plain question is of one of them."""
+    """Tell whether several things are supposed or asked after: a plain question is of one."""
     asked = (act.question for act in best.acts if isinstance(act, Ask))
-    return any(isinstance(one, WhatIf) and isinstance(one.supposed, Both) for one in asked)
+    said = (getattr(one, "supposed", None) or getattr(one, "that", None) for one in asked)
+    return any(isinstance(of, Both) for of in said)
 
 
-def _is_half(acts: Sequence[Act], plain: Sequence[Act]) -> bool:
-    """Tell whether more is asked, word for word, than a plain question asks."""
-    return sum(isinstance(act, Ask | Elliptic) for act in acts) > len(plain)
+def _is_less(acts: Sequence[Act], plain: Sequence[Act]) -> bool:
+    """Tell whether a plain question asks less than is asked word for word, or not of what."""
+    asked = [act for act in acts if isinstance(act, Ask | Elliptic)]
+    open_ = {type(a.question) for a in plain if isinstance(a, Ask) and _of(a) is None}
+    told = {type(a.question) for a in asked if isinstance(a, Ask) and _of(a) is not None}
+    return len(asked) > len(plain) or not open_.isdisjoint(told)
+
+
+def _of(act: Ask) -> object:
+    return getattr(act.question, "of", act.question)
 
 
 def _counts(acts: Sequence[Act]) -> bool:
@@ -81,6 +88,22 @@ def _leaves_open(best: Reading, intent: Intent, incomplete: bool) -> bool:
     return not any(is_of(act, intent.name) for act in asking_acts(best.acts))
 
 
+def _beside(best: Reading, plain: tuple[Act, ...]) -> tuple[list[Act], list[Act]]:
+    """Give what else is asked and was read, before and behind what a plain question stands for."""
+    lost = {share.act for share in best.shares if share.share == "unknown"}
+    at = next((rank for rank, _ in enumerate(best.acts) if rank in lost), None)
+    kinds = {type(act.question) for act in plain if isinstance(act, Ask)}
+    kept = [
+        (rank, act)
+        for rank, act in enumerate(best.acts)
+        if at is not None and rank not in lost
+        if isinstance(act, Ask) and type(act.question) not in kinds
+    ]
+    return [act for rank, act in kept if rank < (at or 0)], [
+        act for rank, act in kept if rank > (at or 0)
+    ]
+
+
 def _reading(best: Reading, pairs: Sequence[tuple[Intent, Plain]]) -> Reading:
     """Give the reading of a text as the plain questions of intents."""
     names = " ".join(f"intent:{intent.name}" for intent, _ in pairs)
@@ -90,6 +113,9 @@ def _reading(best: Reading, pairs: Sequence[tuple[Intent, Plain]]) -> Reading:
     )
     probability = sum(intent.probability for intent, _ in pairs)
     acts = at_time_of(tuple(act for _, question in pairs for act in question.acts), best)
+    if len(pairs) == 1:
+        before, behind = _beside(best, acts)
+        acts = (*before, *acts, *behind)
     unsure = probability < SURE and len(pairs) == 1
     said = pairs[0][1].text if unsure else ""
     return Reading(acts, shares, round(best.cost - probability, 3), paraphrase=said)

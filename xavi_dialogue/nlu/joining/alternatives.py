@@ -31,7 +31,7 @@ from xavi_dialogue.domain.terms import (
     That,
     Together,
 )
-from xavi_dialogue.nlu.compose.alternatives.choosing import compared_by
+from xavi_dialogue.nlu.compose.alternatives.choosing import compared_by, of_the_same
 from xavi_dialogue.nlu.compose.alternatives.polar import way_asked
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.grammar.chart import Node
@@ -118,7 +118,7 @@ def _either(first: Act, later: Act) -> Question | None:
         return None
     if _is_contrary(contents[0], other):
         return Whether(contents[0])
-    of = Both((*contents, other), "or")
+    of = of_the_same(Both((*contents, other), "or"))
     return way_asked(of) or Whether(of)
 
 
@@ -127,7 +127,8 @@ def _is_of_two(first: Happens, later: Act) -> bool:
     match later:
         case Ask(question=Whether(that=Happens(event=event))):
             told = first.event
-            return told.tense == event.tense and told != event
+            ahead = {told.tense, event.tense} <= {"present", "future"}  # "or will you pass him?"
+            return (ahead or told.tense == event.tense) and told != event
     return False
 
 

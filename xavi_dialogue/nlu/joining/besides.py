@@ -93,7 +93,7 @@ def settled(acts: Sequence[Act | None], asked: list[bool], stated: list[bool]) -
             found.append(None)
             continue
         if before is not None:
-            act = _at_limit(before, _of_each(before, act))
+            act = _at_limit(before, _of_each(before, _than_it(before, act)))
             act = _of_trend(before, _of_ours(before, _of_exits(before, _linked(before, act))))
         alone = asked[index] and isinstance(act, Elliptic)  # "and the bus?"
         found.append(_setting(act) if index < questions[-1] and not alone else act)
@@ -228,6 +228,16 @@ def _of_trend(before: Act, act: Act) -> Act:
         ) if of.attribute in _MOMENTARY:
             spoken = first_time if isinstance(time, Unsaid) else time
             return Ask(Whether(changed(of, tense, spoken)))
+    return act
+
+
+def _than_it(before: Act, act: Act) -> Act:
+    """Compare with who was asked about: "how fast is the bus, and are we faster?"."""
+    match before, act:
+        case Ask(question=HowMuch(of=of, extreme=None)), Ask(
+            question=Whether(that=Compares(left=left, right=None) as that) as question
+        ) if of.thing != Ego() and left == structs.replace(of, thing=Ego()):
+            return Ask(structs.replace(question, that=structs.replace(that, right=of)))
     return act
 
 

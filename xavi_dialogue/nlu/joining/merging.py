@@ -167,6 +167,14 @@ def _of_reason(before: Act, later: Act) -> Act | None:
             event=Event() as event, thing=None, form="same"
         ):  # "what are you doing that for, slowing down?"
             return Ask(Why(Happens(event)))
+        case Elliptic(thing=Described() as thing, form="same"), Ask(
+            question=WhatWouldChange(of=None)
+        ):  # "and the red one, did that matter?"
+            return Ask(Why(That(), suspect=thing))
+        case Ask(question=Whether(that=Related("same-as", Pronoun("it")))), Ask(
+            question=Which(thing=Wanted())
+        ):  # "is it us or them who has to wait?"
+            return later
         case Ask(question=Why(of=Not(content=Happens(event=Event(actor=Ego()) as event)))), Ask(
             question=Where(of=Ego())
         ) if event.action in ("wait", "stand", "keep-lane"):  # "why don't we stay where we were?"

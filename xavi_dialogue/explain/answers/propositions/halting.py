@@ -60,11 +60,11 @@ def stop_or_go(of: Both, asked: Asked) -> Finding | None:
     held = [e for e in done if e.end is None]
     if len({e.action for e in events}) == 1 and events[0].action in HALTS | SLOWS:
         return Finding(None, answer=reasons.why(Why(Happens(_deed(events[0].action))), asked))
-    if held and halts:
+    if held and halts and not (future and held[-1].action in SLOWS):
         return Finding(None, answer=reasons.why(Why(Happens(_deed(held[-1].action))), asked))
     if not halts or not goes:
         return _moving(asked, events)
-    named = slowing(asked, halts[0]) if halts[0].object is not None else None
+    named = slowing(asked, halts[0]) if halts[0].object is not None or held else None
     if named is not None:
         return Finding(None, answer=named)
     stops = to_come(asked, replace(halts[0], action="stop", object=None))

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Measures, Priority, Verdict
-from xavi_dialogue.domain.facts import Fact, Look, Measure, Relating
+from xavi_dialogue.domain.facts import Episode, Fact, Look, Measure, Relating
 from xavi_dialogue.domain.meaning import Whither, Why
 from xavi_dialogue.domain.terms import (
     Believed,
@@ -33,6 +33,7 @@ from xavi_dialogue.domain.vocabulary import ActionName, Relation
 from xavi_dialogue.explain.answers.events.beliefs import foreknown, time_of
 from xavi_dialogue.explain.answers.events.happens import happens
 from xavi_dialogue.explain.answers.expectations.foreseen import HALTS, YIELDS, macros
+from xavi_dialogue.explain.answers.expectations.plans import plan_ahead
 from xavi_dialogue.explain.answers.propositions.comparisons import compares, has
 from xavi_dialogue.explain.answers.propositions.conditions import condition, handed
 from xavi_dialogue.explain.answers.propositions.duties import duty, is_owed, of_order, who_first
@@ -117,6 +118,9 @@ def _joined(of: Both, asked: Asked) -> Finding:
         return halting
     if of.join == "or" and (first := of_order(of)) is not None:
         rule = who_first(asked, first)
+        if rule is not None and rule.rule == "none" and (let := _lets_us(of)) is not None:
+            found = weigh(let, asked)
+            return Finding(None, answer=found.answer or found.verdict(let))
         if rule is not None and (rule.rule != "none" or rule.vehicle is not None):
             return Finding(None, answer=replace(rule, holds=None))
     if of.join == "or" and (held := _stops(of)) is not None:
@@ -128,6 +132,8 @@ def _joined(of: Both, asked: Asked) -> Finding:
         return chosen
     found = [weigh(part, asked) for part in of.contents]
     holds = [one.holds for one in found]
+    if of.join == "or" and not any(holds) and _is_our_course(of, asked):
+        return Finding(None, answer=plan_ahead(asked))
     failing = [(p, one) for p, one in zip(of.contents, found, strict=True) if one.holds is False]
     if of.join == "and" and len(failing) == 1:  # what is not so is what makes it false
         part, one = failing[0]
@@ -140,6 +146,26 @@ def _joined(of: Both, asked: Asked) -> Finding:
     gap = next((one.gap for one in found if one.gap is not None), None) if whole is None else None
     believed = tuple(belief for one in told for belief in one.believed)
     return Finding(whole, facts, gap, believed, any(one.mistaken for one in told))
+
+
+def _lets_us(of: Both) -> Happens | None:
+    """Give that another lets us go first, where it is asked which of us goes first; None: else."""
+    for part in of.contents:
+        match part:
+            case Happens(event=Event("let-go", Ego(), Vehicle() as other, tense="future")):
+                return Happens(Event("let-go", other, Ego(), tense="future"))
+    return None
+
+
+def _is_our_course(of: Both, asked: Asked) -> bool:
+    """Tell whether it is asked which of several things we are doing or about to do."""
+    events = [part.event for part in of.contents if isinstance(part, Happens)]
+    return len(events) == len(of.contents) and all(
+        is_us(event.actor)
+        and event.modal in (None, "will")
+        and event.tense in ("present", "future")
+        for event in events
+    )
 
 
 def _feared(of: Both, asked: Asked) -> Proposition | None:
@@ -206,6 +232,8 @@ def either(of: Both, asked: Asked) -> Finding | None:
         told = Finding(True, found[0][1].facts)
         return Finding(True, told.facts, answer=replace(told.verdict(same), either=True))
     likely = [(p, one) for p, one in found if one.holds]
+    on = [(p, one) for p, one in likely if _is_under_way(p, one)]
+    likely = on if len(on) == 1 else likely
     deeds = {part.event.action for part, _ in likely if isinstance(part, Happens)}
     if len(likely) > 1 and len(likely) == len(found) and len(deeds) == 1:
         both = replace(of, join="and")
@@ -215,6 +243,12 @@ def either(of: Both, asked: Asked) -> Finding | None:
     part, one = likely[0]
     answer = one.answer or replace(one.verdict(part), either=True)
     return Finding(True, one.facts, answer=answer)
+
+
+def _is_under_way(part: Proposition, found: Finding) -> bool:
+    """Tell whether a deed that is asked about in the present goes on."""
+    present = isinstance(part, Happens) and part.event.tense == "present"
+    return present and any(isinstance(f, Episode) and f.end is None for f in found.facts)
 
 
 def _way_of(of: Both, asked: Asked) -> Finding | None:

@@ -17,6 +17,7 @@ from xavi_dialogue.domain.terms import (
     Compares,
     Described,
     Ego,
+    Event,
     Happens,
     Measured,
     Pronoun,
@@ -38,6 +39,8 @@ _EXTREMES = {"fastest": ("speed", False), "quickest": ("speed", False), "slowest
              "biggest": ("size", False), "largest": ("size", False), "smallest": ("size", True),
              "nearest": ("distance", False), "closest": ("distance", False),
              "farthest": ("distance", True), "furthest": ("distance", True)}  # fmt: skip
+_FIRST = frozenset({"before", "bearing-ahead"})
+_LATER = frozenset({"behind", "bearing-behind", "after"})
 _IN_LINE = {"ahead": False, "behind": True}
 #: What of a word for a comparison is held against each other of road users.
 _OF_THINGS = {"fast": "speed", "slow": "speed", "high": "speed", "low": "speed", "long": "size"}
@@ -87,8 +90,8 @@ def chosen(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
     """Ask which of the things that are joined by "or" it is; empty where none are."""
     if clause.negated or clause.because is not None or clause.contrast is not None:
         return []
-    if (cleft := _cleft(clause)) is not None:
-        return [(cleft, 0.0)]
+    if (turn := _cleft(clause) or _before_or_after(clause, propositions)) is not None:
+        return [(turn, 0.0)]
     options = options_of(clause.subject)
     if options is None:
         return _any_of(clause, propositions) or _done_to(clause, propositions)
@@ -125,6 +128,25 @@ def _cleft(clause: Clause) -> Question | None:
     such = last.such if last.doing is None else Happens(last.doing)
     plain = replace(last, doing=None, such=None)
     return None if such is None else Which(Wanted(), such, (*options[:-1], plain))
+
+
+def _before_or_after(clause: Clause, propositions: Any) -> Question | None:
+    """Read "will you merge in front of him or behind" as who goes first, we or he."""
+    whom = next((p.sem for p in clause.complements if p.key in _FIRST), None)
+    thing = as_thing(whom)
+    behind = [
+        other for join, other in clause.chained
+        if join == "or" and _LATER & {key for key, _ in other.bearings} | _LATER & {
+            phrase.key for phrase in other.complements
+        }
+    ]  # fmt: skip
+    ours = isinstance(clause.subject, Ego) and clause.verb is not None
+    if not ours or not behind or clause.tense not in ("present", "future") or thing is None:
+        return None
+    propositions.notes.taken.update(map(id, behind))
+    we = Event("go", Ego(), thing, manner=("first",), tense="future")
+    he = Event("let-go", Ego(), thing, tense="future")
+    return Whether(Both((Happens(we), Happens(he)), "or"))
 
 
 def _done_to(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
@@ -211,7 +233,22 @@ def asks_which(question: Question) -> Question:
     """Ask for the one of two where it is asked whether either is so."""
     if not isinstance(question, Whether):
         return question
+    question = replace(question, that=of_the_same(question.that))
     return _before_or_behind(question.that) or differing(question.that) or question
+
+
+def of_the_same(of: Proposition) -> Proposition:
+    """Read "do you overtake him or stay behind" as of one and the same vehicle."""
+    match of:
+        case Both(
+            contents=(
+                Happens(event=Event(actor=Ego(), object=Described() | Pronoun() as whom)) as one,
+                Happens(event=Event(action="follow" | "overtake", object=None) as event),
+            ),
+            join="or",
+        ):
+            return replace(of, contents=(one, Happens(replace(event, object=whom))))
+    return of
 
 
 def _before_or_behind(of: Proposition) -> Compare | None:

@@ -140,6 +140,8 @@ class Polar(Comparing):
             return [(Fault(That(), None if deems else judged(inner)), 0.0)]
         if _is_all(clause):
             return [(Doing(tense="future"), 0.0)]
+        if clause.verb is not None and clause.verb.key == "mean" and clause.that is not None:
+            return self.whether(clause.that, tag=True)  # "do you mean that he will stop?"
         if (amiss := hindsight(clause)) is not None:
             return [(amiss, 0.0)]
         if (limited := permitted(clause)) is not None:
@@ -221,7 +223,10 @@ class Polar(Comparing):
         if (passed := exits_passed(clause, of)) is not None:
             return HowMany(passed)  # "did we go past any exits?"
         if isinstance(of, Is) and of.state == "sure" and _our_sureness(of.thing):
-            return HowSure(self._sure_of(clause), clause.time)
+            content = self._sure_of(clause)
+            if content is None and clause.that is not None:  # "sure this is the right way"
+                return next((question for question, _ in self.whether(clause.that)), HowSure())
+            return HowSure(content, clause.time)
         if (meant := judged_so(clause, of, tag=tag) or caused_by(clause, of, tag=tag)) is not None:
             return meant
         if clause.because is not None:
@@ -233,7 +238,7 @@ class Polar(Comparing):
 
     def _either_way(self, clause: Clause, of: Proposition) -> Question | None:
         """Ask "do we come off at this one or the next": which way we go."""
-        sems = [phrase.sem for phrase in clause.complements]
+        sems = [*(phrase.sem for phrase in clause.complements), *(sem for sem, _ in clause.objects)]
         other = any(isinstance(sem, Group) and sem.join == "or" for sem in sems)
         if not other or not isinstance(of, Happens) or of.event.action != "leave":
             return None

@@ -81,3 +81,15 @@ def is_negated(node: Node) -> bool:
     """Say whether a gerund is negated: "for not stopping"."""
     inner = (node, *(p for p in node.parts if isinstance(p, Node)))
     return node.name == "gerund" and any(leaf_of(part, "NOT") is not None for part in inner)
+
+
+def is_possessed(part: Part) -> bool:
+    """Say whether a phrase names somebody by no more than whose it is: "its green"."""
+    headless = isinstance(part, Node) and part.name == "headless"
+    return headless and any(leaf.category == "POSS" for leaf in leaves_of(part))
+
+
+def is_not(part: Part) -> bool:
+    """Say whether a part is "not"."""
+    late = isinstance(part, Node) and part.name == "late_not"
+    return late or (isinstance(part, Leaf) and part.category == "NOT")

@@ -16,6 +16,7 @@ from xavi_dialogue.domain.meaning import (
     HowLong,
     HowMany,
     HowMuch,
+    HowSure,
     Identify,
     Question,
     When,
@@ -47,7 +48,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.grounding.acts.others import of_others
 from xavi_dialogue.nlu.grounding.acts.races import race
 from xavi_dialogue.nlu.grounding.acts.timing import of_doing
-from xavi_dialogue.nlu.grounding.acts.trips import SIDES, of_trip
+from xavi_dialogue.nlu.grounding.acts.trips import SIDES, is_plain_to_see, of_trip
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
@@ -72,6 +73,8 @@ _ANYTHING: Final = (Described(definite=False), Described(kind="car", definite=Fa
 
 def recast(spoken: Question, g: Grounder) -> Question:
     """Put the question that is meant in the place of one that its words leave open."""
+    if isinstance(spoken, HowSure) and spoken.of is not None and is_plain_to_see(spoken.of):
+        spoken = Whether(spoken.of)  # "are you sure that nobody is behind us?"
     meant = race(spoken) or of_others(spoken, g) or _lasted(spoken, g)
     meant = meant or of_trip(spoken) or _of_deed(spoken, g) or _of_light(spoken)
     if meant is not None:
@@ -99,7 +102,7 @@ def recast(spoken: Question, g: Grounder) -> Question:
             that=Happens(
                 event=Event(actor=Ego(), action=action, object=Pronoun(form="it" | "that"))
             )
-        ) if action in ("do", "continue") and _own_measure(g.context) == _LIMIT:
+        ) if action in ("do", "continue", "keep-distance") and _own_measure(g.context) == _LIMIT:
             g.notes.leaned = True
             kept: Any = "same" if action == "do" else "at-most"
             return Whether(Compares(Measured("speed"), kept, Measured("limit")))

@@ -30,12 +30,14 @@ from xavi_dialogue.domain.terms import (
     Everyone,
     Exists,
     Happens,
+    Has,
     Is,
     Junction,
     Measured,
     Not,
     Passenger,
     Pronoun,
+    Proposition,
     Related,
     Road,
     Unsaid,
@@ -174,3 +176,17 @@ def _listed(spoken: Question) -> Question | None:
             let = replace(deed, action="give-way", modal=None)
             return replace(spoken, of=replace(of, doing=let))
     return None
+
+
+def is_plain_to_see(of: Proposition) -> bool:
+    """Say whether something is so or not, and no matter of what is expected."""
+    while isinstance(of, Not):
+        of = of.content
+    match of:
+        case Related(relation=relation, tense="present" | "perfect"):
+            return relation != "has-priority-over"
+        case Exists(tense="present") | Has(tense="present") | Compares(left=Measured()):
+            return True
+        case Is(state=state, tense="present"):
+            return state != "sure"
+    return of_trip(Whether(of)) is not None

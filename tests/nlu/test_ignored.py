@@ -1,0 +1,95 @@
+"""Clauses that make no difference to what was understood are owned up to."""
+
+import pytest
+
+from xavi_dialogue.domain.meaning import Ask, HowSure, Reading, Whether
+from xavi_dialogue.domain.terms import Both, Compares, Event, Happens
+from xavi_dialogue.nlu.interpret import interpret
+from xavi_dialogue.nlu.parse import Parser
+
+
+def _best(text: str) -> Reading:
+    return Parser().read(text)[0]
+
+
+@pytest.mark.parametrize(
+    ("text", "passed"),
+    [
+        ("Did we have to brake at all to get onto the main road?", "to get onto the main road"),
+        ("Please stay behind the lorry and not overtake any more", "and not overtake any more"),
+        (
+            "Is there any traffic in the roundabout that you have to take into account?",
+            "that you have to take into account",
+        ),
+    ],
+)
+def test_a_clause_without_which_the_acts_are_the_same_is_listed(text: str, passed: str) -> None:
+    assert passed in [" ".join(words) for words in _best(text).ignored]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Why did you brake when the bus pulled out?",
+        "Will you brake if he pulls out?",
+        "Is that the car that cut in?",
+        "Did you slow down because of the bus that stopped?",
+    ],
+)
+def test_a_clause_that_has_a_part_is_not_listed(text: str) -> None:
+    assert _best(text).acts
+    assert not _best(text).ignored
+
+
+def test_an_alternative_is_not_given_up_for_a_plain_question() -> None:
+    asked = interpret("Are you going to overtake it or stay behind?")[0].acts[0]
+    assert isinstance(asked, Ask)
+    assert isinstance(asked.question, Whether)
+    assert isinstance(asked.question.that, Both)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["Will you merge before him or behind?", "Are you going to get in front of him or behind?"],
+)
+def test_before_or_behind_asks_who_goes_first(text: str) -> None:
+    asked = _best(text).acts[0]
+    assert isinstance(asked, Ask)
+    assert isinstance(asked.question, Whether)
+    of = asked.question.that
+    assert isinstance(of, Both)
+    actions = [one.event.action for one in of.contents if isinstance(one, Happens)]
+    assert actions == ["go", "let-go"]
+
+
+def test_what_is_meant_is_the_clause() -> None:
+    assert _best("Do you mean that the van is going to stop?").acts == (
+        *_best("The van is going to stop, isn't it?").acts,
+    )
+
+
+def test_sureness_is_of_the_clause() -> None:
+    asked = _best("Are you sure that there is enough room on the left?").acts[0]
+    assert isinstance(asked, Ask)
+    assert isinstance(asked.question, HowSure)
+    assert asked.question.of is not None
+
+
+def test_faster_is_than_whom_was_asked_about() -> None:
+    asked = _best("How fast is that lorry, and are we faster?").acts[1]
+    assert isinstance(asked, Ask)
+    assert isinstance(asked.question, Whether)
+    assert isinstance(asked.question.that, Compares)
+    assert asked.question.that.right is not None
+
+
+def test_staying_behind_is_behind_whom_is_overtaken() -> None:
+    asked = _best("do you overtake this lorry or keep behind it").acts[0]
+    assert isinstance(asked, Ask)
+    assert isinstance(asked.question, Whether)
+    of = asked.question.that
+    assert isinstance(of, Both)
+    assert all(
+        isinstance(one, Happens) and isinstance(one.event, Event) and one.event.object is not None
+        for one in of.contents
+    )
