@@ -145,7 +145,9 @@ def summary(asked: Asked, about: Thing | None, time: Window, *, ride: bool = Fal
     near = time.widened(2.0) if time.instant else time
     begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
     vehicle = number(about)
-    told = [e for e in asked.world.account(begin, end) if belongs(asked, e, Window(begin, end))]
+    told = list(asked.world.account(begin, end))
+    if time.said and not time.instant:
+        told = [e for e in told if belongs(asked, e, time)]
     if not told and not time.said and not (asked.past is not None and asked.past.said):
         told = _before(asked, begin)
         begin = min((e.begin for e in told), default=begin)
