@@ -2,7 +2,7 @@
 
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.meaning import Act, Question
-from xavi_dialogue.domain.terms import Ego, Proposition, Thing, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import Ego, Event, Proposition, Thing, Vehicle, Vehicles
 
 
 class Mention(Value, frozen=True):
@@ -30,6 +30,8 @@ class Discourse(Value, frozen=True):
     last_acts: tuple[Act, ...] = ()  # grounded acts of the last turn
     asked_at: float | None = None  # [s] when the last question was asked
     times: tuple[float, ...] = ()  # [s] that the passenger named, latest first
+    option: Event | None = None  # of ours that was told of in place of what was decided
+    decided: Event | None = None  # what was decided there, instead of that option
 
 
 class Span(Value, frozen=True):

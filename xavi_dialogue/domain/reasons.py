@@ -163,6 +163,7 @@ class Unslowed(Value, frozen=True):
     form: Asking = "what-if"
     saved: float | None = None  # [s] that the slowing or waiting cost
     arrival: float | None = None  # [s] when we would be there without
+    red: bool = False  # a red light holds us
 
 
 class OtherReason(Value, frozen=True):

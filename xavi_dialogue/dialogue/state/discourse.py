@@ -6,6 +6,7 @@ is resumed stands where it stood.
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import reduce
+from typing import get_args
 
 from msgspec.structs import replace
 
@@ -17,6 +18,7 @@ from xavi_dialogue.domain.answers import (
     Bound,
     Cause,
     ChoiceReason,
+    Contrast,
     DidNotHappen,
     Grounds,
     Happenings,
@@ -34,16 +36,29 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import Discourse, Mention
 from xavi_dialogue.domain.facts import Episode, Measure
-from xavi_dialogue.domain.meaning import Ask, Claim, Feel, Request, Whether
+from xavi_dialogue.domain.meaning import (
+    Ask,
+    Claim,
+    Compare,
+    Feel,
+    Question,
+    Request,
+    WhatIf,
+    Whether,
+    Why,
+)
 from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import (
     At,
+    Ego,
     Event,
     Happens,
+    Is,
     Not,
     Proposition,
     Tense,
     Thing,
+    Unsaid,
     Vehicle,
     Vehicles,
 )
@@ -53,6 +68,7 @@ from xavi_dialogue.nlu.grounding.salience import decayed, mention, mentions_of, 
 REMEMBERED = 20  # turns; what was said before them is no longer referred to
 ASSERTED = 6  # propositions that are kept
 TIMES = 4  # moments that the passenger named which are kept
+_UNSETTLED = frozenset(("do", "go", "overtake"))  # that a decision has by another name
 LONG = 60.0  # [s] a longer stretch is no episode that "that" or "then" may mean
 
 
@@ -82,8 +98,47 @@ def after(discourse: Discourse, turn: Turn) -> Discourse:
         pending=None if offer is None else offer.pending,
         last_acts=said or discourse.last_acts,
         asked_at=turn.reply.sim_time if said else discourse.asked_at,
+        **_weighed(turn, discourse),
         times=tuple(dict.fromkeys((*_times(turn), *discourse.times)))[:TIMES],
     )
+
+
+def _weighed(turn: Turn, before: Discourse) -> dict[str, Event | None]:
+    """Give the option of ours that was told of, and what was decided instead of it.
+
+    What follows up on a turn leaves under discussion what was.
+    """
+    for part in reversed(turn.parts):
+        asked = None if part.act is None else part.act.act
+        option = _option_in(asked.question) if isinstance(asked, Ask) else None
+        against = next(parts(part.result, Contrast), None)
+        if option is None or isinstance(part.result, get_args(Refusal)):
+            continue
+        done = None if against is None else next(iter(against.fact), None)
+        if against is not None and option.action in _UNSETTLED:
+            option = replace(option, action=against.foil[0])
+        if getattr(part.result, "past", True) is False:
+            option = replace(option, time=Unsaid(), tense="present", modal=None)
+        return {
+            "option": option,
+            "decided": None if done is None else Event(done, tense=option.tense),
+        }
+    if any(act.leaned for act in turn.acts):
+        return {"option": before.option, "decided": before.decided}
+    return {"option": None, "decided": None}
+
+
+def _option_in(question: Question) -> Event | None:
+    """Find what of ours is supposed, compared, or was not done."""
+    match question:
+        case (
+            WhatIf(supposed=Happens(event=Event(actor=Ego()) as event))
+            | Why(of=Not(content=Happens(event=Event(actor=Ego()) as event)))
+            | Compare(options=(Happens(event=Event(actor=Ego()) as event),))
+            | Whether(that=Is(state="safe" | "dangerous", event=Event(actor=Ego()) as event))
+        ):
+            return event
+    return None
 
 
 def _times(turn: Turn) -> Iterator[float]:

@@ -105,6 +105,8 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
             return because_of_us
         case Why(of=Happens(event=Event(action="change-plan", actor=Ego())), suspect=None):
             return wavered
+        case Which(such=Happens(Event("collide", Ego(), Wanted(), tense="present"))):
+            return risks.who
         case Which(thing, such) if _holds_us_up(such) and _over_the_ride(thing, such):
             return _who_held_up
         case Which(Wanted() | Vehicles(), such) if _holds_us_up(such):

@@ -1,11 +1,12 @@
 """Conditions: whether a thing or an event is safe, free, over, fast, close, possible, ..."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 from msgspec.structs import replace as with_fields
 
 from xavi_dialogue.domain.answers import Answer, Measures, NotApplicable
-from xavi_dialogue.domain.facts import Fact, Gap
+from xavi_dialogue.domain.facts import Episode, Fact, Gap
 from xavi_dialogue.domain.meaning import Fault, HowSure, Question, Why
 from xavi_dialogue.domain.meaning import Whether as WhetherQuestion
 from xavi_dialogue.domain.reasons import Asking
@@ -51,7 +52,7 @@ from xavi_dialogue.explain.answers.ride.places import to_go
 from xavi_dialogue.explain.answers.ride.priority import lawful, owed, right_of_way, where_rule_holds
 from xavi_dialogue.explain.answers.sight.room import free
 from xavi_dialogue.explain.answers.sight.sight import busy, minded
-from xavi_dialogue.explain.answers.suppositions.own_suppositions import of_us
+from xavi_dialogue.explain.answers.suppositions.own_suppositions import GOING, of_us
 from xavi_dialogue.explain.causes.plans.options import options_at
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
 from xavi_dialogue.explain.history.thresholds import STANDING
@@ -107,6 +108,8 @@ def _about(of: Is, asked: Asked) -> Window:
 def _safe(of: Is, asked: Asked) -> Finding:
     if of.state == "roomy" and isinstance(of.thing, Lane):
         return free(of, asked)
+    if of.event is not None and of.tense == "present" and is_us(of.event.actor):
+        asked = _as_asked(of.event, asked)
     how: How = "room" if of.state == "roomy" else "safe" if of.state == "safe" else "dangerous"
     past = is_past(asked, of.time, of.tense) and not is_ahead(asked, of.time, of.tense)
     if of.event is not None and past:
@@ -124,9 +127,23 @@ def _safe(of: Is, asked: Asked) -> Finding:
 
 def _is_option(event: Event, asked: Asked) -> bool:
     """Check whether we could do something now that we are not doing."""
-    if not is_us(event.actor) or not set(names_of(event)) & MANOEUVRES:
+    if not is_us(event.actor):
         return False
-    return occasion(asked, event) is None
+    if event.action in GOING:
+        return any(e.action in ("stand", "wait", "stop") for e in _held(asked))
+    return bool(set(names_of(event)) & MANOEUVRES) and occasion(asked, event) is None
+
+
+def _as_asked(event: Event, asked: Asked) -> Asked:
+    """Ask of now what is said of what we might do, whatever was spoken of before."""
+    now = event.tense in ("present", "future") and not _is_told(asked)
+    return replace(asked, span=None) if now else asked
+
+
+def _held(asked: Asked) -> list[Episode]:
+    """List what hinders us now."""
+    found = asked.world.episodes(actor=Ego(), actions=HINDERED, begin=asked.now - JUST)
+    return [e for e in found if e.end is None or e.end >= asked.now - JUST]
 
 
 def _comfortable(of: Is, asked: Asked) -> Finding:
@@ -186,9 +203,7 @@ def _amiss(of: Is, asked: Asked) -> Finding:
     """Tell what hinders us now, or that all is well, where it is asked whether all is well."""
     if of.thing is not None or of.event is not None:
         return wrong(of, asked)
-    found = asked.world.episodes(actor=Ego(), actions=HINDERED, begin=asked.now - JUST)
-    doing = [e for e in found if e.end is None or e.end >= asked.now - JUST]
-    plainest = min((e.action for e in doing), key=HINDERED.index, default=None)
+    plainest = min((e.action for e in _held(asked)), key=HINDERED.index, default=None)
     why = None if plainest is None else Why(Happens(Event(plainest, tense="present")))
     answer = None if why is None else handed(why, asked)
     if answer is None:

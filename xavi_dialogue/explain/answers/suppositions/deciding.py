@@ -122,7 +122,8 @@ def compared(question: Compare, scene: Asked) -> Answer:
     if not events:
         return listed(Listing("options"), scene)
     kept = events[0].action == "keep-lane"  # going straight on is another action
-    single = len(question.options) == 1 and (kept or not _was_done(scene, events[0]))
+    plain = kept or events[0].action == "go" or not _was_done(scene, events[0])
+    single = len(question.options) == 1 and plain
     if single and question.by in ("time", "speed", "best", "safety"):
         form: Asking = FORMS.get(question.by, "quicker")
         if question.least:
@@ -265,7 +266,8 @@ def _sides(
     done = next((event for event in events if _was_done(scene, event)), None)
     others = [event for event in events if event is not done]
     if done is not None and others:
-        found, foil = foils.foil_at(others[0], scene, done)
+        onward = done.tense == "present" and planned(scene.ride.latest)[:1] == (done.action,)
+        found, foil = foils.foil_at(others[0], scene, None if onward else done)
     else:
         about = foil_subject(scene, events[0])
         names = foils.settled(scene, events[-1])

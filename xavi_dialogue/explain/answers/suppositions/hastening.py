@@ -14,13 +14,15 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.reasons import Asking
-from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.measuring.durations import lost
 from xavi_dialogue.explain.answers.reasons import motions
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import manner_of, vehicle_in
 from xavi_dialogue.explain.causes.driving.crossing import Crossing, crossing
+from xavi_dialogue.explain.facts.episodes.light_waits import held_at
+from xavi_dialogue.explain.facts.traffic_lights import shown_at
 from xavi_dialogue.explain.history.nearing import speed_at
 
 SLOW = 4.0  # [m/s] below which going now is setting off
@@ -77,7 +79,17 @@ def hastened(
         form=form,
         saved=saved,
         arrival=None if due is None or saved is None else due - saved,
+        red=now is not None and _at_red(scene),
     )
+
+
+def _at_red(scene: Asked) -> bool:
+    """Tell whether a red light holds us now."""
+    trace = scene.ride.at(scene.now)
+    if trace is None or held_at(trace, EGO) is None:
+        return False
+    light = shown_at(scene.ride, Feature("light"), scene.now)
+    return light is not None and light.colour == "red"
 
 
 def _ahead_of(event: Event) -> int | None:

@@ -305,6 +305,11 @@ def undone(event: Event, scene: Asked, form: Asking, struck: int | None) -> Answ
     """
     names = names_of(event)
     if happened(scene.ride, names, scene.span) is None and set(names) & DRIVING:
+        trace = scene.ride.at(scene.moment)
+        if event.action == "stop" and trace is not None and _stopped(scene):  # chosen, not begun
+            found = natural(scene.ride, trace, ())
+            over = scene.past is not None
+            return SupposedOfUs(found, past=over, form=form, arrival=arrival(scene, found))
         return hastened(event, scene, form, struck)  # no choice of its own
     try:
         reason = choices.why(event, scene)

@@ -1,5 +1,6 @@
 """Risks: with whom an option of a decision would have collided, in what was imagined of it."""
 
+import dataclasses
 from collections import Counter
 
 from msgspec.structs import replace
@@ -8,11 +9,14 @@ from xavi_dialogue.causal.model import plan_of
 from xavi_dialogue.domain.answers import Answer, Options
 from xavi_dialogue.domain.meaning import WhatIf, Which
 from xavi_dialogue.domain.terms import Ego, Event, Happens
+from xavi_dialogue.explain.answers.measuring.closeness import closeness
 from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.moments import Window
 from xavi_dialogue.explain.answers.suppositions import supposing
 from xavi_dialogue.explain.causes.plans.options import of_trace, situations
 from xavi_dialogue.explain.causes.plans.premise import Premise
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
+from xavi_dialogue.explain.history.ride import planned
 
 ONWARD = frozenset(("continue", "exit-straight"))
 
@@ -24,6 +28,21 @@ def what_if(question: WhatIf, asked: Asked) -> Answer:
         Unanswered: it cannot be supposed; or it is what was; or rollouts are needed.
     """
     return _struck_by(question, asked) or supposing.what_if(question, asked)
+
+
+def who(question: Which, scene: Asked) -> Answer:
+    """Tell whom we may strike in what we plan, in what was imagined of it.
+
+    Raises:
+        Unanswered: no decision is recorded.
+    """
+    step = next(iter(planned(scene.ride.latest)), None)
+    now = dataclasses.replace(scene, span=None)
+    supposed = None if step is None else Happens(Event(step, tense="present"))
+    found = None if supposed is None else _struck_by(WhatIf(supposed, question), now)
+    if found is None or found.hits == 0:
+        return closeness(scene, None, Window(scene.now, scene.now), "hit", past=False)
+    return found
 
 
 def _struck_by(question: WhatIf, asked: Asked) -> Options | None:

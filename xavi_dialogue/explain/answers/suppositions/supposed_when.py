@@ -20,7 +20,7 @@ from xavi_dialogue.explain.causes.driving.suppositions import (
     planned_without,
 )
 from xavi_dialogue.explain.causes.plans.premise import happened, manoeuvre, premise
-from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, DRIVING, names_of, same
+from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, DRIVING, EXITS, names_of, same
 from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names, probability
 from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import planned, prediction
@@ -123,6 +123,9 @@ def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bo
         return driven.begin  # once it is under way, planning again without its cause tells less
     left = None if then is None or then.action != "keep-lane" else _left_lane(scene)
     if then is not None and choices.is_choice(then):
+        turns = set(names_of(then)) <= set(EXITS) and scene.ride.latest.under_way is None
+        if turns and then.tense == "present" and not past:
+            return scene.moment  # the next turn, not the last one
         try:
             if past and left is not None:
                 return scene.ride.choice_of(left).sim_time

@@ -284,7 +284,9 @@ def _still(found: Supposed, then: Event | None, driven: Episode | None) -> bool 
         name: ActionName = _mark(then.action, driven)
         share = share_of(found.again, found.there, name)
         return None if share is None else share >= LIKELY
-    plan = found.there.plan[:2] if found.there.plan[:1] == ("continue",) else found.there.plan[:1]
+    next_ = any(same(name, step) for name in names for step in found.here.plan[:1])
+    later = found.there.plan[:1] == ("continue",) and not next_
+    plan = found.there.plan[: 2 if later else 1]
     return any(same(name, step) for name in names for step in plan)
 
 

@@ -92,7 +92,7 @@ def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
         "simple": context.detail == "simpler",
         "past": answer.past,
         "right": answer.right,
-        "form": answer.form,
+        "form": "what-if" if answer.red and answer.form == "crash" else answer.form,
     }
     timed = answer.form in ("arrival", "quicker")
     if timed and answer.saved is not None and answer.arrival is not None:
@@ -101,7 +101,8 @@ def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
                   "arrival": Moment(answer.arrival) if coming else None}  # fmt: skip
     core = Message("UNSLOWED", slots)
     proposed = about_vehicle(vehicle) if vehicle else ()
-    return Plan((core,), (), (), (), proposed)
+    first = (message("AGAINST_RED"),) if answer.red else ()
+    return Plan((*first, core), (), (), (), proposed)
 
 
 def _cause_of(answer: Unslowed, cause: MotionCause, context: SpeechContext) -> Message:

@@ -40,6 +40,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Exit,
     Happens,
+    Is,
     Junction,
     Not,
     Pronoun,
@@ -50,6 +51,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     Wanted,
 )
+from xavi_dialogue.nlu.grounding.acts.dangers import STATES
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
@@ -293,6 +295,18 @@ def _of_our_way(question: Question | None) -> bool:
     return ours and first(question, Vehicle) is None
 
 
+def _danger(question: Question | None, g: Grounder) -> Act | None:
+    """Ask whom we may strike, after a question for the risk: of the option it was about, if any."""
+    event, state = main_event(question), first(question, Is)
+    about = state is not None and state.state in STATES
+    if not about and (event is None or event.action != "collide" or event.tense == "past"):
+        return None
+    who = Event("collide", object=Wanted(), tense="present", modal="might")
+    option = g.context.discourse.option
+    asked = Which(Wanted(), Happens(who))
+    return Ask(asked if option is None else WhatIf(Happens(option), asked))
+
+
 def _asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
     """Put another question word to what was spoken of: "when?", "which one?", "how sure?"."""
     thing = spoken.thing
@@ -300,6 +314,8 @@ def _asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | No
         if thing is None and isinstance(question, Which):
             return Ask(question)
         event = main_event(question)
+        if thing is None and (danger := _danger(question, g)) is not None:
+            return danger
         named = thing is not None or isinstance(question, Why)
         if not named and event is not None and event.action in _FOR_WHOM:
             return Ask(Which(Wanted(), Happens(replace(event, object=Wanted()))))

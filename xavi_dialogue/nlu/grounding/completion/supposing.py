@@ -4,7 +4,17 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, Question, WhatIf, When, Whether, Why
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Elliptic,
+    HowSure,
+    Question,
+    WhatIf,
+    When,
+    Whether,
+    Why,
+)
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     Described,
@@ -76,12 +86,16 @@ def subordinate(spoken: Question, g: Grounder) -> Question:
     if earlier is None or not _hypothetical(spoken, earlier):
         return spoken
     g.notes.leaned = True
+    if isinstance(spoken, HowSure):
+        return WhatIf(earlier, Whether(spoken.of or earlier))
     return WhatIf(earlier, spoken)
 
 
 def _hypothetical(spoken: Question, earlier: Proposition) -> bool:
     """Tell whether a question is about a world that is only supposed."""
     match spoken:
+        case HowSure(of=Happens(event=Event(action="collide", modal="would"))):
+            return True  # "how sure are you that it would hit us?"
         case (
             Whether(that=Happens(event=event) | Not(content=Happens(event=event)))
             | When(of=Happens(event=event))
@@ -103,4 +117,5 @@ def _supposed_before(g: Grounder) -> Proposition | None:
             return Happens(replace(event, modal=None, tense="perfect"))
         case Why(of=Not(content=Happens(event=event))):
             return Happens(replace(event, modal=None, tense="perfect"))
-    return None
+    option = g.context.discourse.option
+    return None if option is None else Happens(option)
