@@ -120,6 +120,7 @@ CASES: tuple[Answer, ...] = (
     Unslowed(SLOWED, PRIORITY, 14.0, 4.0, vehicle=2, form="could"),
     Unslowed(SLOWED, PRIORITY, form="could"),
     Unslowed(SLOWED, MotionCause("plan"), form="crash"),
+    Unslowed(SLOWED, PRIORITY, 14.0, 24.0, vehicle=2, past=False, form="crash", red=True),
     Unslowed(SLOWED, PRIORITY, form="arrival", saved=3.0, arrival=40.0),
     Unslowed(SLOWED, PRIORITY, form="arrival", saved=3.0, arrival=NOW),
     Unslowed(SLOWED, PRIORITY, form="arrival", saved=0.1, arrival=40.0),

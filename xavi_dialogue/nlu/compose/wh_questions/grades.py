@@ -172,6 +172,8 @@ def _quality(clause: Clause, words: tuple[str, ...], value: Any, actor: Thing | 
     if isinstance(value, Related) and value.relation == "can-see":
         return HowMuch(Measured("visibility", value.to, time=clause.time))
     event = value.event if isinstance(value, Happens) else None
+    if isinstance(clause.subject, Event):  # "how risky is moving back?"
+        event = with_fields(clause.subject, tense=clause.tense)
     name: Any = state.get(words[-1], "safe")
     deed = actor in (Pronoun("that"), Pronoun("it"))
     if clause.modal == "would" and name in ("safe", "dangerous") and deed:

@@ -226,7 +226,8 @@ def _compare(spoken: Compare, g: Grounder) -> Compare:
     now = g.window(Unsaid(), "present")
     focus, named = g.context.discourse.episode, first(spoken.options, Event)
     past = named is not None and named.tense in ("past", "perfect")
-    if past and focus is not None and g.notes.span is None:
+    decided = isinstance(g.context.discourse.question, Why | WhatIf | HowSure)
+    if past and decided and focus is not None and g.notes.span is None:
         g.notes.leaned = True
         g.notes.spans(inferred(focus, g).span)
     options = tuple(

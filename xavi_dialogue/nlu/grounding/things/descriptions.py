@@ -254,7 +254,7 @@ def _resolved(search: Search, good: list[Match]) -> Thing:
 def _just_named(search: Search, good: list[Match]) -> list[Match]:
     """Keep the one whom the turn before named, where others fit the description as well."""
     thing, discourse = search.described, search.grounder.context.discourse
-    told = thing.rank, thing.extreme, thing.doing, thing.such, thing.of
+    told = thing.rank, thing.extreme, thing.doing, thing.such, thing.of, thing.bearing
     if not thing.definite or thing.other or any(part is not None for part in told):
         return []
     least = min(m.cost for m in good) + TIE
