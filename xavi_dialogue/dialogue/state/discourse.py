@@ -119,6 +119,8 @@ def _weighed(turn: Turn, before: Discourse) -> dict[str, Event | None]:
             option = replace(option, action=against.foil[0])
         if getattr(part.result, "past", True) is False:
             option = replace(option, time=Unsaid(), tense="present", modal=None)
+        elif against is not None:
+            option = replace(option, time=At(against.decided))
         return {
             "option": option,
             "decided": None if done is None else Event(done, tense=option.tense),

@@ -284,10 +284,9 @@ def _still(found: Supposed, then: Event | None, driven: Episode | None) -> bool 
         name: ActionName = _mark(then.action, driven)
         share = share_of(found.again, found.there, name)
         return None if share is None else share >= LIKELY
-    next_ = any(same(name, step) for name in names for step in found.here.plan[:1])
-    later = found.there.plan[:1] == ("continue",) and not next_
-    plan = found.there.plan[: 2 if later else 1]
-    return any(same(name, step) for name in names for step in plan)
+    here, there = found.here.plan[:1], found.there.plan
+    on = there[:1] == ("continue",) and not any(same(name, step) for name in names for step in here)
+    return any(same(name, step) for name in names for step in there[: 2 if on else 1])
 
 
 def _comes_anyway(found: Supposed, then: Event) -> bool:
@@ -319,7 +318,7 @@ def _past(
 ) -> bool:
     """Check whether it is supposed of what has been: "if he braked now" is not.
 
-    "If he stopped" may be either: it is of now as long as it can still come about.
+    "If he stopped" may be either: of now as long as it can still come about.
     """
     event = event_of(of)
     if event is not None and _is_now(event.time, scene):
@@ -347,6 +346,5 @@ def _asks_now(question: Question | None) -> bool:
 
 
 def _is_now(time: Time, scene: Asked) -> bool:
-    return isinstance(time, Now | Next) or (
-        isinstance(time, At) and time.at >= scene.now - ROUNDING
-    )
+    reached = isinstance(time, At) and time.at >= scene.now - ROUNDING
+    return reached or isinstance(time, Now | Next)

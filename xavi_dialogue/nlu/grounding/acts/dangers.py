@@ -34,8 +34,12 @@ def threatened(spoken: Is, g: Grounder) -> Is:
 
     "Were we in danger when he came past?", "It shot across. Were we in danger just then?"
     """
-    if spoken.state not in STATES or spoken.event is not None or not _of_us(spoken):
+    if spoken.state not in STATES or spoken.event is not None or not _of_us(spoken, g):
         return spoken
+    option = g.context.discourse.option
+    if option is not None and spoken.tense == "present" and not isinstance(spoken.thing, Ego):
+        g.notes.leaned = True
+        return replace(spoken, thing=None, event=option)
     match spoken.time:
         case Relative(relation="during", anchor=Event(actor=Described() | Pronoun() as whom)):
             return replace(spoken, thing=whom)
@@ -45,10 +49,14 @@ def threatened(spoken: Is, g: Grounder) -> Is:
     return spoken
 
 
-def _of_us(spoken: Is) -> bool:
+def _of_us(spoken: Is, g: Grounder) -> bool:
     """Tell whether it is said of us, or of nothing but what happened then."""
+    told = spoken.tense == "present" and g.context.discourse.option is not None
+    if spoken.thing is None:
+        return told
     if isinstance(spoken.thing, Pronoun):
-        return spoken.thing.form in _VAGUE and isinstance(spoken.time, Relative | WholeRide)
+        timed = isinstance(spoken.time, Relative | WholeRide)
+        return spoken.thing.form in _VAGUE and (timed or told)
     return isinstance(spoken.thing, Ego | Passenger)
 
 

@@ -42,7 +42,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.nlu.grounding.acts.afoot import walked
-from xavi_dialogue.nlu.grounding.acts.dangers import STATES, is_of_undone, threatened
+from xavi_dialogue.nlu.grounding.acts.dangers import is_of_undone, threatened
 from xavi_dialogue.nlu.grounding.acts.generic import come_along, in_order
 from xavi_dialogue.nlu.grounding.acts.hiding import behind_hider, past_hider, somebody_behind
 from xavi_dialogue.nlu.grounding.acts.measuring import just_named, measured, of_ride, spoken_of
@@ -273,10 +273,6 @@ def _of_event(spoken: Is, g: Grounder) -> Is:
     )
     if spoken.event is not None or not vague or spoken.state not in OF_EVENTS:
         return spoken
-    option = g.context.discourse.option
-    if spoken.state in STATES and spoken.tense == "present" and option is not None:
-        g.notes.leaned = True
-        return replace(spoken, thing=None, event=option)
     told = next(iter(g.context.discourse.propositions), None)
     if spoken.state in ("wrong", "right") and isinstance(told, Believed):
         whom, event = first(told, Vehicle), first(told, Event)

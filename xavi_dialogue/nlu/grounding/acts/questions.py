@@ -40,7 +40,6 @@ from xavi_dialogue.domain.terms import (
     Event,
     Happens,
     Nobody,
-    Not,
     Now,
     Proposition,
     That,
@@ -81,12 +80,7 @@ def question(spoken: Question, g: Grounder) -> Question:
 
 def _why(spoken: Why, g: Grounder) -> Why:
     blames = spoken.suspect is not None and isinstance(spoken.of, That)
-    option = g.context.discourse.option
-    if blames and option is not None:
-        g.notes.leaned = True
-        spoken = replace(spoken, of=Not(Happens(replace(option, modal=None))))
-    told = explained(g.context) if blames and option is None else None
-    of = g.proposition(told or spoken.of, "presupposed")
+    of = g.proposition((blames and explained(g.context)) or spoken.of, "presupposed")
     instead = None if spoken.instead is None else g.proposition(spoken.instead, "supposed")
     event = first(of, Event)
     if spoken.suspect == SOMEBODY_ELSE:
@@ -224,12 +218,6 @@ def _doing(spoken: Doing, g: Grounder) -> Doing:
 
 def _compare(spoken: Compare, g: Grounder) -> Compare:
     now = g.window(Unsaid(), "present")
-    focus, named = g.context.discourse.episode, first(spoken.options, Event)
-    past = named is not None and named.tense in ("past", "perfect")
-    decided = isinstance(g.context.discourse.question, Why | WhatIf | HowSure)
-    if past and decided and focus is not None and g.notes.span is None:
-        g.notes.leaned = True
-        g.notes.spans(inferred(focus, g).span)
     options = tuple(
         g.proposition(one, "supposed") if isinstance(one, PROPOSITIONS) else g.thing(one, now)
         for one in spoken.options
@@ -273,20 +261,11 @@ def _how_know(spoken: HowKnow, g: Grounder) -> HowKnow:
 def _how_sure(spoken: HowSure, g: Grounder) -> HowSure:
     spoken = foreseen(spoken)
     moved = spoken.changed and spoken.of is None
-    asked = g.context.discourse.question
-    if spoken.of is None and not moved and isinstance(asked, Why) and _is_ours(asked.of):
-        g.notes.leaned = True
-        spoken = replace(spoken, of=asked.of)
     of = (believed_last(g) if moved else None) or _about(spoken.of, "asked", g)
     if isinstance(spoken.time, Unsaid):
         return replace(spoken, of=of)
     window = at_moment(spoken.time, "past", g, None)
     return replace(spoken, of=of, time=window.term)
-
-
-def _is_ours(of: Proposition) -> bool:
-    event = first(of, Event)
-    return event is not None and event.actor == Ego()
 
 
 def _how_decide(spoken: HowDecide, g: Grounder) -> HowDecide:

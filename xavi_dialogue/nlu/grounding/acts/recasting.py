@@ -45,6 +45,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     WholeRide,
 )
+from xavi_dialogue.nlu.grounding.acts.follow_ups import compared, followed
 from xavi_dialogue.nlu.grounding.acts.others import of_others
 from xavi_dialogue.nlu.grounding.acts.races import race
 from xavi_dialogue.nlu.grounding.acts.timing import of_doing
@@ -73,6 +74,7 @@ _ANYTHING: Final = (Described(definite=False), Described(kind="car", definite=Fa
 
 def recast(spoken: Question, g: Grounder) -> Question:
     """Put the question that is meant in the place of one that its words leave open."""
+    spoken = followed(spoken, g)
     if isinstance(spoken, HowSure) and spoken.of is not None and is_plain_to_see(spoken.of):
         spoken = Whether(spoken.of)  # "are you sure that nobody is behind us?"
     meant = race(spoken) or of_others(spoken, g) or _lasted(spoken, g)
@@ -128,7 +130,7 @@ def recast(spoken: Question, g: Grounder) -> Question:
         ) if "long" in event.manner:
             return HowLong(replace(event, manner=(), modal="must"))
         case Compare(options=options):
-            return _beside(spoken, tuple(_option(one, g) for one in options), g)
+            return compared(spoken, options, g)
     return spoken
 
 
@@ -289,39 +291,6 @@ def halting(context: Context) -> bool:
     since = max(context.begin, context.now - 0.5)
     lately = context.deeds(Ego(), since, context.now)
     return any(e.action in _HALTING and e.end is None for e in lately)
-
-
-def _beside(spoken: Compare, options: tuple[Any, ...], g: Grounder) -> Compare:
-    """Compare what was decided with the option that was told of, where only it is named."""
-    told = g.context.discourse
-    if told.option is not None and told.decided is not None and options == (Happens(told.decided),):
-        options = (*options, Happens(told.option))
-    return replace(spoken, options=options)
-
-
-def _option(option: Any, g: Grounder) -> Any:
-    """Take "that" among what is compared for what was spoken of, and never for its denial."""
-    if not isinstance(option, That):
-        return _decided(option, g)
-    if (told := g.context.discourse.option) is not None:
-        g.notes.leaned = True
-        return Happens(told)
-    known = proposition_of(g.context.discourse.question) or asserted(g.context)
-    if known is None:
-        return option
-    g.notes.leaned = True
-    return affirmed(known)
-
-
-def _decided(option: Any, g: Grounder) -> Any:
-    """Take "staying" beside an option for what was decided instead of it."""
-    discourse = g.context.discourse
-    match option:
-        case Happens(event=Event(action="wait" | "keep-lane" | "stand", actor=Ego(), object=None)):
-            if discourse.option is not None:
-                g.notes.leaned = True
-                return Happens(discourse.decided or discourse.option)
-    return option
 
 
 def within_limit(spoken: Is, g: Grounder) -> Proposition | None:

@@ -66,6 +66,19 @@ def choose(
     return _prominent(context, wanted, tied, moment)
 
 
+def just_named(context: Context, thing: Described, good: Sequence[Match]) -> list[Match]:
+    """Keep the one whom the turn before named, where others fit the description as well."""
+    discourse = context.discourse
+    told = thing.rank, thing.extreme, thing.doing, thing.such, thing.of, thing.bearing
+    if not thing.definite or thing.other or any(part is not None for part in told):
+        return []
+    least = min(m.cost for m in good) + TIE
+    alike = {m.vehicle: m for m in good if m.cost <= least}
+    latest = [m for m in discourse.mentions if m.turn >= discourse.turn - 1]
+    named = (m.thing.number for m in latest if isinstance(m.thing, Vehicle))
+    return [alike[number] for number in named if number in alike][:1]
+
+
 def _prominent(
     context: Context, wanted: Described, tied: Sequence[Match], moment: float
 ) -> tuple[int, ...]:

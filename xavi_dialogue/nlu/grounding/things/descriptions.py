@@ -16,7 +16,7 @@ from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.terms import Described, Ego, Nobody, Thing, Vehicle, Vehicles
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Unclear, Window
 from xavi_dialogue.nlu.grounding.things import looks, scene
-from xavi_dialogue.nlu.grounding.things.choosing import TIE, choose, several
+from xavi_dialogue.nlu.grounding.things.choosing import choose, just_named, several
 from xavi_dialogue.nlu.grounding.things.match import Match
 from xavi_dialogue.nlu.grounding.things.passing import goes_past, passing_cost, placed
 from xavi_dialogue.nlu.grounding.things.relative import Clause, clause_of
@@ -242,26 +242,13 @@ def _resolved(search: Search, good: list[Match]) -> Thing:
     if thing.plural or ((thing.number or 1) > 1 and not ranked):
         chosen = several(g.context, thing, others, search.moment)
         return Vehicle(chosen[0]) if len(chosen) == 1 else Vehicles(chosen)
-    others = _just_named(search, others) or others
+    others = just_named(g.context, thing, others) or others
     options = choose(g.context, thing, others, search.moment, search.reference)
     chosen_match = next(m for m in others if m.vehicle == options[0])
     g.notes.cost += chosen_match.cost
     if len(options) > 1 and thing.definite:
         g.notes.unclear.append(Unclear(thing, options, search.moment))
     return Vehicle(options[0])
-
-
-def _just_named(search: Search, good: list[Match]) -> list[Match]:
-    """Keep the one whom the turn before named, where others fit the description as well."""
-    thing, discourse = search.described, search.grounder.context.discourse
-    told = thing.rank, thing.extreme, thing.doing, thing.such, thing.of, thing.bearing
-    if not thing.definite or thing.other or any(part is not None for part in told):
-        return []
-    least = min(m.cost for m in good) + TIE
-    alike = {m.vehicle: m for m in good if m.cost <= least}
-    latest = [m for m in discourse.mentions if m.turn >= discourse.turn - 1]
-    named = (m.thing.number for m in latest if isinstance(m.thing, Vehicle))
-    return [alike[number] for number in named if number in alike][:1]
 
 
 def _spoken_of(search: Search) -> tuple[int, ...]:

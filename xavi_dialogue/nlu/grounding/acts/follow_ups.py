@@ -1,0 +1,79 @@
+"""Follow-ups: questions about the option or the decision that the answer before told of."""
+
+from typing import Any, Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.meaning import Compare, HowSure, Question, Why
+from xavi_dialogue.domain.rewriting import first
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Not, Proposition, That
+from xavi_dialogue.nlu.grounding.completion.discussion import affirmed, asserted, proposition_of
+from xavi_dialogue.nlu.grounding.context import Grounder
+
+_STAYING: Final = ("wait", "keep-lane", "stand")
+
+
+def followed(spoken: Question, g: Grounder) -> Question:
+    """Ask of the option or decision under discussion, where nothing else is said."""
+    discourse = g.context.discourse
+    asked = discourse.question
+    match spoken:
+        case Why(of=That(), suspect=suspect) if suspect is not None:
+            if discourse.option is not None:
+                g.notes.leaned = True
+                return replace(spoken, of=Not(Happens(replace(discourse.option, modal=None))))
+        case HowSure(of=None, changed=False) if isinstance(asked, Why) and _is_ours(asked.of):
+            g.notes.leaned = True
+            return replace(spoken, of=asked.of)
+    return spoken
+
+
+def _is_ours(of: Proposition) -> bool:
+    event = first(of, Event)
+    return event is not None and event.actor == Ego()
+
+
+def compared(spoken: Compare, options: tuple[Any, ...], g: Grounder) -> Compare:
+    """Compare what was decided with the option that was told of, where only it is named."""
+    _of_decision(spoken, g)
+    options = tuple(_option(one, g) for one in options)
+    told = g.context.discourse
+    if told.option is not None and told.decided is not None and options == (Happens(told.decided),):
+        options = (*options, Happens(told.option))
+    return replace(spoken, options=options)
+
+
+def _option(option: Any, g: Grounder) -> Any:
+    """Take "that" among what is compared for what was spoken of, and never for its denial."""
+    if not isinstance(option, That):
+        return _decided(option, g)
+    if (told := g.context.discourse.option) is not None:
+        g.notes.leaned = True
+        return Happens(told)
+    known = proposition_of(g.context.discourse.question) or asserted(g.context)
+    if known is None:
+        return option
+    g.notes.leaned = True
+    return affirmed(known)
+
+
+def _decided(option: Any, g: Grounder) -> Any:
+    """Take "staying" beside an option for what was decided instead of it."""
+    discourse = g.context.discourse
+    match option:
+        case Happens(event=Event(action=action, actor=Ego(), object=None)) if action in _STAYING:
+            if discourse.option is not None and discourse.option.action not in _STAYING:
+                g.notes.leaned = True
+                return Happens(discourse.decided or discourse.option)
+    return option
+
+
+def _of_decision(spoken: Compare, g: Grounder) -> None:
+    """Ask what would have been better of the decision that was asked about."""
+    discourse, named = g.context.discourse, first(spoken.options, Event)
+    past = named is not None and named.tense in ("past", "perfect")
+    decided = isinstance(discourse.question, Why | HowSure)
+    if past and decided and discourse.episode is not None and g.notes.span is None:
+        g.notes.leaned = True
+        g.notes.spans(Span(*discourse.episode))
