@@ -87,6 +87,7 @@ def after(discourse: Discourse, turn: Turn) -> Discourse:
     said = tuple(_said(turn))
     question = next((q.question for q in reversed(said) if isinstance(q, Ask)), None)
     named = (*_mentions(turn, number), *_named(turn, number))
+    weighed = _weighed(turn, discourse)
     return Discourse(
         turn=number + 1,
         mentions=renewed(decayed(discourse.mentions), named),
@@ -98,12 +99,13 @@ def after(discourse: Discourse, turn: Turn) -> Discourse:
         pending=None if offer is None else offer.pending,
         last_acts=said or discourse.last_acts,
         asked_at=turn.reply.sim_time if said else discourse.asked_at,
-        **_weighed(turn, discourse),
+        option=weighed[0],
+        decided=weighed[1],
         times=tuple(dict.fromkeys((*_times(turn), *discourse.times)))[:TIMES],
     )
 
 
-def _weighed(turn: Turn, before: Discourse) -> dict[str, Event | None]:
+def _weighed(turn: Turn, before: Discourse) -> tuple[Event | None, Event | None]:
     """Give the option of ours that was told of, and what was decided instead of it.
 
     What follows up on a turn leaves under discussion what was.
@@ -121,13 +123,10 @@ def _weighed(turn: Turn, before: Discourse) -> dict[str, Event | None]:
             option = replace(option, time=Unsaid(), tense="present", modal=None)
         elif against is not None:
             option = replace(option, time=At(against.decided))
-        return {
-            "option": option,
-            "decided": None if done is None else Event(done, tense=option.tense),
-        }
+        return option, None if done is None else Event(done, tense=option.tense)
     if any(act.leaned for act in turn.acts):
-        return {"option": before.option, "decided": before.decided}
-    return {"option": None, "decided": None}
+        return before.option, before.decided
+    return None, None
 
 
 def _option_in(question: Question) -> Event | None:
