@@ -119,8 +119,8 @@ def _joined(of: Both, asked: Asked) -> Finding:
     if of.join == "or" and (first := of_order(of)) is not None:
         rule = who_first(asked, first)
         if rule is not None and rule.rule == "none" and (let := _lets_us(of)) is not None:
-            found = weigh(let, asked)
-            return Finding(None, answer=found.answer or found.verdict(let))
+            theirs = weigh(let, asked)
+            return Finding(None, answer=theirs.answer or theirs.verdict(let))
         if rule is not None and (rule.rule != "none" or rule.vehicle is not None):
             return Finding(None, answer=replace(rule, holds=None))
     if of.join == "or" and (held := _stops(of)) is not None:
