@@ -211,3 +211,16 @@ def test_where_the_drives_do_not_arrive_it_takes_at_least_so_long() -> None:
 def test_without_a_plan_the_time_to_go_is_not_known() -> None:
     found = places.time_to_go(asked(), NOW)
     assert found == Measure("time-to-go", Ego(), NOW, to=Destination(), gap="not-recorded")
+
+
+@pytest.mark.parametrize(
+    ("brakes", "speeds", "halts"),
+    [(True, STOPS, True), (False, STOPS, False), (True, STEADY, False)],
+)
+def test_braking_that_ends_in_standing_is_a_halt(
+    brakes: bool, speeds: Any, halts: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(plans, "occasion", lambda _, event: event if brakes else None)
+    assert plans.is_halting(asked(decided(("continue",), Drive(1.0, speeds)))) is halts
+    half = decided(("continue",), Drive(0.4, STOPS), Drive(0.6, STEADY))
+    assert not plans.is_halting(asked(half))

@@ -18,7 +18,7 @@ from xavi_dialogue.explain.answers.expectations.foreseen import (
     unconsidered,
     wrong_belief,
 )
-from xavi_dialogue.explain.answers.expectations.plans import foreseen
+from xavi_dialogue.explain.answers.expectations.plans import foreseen, is_halting
 from xavi_dialogue.explain.answers.expectations.slowing import slowing
 from xavi_dialogue.explain.answers.measuring.closeness import closeness
 from xavi_dialogue.explain.answers.measuring.nearing import (
@@ -115,8 +115,7 @@ def _moved(asked: Asked, event: Event) -> Finding | None:
         return Finding(True, (look,))
     at = asked.now if event.tense == "perfect" else window(asked, event.time, event.tense).end
     speed = asked.world.measure("speed", event.actor, min(at, asked.now))
-    moving = speed.value is not None and speed.value >= MOVING
-    return Finding(True, (speed,)) if moving else None
+    return Finding(True, (speed,)) if (speed.value or 0.0) >= MOVING else None
 
 
 def _all_the_way(event: Event) -> bool:
@@ -129,13 +128,14 @@ def _intended(asked: Asked, event: Event) -> bool:
     """Tell whether "is he turning off?" asks of somebody what he has not begun: what comes."""
     if event.tense != "present" or not isinstance(event.time, Unsaid | Now):
         return False
+    if naming.is_us(event.actor) and event.action == "stop":
+        return asked.past is None and is_halting(asked)
     if naming.is_us(event.actor) and (event.action in CHANGES or event.action == "keep-lane"):
         return asked.past is None and occasion(asked, event) is None
     if naming.number(event.actor) is None or asked.past is not None:
         return False
     meant = bool(macros(event)) or event.action in INTENDED
-    begun = occasion(asked, event) if meant else None
-    if not meant or begun is not None:
+    if not meant or occasion(asked, event) is not None:
         return False
     left_out = unconsidered(asked, event, asked.now) is not None
     return left_out or chance(asked, event, asked.now) is not None

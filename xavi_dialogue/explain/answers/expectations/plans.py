@@ -12,8 +12,16 @@ from xavi_dialogue.domain.answers import PlanAhead
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.terms import Destination, Ego, Event, Junction, Thing
 from xavi_dialogue.domain.vocabulary import Attribute
-from xavi_dialogue.explain.answers.expectations.foreseen import HALTS, STARTS, YIELDS, macros, sided
+from xavi_dialogue.explain.answers.expectations.foreseen import (
+    EXPECTED,
+    HALTS,
+    STARTS,
+    YIELDS,
+    macros,
+    sided,
+)
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.occasions import occasion
 from xavi_dialogue.explain.causes.plans.contrast import factual
 from xavi_dialogue.explain.causes.vehicles.course import Expected, begins, expected, lines, moves_on
 from xavi_dialogue.explain.history.motion import Motion
@@ -24,6 +32,7 @@ MOVES: frozenset[Action] = frozenset(
     ("change-left", "change-right", "exit-left", "exit-right", "exit-straight")
 )
 AHEAD: tuple[Attribute, ...] = ("turn", "exit-number", "distance", "time-to-go")
+STANDSTILL = 8.0  # [s] within which braking that ends in standing is a stop
 REGAINED = 0.5  # [m/s] by which one is faster again after slowing down
 Mark = Callable[[Rollout, Motion], float | None]
 
@@ -77,6 +86,15 @@ def current_plan(asked: Asked) -> tuple[PlanTrace, Intervention] | None:
 def foreseen(asked: Asked, event: Event) -> Expected | None:
     """Tell when the ego does something under its plan; None where no rollout shows it doing so."""
     return _read(asked, _mark(event))
+
+
+def is_halting(asked: Asked) -> bool:
+    """Tell whether the ego brakes, and stands still soon under its plan."""
+    if occasion(asked, Event("brake", tense="present")) is None:
+        return False
+    found = foreseen(asked, Event("stop"))
+    soon = found is not None and found.moment <= asked.now + STANDSTILL
+    return found is not None and soon and found.share >= EXPECTED
 
 
 def moving_on(asked: Asked) -> Expected | None:

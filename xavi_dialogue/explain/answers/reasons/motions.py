@@ -19,6 +19,7 @@ from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Compares, Ego, Event, Measured
 from xavi_dialogue.domain.vocabulary import ActionName, Manner
+from xavi_dialogue.explain.answers.expectations.plans import is_halting
 from xavi_dialogue.explain.answers.reasons.kept import peak, with_yielding
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import is_own, is_past, vehicle_in
@@ -269,7 +270,7 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
     return MotionReason(
         deed=deed,
         causes=with_nearest(scene.ride, scene.world, reasons.causes, time),
-        premise=premise or stops,
+        premise=premise or stops or (named in STILL and is_halting(scene)),
         asked=named,
         evidence=reasons.evidence,
         manner=next(iter(event.manner), None),
