@@ -37,6 +37,7 @@ _GRAMMAR = frozenset(
         "PART",
         "THERE",
         "FOCUS",
+        "FULL",
         "DEG",
         "IF",
         "SUBORD",

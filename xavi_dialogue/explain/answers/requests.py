@@ -39,6 +39,8 @@ SPEEDS: frozenset[ActionName] = frozenset(("slow-down", "speed-up", "brake"))
 ENDING: frozenset[ActionName] = frozenset(("stop", "pull-over", "drop-off", "park", "open"))
 STAYING: frozenset[ActionName] = frozenset(("continue", "keep-lane", "follow"))
 DRIVING: frozenset[ActionName] = frozenset(("go", "move", "continue", "do", "head"))
+PACED: frozenset[ActionName] = DRIVING | {"pass", "overtake", "turn", "enter", "cross"}
+NEARNESS: frozenset[ActionName] = frozenset(("keep-distance", "approach"))
 KEPT = 1.8  # [s] behind somebody from which on we keep our distance
 ELSEWHERE = "the way to the destination leads elsewhere"
 SOON = 3.0  # [s] within which what is planned is as good as begun
@@ -58,7 +60,7 @@ def request(act: Request, asked: Asked) -> Answer:
     able = event.action not in BEYOND
     now = activity(asked, Ego(), asked.now)
     if not asked.ride.traces or _asks_manner(act):
-        return Declined(act, able, doing=now)
+        return Declined(act, able, doing=now, facts=_speed(asked))
     ahead = plan_ahead(asked)
     ahead = replace(ahead, measures=tuple(m for m in ahead.measures if m.attribute != "time-to-go"))
     if act.negated:
@@ -81,13 +83,12 @@ def request(act: Request, asked: Asked) -> Answer:
 
 def _asks_manner(act: Request) -> bool:
     """Tell whether nothing but the manner of driving is to change: "drive more gently"."""
-    gentle = not GENTLE.isdisjoint(act.event.manner)
-    return gentle and not act.negated and act.event.action in DRIVING
+    return not act.negated and not GENTLE.isdisjoint(act.event.manner)
 
 
 def _paced(event: Event) -> Event:
-    """Read going past somebody slowly, or fast, as a wish about our speed."""
-    if event.action in ("pass", "overtake", "go", "move") and "slowly" in event.manner:
+    """Read driving slowly past somebody, or somewhere, as a wish about our speed."""
+    if event.action in PACED and "slowly" in event.manner:
         return replace(event, action="slow-down", object=None, manner=())
     return event
 
@@ -125,16 +126,21 @@ def _instead(asked: Asked, event: Event) -> tuple[Measure, ...]:
     """Tell what bears on a request: our speed, when we drive on, when we are there."""
     action = sided(event)
     if action in SPEEDS or "fast" in event.manner or "slowly" in event.manner:
-        found = speed_of(asked)
-        return found.measures if isinstance(found, Measures) else ()
-    if action == "keep-distance":
+        return _speed(asked)
+    if action in NEARNESS:
         to = event.object if isinstance(event.object, Vehicle) else None
-        return known(asked.world.measure("gap", Ego(), asked.now, to))
+        gap, headway = (asked.world.measure(a, Ego(), asked.now, to) for a in ("gap", "headway"))
+        return (*known(gap), *known(headway))
     if action in ENDING:
         return known(asked.world.measure("arrival-time", Ego(), asked.now))
     if action in STARTS | {"continue"} and stands(asked):
         return known(remaining_wait(asked))
     return ()
+
+
+def _speed(asked: Asked) -> tuple[Measure, ...]:
+    found = speed_of(asked)
+    return found.measures if isinstance(found, Measures) else ()
 
 
 def _doing(asked: Asked, event: Event, trend: str | None) -> bool:

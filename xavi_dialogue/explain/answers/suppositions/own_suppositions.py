@@ -10,10 +10,12 @@ from xavi_dialogue.domain.answers import (
     ChoiceReason,
     Contrast,
     DidNotHappen,
+    Measures,
     MotionCause,
     SupposedOfUs,
+    Verdict,
 )
-from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.meaning import Compare, HowMuch, HowSure, Question, When, Whether
 from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
@@ -57,6 +59,7 @@ from xavi_dialogue.explain.history.ride import planned
 
 STANDING = 0.5  # [m/s]
 FAST = 15.0  # [m/s] from which staying is staying in the lane
+ABOUT = 1.5  # factor up to which a time is about as long as it is said to be
 LATELY = 12.0  # [s] since when it may be our braking that is meant
 PAST = frozenset[ActionName](("overtake", "pass", "avoid"))
 SQUEEZING = frozenset[ActionName](("cut-in", "merge", "pull-out", "pass"))
@@ -105,11 +108,18 @@ def claimed_in(that: Proposition | None) -> float | None:
     return None
 
 
-def claimed(found: Answer, amount: float | None) -> Answer:
-    """Add what is claimed to be gained or lost, so that what it would be is held against it."""
-    if amount is None or not isinstance(found, SupposedOfUs):
-        return found
-    return structs.replace(found, claimed=amount, form="quicker")
+def claimed(found: Answer, that: Proposition | None) -> Answer:
+    """Hold what time something cost, or would gain, against what it is said to be."""
+    said = claimed_in(that)
+    match found:
+        case SupposedOfUs() if said is not None:
+            return structs.replace(found, claimed=said, form="quicker")
+        case Measures(measures=(Measure(value=float(value)) as told,)) if (
+            said is not None and value <= ABOUT * said
+        ):
+            spent = Compares(Measured("delay"), "same", Quantity(said, "s"))
+            return Verdict(spent, said <= ABOUT * value, (told,))
+    return found
 
 
 def is_sooner(then: Question | None) -> bool:

@@ -41,7 +41,6 @@ from xavi_dialogue.explain.answers.suppositions.jointly import Joint, is_absence
 from xavi_dialogue.explain.answers.suppositions.own_suppositions import (
     arrival,
     claimed,
-    claimed_in,
     form_of,
     is_sooner,
     kept_ahead,
@@ -117,7 +116,7 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     asked = question.then.that if isinstance(question.then, Whether) else None
     event, scene = imagined(event, question.then, scene)
     found = with_chance(of_us(event, scene, form, struck), struck, scene)
-    return claimed(found, claimed_in(asked))
+    return claimed(found, asked)
 
 
 def _mistaken(
