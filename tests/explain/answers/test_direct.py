@@ -109,6 +109,23 @@ def test_a_gap_that_there_is_none_of_is_told_as_distance() -> None:
     assert "gap" not in said(ride, HowMuch(Measured("headway", to=Vehicle(1))))
 
 
+def test_who_asks_for_more_or_less_room_is_told_how_much_there_is() -> None:
+    ride = made(BESIDE, 4.0, roads=ring)
+    for action in ("keep-distance", "approach"):
+        wish = told(ride, Request(Event(action, object=Vehicle(1), tense="present")))
+        assert [m.attribute for m in wish.facts] == ["distance"]  # it is not in our lane
+
+
+def test_a_wish_about_our_manner_is_met_with_our_speed() -> None:
+    ride = made(BESIDE, 4.0, roads=ring)
+    for event in (
+        Event("brake", manner=("gently",), tense="present"),
+        Event("turn", manner=("slowly",), tense="present"),
+    ):
+        wish = told(ride, Request(event))
+        assert [m.attribute for m in wish.facts] == ["speed"]
+
+
 def test_the_arrival_is_told_once() -> None:
     ride = made(BESIDE, 4.0, roads=ring)
     found = told(ride, When(Happens(Event("arrive", tense="future"))))

@@ -3,6 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import Answer
 from xavi_dialogue.domain.meaning import (
     Changed,
@@ -27,6 +29,7 @@ from xavi_dialogue.domain.meaning import (
     Which,
     Whither,
 )
+from xavi_dialogue.domain.terms import Ego, Event, Happens
 from xavi_dialogue.explain.answers.events.accounts import listing, summarise
 from xavi_dialogue.explain.answers.events.beliefs import how_sure
 from xavi_dialogue.explain.answers.events.decisions import changed
@@ -38,7 +41,7 @@ from xavi_dialogue.explain.answers.propositions.identify import identify
 from xavi_dialogue.explain.answers.propositions.lasting import how_long
 from xavi_dialogue.explain.answers.propositions.verdicts import claim, whether
 from xavi_dialogue.explain.answers.reference.asked import Asked
-from xavi_dialogue.explain.answers.requests import request
+from xavi_dialogue.explain.answers.requests import NEARNESS, request
 from xavi_dialogue.explain.answers.ride.places import where, whither
 from xavi_dialogue.explain.answers.talk import feel, social
 from xavi_dialogue.explain.answers.turns import how_many, how_much, who
@@ -66,4 +69,16 @@ QUESTIONS: Mapping[type, Explainer] = {
     Compare: rivals,
 }
 #: By type of act beside `Ask`.
-ACTS: Mapping[type, Explainer] = {Claim: claim, Request: request, Feel: feel, Social: social}
+
+
+def _claim(act: Claim, asked: Asked) -> Answer:
+    """Check a claim; what we should do about our distance is as good as a request."""
+    match act.that:
+        case Happens(event=Event(actor=Ego(), modal="should", tense="present") as event) if (
+            event.action in NEARNESS
+        ):  # "you should keep more distance"
+            return request(Request(replace(event, modal=None)), asked)
+    return claim(act, asked)
+
+
+ACTS: Mapping[type, Explainer] = {Claim: _claim, Request: request, Feel: feel, Social: social}

@@ -130,7 +130,8 @@ def _instead(asked: Asked, event: Event) -> tuple[Measure, ...]:
     if action in NEARNESS:
         to = event.object if isinstance(event.object, Vehicle) else None
         gap, headway = (asked.world.measure(a, Ego(), asked.now, to) for a in ("gap", "headway"))
-        return (*known(gap), *known(headway))
+        apart = () if to is None else known(asked.world.measure("distance", Ego(), asked.now, to))
+        return (*known(gap), *known(headway)) or apart
     if action in ENDING:
         return known(asked.world.measure("arrival-time", Ego(), asked.now))
     if action in STARTS | {"continue"} and stands(asked):

@@ -33,7 +33,8 @@ from xavi_dialogue.explain.answers.ride.places import time_to_go
 
 NEAR = 8.0  # [m] within which a vehicle may be what startles somebody
 FRIGHT: frozenset[FeelingKind] = frozenset(("afraid", "nervous", "startled", "distrustful"))
-HASTE: frozenset[FeelingKind] = frozenset(("impatient", "bored", "annoyed", "angry", "tired"))
+TIRESOME: frozenset[FeelingKind] = frozenset(("impatient", "bored", "tired"))
+HASTE: frozenset[FeelingKind] = TIRESOME | {"annoyed", "angry"}
 PUZZLED: frozenset[FeelingKind] = frozenset(("surprised", "confused"))
 
 
@@ -68,7 +69,7 @@ def _bearing(act: Feel, asked: Asked) -> Answer | None:
     about = act.about
     vehicle, speedy, event = _about(about)
     time = _recent(asked)
-    if vehicle is not None:
+    if vehicle is not None and act.feeling not in TIRESOME:
         return closeness(asked, vehicle, time, "safe")
     if speedy:
         return speed_of(asked)

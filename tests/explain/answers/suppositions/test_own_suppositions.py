@@ -11,8 +11,10 @@ from xavi_dialogue.domain.answers import (
     Evidence,
     Measures,
     SupposedOfUs,
+    Verdict,
 )
 from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Compare, Doing, HowMuch, When, Whether
 from xavi_dialogue.domain.terms import (
     Compares,
@@ -90,10 +92,21 @@ def test_a_gain_that_is_claimed_is_held_against_what_it_would_be() -> None:
     assert own.claimed_in(Compares(SPEED, "more", Quantity(3.0, "s"))) is None
     assert own.claimed_in(None) is None
     found = SupposedOfUs(NOTHING)
-    assert own.claimed(found, 3.0) == SupposedOfUs(NOTHING, claimed=3.0, form="quicker")
+    assert own.claimed(found, delay) == SupposedOfUs(NOTHING, claimed=3.0, form="quicker")
     assert own.claimed(found, None) is found
     other = Measures(())
-    assert own.claimed(other, 3.0) is other
+    assert own.claimed(other, delay) is other
+
+
+@pytest.mark.parametrize(("cost", "holds"), [(1.0, False), (2.5, True), (4.0, True), (9.0, None)])
+def test_a_delay_is_held_against_what_it_is_said_to_be(cost: float, holds: bool | None) -> None:
+    said = Compares(Measured("delay"), "same", Quantity(3.0, "s"))
+    told = Measures((Measure("delay", Ego(), 0.0, value=cost),))
+    found = own.claimed(told, said)
+    if holds is None:
+        assert found is told
+    else:
+        assert found == Verdict(said, holds, told.measures)
 
 
 @pytest.mark.parametrize(

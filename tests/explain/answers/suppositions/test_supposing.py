@@ -86,9 +86,9 @@ def test_what_we_would_do_is_asked_of_our_own_foils(setting: Setting) -> None:
 def test_a_gain_that_is_claimed_is_held_against_the_foil(
     setting: Setting, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(supposing, "claimed", lambda found, amount: (found.by, amount))
+    monkeypatch.setattr(supposing, "claimed", lambda found, that: (found.by, that))
     gain = Whether(Compares(Measured("delay"), "more", Quantity(3.0, "s")))
-    assert what_if(did("exit-right", Ego()), gain) == ("of_us", 3.0)
+    assert what_if(did("exit-right", Ego()), gain) == ("of_us", gain.that)
     assert what_if(did("exit-right", Ego()), Doing()) == ("of_us", None)
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace as refound
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, Beliefs, NeedRollout, Priority, Verdict, Wavered
-from xavi_dialogue.domain.meaning import Claim, HowMuch, Request, Whether, Why
+from xavi_dialogue.domain.meaning import Claim, HowMuch, Whether, Why
 from xavi_dialogue.domain.terms import (
     Believed,
     Caused,
@@ -33,7 +33,6 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import Finding
 from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, number
 from xavi_dialogue.explain.answers.reference.occasions import occasion
-from xavi_dialogue.explain.answers.requests import NEARNESS, request
 from xavi_dialogue.explain.answers.ride.onward import WAYS, whether_ours
 from xavi_dialogue.explain.answers.suppositions.own_suppositions import claimed, of_us
 
@@ -215,10 +214,6 @@ def _disputed(that: Proposition, asked: Asked) -> Answer | None:
             slow = "slowly" in event.manner and event.action in DRIVING
             judged = bool(set(event.manner) & JUDGED) and occasion(asked, event) is not None
             return handed(Why(that), asked) if slow or judged else None
-        case Happens(event=Event(actor=Ego(), modal="should", tense="present") as event) if (
-            event.action in NEARNESS
-        ):  # "you should keep more distance"
-            return request(Request(replace(event, modal=None)), asked)
         case Compares(left=Measured(attribute="count", event=Event(modal="could") as event)) if (
             is_us(event.actor)
         ):  # "you could have overtaken him twice by now"

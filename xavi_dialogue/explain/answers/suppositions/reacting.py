@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import event_of, is_own, manner_of, unwrapped
 from xavi_dialogue.explain.causes.driving.stopping import stopping, stopping_distance
@@ -157,4 +158,5 @@ def for_anybody(event: Event, scene: Asked) -> Reaction:
     """Tell how far we need to stop for somebody who gets in our way."""
     speed = scene.world.measure("speed", Ego(), scene.now).value or 0.0
     needed = stopping_distance(speed)
-    return Reaction(None, "anybody", None, scene.now, speed, needed, past=event.tense == "perfect")
+    kind: Literal["standing", "anybody"] = "standing" if stands(scene) else "anybody"
+    return Reaction(None, kind, None, scene.now, speed, needed, past=event.tense == "perfect")
