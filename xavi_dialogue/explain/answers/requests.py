@@ -83,7 +83,8 @@ def request(act: Request, asked: Asked) -> Answer:
 
 def _asks_manner(act: Request) -> bool:
     """Tell whether nothing but the manner of driving is to change: "drive more gently"."""
-    return not act.negated and not GENTLE.isdisjoint(act.event.manner)
+    gentle = not GENTLE.isdisjoint(act.event.manner)
+    return gentle and not act.negated and act.event.action in DRIVING | {"brake", "turn"}
 
 
 def _paced(event: Event) -> Event:

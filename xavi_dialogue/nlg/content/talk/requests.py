@@ -18,6 +18,7 @@ from xavi_dialogue.nlg.surface.values import Clause, Quantity, Who
 STAYING = frozenset(("follow", "continue", "keep-lane", "move"))
 HOW = frozenset(("hard", "suddenly", "close", "fast", "slowly", "late", "early"))
 GOING = frozenset(("go", "move", "continue"))
+DRIVING = GOING | {"head", "brake", "turn"}  # what may be done gently
 #: What is said without whom it concerns: "go before the bus" is going.
 BARE = frozenset(("go", "move", "speed-up"))
 
@@ -36,7 +37,8 @@ def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
         "verb": Clause(clause.subject, clause.verb, clause.rest),
         "braking": event.action in ("brake", "slow-down"),
         "negated": negated,
-        "open": event.action in ("do", "happen") or not GENTLE.isdisjoint(event.manner),
+        "open": event.action in ("do", "happen")
+        or (event.action in DRIVING and not GENTLE.isdisjoint(event.manner)),
         "unable": not answer.able or event.action in BEYOND,
         "cause": None,
     }
