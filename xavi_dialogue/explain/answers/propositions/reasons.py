@@ -29,7 +29,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute, State
-from xavi_dialogue.explain.answers.expectations.plans import foreseen
+from xavi_dialogue.explain.answers.expectations.plans import is_halting
 from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.propositions import standings
 from xavi_dialogue.explain.answers.reasons import (
@@ -45,7 +45,6 @@ from xavi_dialogue.explain.answers.reasons import (
 from xavi_dialogue.explain.answers.reasons.suspects import with_suspect, with_suspects
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, window
-from xavi_dialogue.explain.answers.reference.occasions import occasion
 from xavi_dialogue.explain.answers.reference.reading import (
     check_able,
     check_seen,
@@ -78,7 +77,6 @@ YIELDING = frozenset[ActionName](
     ("stop", "wait", "give-way", "let-go", "slow-down", "brake", "stand")
 )
 HOLDING = frozenset[ActionName](("follow", "keep-distance", "approach"))
-LIKELY = 0.5  # share of what is foreseen from which on we are to stop
 #: How long something of ours takes, which waiting explains.
 LASTING = frozenset[Attribute](("duration", "delay", "waiting-time"))
 
@@ -232,14 +230,6 @@ def _joined(event: Event, scene: Asked, instead: Proposition | None) -> Answer:
     return going.went(structs.replace(event, action="go"), scene)
 
 
-def _is_halting(scene: Asked) -> bool:
-    """Tell whether we stand, or are braking to a stop."""
-    halt = foreseen(scene, Event("stop"))
-    halting = halt is not None and halt.share >= LIKELY
-    braking = occasion(scene, Event("brake", tense="present"))
-    return stands(scene) or (halting and braking is not None and braking.end is None)
-
-
 def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     """Tell why we did not do something, or do not.
 
@@ -253,8 +243,9 @@ def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         return not_going.not_joining(structs.replace(event.then, tense=event.tense), scene, None)
     if event.action == "speed-up" or manner_of(event, "fast") is not None:
         return motions.standing_or_slow(scene)
-    if event.action == "stop" and event.tense == "present" and _is_halting(scene):
-        return own(Event("stand" if stands(scene) else "brake", tense="present"), scene)
+    still = stands(scene)
+    if event.action == "stop" and event.tense == "present" and (still or is_halting(scene)):
+        return own(Event("stand" if still else "brake", tense="present"), scene)
     if event.action in GOING:
         return not_going.not_going(event, scene)
     if refraining.is_refraining(event):
