@@ -30,8 +30,10 @@ def followed(spoken: Question, g: Grounder) -> Question:
 
 
 def _is_ours(of: Proposition) -> bool:
+    """Tell whether it is of a choice of ours that is not told of by its own name."""
     event = first(of, Event)
-    return event is not None and event.actor == Ego()
+    told = isinstance(of, Not) or (event is not None and event.action == "stop")
+    return told and event is not None and event.actor == Ego()
 
 
 def compared(spoken: Compare, options: tuple[Any, ...], g: Grounder) -> Compare:
