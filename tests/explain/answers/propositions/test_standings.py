@@ -135,6 +135,7 @@ def test_where_a_stop_was_chosen_it_is_that_choice() -> None:
 
 
 TURN = Event("exit-right")
+LANE = Event("change-left")
 
 
 def moment(then: Any = None, drove: Any = None, span: Any = None, **more: Any) -> float:
@@ -147,7 +148,9 @@ def test_a_supposition_is_tried_when_what_is_asked_about_began(
 ) -> None:
     assert moment(Event("brake"), SLOWED) == 5.0
     monkeypatch.setattr(supposed_when, "premise", lambda *args: Premise(plan(9.0), None))
-    assert moment(TURN) == 9.0
+    assert moment(LANE) == 9.0
+    ahead = Event("exit-right", tense="present")
+    assert moment(ahead, traces=(plan(9.0),)) == NOW  # the next turn, not the last one
     assert moment(Event("brake")) == NOW
     assert moment() == NOW
     assert moment(span=Span(4.0, 6.0, said=True)) == 5.0
@@ -156,8 +159,8 @@ def test_a_supposition_is_tried_when_what_is_asked_about_began(
         raise Unanswered(NotRecorded("gap-in-record"))
 
     monkeypatch.setattr(supposed_when, "premise", lost)
-    assert moment(TURN) == NOW
-    assert moment(TURN, span=Span(4.0, 6.0, said=True)) == 5.0
+    assert moment(LANE) == NOW
+    assert moment(LANE, span=Span(4.0, 6.0, said=True)) == 5.0
 
 
 def test_of_the_past_it_is_tried_at_the_decision_for_what_we_did() -> None:

@@ -130,7 +130,7 @@ def test_what_we_are_about_is_told_as_such(plan: Plan) -> None:
         (("stop", "stop"), None, "stop"),
         (("brake", "brake"), None, "brake"),
         (("stop", "go"), did("wait", 12.0), "wait"),
-        (("stop", "go"), did("brake", 12.0), "brake"),
+        (("stop", "go"), did("brake", 12.0), None),
         (("stop", "go"), did("brake", 12.0, 19.8), None),
         (("brake", "go"), did("brake", 12.0), None),
         (("go", "go"), did("brake", 12.0), None),

@@ -61,14 +61,14 @@ def test_driving_slowly_is_met_with_its_reason(setting: Setting) -> None:
 
 def test_what_it_cost_is_told_as_a_time(setting: Setting) -> None:
     delay = Compares(Measured("delay"), "more")
-    assert whether(delay) == (Told("how much", (HowMuch(Measured("delay")),)), None)
+    assert whether(delay) == (Told("how much", (HowMuch(Measured("delay")),)), delay)
     lost = Compares(Measured("delay"), "more", Quantity(5.0, "s"))
-    assert claim(lost) == (Told("how much", (HowMuch(Measured("delay")),)), 5.0)
+    assert claim(lost) == (Told("how much", (HowMuch(Measured("delay")),)), lost)
     metres = Compares(Measured("delay"), "more", Quantity(5.0, "m"))
     assert whether(metres) == Verdict(metres, False)
     turn = Event("exit-left", modal="would")
     would = Compares(Measured("delay", event=turn), "less")
-    assert whether(would) == (Told("of us", (turn, "quicker")), None)
+    assert whether(would) == (Told("of us", (turn, "quicker")), would)
     could = replace(would, left=Measured("delay", event=replace(turn, modal="could")))
     assert whether(could)[0].by == "of us"
     did = replace(would, left=Measured("delay", event=replace(turn, modal=None)))

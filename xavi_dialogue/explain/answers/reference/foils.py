@@ -120,7 +120,8 @@ def at_turn(scene: Asked, names: tuple[ActionName, ...], *, past: bool) -> Premi
     at = next((k for k, step in enumerate(plan) if step in TURNS), None)
     if at is None or trace.under_way is not None:
         return None
-    if plan[0] in STRAIGHT and any(is_open(scene.ride, trace, (name,)) for name in names):
+    aside = [name for name in names if name not in STRAIGHT]
+    if plan[0] in STRAIGHT and any(is_open(scene.ride, trace, (name,)) for name in aside):
         return Premise(trace, None)  # the next junction, which the plan goes straight over
     return Premise(trace, None, _before_stop(scene, trace, names, plan[:at]))
 

@@ -123,10 +123,10 @@ def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bo
         return driven.begin  # once it is under way, planning again without its cause tells less
     left = None if then is None or then.action != "keep-lane" else _left_lane(scene)
     if then is not None and choices.is_choice(then):
-        turns = set(names_of(then)) <= set(EXITS) and scene.ride.latest.under_way is None
-        if turns and then.tense == "present" and not past:
-            return scene.moment  # the next turn, not the last one
+        turns = set(names_of(then)) <= set(EXITS) and then.tense == "present" and not past
         try:
+            if turns and scene.ride.latest.under_way is None:
+                return scene.moment  # the next turn, not the last one
             if past and left is not None:
                 return scene.ride.choice_of(left).sim_time
             return premise(scene.ride, subject(scene, then)).trace.sim_time
