@@ -153,10 +153,11 @@ State: TypeAlias = Literal[
     "upset",  # how a driver feels: angry, glad, afraid
 ]  # fmt: skip
 
-#: What a passenger sees a vehicle to be. "vehicle": not said, or cannot be known.
+#: What a passenger sees a vehicle to be. "vehicle": not said, or cannot be known; "bike": with or
+#: without a motor, which is only said of it and never seen.
 Kind: TypeAlias = Literal[
     "vehicle", "car", "truck", "bus", "van", "motorcycle", "bicycle", "pedestrian", "tram", "taxi",
-    "emergency", "wheelchair", "scooter",
+    "emergency", "wheelchair", "scooter", "bike",
 ]  # fmt: skip
 
 #: Where something is, seen from our car (or from the vehicle named beside it).

@@ -23,7 +23,7 @@ Somebodies: TypeAlias = tuple[Somebody, ...]
 #: Kinds that passengers mean any vehicle by.
 ANY: frozenset[Kind] = frozenset(("vehicle", "car"))
 #: Kinds that nobody calls a car.
-NO_CAR: frozenset[Kind] = frozenset(("pedestrian", "bicycle", "wheelchair", "scooter"))
+NO_CAR: frozenset[Kind] = frozenset(("pedestrian", "bicycle", "bike", "wheelchair", "scooter"))
 
 
 def number(thing: Thing | None) -> int | None:

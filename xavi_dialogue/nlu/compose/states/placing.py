@@ -135,7 +135,7 @@ def _by_bearing(clause: Clause, thing: Thing) -> Found:
     if bearing in ("there", "here"):
         if isinstance(thing, Ego) and "still" in (*clause.focus, *clause.manner):
             return Happens(Event("keep-lane", thing, time=time, tense=tense)), 0.0
-        if isinstance(thing, Ego):
+        if isinstance(thing, Ego) or (isinstance(thing, Passenger) and bearing == "there"):
             return arrived(clause), 0.0
         return Is("present", thing, time=time, tense=tense), 0.05
     if bearing == "around" and not isinstance(thing, Ego):

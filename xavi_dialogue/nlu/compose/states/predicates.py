@@ -128,6 +128,8 @@ def _same(clause: Clause, thing: Thing | None, subject: Thing, time: Time) -> li
             return [(arrived(clause), 0.0)]
         return [(Is("present", subject, time=time, tense=tense), 0.0)]
     thing = thing or Pronoun("it")
+    if isinstance(subject, Ego) and isinstance(thing, Exit | Junction):
+        subject = Pronoun("it")  # "ours is the next exit" is said of the exit
     placed = _placed(thing, subject, time, tense)
     if placed is not None:
         return [(placed, 0.05)]

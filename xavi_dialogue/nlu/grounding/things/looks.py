@@ -24,6 +24,7 @@ _KINDS: Final[dict[Kind, dict[Kind, float]]] = {
     "van": {"truck": 0.3, "bus": 0.6, "car": 0.6},
     "bus": {"truck": 0.6, "van": 0.5, "tram": 0.5},
     "taxi": {"car": 0.3},
+    "bike": {"bicycle": 0.0, "motorcycle": 0.1, "scooter": 0.3},
     "motorcycle": {"bicycle": 0.3, "scooter": 0.1},
     "bicycle": {"motorcycle": 0.3, "scooter": 0.2},
     "pedestrian": {"wheelchair": 0.1, "scooter": 0.4},
