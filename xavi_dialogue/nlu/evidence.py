@@ -1,8 +1,8 @@
 """Evidence: whether what a word says is found in the acts that were made of it.
 
 A rule of composition that passes over a part of its clause loses the words of that part without
-notice. So what a number, colour, kind or superlative says is looked for in the acts; where it is
-not found, the word has no part in them.
+notice. So what a number, colour, kind, superlative, light or crossing says is looked for in the
+acts; where it is not found, the word has no part in them.
 """
 
 from collections.abc import Iterator
@@ -33,6 +33,8 @@ _EXTREMES: Final = frozenset(
 _NUMBERED: Final = frozenset(("numbered", "roll", "owner"))
 _BOTH: Final = 2.0
 _SCALES: Final = (1.0, 60.0, 3600.0)  # [s] of the units in which a time is said
+_PLACES: Final = frozenset(("light", "crossing"))  # that nothing but their name stands for
+_OF_VEHICLES: Final = frozenset(("signal", "indicator", "brake-lights"))  # lights
 _VAGUE: Final = frozenset(("vehicle", "car"))  # kinds that a vehicle or pronoun may stand for
 
 
@@ -50,7 +52,8 @@ def _telling(part: Part) -> Iterator[Leaf]:
     """Yield the words to look for; of "truck 1", the number tells who it is."""
     if isinstance(part, Leaf):
         superlative = part.category == "FOCUS" and part.key == "superlative"
-        if superlative or part.category in ("NUM", "COLOUR", "KIND"):
+        place = part.category == "PLACEN" and part.key in _PLACES
+        if superlative or place or part.category in ("NUM", "COLOUR", "KIND"):
             yield part
         return
     for inner in part.parts:
@@ -66,6 +69,8 @@ def _is_in(leaf: Leaf, found: set[Any]) -> bool:
         return Quantity in found or any(said * scale in found for scale in _SCALES)
     if leaf.category == "FOCUS":
         return not _EXTREMES.isdisjoint(found)
+    if leaf.key == "light" and not _OF_VEHICLES.isdisjoint(found):
+        return True  # "are his lights on?"
     return leaf.key in _VAGUE or leaf.key in found
 
 

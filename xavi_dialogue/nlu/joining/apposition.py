@@ -9,7 +9,16 @@ from msgspec import structs
 
 from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Whether, Which
 from xavi_dialogue.domain.rewriting import substitute
-from xavi_dialogue.domain.terms import Described, Ego, Happens, Pronoun, Thing, Vehicle, Wanted
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Feature,
+    Happens,
+    Pronoun,
+    Thing,
+    Vehicle,
+    Wanted,
+)
 
 _FORMS = frozenset({"it", "he", "she", "that", "this", "one"})
 
@@ -19,8 +28,11 @@ def apposed(act: Act, later: Act) -> Act | None:
     if not isinstance(act, Ask | Claim) or not isinstance(later, Elliptic):
         return None
     thing = later.thing
-    if later != Elliptic(thing) or not isinstance(thing, Described | Vehicle | Ego):
+    if later != Elliptic(thing) or not isinstance(thing, Described | Vehicle | Ego | Feature):
         return None
+    vague = _vague(act)
+    if isinstance(thing, Feature):  # "is it still red, the light?", "it is broken, this light?"
+        return substitute(act, vague, thing) if isinstance(vague, Pronoun) else None
     if isinstance(act, Claim):
         return _named(act, thing)
     question = act.question
@@ -30,7 +42,6 @@ def apposed(act: Act, later: Act) -> Act | None:
             return Ask(Whether(such))  # "who is it waiting for, us?"
     if isinstance(thing, Ego):
         return None
-    vague = _vague(act)
     if vague is None or _elsewhere(vague, thing):
         return None
     return substitute(act, vague, _merged(vague, thing))

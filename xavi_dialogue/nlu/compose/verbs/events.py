@@ -115,6 +115,8 @@ def event_of(clause: Clause, match: Match) -> Event:
     action = _named(action, thing, clause)
     time = _let_then(clause, when(clause, match), action)
     place = where(clause, match)
+    if action == "keep-lane" and place is not None and place.relation in _ASIDE:
+        side, place = _ASIDE[place.relation], None  # "stay on the left"
     if action in _AT_EXITS and thing is None and place is not None:
         thing, place = _exit_meant(place)
     if action == "leave" and "at" in match.phrases and not isinstance(thing, Exit | Junction):
@@ -230,6 +232,7 @@ def _before_us(action: str, clause: Clause) -> bool:
     return action == "go" and before and not onward
 
 
+_ASIDE: dict[str, str] = {"left-of": "left", "right-of": "right"}
 _AT_EXITS = frozenset({"leave", "exit-left", "exit-right", "turn"})
 
 
