@@ -16,6 +16,7 @@ from xavi_dialogue.domain.terms import (
     Exists,
     Happens,
     Is,
+    Lane,
     Measured,
     Nobody,
     Not,
@@ -60,7 +61,7 @@ class Frames:
         if isinstance(question, Why) and clause.contrast is not None:
             instead = self.contrast(clause, question.of)
             if instead is not None:
-                question = structs.replace(question, instead=instead)
+                question = structs.replace(question, instead=_in_lane(instead, question.of))
         if isinstance(question, Why):
             question = structs.replace(question, rival=alternative(clause.because))
             if clause.condition is not None and not _contrary(question):
@@ -140,6 +141,16 @@ class Frames:
         if isinstance(other, Event):
             return Happens(other)
         return _with_object(of, as_thing(other))
+
+
+def _in_lane(instead: Proposition, of: Proposition) -> Proposition:
+    """Take "staying" or "waiting", set against a change of lanes, for staying in the lane."""
+    match of, instead:
+        case Happens(event=Event(action=action, where=where)), Happens(
+            event=Event(action="wait" | "stand", object=None, where=None) as other
+        ) if action.startswith("change-") or isinstance(getattr(where, "to", None), Lane):
+            return Happens(with_fields(other, action="keep-lane"))
+    return instead
 
 
 def _of_none(of: Proposition) -> Proposition:
