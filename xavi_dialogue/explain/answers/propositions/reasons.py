@@ -7,6 +7,7 @@ from xavi_dialogue.domain.answers import (
     ChoiceReason,
     DidNotHappen,
     MotionReason,
+    NeedRollout,
     NotApplicable,
 )
 from xavi_dialogue.domain.discourse import Span
@@ -30,7 +31,6 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute, State
 from xavi_dialogue.explain.answers.expectations.plans import is_halting
-from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.propositions import standings
 from xavi_dialogue.explain.answers.reasons import (
     choices,
@@ -59,6 +59,7 @@ from xavi_dialogue.explain.answers.ride import onward
 from xavi_dialogue.explain.answers.ride.delays import held_up
 from xavi_dialogue.explain.answers.ride.priority import priority_at
 from xavi_dialogue.explain.answers.suppositions import deciding
+from xavi_dialogue.explain.causes.plans.terms import RISK
 
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "pass", "come", "approach"))
 #: Names for coming in among others: a change of lanes, or a turn into a road.
@@ -230,6 +231,17 @@ def _joined(event: Event, scene: Asked, instead: Proposition | None) -> Answer:
     return going.went(structs.replace(event, action="go"), scene)
 
 
+def _is_risky(event: Event, scene: Asked) -> bool:
+    """Tell whether what we did not do carries a risk, which is told before anything else."""
+    try:
+        found = choices.why_not(event, scene)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return False
+    return isinstance(found, ChoiceReason) and found.contrast.collision >= RISK
+
+
 def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     """Tell why we did not do something, or do not.
 
@@ -243,9 +255,9 @@ def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         return not_going.not_joining(structs.replace(event.then, tense=event.tense), scene, None)
     if event.action == "speed-up" or manner_of(event, "fast") is not None:
         return motions.standing_or_slow(scene)
-    still = stands(scene)
-    if event.action == "stop" and event.tense == "present" and (still or is_halting(scene)):
-        return own(Event("stand" if still else "brake", tense="present"), scene)
+    halts = event.action == "stop" and event.tense == "present" and is_halting(scene)
+    if halts and not _is_risky(event, scene):
+        return own(Event("brake", tense="present"), scene)
     if event.action in GOING:
         return not_going.not_going(event, scene)
     if refraining.is_refraining(event):
