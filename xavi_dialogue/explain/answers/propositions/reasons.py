@@ -11,6 +11,7 @@ from xavi_dialogue.domain.answers import (
     NotApplicable,
 )
 from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.evidence import Evidence
 from xavi_dialogue.domain.meaning import HowAvoid, Why
 from xavi_dialogue.domain.terms import (
     SOMEBODY_ELSE,
@@ -231,6 +232,13 @@ def _joined(event: Event, scene: Asked, instead: Proposition | None) -> Answer:
     return going.went(structs.replace(event, action="go"), scene)
 
 
+def _by_latest(found: Answer, scene: Asked) -> Answer:
+    """Rest a reason for what goes on now on the decision in force, which weighed the foil."""
+    if not isinstance(found, MotionReason):
+        return found
+    return structs.replace(found, evidence=Evidence(traces=(scene.ride.latest.trace_id,)))
+
+
 def _is_risky(event: Event, scene: Asked) -> bool:
     """Tell whether what we did not do carries a risk, which is told before anything else."""
     try:
@@ -257,7 +265,7 @@ def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         return motions.standing_or_slow(scene)
     halts = event.action == "stop" and event.tense == "present" and is_halting(scene)
     if halts and not _is_risky(event, scene):
-        return own(Event("brake", tense="present"), scene)
+        return _by_latest(own(Event("brake", tense="present"), scene), scene)
     if event.action in GOING:
         return not_going.not_going(event, scene)
     if refraining.is_refraining(event):
