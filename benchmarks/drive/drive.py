@@ -85,9 +85,9 @@ class DriveReport(Aimed, frozen=True, kw_only=True):
         ]
         worst = [f"{bad.what}\n    {bad.reproduce}" for bad in self.worst] or ["none"]
         parts = [in_columns(rows), "", in_columns(times), "", "runs that did not go well:", *worst]
+        parts += ["", targets_table(self.targets)]
         if self.left_out:
             parts += ["", f"left out for want of netconvert: {', '.join(self.left_out)}"]
-        parts += ["", targets_table(self.targets)]
         return "\n".join(parts)
 
 
