@@ -1,4 +1,4 @@
-"""Rules that hold whoever is there: at a crossing for people on foot, and over the ride."""
+"""Rules at a crossing for people on foot, and to whom we gave way over the ride."""
 
 from types import SimpleNamespace
 from typing import Any

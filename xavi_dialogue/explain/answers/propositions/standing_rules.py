@@ -1,4 +1,4 @@
-"""Standing rules: who goes first at a crossing for people on foot, whoever is there."""
+"""Standing rules: who goes first at a crossing for people on foot, and to whom we gave way."""
 
 from typing import Final
 

@@ -162,9 +162,8 @@ def certain(scene: Asked, event: Event | None, *, negated: bool) -> Certainty:
         return certainty.of_choice(ride, found, foil) or certainty.of_plan(ride, found)
     if event is not None and not choices.is_choice(event):
         found = Premise(_trace_at(scene), None)
-        if event.action in SPEEDS and planned(found.trace)[:1] != (
-            "stop",
-        ):  # no option of its own: it comes of the plan
+        stops = planned(found.trace)[:1] == ("stop",)
+        if event.action in SPEEDS and not stops:  # no option of its own: it comes of the plan
             return certainty.of_plan(ride, found)
     else:
         found = _as_now(scene, event, premise(ride, subject(scene, event)))
