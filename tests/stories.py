@@ -12,8 +12,8 @@ from tests import oddities
 from tests.planted import Actions, Moment, Seen, decision, ride_of, without
 from tests.traces import Aim, Chosen, End, Way, World
 from xavi_dialogue.storage import ride_file
-from xavi_dialogue.storage.ride_file import RecordedRide
-from xavi_dialogue.transcripts.replay import BESIDE, ENDING, TRACES
+from xavi_dialogue.storage.ride_file import ENDING, RecordedRide
+from xavi_dialogue.transcripts.replay import BESIDE, TRACES
 
 FOLDER = Path(__file__).parents[1] / "transcripts" / TRACES
 NO_LEFT = NotApplicable((), "change-left", "there is no lane to the left")

@@ -198,6 +198,7 @@ def test_a_conversation_at_a_terminal(tmp_path: Path) -> None:
     screen = Screen(keyboard)
     try:
         assert screen.shows("Ask about the ride")
+        assert screen.shows("/pause")
         started = children(chat.pid)
         assert len(started) == 2
         assert screen.shows(" km/h")

@@ -248,8 +248,10 @@ def test_one_question_is_answered(text: str, status: int, reason: str | None) ->
 
 def test_a_ride_is_saved_to_be_shown(tmp_path: Path) -> None:
     file = tmp_path / "mine.ride.jsonl.gz"
-    driven = xavi("drive", "--scenario", "s2", "--duration", "2", "--save", str(file))
+    saving = ("--save", str(tmp_path / "mine"))
+    driven = xavi("drive", "--scenario", "s2", "--duration", "2", *saving)
     assert driven.exit_code == 0
+    assert str(file) in driven.stderr.replace("\n", "")
     shown = xavi("trace", "show", str(file))
     assert shown.exit_code == 0
     assert "exit-right" in shown.stdout

@@ -71,3 +71,15 @@ def test_warming_compiles_all_that_a_ride_needs(root: Path, tmp_path: Path) -> N
     assert warm
     ride = ("xavi_dialogue", "drive", "--scenario", "town", "--duration", "3")
     assert compiled(*ride) == warm
+    assert not kernel_cache.missing(tmp_path)
+
+
+def test_a_file_without_kernels_is_never_missing(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    (tmp_path / "types.py").write_text("Arc = float\n", encoding="utf-8")
+    (tmp_path / "sums.py").write_text("_jit = njit(cache=True)\n", encoding="utf-8")
+    monkeypatch.setattr(kernel_cache, "SOURCES", tmp_path)
+    assert kernel_cache.missing(tmp_path) == ("sums.py",)
+    (tmp_path / "sums.add-3.py311.nbi").touch()
+    assert kernel_cache.missing(tmp_path) == ()

@@ -14,6 +14,7 @@ from pathlib import Path
 PLACE = "NUMBA_CACHE_DIR"  # environment variable, inherited by the processes that we start
 SOURCES = Path(__file__).parents[2] / "planner" / "kernels"
 BESIDE = SOURCES / "__pycache__"
+COMPILED = "njit("  # in a file that holds kernels; others hold their types alone
 LENT = "xavi-kernels-"  # prefix of a temporary folder that is deleted with the process
 
 
@@ -38,7 +39,8 @@ def missing(folder: Path) -> tuple[str, ...]:
     return tuple(
         source.name
         for source in sorted(SOURCES.glob("[a-z]*.py"))
-        if not any(
+        if COMPILED in source.read_text(encoding="utf-8")
+        and not any(
             compiled.stat().st_mtime >= source.stat().st_mtime
             for compiled in folder.rglob(f"{source.stem}.*.nbi")
         )

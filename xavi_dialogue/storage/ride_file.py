@@ -13,6 +13,8 @@ from planner.record.trace import PlanTrace, WhatIf
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.process.exit_status import UsageFault
 
+ENDING = ".ride.jsonl.gz"
+
 
 class RideFileError(UsageFault):
     """A recorded ride that cannot be read or written."""
@@ -64,6 +66,11 @@ def dump(ride: RecordedRide) -> bytes:
     lines += [_Line(whatif=name, failure=why) for name, why in sorted(ride.failures.items())]
     text = b"".join(msgspec.json.encode(line) + b"\n" for line in lines)
     return gzip.compress(text, mtime=0)
+
+
+def named(path: Path) -> Path:
+    """Return a path with the ending of recorded rides, unless it has one of its own."""
+    return path if path.suffix else path.with_name(path.name + ENDING)
 
 
 def save(ride: RecordedRide, path: Path) -> None:

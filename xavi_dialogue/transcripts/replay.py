@@ -28,14 +28,13 @@ from xavi_dialogue.service.in_process import (
     planner_for,
 )
 from xavi_dialogue.storage import ride_file
-from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError, key
+from xavi_dialogue.storage.ride_file import ENDING, RecordedRide, RideFileError, key
 from xavi_dialogue.transcripts.runner import Played, latest, play
 from xavi_dialogue.transcripts.transcript import Transcript, TranscriptError, read, write
 from xavi_dialogue.vehicle.episode import clock, network_of, start
 
 RIDES = "rides"  # the folder of the recordings, in that of the transcripts
 TRACES = "traces"  # the folder of transcripts that are not driven
-ENDING = ".ride.jsonl.gz"
 BESIDE = "whatif-{}.json.gz"  # a plan made from a decision, by the key of the request
 
 Note = Callable[[str], None]

@@ -50,7 +50,11 @@ def _drive(shell: Streams) -> Callable[..., None]:
         vehicle: OwnVehicle = None,
         save: Annotated[
             Path | None,
-            typer.Option(help="Save the decisions, for `trace show`: FILE.ride.jsonl.gz."),
+            typer.Option(
+                metavar="FILE",
+                help="Save the decisions, for `trace show`; a name without an ending"
+                " gets .ride.jsonl.gz.",
+            ),
         ] = None,
         workers: Annotated[
             int, typer.Option(min=1, max=64, help="Worker processes for what-ifs.")
@@ -70,6 +74,7 @@ def _drive(shell: Streams) -> Callable[..., None]:
         from xavi_dialogue.bus.link import Link
         from xavi_dialogue.nlg.narration import story
         from xavi_dialogue.process.child_commands import Signals
+        from xavi_dialogue.storage.ride_file import named
         from xavi_dialogue.vehicle.bus_session import ReplanningOptions
         from xavi_dialogue.vehicle.main import DriveOptions, drive
 
@@ -79,8 +84,11 @@ def _drive(shell: Streams) -> Callable[..., None]:
             link = Link.to_hub(connect, zenoh) if connect or zenoh else None
             replanning, signals = ReplanningOptions(workers, waiting), Signals()
             name = vehicle or DEFAULT_VEHICLE
-            manner = DriveOptions(speed or 0.0, duration, link, name, control, save, replanning)
+            file = save and named(save)
+            manner = DriveOptions(speed or 0.0, duration, link, name, control, file, replanning)
             summary = drive(loaded, loaded.seed if seed is None else seed, manner, signals)
+            if file is not None:
+                shell.note(f"the decisions are in {file}")
         if not control:
             shell.write(to_json(summary) if as_json else story(summary.events))
         if signals.told:
