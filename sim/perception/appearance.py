@@ -14,6 +14,7 @@ _KINDS = {
     **dict.fromkeys(("rail", "rail_electric", "rail_fast", "subway", "cable_car"), "vehicle"),
     "ship": "vehicle",
 }
+_VANS = ("delivery", "passenger/van")
 _WALKERS = {"wheelchair": "wheelchair", "scooter": "scooter"}
 _RIGHT, _LEFT, _HAZARD, _BRAKE = 0b0001, 0b0010, 0b0100, 0b1000
 
@@ -45,12 +46,16 @@ def colour_name(red: int, green: int, blue: int) -> str:
     return min(_PALETTE, key=distance)
 
 
-def kind_of(vehicle_class: str) -> str:
+def kind_of(vehicle_class: str, shape: str = "") -> str:
     """Return what a vehicle of a SUMO class (vClass) is called: "car" unless it is plainly another.
 
-    Trains and ships are a "vehicle".
+    Trains and ships are a "vehicle", vans of class "delivery" a "truck" of less width.
+
+    Args:
+        vehicle_class: its class.
+        shape: its guiShape, which tells vans among those of other classes.
     """
-    return _KINDS.get(vehicle_class, "car")
+    return _KINDS.get(vehicle_class, "van" if shape in _VANS else "car")
 
 
 def walker_of(person_class: str) -> str:

@@ -139,7 +139,9 @@ class Perception:
             acceleration=self._call(api.getAcceleration, vehicle),
             length=self._call(api.getLength, vehicle),
             width=self._call(api.getWidth, vehicle),
-            kind=appearance.kind_of(self._call(api.getVehicleClass, vehicle)),
+            kind=appearance.kind_of(
+                self._call(api.getVehicleClass, vehicle), self._call(api.getShapeClass, vehicle)
+            ),
             colour=self._colour(vehicle),
             signals=appearance.lights(self._call(api.getSignals, vehicle)),
         )

@@ -57,6 +57,8 @@ def test_kinds() -> None:
         kind_of(x) for x in ("passenger", "taxi", "trailer", "coach", "moped", "bicycle", "tram")
     ]
     assert kinds == ["car", "car", "truck", "bus", "motorcycle", "bicycle", "tram"]
+    assert [kind_of("passenger", x) for x in ("passenger", "delivery")] == ["car", "van"]
+    assert [kind_of(x, "delivery") for x in ("custom1", "bus")] == ["van", "bus"]
     assert {kind_of(x) for x in ("rail", "ship")} == {"vehicle"}
 
 

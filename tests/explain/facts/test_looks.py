@@ -17,21 +17,23 @@ def car(x: float, y: float, turn: float = 0.0, speed: float = 0.0, **other: obje
 
 
 @pytest.mark.parametrize(
-    ("kind", "length", "seen"),
+    ("kind", "length", "width", "seen"),
     [
-        ("truck", 4.9, "truck"),
-        ("truck", 5.0, "truck"),
-        ("truck", 5.1, "van"),
-        ("truck", 7.9, "van"),
-        ("truck", 8.0, "truck"),
-        ("truck", 8.1, "truck"),
-        ("bus", 6.0, "bus"),
-        ("car", 6.0, "car"),
-        ("submarine", 6.0, "vehicle"),
+        ("truck", 4.8, 1.9, "van"),
+        ("truck", 6.5, 2.16, "van"),  # SUMO's van
+        ("truck", 8.5, 2.2, "van"),
+        ("truck", 7.1, 2.4, "truck"),  # SUMO's lorry
+        ("truck", 6.0, 2.3, "truck"),
+        ("van", 4.7, 1.9, "van"),
+        ("bus", 6.0, 2.1, "bus"),
+        ("car", 6.0, 2.1, "car"),
+        ("submarine", 6.0, 2.1, "vehicle"),
     ],
 )
-def test_what_a_passenger_sees_a_vehicle_to_be(kind: str, length: float, seen: str) -> None:
-    assert kind_of(car(0.0, 0.0, kind=kind, length=length)) == seen
+def test_what_a_passenger_sees_a_vehicle_to_be(
+    kind: str, length: float, width: float, seen: str
+) -> None:
+    assert kind_of(car(0.0, 0.0, kind=kind, length=length, width=width)) == seen
 
 
 @pytest.mark.parametrize(

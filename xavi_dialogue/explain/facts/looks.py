@@ -17,13 +17,13 @@ from xavi_dialogue.explain.history.motion import EPSILON
 _Places: TypeAlias = tuple[RoadPlace | None, RoadPlace | None]
 
 STILL = 0.3  # [m/s] below which a vehicle stands
-VAN = (5.0, 8.0)  # [m] lengths of a lorry that is called a van
+WIDE = 2.3  # [m] least width of a lorry: SUMO makes vans 2.16 m wide, lorries 2.4 m
 KINDS: dict[str, Kind] = {kind: kind for kind in get_args(Kind)}
 
 
 def kind_of(state: VehicleState) -> Kind:
-    """Tell what a passenger sees a vehicle to be: a short lorry is a van."""
-    if state.kind == "truck" and VAN[0] < state.length < VAN[1]:
+    """Tell what a passenger sees a vehicle to be: a narrow lorry is a van."""
+    if state.kind == "truck" and state.width < WIDE:
         return "van"
     return KINDS.get(state.kind, "vehicle")
 
