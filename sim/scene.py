@@ -22,7 +22,7 @@ class VehicleState:
     acceleration: float  # [m/s2] along heading
     length: float  # [m] from front to rear bumper
     width: float  # [m]
-    kind: str = "car"  # what it looks like: car, van, truck, bus, motorcycle, bicycle, tram, vehicle
+    kind: str = "car"  # look: car, van, truck, bus, motorcycle, bicycle, tram, vehicle
     colour: str | None = None  # in words, None where it cannot be known
     signals: tuple[str, ...] = ()  # lights shown: left, right, brake
 

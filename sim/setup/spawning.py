@@ -9,7 +9,7 @@ import math
 import random
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sim.roads.network import Lane, Network
 from sim.setup.routes import Departure, RoutesError, departures, number, vehicles
@@ -31,6 +31,9 @@ LENGTHS = {
     "moped": 2.1,
     "bicycle": 1.6,
 }
+#: Speeds [m/s] of types that state none: what a class can reach, and what it wishes to.
+FASTEST = {"truck": 36.1, "trailer": 36.1, "bus": 27.7, "coach": 27.7, "tram": 22.2, "moped": 16.6}
+WISHED = {"bicycle": 5.55}
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +50,8 @@ class _Kind:
 
     length: float  # [m]
     top_speed: float  # [m/s]
+    wished: float  # [m/s] most that it wishes to drive, times its factor
+    factor: float  # of the limit at which it drives on average
     braking: float  # [m/s2]
     name: str  # of its class
 
@@ -92,23 +97,32 @@ def with_spawn(root: ET.Element, spawn: Spawn, seed: int, network: Network) -> b
         kind = kinds.get(departure.kind or "", CAR)
         places[k] = _Start(places[k].lanes, front, places[k].length)
         element.set("departPos", repr(front))
+        kind = replace(kind, factor=_factor(element) or kind.factor)
         element.set("departSpeed", repr(min(speed, *_caps(kind, lanes, stop - front))))
         element.set("insertionChecks", "none")
     varied: bytes = ET.tostring(copy, encoding="utf-8", xml_declaration=True)
     return varied
 
 
-CAR = _Kind(LENGTH, math.inf, BRAKING, "passenger")
+CAR = _Kind(LENGTH, math.inf, math.inf, 1.0, BRAKING, "passenger")
 
 
 def _kind(element: ET.Element) -> _Kind:
     name = element.get("vClass", CAR.name)
     return _Kind(
         length=number(element.get("length")) or LENGTHS.get(name, LENGTH),
-        top_speed=number(element.get("maxSpeed")) or math.inf,
+        top_speed=number(element.get("maxSpeed")) or FASTEST.get(name, math.inf),
+        wished=number(element.get("desiredMaxSpeed")) or WISHED.get(name, math.inf),
+        factor=_factor(element) or 1.0,
         braking=number(element.get("decel")) or BRAKING,
         name=name,
     )
+
+
+def _factor(element: ET.Element) -> float | None:
+    """Return the mean of a speedFactor, a number or a distribution such as norm(1,0.1)."""
+    text = element.get("speedFactor", "")
+    return number(text.partition("(")[2].partition(",")[0] if "(" in text else text)
 
 
 def _start(
@@ -183,6 +197,11 @@ def _within(
 
 
 def _caps(kind: _Kind, lanes: Sequence[Lane], room: float) -> tuple[float, ...]:
-    """The speeds [m/s] not to be exceeded: of the type, of the lanes, and to stop in time."""
-    limits = (lane.limit_for(kind.name) for lane in lanes)
-    return (kind.top_speed, math.sqrt(2.0 * kind.braking * max(0.0, room)), *limits)
+    """The speeds [m/s] not to be exceeded: of the type, of the lanes, and to stop in time.
+
+    Who deviates from the factor of the type may drive faster; SUMO lets it where it has to.
+    """
+    wishes = (kind.wished, *(lane.limit_for(kind.name) for lane in lanes))
+    factor = min(1.0, kind.factor)
+    stopping = math.sqrt(2.0 * kind.braking * max(0.0, room))
+    return (kind.top_speed, stopping, *(factor * wish for wish in wishes))

@@ -3,11 +3,13 @@
 import math
 import xml.etree.ElementTree as ET
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from sim.engine import Engine
 from sim.roads.netfile import read_network
 from sim.roads.network import Network
 from sim.setup.routes import RoutesError, departures, parse
@@ -20,6 +22,7 @@ ROOT = parse(load("s1").routes)
 FAST = Spawn(10.0, (10.0, 10.0))
 WIDE = Spawn(400.0, (10.0, 10.0))
 LENGTH = S1.lanes["main_in_0"].stated_length
+LIMIT = S1.lanes["main_in_0"].speed_limit
 SEEDS = st.integers(0, 1000)
 
 
@@ -139,6 +142,32 @@ def test_speeds_are_those_of_type_and_lane() -> None:
     found = drawn(text, Spawn(10.0, (30.0, 30.0)), 1)
     assert float(found["a"]["departSpeed"]) == 4.0
     assert float(found["b"]["departSpeed"]) == S1.lanes["main_in_0"].speed_limit
+
+
+@pytest.mark.parametrize(
+    ("kind", "own", "speed"),
+    [
+        ('speedFactor="0.8" speedDev="0"', "", 0.8 * LIMIT),
+        ('speedFactor="normc(0.5,0.1,0.2,2)"', "", 0.5 * LIMIT),
+        ('speedFactor="1.3" speedDev="0"', "", LIMIT),
+        ('speedDev="0"', 'speedFactor="0.7"', 0.7 * LIMIT),
+        ('desiredMaxSpeed="8" speedFactor="0.9" speedDev="0"', "", 0.9 * 8.0),
+        ('vClass="bicycle" speedDev="0"', "", 5.55),
+        ('vClass="moped" speedDev="0"', "", LIMIT),
+        ("", "", LIMIT),
+    ],
+)
+def test_speeds_are_such_as_sumo_admits(kind: str, own: str, speed: float, tmp_path: Path) -> None:
+    starting = vehicle("a", 50.0, f'type="t" {own}')
+    root = ET.fromstring(f'<routes><vType id="t" {kind}/>{starting}</routes>')
+    file = tmp_path / "drawn.rou.xml"
+    file.write_bytes(with_spawn(root, Spawn(10.0, (30.0, 30.0)), 1, S1))
+    [start] = ET.parse(file).iter("vehicle")
+    assert float(start.get("departSpeed", "")) == pytest.approx(speed)
+    with Engine() as engine:
+        engine.start(["-n", str(load("s1").network), "-r", str(file)], file)
+        engine.call(engine.api.simulationStep)
+        assert engine.call(engine.api.vehicle.getIDList) == ("a",)
 
 
 def test_a_place_from_the_end_is_understood() -> None:
