@@ -21,6 +21,8 @@ from xavi_dialogue.storage.ride_file import RecordedRide
 Actions = tuple[Action, ...]
 Pace = Callable[[Actions], tuple[float, ...]]  # [m/s] the ego's speeds in rollouts of a plan
 
+LORRY = 2.5  # [m] how wide a lorry is
+
 
 @dataclass(frozen=True)
 class Seen:
@@ -78,7 +80,11 @@ def decision(at: Moment, what_if: WhatIf | None = None) -> PlanTrace:
         under_way=at.under_way,
     )
     rollouts = found.rollouts if at.pace is None else tuple(_driven(r, at) for r in found.rollouts)
-    scene = {v: replace(s, kind=at.seen[v].kind) for v, s in found.scene.items()}
+    kinds = {v: at.seen[v].kind for v in found.scene}
+    scene = {
+        v: replace(s, kind=kinds[v], width=LORRY if kinds[v] == "truck" else s.width)
+        for v, s in found.scene.items()
+    }
     return msgspec.structs.replace(found, scene=scene, rollouts=rollouts, what_if=what_if)
 
 
