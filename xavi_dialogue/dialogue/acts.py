@@ -11,7 +11,7 @@ from xavi_dialogue.dialogue.objections import foreseen_then
 from xavi_dialogue.dialogue.pipeline import Said, Situation, speak
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.severally import listed, severally, whys
-from xavi_dialogue.dialogue.soundness import says_something
+from xavi_dialogue.dialogue.soundness import is_told_within, says_something
 from xavi_dialogue.dialogue.state.state import Understood
 from xavi_dialogue.dialogue.state.turn import Part, Turn
 from xavi_dialogue.domain.answers import (
@@ -255,6 +255,8 @@ def _parts(understood: Understood, done: tuple[Results, ...]) -> tuple[Part, ...
         for result in results
         if says_something(result)
     )
+    told = [part.result for part in replied]
+    replied = tuple(part for part in replied if not is_told_within(part.result, told))
     lost = [
         act
         for act, results in zip(understood.acts, done, strict=True)
@@ -273,10 +275,11 @@ def _parts(understood: Understood, done: tuple[Results, ...]) -> tuple[Part, ...
         Part(understood.named if isinstance(one, NotUnderstood) else None, one)
         for one in understood.behind
     )
+    quotes = [(act, understood.quotes.get(act, "")) for act in lost[:1]]
     missed = [
-        Part(act, NotUnderstood(quote=understood.quotes.get(act, ""), rest=bool(replied)))
-        for act in lost[:1]
-        if not understood.behind
+        Part(act, NotUnderstood(quote=quote, rest=bool(replied)))
+        for act, quote in quotes
+        if not understood.behind and (quote or not replied)
     ]
     return (*owned, *before, *replied, *lacking, *missed, *after)
 

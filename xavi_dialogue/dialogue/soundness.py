@@ -3,11 +3,13 @@
 Such an answer shows that the question was read amiss, whatever its words. It is not given.
 """
 
+from collections.abc import Iterable
 from typing import Any
 
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, Declined, Identified, Refusal, Verdict
+from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import Request
 from xavi_dialogue.domain.rewriting import first, parts, rewrite
 from xavi_dialogue.domain.terms import (
@@ -38,6 +40,15 @@ def says_something(result: Answer | Refusal) -> bool:
         case Declined(already=True, request=Request(event=Event(action="do" | "happen"))):
             return False
     return True
+
+
+def is_told_within(result: Answer | Refusal, others: Iterable[Answer | Refusal]) -> bool:
+    """Tell whether another answer of the reply says what is all that a yes rests on."""
+    if not (isinstance(result, Verdict) and result.holds and len(result.facts) == 1):
+        return False
+    fact = result.facts[0]
+    told = (other for other in others if not isinstance(other, Verdict))
+    return isinstance(fact, Episode) and any(fact in parts(one, Episode) for one in told)
 
 
 def _is_open(that: Proposition) -> bool:

@@ -4,7 +4,7 @@ import pytest
 from msgspec.structs import replace
 
 from tests.dialogue.state.test_chain import BELIEF, BRAKED, CONTRAST, LEADER, TURNED, turn
-from xavi_dialogue.dialogue.soundness import says_something
+from xavi_dialogue.dialogue.soundness import is_told_within, says_something
 from xavi_dialogue.dialogue.state.discourse import after, discourse_of
 from xavi_dialogue.domain.answers import (
     Activity,
@@ -24,13 +24,14 @@ from xavi_dialogue.domain.answers import (
     PeakMoment,
     PlanAhead,
     Priority,
+    PullingUp,
     Sociable,
     SupposedOfOther,
     SupposedOfUs,
     Verdict,
 )
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct, Span
-from xavi_dialogue.domain.facts import Look, Measure
+from xavi_dialogue.domain.facts import Episode, Look, Measure
 from xavi_dialogue.domain.meaning import Ask, Claim, Request, Social, Whether, Why
 from xavi_dialogue.domain.terms import (
     At,
@@ -225,3 +226,14 @@ def test_nobody_and_already_say_something_only_of_something() -> None:
         request = Request(Event(action, Ego()))  # type: ignore[arg-type]
         assert says_something(Declined(request, already=True)) is says
         assert says_something(Declined(request))
+
+
+def test_a_yes_is_told_by_an_answer_that_rests_on_the_same_episode() -> None:
+    braking = Episode(Vehicle(1), "brake", 4.0, None)
+    yes = Verdict(Happens(Event("brake", Vehicle(1))), True, (braking,))
+    pulling_up = PullingUp(1, "brakes", braking=braking)
+    assert is_told_within(yes, (yes, pulling_up))
+    assert not is_told_within(yes, (yes,))
+    assert not is_told_within(yes, (replace(pulling_up, braking=None),))
+    assert not is_told_within(replace(yes, holds=False), (pulling_up,))
+    assert not is_told_within(pulling_up, (pulling_up,))

@@ -27,6 +27,7 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.domain.terms import (
     At,
     Between,
+    Compares,
     Described,
     Ego,
     Event,
@@ -36,6 +37,7 @@ from xavi_dialogue.domain.terms import (
     Junction,
     Measured,
     Pronoun,
+    Quantity,
     Relative,
     Unsaid,
     Vehicle,
@@ -70,7 +72,10 @@ def repaired(spoken: Repair, discourse: Discourse) -> Act:
          Ask(HowMuch(Measured("speed", Vehicle(2))))),
         (Repair("pick", pick=2), replace(OPEN, offered=(), pending=None), None),
         (Repair("pick", pick=2), replace(OPEN, offered=(), pending=WHY), WHY),
-        # With nothing offered a number is a vehicle.
+        # With nothing offered a number is a vehicle, or a speed where a speed was asked for.
+        (Repair("pick", pick=90), talk(question=HowMuch(Measured("speed", Vehicle(1)))),
+         Ask(Whether(Compares(Measured("speed", Vehicle(1)), "same", Quantity(25.0, "m/s"))))),
+        (Repair("pick", pick=90), talk(question=Identify(Vehicle(1))), Ask(Identify(Vehicle(90)))),
         (Repair("pick", pick=2), talk(question=Identify(Vehicle(1))), Ask(Identify(Vehicle(2)))),
         (Repair("pick", pick=-1), talk(question=Identify(Vehicle(1))), None),
         (Repair("yes"), talk(offered=SPEEDS[:1]), SPEEDS[0]),

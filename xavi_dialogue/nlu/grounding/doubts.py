@@ -30,7 +30,7 @@ _PREPOSITIONS: Final = frozenset(
     ("with", "like", "for", "at", "in", "on", "by", "of", "from", "as", "about", "because",
      "despite", "during", "after", "before", "near", "under", "over", "through"),
 )  # fmt: skip
-_SMALL: Final = _SUBJECTS | _AUXILIARIES | _DETERMINERS | _PREPOSITIONS
+SMALL: Final = _SUBJECTS | _AUXILIARIES | _DETERMINERS | _PREPOSITIONS
 _ASIDE: Final = frozenset(("politeness", "hedge", "address"))
 #: How `TokenShare.part` begins for words that can be the predicate of a clause, and for nouns.
 PREDICATES: Final = ("event", "action", "verb", "state", "relation", "attribute", "predicate",
@@ -63,7 +63,7 @@ def judge(reading: Reading) -> Doubts:
     if reading.acts and (strange := _in_asides(reading)):
         left[len(reading.acts) - 1] = strange
     for share in kept:
-        small = not share.strange and share.read in _SMALL
+        small = not share.strange and share.read in SMALL
         if share.share == "unknown" and share.act is not None and not small:
             clause = [s for s in kept if s.act in (None, share.act)]
             index = next(i for i, other in enumerate(clause) if other is share)

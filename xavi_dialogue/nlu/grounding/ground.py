@@ -247,7 +247,7 @@ def _told(best: Trial) -> tuple[list[Part], Failure | None]:
     if (asking or unread) and not answered and not misdescribed:
         told = [part for part in told if not isinstance(part.complete, Claim | Social)]
     if told and isinstance(refusal, NotUnderstood):
-        refusal = replace(refusal, rest=True)
+        refusal = replace(refusal, rest=True) if refusal.quote or refusal.words else None
     return told, refusal
 
 

@@ -7,24 +7,42 @@ from typing import Any
 
 from msgspec import structs
 
-from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Whether, Which
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Claim,
+    Doing,
+    Elliptic,
+    HowMuch,
+    Question,
+    Repair,
+    Whether,
+    Which,
+)
 from xavi_dialogue.domain.rewriting import substitute
 from xavi_dialogue.domain.terms import (
+    Compares,
     Described,
     Ego,
     Feature,
     Happens,
+    Measured,
     Pronoun,
+    Quantity,
     Thing,
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.clauses.sem import as_speed
 
+BRISK = 20  # [km/h] from which on "what is it doing, 90?" puts a speed forward
 _FORMS = frozenset({"it", "he", "she", "that", "this", "one"})
 
 
 def apposed(act: Act, later: Act) -> Act | None:
     """Put what is named behind a question into it; None where it does not belong there."""
+    if isinstance(later, Repair) and later.pick is not None:
+        return guessed(act.question, later.pick) if isinstance(act, Ask) else None
     if not isinstance(act, Ask | Claim) or not isinstance(later, Elliptic):
         return None
     thing = later.thing
@@ -45,6 +63,23 @@ def apposed(act: Act, later: Act) -> Act | None:
     if vague is None or _elsewhere(vague, thing):
         return None
     return substitute(act, vague, _merged(vague, thing))
+
+
+def guessed(asked: Question | None, number: int) -> Ask | None:
+    """Put a mere number behind a question about a speed forward as that speed in km/h."""
+    match asked:
+        case HowMuch(of=Measured(attribute="speed" | "limit") as of):
+            return Ask(Whether(Compares(of, "same", _pace(number))))
+        case Whether(that=Compares(left=Measured(attribute="speed" | "limit"))):
+            return Ask(Whether(structs.replace(asked.that, right=_pace(number))))
+        case Doing(actor=thing, tense="present") if thing is not None and number >= BRISK:
+            of = Measured("speed", thing, time=asked.time)
+            return Ask(Whether(Compares(of, "same", _pace(number))))
+    return None
+
+
+def _pace(number: int) -> Quantity:
+    return as_speed(Quantity(float(number), "count"))
 
 
 def _elsewhere(vague: Pronoun | Described, thing: Described | Vehicle) -> bool:

@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace as with_fields
 
-from xavi_dialogue.domain.answers import Bound, Course
+from xavi_dialogue.domain.answers import Bound, Course, Verdict
 from xavi_dialogue.domain.facts import Episode, Fact, Measure
 from xavi_dialogue.domain.terms import Ego, Event, Happens, Now, Unsaid, Vehicle, WholeRide
 from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
@@ -188,11 +188,9 @@ def _to_come(asked: Asked, event: Event) -> Finding:
     if naming.is_us(event.actor):
         if asked.ride.arrived or asked.ride.ended:
             return Finding(False, going)
-        other = other_exit(asked, event)
-        if other is not None:
+        if (other := other_exit(asked, event)) is not None:
             return Finding(False, (other,))
-        nearing = nears(asked, event)
-        if nearing is not None:
+        if (nearing := nears(asked, event)) is not None:
             return nearing
         if slows := slowing(asked, event):
             return Finding(None, answer=slows)
@@ -202,8 +200,9 @@ def _to_come(asked: Asked, event: Event) -> Finding:
             moves = [foreseen(asked, Event(a)) for a in ("change-left", "change-right")]
             remains = 1.0 - max((f.share for f in moves if f is not None), default=0.0)
             return expected(remains, *going)
-        if found is None:
-            return Finding(False, going, probability=0.0)
+        if found is None:  # what goes on need not begin
+            on = Verdict(Happens(with_fields(present, time=Unsaid())), True, going)
+            return Finding(bool(going), going, answer=on if going else None, probability=0.0)
         if going and event.action in CHANGES:
             return Finding(True, going)
         begins = Measure(
@@ -216,8 +215,7 @@ def _to_come(asked: Asked, event: Event) -> Finding:
     if going and event.action == "cross":
         return Finding(True, going)
     look = naming.look_of(asked, event.actor, now)
-    by_sight = settled(asked, event, going)
-    if by_sight is not None:
+    if (by_sight := settled(asked, event, going)) is not None:
         return by_sight
     belief = asked.world.belief(vehicle, now)
     share = chance(asked, event, now)

@@ -11,6 +11,7 @@ from xavi_dialogue.nlu.grounding.completion.replacing import with_thing
 from xavi_dialogue.nlu.grounding.context import Grounder
 from xavi_dialogue.nlu.grounding.things.looks import bearing_cost, colour_cost, kind_cost, size_cost
 from xavi_dialogue.nlu.grounding.things.match import MISS
+from xavi_dialogue.nlu.joining.apposition import guessed
 
 
 def complete(spoken: Repair, g: Grounder) -> Act:
@@ -46,6 +47,10 @@ def _picked(spoken: Repair, g: Grounder) -> Act | None:
         if found is not None:
             return found
     if spoken.pick is not None and not (discourse.offered or discourse.offered_things):
+        if spoken.pick not in g.context.world.vehicles:
+            guess = guessed(under_discussion(g), spoken.pick)  # "110?"
+            if guess is not None:
+                return guess
         return ellipsis_of(Elliptic(Vehicle(spoken.pick)), g) if spoken.pick > 0 else None
     if spoken.pick is not None:
         return _number(spoken.pick, g)
