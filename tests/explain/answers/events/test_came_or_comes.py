@@ -6,7 +6,7 @@ import pytest
 
 from planner.record.events import Event as Told
 from tests.explain.answers.stated import belief, did, look, result, scene, they
-from xavi_dialogue.domain.answers import Bound, NoSuchVehicle
+from xavi_dialogue.domain.answers import Bound, NoSuchVehicle, Verdict
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.terms import (
@@ -146,7 +146,17 @@ def begins(found: Expected) -> Measure:
     [
         (Event("stop"), {"stop": LATER}, None, Finding(True, (begins(LATER),), probability=0.8)),
         (Event("stop"), {}, None, Finding(False, probability=0.0)),
-        (Event("stop"), {}, "stop", Finding(False, (did("stop", 19.0),), probability=0.0)),
+        (
+            Event("stop"),
+            {},
+            "stop",
+            Finding(
+                True,
+                (did("stop", 19.0),),
+                probability=0.0,
+                answer=Verdict(Happens(Event("stop", tense="present")), True, (did("stop", 19.0),)),
+            ),
+        ),
         (
             Event("stop"),
             {"stop": LATER},
@@ -263,3 +273,10 @@ def test_who_passes_or_stays_is_told_by_what_is_seen(told: Plans) -> None:
     stays = weighed(Event("wait", IT, tense="future"), episodes=(yields,))
     assert (stays.holds, stays.facts) == (True, (yields,))
     assert weighed(Event("turn", Everyone(), tense="future")).gap == "hidden"
+
+
+def test_what_goes_on_is_not_denied_for_what_is_to_come() -> None:
+    standing = did("stop", 18.0)
+    found = weighed(Event("stand", tense="future"), episodes=(standing,))
+    assert (found.holds, found.facts) == (True, (standing,))
+    assert weighed(Event("stand", tense="future")).holds is False
