@@ -19,6 +19,8 @@ from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 
 E, V = Ego(), Vehicle(1)
 FAR = Measure("distance", E, NOW, 14.0, to=V)
+THEN = Measure("distance", E, 12.0, 14.0, to=V)
+NEAREST = Measure("distance", E, 7.0, 1.5, to=V)
 SPEED = Measure("speed", E, NOW, 9.0)
 BRAKES = Episode(V, "brake", 17.0, speed_from=13.0, speed_to=8.0)
 OURS = Episode(E, "brake", 17.0, speed_from=13.0, speed_to=9.0)
@@ -102,4 +104,8 @@ CASES: tuple[Answer, ...] = (
     Bound(V, replace(ON, time=5.0), unconsidered=TURNS),
     Bound(V, ON, unconsidered=TURN),
     Closeness(None, None, risk=0.008, asked="safe", past=False, giving=(2,)),
+    Closeness(1, THEN, risk=0.008, asked="dangerous", ever=NEAREST),
+    Closeness(1, THEN, risk=0.008, asked="safe", braked=(replace(BRAKES, peak=4.5),)),
+    Closeness(1, THEN, asked="dangerous", braked=(replace(OURS, peak=6.0),)),
+    Closeness(1, THEN, asked="dangerous", braked=(replace(OURS, peak=6.0, object=V),)),
 )

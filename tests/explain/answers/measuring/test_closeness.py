@@ -32,16 +32,16 @@ def close(vehicle: int | None, about: Window, how: Any = "close", **more: Any) -
 def test_the_smallest_distance_of_a_stretch() -> None:
     found = close(1, Window(1.0, 9.0))
     assert (found.vehicle, found.closest.value, found.closest.time) == (1, 2.0, 4.0)
-    assert (found.asked, found.time, found.past, found.overall) == ("close", 9.0, True, True)
+    assert (found.asked, found.time, found.past, found.ever) == ("close", 9.0, True, None)
     found = close(1, Window(12.0, 18.0))
-    assert (found.closest.value, found.closest.time, found.overall) == (3.0, 16.0, False)
+    assert (found.closest.value, found.closest.time, found.ever.time) == (3.0, 16.0, 4.0)
 
 
 def test_half_a_metre_makes_no_difference() -> None:
     for nearer, overall in ((3.5, True), (3.4, False)):
         values = {("distance", 0, 1): lambda t, d=nearer: d if t == 4.0 else 4.0}
         asked = scene(values=values, looks=LOOKS)
-        assert closeness(asked, 1, Window(12.0, 18.0), "safe").overall is overall
+        assert (closeness(asked, 1, Window(12.0, 18.0), "safe").ever is None) is overall
 
 
 def test_a_moment_is_not_taken_exactly() -> None:
@@ -54,7 +54,7 @@ def test_a_moment_is_not_taken_exactly() -> None:
 def test_of_now_the_distance_is_that_of_now() -> None:
     found = close(1, Window(2.0, 9.0), past=False)
     assert (found.closest.value, found.closest.time) == (7.0, 20.0)
-    assert (found.past, found.overall) == (False, False)
+    assert (found.past, found.ever.value) == (False, 2.0)
 
 
 def test_where_nobody_is_named_it_is_whoever_came_nearest() -> None:
@@ -98,7 +98,7 @@ def test_ten_seconds_are_short() -> None:
         assert (shortest_time(asked, 1, Window(2.0, 9.0)) is not None) is short
 
 
-def test_the_risk_is_that_of_the_plan_at_that_time() -> None:
+def test_the_risk_is_the_highest_of_the_plans_of_that_time() -> None:
     aims = {1: (aim("exit-left", 0.3), aim("continue", 0.7)), 2: (aim("continue", 1.0),)}
 
     def crash(chosen: Any) -> Any:
@@ -110,7 +110,8 @@ def test_the_risk_is_that_of_the_plan_at_that_time() -> None:
         (1, Window(6.0, 19.0), True, 0.3),
         (None, Window(6.0, 19.0), True, 0.3),
         (2, Window(6.0, 19.0), True, 0.0),
-        (1, Window(3.0, 19.0), True, 0.0),
+        (1, Window(3.0, 19.0), True, 0.3),
+        (1, Window(3.0, 4.0), True, 0.0),
         (1, Window(6.0, 19.0), False, 0.0),
     ):
         found = closeness(asked, vehicle, about, "safe", past=past)

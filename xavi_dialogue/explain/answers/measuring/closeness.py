@@ -10,11 +10,12 @@ from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.findings import Assurance
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.explain.answers.expectations.foreseen import collision_chance, simulated
+from xavi_dialogue.explain.answers.measuring.hard_braking import braked_hard
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window
 from xavi_dialogue.explain.answers.ride.priority import rule_between
 from xavi_dialogue.explain.facts.episodes.waiting import top_holders
-from xavi_dialogue.explain.history.thresholds import STANDING
+from xavi_dialogue.explain.history.thresholds import NEAR, STANDING
 
 How = Literal["safe", "dangerous", "close", "hit", "room", "grounds"]
 #: Who has to let the other one go first by a rule.
@@ -23,6 +24,7 @@ FADING = 0.3  # [m/s] by which what lies further back counts as further away
 NEARER = 0.5  # [m] by which a vehicle was nearer at another time
 ON_FOOT = 30.0  # [m] within which people on foot in front of us matter
 URGENT = 10.0  # [s] beyond which a time to collision says nothing
+TIGHT = 1.5  # [s] of time to a collision from which on it was tight
 
 
 def closeness(
@@ -40,21 +42,54 @@ def closeness(
     near = about.widened() if about.instant else about
     seen = near if past else Window(asked.now, asked.now)  # a present tense speaks of now
     fading = 0.0 if seen.said else FADING
-    risk = collision_chance(asked, about.begin if past else asked.now, vehicle)
+    risk = _risk(asked, about, vehicle) if past else collision_chance(asked, asked.now, vehicle)
     if not past and vehicle is None and how in ("safe", "dangerous") and risk is not None:
         first = _let_first(asked)  # who is nearest may have nothing to do with it
         walker = None if first else _on_foot(asked)
         far = None if walker is None else closest_approach(asked, walker, seen)
         return Closeness(walker, far, None, risk, how, about.end, past, giving=first)
-    who = nearest_vehicle(asked, seen, fading) if vehicle is None else vehicle
+    judged = past and how in ("safe", "dangerous")
+    tight = _tightest(asked, seen) if judged and vehicle is None else None
+    who = vehicle or tight or nearest_vehicle(asked, seen, fading)
     if who is None:
         return Closeness(None, None, None, risk, how, about.end, past)
     closest = closest_approach(asked, who, seen)
-    ever = closest_approach(asked, who, Window(asked.world.begin, asked.now))
-    least, then = ever.value or 0.0, closest.value
-    nearer = then is not None and least < then - NEARER
     soon = shortest_time(asked, who, near)
-    return Closeness(who, closest, soon, risk, how, about.end, past, overall=not nearer)
+    found = Closeness(who, closest, soon, risk, how, about.end, past, ever=_nearer(asked, closest, who, vehicle))
+    return replace(found, braked=braked_hard(asked, vehicle, seen) if judged else ())
+
+
+def with_somebody(asked: Asked, about: Window) -> Window:
+    """Give the stretch that is meant by "that" where somebody came near us: it, else the ride."""
+    near = about.widened()
+    who = nearest_vehicle(asked, near)
+    least = None if who is None else closest_approach(asked, who, near).value
+    return near if least is not None and least <= NEAR else Window(asked.world.begin, asked.now)
+
+
+def _nearer(asked: Asked, then: Measure, who: int, vehicle: int | None) -> Measure | None:
+    """Give the closest approach so far, of the same vehicle or, where none is named, of another."""
+    ride = Window(asked.world.begin, asked.now)
+    apart = vehicle is None and then.value is not None and then.value > NEAR
+    other = nearest_vehicle(asked, ride) if apart else None
+    ever = closest_approach(asked, who if other is None else other, ride)
+    least = ever.value or 0.0
+    return ever if then.value is not None and least < then.value - NEARER else None
+
+
+def _risk(asked: Asked, about: Window, vehicle: int | None) -> float | None:
+    """Give the highest risk of a collision that the decisions in a stretch of the ride foresaw."""
+    inside = [t.sim_time for t in asked.ride.traces if about.begin < t.sim_time <= about.end]
+    found = (collision_chance(asked, at, vehicle) for at in (about.begin, *inside))
+    return max((risk for risk in found if risk is not None), default=None)
+
+
+def _tightest(asked: Asked, about: Window) -> int | None:
+    """Name whom we could have hit soonest in a stretch of the ride, where that was very soon."""
+    times = ((v, shortest_time(asked, v, about)) for v in asked.world.vehicles)
+    short = [(m.value, v) for v, m in times if m is not None and m.value is not None]
+    least, who = min(short, default=(URGENT, None))
+    return who if least < TIGHT else None
 
 
 def assured(asked: Asked, vehicle: int | None) -> Closeness:

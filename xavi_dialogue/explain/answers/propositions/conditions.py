@@ -25,7 +25,7 @@ from xavi_dialogue.domain.vocabulary import ActionName, State
 from xavi_dialogue.explain.answers import causal
 from xavi_dialogue.explain.answers.events.stages import actor, late, over, still, stuck
 from xavi_dialogue.explain.answers.expectations.foreseen import macros
-from xavi_dialogue.explain.answers.measuring.closeness import How, closeness
+from xavi_dialogue.explain.answers.measuring.closeness import How, closeness, with_somebody
 from xavi_dialogue.explain.answers.measuring.limits import fast, within_limit
 from xavi_dialogue.explain.answers.propositions.duties import blamed
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -122,6 +122,8 @@ def _safe(of: Is, asked: Asked) -> Finding:
     if other is None and of.event is not None:
         other = number(of.event.actor) or number(of.event.object)
     about = _about(of, asked) if past else Window(asked.now, asked.now)
+    if past and other is None and of.event is None and not about.said:
+        about = with_somebody(asked, about)
     return Finding(None, answer=closeness(asked, other, about, how, past=past))
 
 
@@ -263,6 +265,8 @@ def _close(of: Is, asked: Asked) -> Finding:
     if past:
         if vehicle is not None and asked.now - about.end <= LATELY and not _is_told(asked):
             about = Window(about.begin, asked.now)  # what came nearest may be just over
+        if vehicle is None and of.event is None and not about.said:
+            about = with_somebody(asked, about)
         return Finding(None, answer=closeness(asked, vehicle, about, "close"))
     if vehicle is None:
         return Finding(None, answer=closeness(asked, None, about, "close", past=False))

@@ -9,6 +9,8 @@ from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.measuring.closeness import closeness
+from xavi_dialogue.explain.answers.measuring.hard_braking import braked_hard
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, known
 from xavi_dialogue.explain.answers.reference.moments import Window, is_ahead, is_past, window
@@ -35,7 +37,11 @@ CHANGING: tuple[ActionName, ...] = ("change-left", "change-right", "change-lane"
 
 def conduct(asked: Asked, event: Event) -> Finding | None:
     """Weigh what positions and speeds show of an event; None where they add nothing."""
-    if event.modal is not None or is_ahead(asked, event.time, event.tense):
+    if is_ahead(asked, event.time, event.tense):
+        return None
+    if (found := _for_us(asked, event)) is not None:
+        return found
+    if event.modal is not None:
         return None
     vehicle, other = number(event.actor), number(event.object)
     into = event.action in ("cut-in", "pull-out") and is_us(event.actor)
@@ -59,6 +65,17 @@ def conduct(asked: Asked, event: Event) -> Finding | None:
     if event.action in HALTING:
         return _halting(asked, event, vehicle)
     return None
+
+
+def _for_us(asked: Asked, event: Event) -> Finding | None:
+    """Tell how close it came where somebody braked hard near us: for whom, no record tells."""
+    nobody_named = number(event.actor) is None and not is_us(event.actor)
+    if not nobody_named or event.action not in HALTING or not is_us(event.object):
+        return None
+    about = window(asked, event.time, event.tense)
+    if all(is_us(e.actor) for e in braked_hard(asked, None, about)):
+        return None
+    return Finding(None, answer=closeness(asked, None, about, "dangerous"))
 
 
 def _cutting_in(asked: Asked, event: Event, behind: int) -> Finding | None:

@@ -3,7 +3,7 @@
 import msgspec
 
 from xavi_dialogue.domain.answers import Closeness, Comfort, Priority
-from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.terms import Ego, Vehicle, Vehicles
 from xavi_dialogue.nlg.content.clauses.agreement import verbs
 from xavi_dialogue.nlg.content.clauses.facts import episode_message
@@ -23,6 +23,7 @@ MANY = 3  # vehicles from which they are not named one by one
 _COUNTS = {3: "three", 4: "four", 5: "five", 6: "six", 7: "seven", 8: "eight"}
 #: Who has right of way stands, and leaves it to us.
 STOOD = ("it-stands", "we-first-stood")
+FLAT = ("no", "yes, it was safe")  # which hard braking forbids
 RISKY = 0.05  # risk of a collision from which it is called one
 FAR = 40.0  # [m] from which nobody came close
 
@@ -142,18 +143,23 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
     if closest is not None and (closest.value or 0.0) > FAR and judged and answer.past:
         vehicle = None  # the nearest vehicle had nothing to do with us
     at = closest.time if closest is not None and answer.past else None
+    lead = _lead(answer)
     first = message(
         "CLOSENESS",
-        lead=None if answer.foreseen else _lead(answer),
+        lead=None if answer.foreseen or (answer.braked and lead in FLAT) else lead,
         who=Who(Vehicle(vehicle), at) if vehicle is not None else None,
         closest=Quantity(closest.value, "m") if closest and closest.value is not None else None,
         past=answer.past,
         giving=these(answer.giving),
         foreseen=answer.foreseen,
-        then=not answer.overall,
+        then=answer.ever is not None,
         peak_at=Moment(closest.time) if closest is not None and answer.past else None,
     )
     details: list[Message] = []
+    if answer.ever is not None and answer.past and isinstance(answer.ever.to, Vehicle):
+        details.append(message("EVER", who=Who(answer.ever.to, answer.ever.time),
+                               closest=Quantity(answer.ever.value or 0.0, "m"),
+                               peak_at=Moment(answer.ever.time)))  # fmt: skip
     alone = closest is None and not answer.giving
     if answer.risk is not None and (alone or (answer.asked == "hit" and not answer.past)):
         risk = message("CLOSENESS", lead=_lead(answer), risk=Chance(answer.risk), past=answer.past)
@@ -161,9 +167,22 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
     left = answer.ttc.value if answer.ttc is not None else None
     if judged and left is not None and left <= URGENT:
         details.append(message("TIME_LEFT", ttc=Quantity(left, "s")))
-    elif judged and answer.risk is not None and (vehicle is not None or answer.giving):
+    details += [_braked(one) for one in answer.braked]
+    if judged and not (left is not None and left <= URGENT) and answer.risk is not None and (vehicle is not None or answer.giving):
         details.append(message("RISK", risk=Chance(answer.risk), past=answer.past))
     return Plan((first,), tuple(details))
+
+
+def _braked(hard: Episode) -> Message:
+    """Make the message of a hard braking, ours or of one who had right of way over us."""
+    who = hard.object if isinstance(hard.actor, Ego) else hard.actor
+    return message(
+        "BRAKED_HARD",
+        ours=isinstance(hard.actor, Ego),
+        who=Who(who, hard.begin) if isinstance(who, Vehicle) else None,
+        value=Quantity(hard.peak or 0.0, "m/s2"),
+        peak_at=Moment(hard.begin),
+    )
 
 
 def _lead(answer: Closeness) -> str | None:

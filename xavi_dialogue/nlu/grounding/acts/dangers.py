@@ -15,14 +15,18 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Relative,
+    Unknown,
     Unsaid,
     Vehicle,
     WholeRide,
 )
+from xavi_dialogue.nlu.grounding.completion.discussion import events
 from xavi_dialogue.nlu.grounding.context import Grounder
 from xavi_dialogue.nlu.grounding.salience import FRESH, vehicles_of
 
 STATES: Final = frozenset(("dangerous", "safe"))
+PERILS: Final = STATES | {"close"}
+RIDES: Final = ("ride", "trip", "journey", "drive")
 SPOKEN: Final = 0.85  # salience from which a vehicle is the one that the turn before was about
 LATELY: Final = 8.0  # [s] since that turn
 NEAR: Final = 12.0  # [m] up to which it may have been a danger
@@ -34,7 +38,13 @@ def threatened(spoken: Is, g: Grounder) -> Is:
 
     "Were we in danger when he came past?", "It shot across. Were we in danger just then?"
     """
-    if spoken.state not in STATES or spoken.event is not None or not _of_us(spoken, g):
+    if spoken.state not in STATES or spoken.event is not None:
+        return spoken
+    if spoken.thing == Described(definite=False):
+        return replace(spoken, thing=None)  # "was anything dangerous?"
+    if isinstance(spoken.thing, Unknown) and spoken.thing.words in RIDES:
+        return replace(spoken, thing=None, time=WholeRide())
+    if not _of_us(spoken, g):
         return spoken
     option = g.context.discourse.option
     if option is not None and spoken.tense == "present" and not isinstance(spoken.thing, Ego):
@@ -62,17 +72,27 @@ def _of_us(spoken: Is, g: Grounder) -> bool:
 
 def spoken_of(g: Grounder) -> Vehicle | None:
     """Find the vehicle of the same breath, or that of the turn before which came near us."""
-    context, discourse = g.context, g.context.discourse
-    found = vehicles_of(discourse.mentions)
+    context = g.context
+    found = vehicles_of(context.discourse.mentions)
     if not found:
         return None
     vehicle, salience = found[0]
     if salience >= FRESH:
         return Vehicle(vehicle)
-    recent = discourse.asked_at is not None and context.now - discourse.asked_at <= LATELY
+    recent = _is_recent(g)
     look = context.look(vehicle, context.now)
     near = look is not None and look.distance <= NEAR
     return Vehicle(vehicle) if recent and near and salience >= SPOKEN * 0.6 else None
+
+
+def fresh_event(g: Grounder) -> Event | None:
+    """Give the event that the turn before was about; None where that is too long ago for "that"."""
+    return next(events(g.context.discourse), None) if _is_recent(g) else None
+
+
+def _is_recent(g: Grounder) -> bool:
+    asked = g.context.discourse.asked_at
+    return asked is not None and g.context.now - asked <= LATELY
 
 
 def is_of_undone(spoken: Is, g: Grounder) -> bool:

@@ -42,7 +42,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.nlu.grounding.acts.afoot import walked
-from xavi_dialogue.nlu.grounding.acts.dangers import is_of_undone, threatened
+from xavi_dialogue.nlu.grounding.acts.dangers import PERILS, fresh_event, is_of_undone, threatened
 from xavi_dialogue.nlu.grounding.acts.generic import come_along, in_order
 from xavi_dialogue.nlu.grounding.acts.hiding import behind_hider, past_hider, somebody_behind
 from xavi_dialogue.nlu.grounding.acts.measuring import just_named, measured, of_ride, spoken_of
@@ -285,7 +285,9 @@ def _of_event(spoken: Is, g: Grounder) -> Is:
         return replace(spoken, thing=Vehicle(near))  # "that's tight, isn't it?"
     if isinstance(spoken.time, WholeRide) or is_of_undone(spoken, g):
         return replace(spoken, thing=None)  # "would you do anything differently?"
-    if spoken.state in _ONLY_EVENTS or spoken.tense == "past":
+    if spoken.state in PERILS and spoken.tense == "past":
+        known = fresh_event(g)
+    elif spoken.state in _ONLY_EVENTS or spoken.tense == "past":
         known = discussed(g.context)
     else:
         known = next(events(g.context.discourse), None)
