@@ -401,7 +401,7 @@ REFUSALS: tuple[Refusal, ...] = (
     *(
         CannotSay(topic)
         for topic in ("off-topic", "injection", "non-english", "capability", "perception", "advice",
-                      "opinion", "unsupported-condition", "abuse", "deeper", "else")
+                      "opinion", "unsupported-condition", "imagined", "abuse", "deeper", "else")
     ),
     CannotSay("capability", "honk", "not-an-action"),
     Unavailable("planner-unavailable"),

@@ -35,6 +35,7 @@ from xavi_dialogue.domain.terms import (
     Everyone,
     Happens,
     Is,
+    Measured,
     Not,
     Proposition,
     Related,
@@ -46,7 +47,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.explain.answers import owing
 from xavi_dialogue.explain.answers.abandoned_plans import wavered
-from xavi_dialogue.explain.answers.measuring.durations import stands
+from xavi_dialogue.explain.answers.measuring.durations import compared_costs, stands
 from xavi_dialogue.explain.answers.propositions import reasons, standing_rules
 from xavi_dialogue.explain.answers.reasons import choices, knowing, suspects
 from xavi_dialogue.explain.answers.reasons.provoked import because_of_us
@@ -107,6 +108,8 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
             return wavered
         case Which(such=Happens(Event("collide", Ego(), Wanted(), tense="present"))):
             return risks.who
+        case Which(such=Compares(Measured("delay", Wanted()))) if _names_several(question):
+            return compared_costs
         case Which(thing, such) if _holds_us_up(such) and _over_the_ride(thing, such):
             return _who_held_up
         case Which(Wanted() | Vehicles(), such) if _holds_us_up(such):
@@ -126,6 +129,11 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
         case Listing(of) if of in REASONS:
             return _reasons
     return QUESTIONS.get(type(question))
+
+
+def _names_several(question: Which) -> bool:
+    """Check whether it is asked of several that are named."""
+    return len({n for of in (question.thing, *question.among) for n in numbers_in(of)}) > 1
 
 
 def _holds_us_up(such: Proposition | None) -> bool:

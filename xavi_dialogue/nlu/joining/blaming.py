@@ -15,6 +15,7 @@ from xavi_dialogue.domain.meaning import (
     Claim,
     Doing,
     Elliptic,
+    HowMuch,
     Identify,
     Repair,
     Request,
@@ -24,6 +25,7 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.terms import (
     Both,
+    Compares,
     Described,
     Ego,
     Event,
@@ -31,6 +33,7 @@ from xavi_dialogue.domain.terms import (
     Has,
     Is,
     Lane,
+    Measured,
     Not,
     Pronoun,
     Proposition,
@@ -50,6 +53,8 @@ def asked_with(first: Act, later: Act) -> Act | None:
     """Make one question for a reason of two acts; None where they are no such question."""
     if isinstance(first, Ask) and isinstance(first.question, Why):
         return _blamed(first.question, later)
+    if (cost := _cost_of(first, later)) is not None:
+        return cost
     question = later.question if isinstance(later, Ask) else None
     bare = isinstance(first, Elliptic) and question == Why(That())
     if (bare or _wonders(question)) and (of := _told(first)) is not None:
@@ -62,6 +67,17 @@ def asked_with(first: Act, later: Act) -> Act | None:
             if action in HELD:
                 return Ask(Why(of, suspect=who))  # "we have stopped. Is it the red one?"
     return _not_done(first, question)
+
+
+def _cost_of(first: Act, later: Act) -> Act | None:
+    """Ask "how much time did we lose because of him?" of what he cost us."""
+    match first, later:
+        case (
+            Ask(HowMuch(Measured("delay", Ego(), event=None) as of) as question),
+            Ask(Why(That() | Compares(Measured("delay")), suspect=who)),
+        ) if who is not None:
+            return Ask(structs.replace(question, of=structs.replace(of, thing=who)))
+    return None
 
 
 def _wonders(question: object) -> bool:

@@ -142,14 +142,23 @@ def test_the_delay_for_somebody_is_that_of_what_we_did_for_them() -> None:
     of = Measured("delay", ONE)
     assert values(told(of, episodes=held, delays={"give-way": 2.0, "stop": 6.0})) == [2.0]
     missing = told(Measured("delay", TWO), episodes=held, delays={"give-way": 2.0, "stop": 6.0})
-    assert isinstance(missing, DidNotHappen)
-    assert missing.asked == Event("give-way", object=TWO)
+    assert values(missing) == [0.0]
+
+
+def test_what_somebody_cost_is_the_sum_over_the_ride() -> None:
+    held = (did("give-way", 3.0, 5.0, object=ONE), did("brake", 20.0, 22.0, object=ONE))
+    delays = {"give-way": 2.0, "brake": 6.0}
+    found = told(Measured("delay", ONE), episodes=held, delays=delays)
+    assert [(m.value, m.count) for m in found.measures] == [(8.0, 2)]
+    early = told(Measured("delay", ONE, time=Between(2.0, 6.0)), episodes=held, delays=delays)
+    assert values(early) == [2.0]
 
 
 def test_whoever_holds_up_those_we_follow_costs_us_the_time() -> None:
     slow = (did("brake", 3.0, 9.0), did("follow", 2.0, 15.0, object=ONE), did("brake", 12.0, 13.0))
-    for asked in (Measured("delay", TWO), Measured("delay", event=Event("move", object=TWO))):
-        assert values(told(asked, episodes=slow, delays={"brake": 4.0})) == [4.0]
+    crawling = Measured("delay", event=Event("move", object=TWO))
+    for asked, cost in ((Measured("delay", TWO), 8.0), (crawling, 4.0)):
+        assert values(told(asked, episodes=slow, delays={"brake": 4.0})) == [cost]
 
 
 def test_the_cost_of_a_choice_is_what_it_saved() -> None:

@@ -12,12 +12,14 @@ from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Doing, HowMuch, When, Whether
 from xavi_dialogue.domain.terms import (
     At,
+    Described,
     Ego,
     Event,
     Exists,
     Is,
     Measured,
     Next,
+    Nobody,
     Not,
     Now,
     Related,
@@ -188,7 +190,11 @@ def test_what_else_is_told_of_another(setting: Setting, monkeypatch: pytest.Monk
     for manner in ("fast", "slowly", "early", "late"):
         quick = did("exit-right", manner=(manner,), tense="present")
         assert refused(what_if, quick) == CannotSay("unsupported-condition")
-    for of in (Exists(ONE), Is("stationary", ONE), Is("slow", ONE), Related("behind", ONE)):
+    assert refused(what_if, Exists(ONE)) == CannotSay("imagined")
+    nobody = Nobody(Described(kind="truck"))
+    for of in (Exists(nobody), Related("behind", nobody)):
+        assert refused(what_if, of) == CannotSay("imagined")
+    for of in (Is("stationary", ONE), Is("slow", ONE), Related("behind", ONE)):
         assert refused(what_if, of) == CannotSay("unsupported-condition")
     hit = what_if(did("collide", object=Ego()))
     assert (hit.by, hit.args[1:], hit.more) == (

@@ -55,7 +55,9 @@ def closeness(
         return Closeness(None, None, None, risk, how, about.end, past)
     closest = closest_approach(asked, who, seen)
     soon = shortest_time(asked, who, near)
-    found = Closeness(who, closest, soon, risk, how, about.end, past, ever=_nearer(asked, closest, who, vehicle))
+    found = Closeness(
+        who, closest, soon, risk, how, about.end, past, ever=_nearer(asked, closest, who, vehicle)
+    )
     return replace(found, braked=braked_hard(asked, vehicle, seen) if judged else ())
 
 

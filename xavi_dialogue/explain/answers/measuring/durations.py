@@ -5,7 +5,8 @@ from msgspec.structs import replace
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, Happenings, Measures
 from xavi_dialogue.domain.facts import Episode, Measure
-from xavi_dialogue.domain.terms import Ego, Event, Thing, Vehicle, WholeRide
+from xavi_dialogue.domain.meaning import Which
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Thing, Vehicle, WholeRide
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.foreseen import EXPECTED, HALTS
 from xavi_dialogue.explain.answers.expectations.plans import foreseen, horizon, moving_on
@@ -20,6 +21,7 @@ from xavi_dialogue.explain.answers.reference.occasions import (
     occasions,
     overlaps,
 )
+from xavi_dialogue.explain.answers.reference.reading import numbers_in
 from xavi_dialogue.explain.answers.ride.places import time_to_go
 from xavi_dialogue.explain.history.thresholds import STANDING
 
@@ -212,6 +214,41 @@ def held_for(asked: Asked, other: Thing) -> Event:
     if not named and _slowed_behind(asked, other):
         return Event("block", object=other)  # others were between it and us
     return Event(named[-1].action if named else "give-way", object=other)
+
+
+def total_cost(asked: Asked, other: Vehicle, about: Window) -> Measure:
+    """Tell what all slowing and waiting for somebody cost in a stretch of the ride, together."""
+    deeds = [
+        *asked.world.episodes(Ego(), HELD, object=other),
+        *(e for e in _slowed_behind(asked, other) if not _at_light(asked, e)),
+    ] or list(asked.world.episodes(Ego(), ("follow",), object=other))
+    near = about.widened() if about.instant else about
+    costs = (lost(asked, e) for e in deeds if overlaps(asked, e, near))
+    kept: list[Measure] = []
+    for cost in sorted((c for c in costs if c is not None), key=lambda c: (c.time, c.value or 0.0)):
+        last = kept[-1] if kept else None
+        if last is None or cost.time >= (last.until or last.time):
+            kept.append(cost)
+        elif (cost.value or 0.0) > (last.value or 0.0):
+            kept[-1] = cost
+    total = round(sum(cost.value or 0.0 for cost in kept), 1)
+    begin = kept[0].time if kept else near.begin
+    return Measure("delay", Ego(), begin, value=total, to=other, extreme="total", count=len(kept))
+
+
+def compared_costs(question: Which, asked: Asked) -> Measures:
+    """Tell what each of several cost us in time, the most first."""
+    numbers = dict.fromkeys(n for of in (question.thing, *question.among) for n in numbers_in(of))
+    ride = Window(asked.world.begin, asked.now)
+    costs = [total_cost(asked, Vehicle(n), ride) for n in numbers]
+    return Measures(tuple(sorted(costs, key=lambda cost: -(cost.value or 0.0))))
+
+
+def _at_light(asked: Asked, deed: Episode) -> bool:
+    """Tell whether it was a traffic light that we slowed down or stood for."""
+    end = asked.now if deed.end is None else deed.end
+    found = asked.world.episodes(Ego(), WAITS, deed.begin - JOINED, end + JOINED)
+    return any(isinstance(e.object, Feature) for e in found)
 
 
 def _slowed_behind(asked: Asked, other: Thing) -> list[Episode]:

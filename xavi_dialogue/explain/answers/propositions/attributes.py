@@ -37,6 +37,7 @@ from xavi_dialogue.explain.answers.measuring.durations import (
     held_for,
     remaining_wait,
     stands,
+    total_cost,
     waited,
 )
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -121,9 +122,15 @@ def _delay(of: Measured, asked: Asked) -> Answer:
     spent = cost_of_passage(asked, of.thing) if isinstance(of.thing, Junction) else None
     if spent is not None:
         return Measures((spent,))
-    if event is None and number(of.thing) is not None:
-        event = held_for(asked, of.thing)
+    if event is None and isinstance(of.thing, Vehicle):
+        return Measures((total_cost(asked, of.thing, _told_of(of, asked)),))
     return Measures((cost_of(asked, event, window(asked, of.time)),))
+
+
+def _told_of(of: Measured, asked: Asked) -> Window:
+    """Give the stretch in which a cost is asked for: the one that was said, else the ride."""
+    about = window(asked, of.time)
+    return about if was_said(asked, of.time) else Window(asked.world.begin, asked.now)
 
 
 def _not_done(of: Measured, event: Event, asked: Asked) -> Event | None:
@@ -134,7 +141,11 @@ def _not_done(of: Measured, event: Event, asked: Asked) -> Event | None:
     meant = replace(event, time=at, tense="past")
     if event.modal == "would":
         return meant  # "would stopping have cost us time?"
-    return meant if occasion(asked, replace(meant, time=event.time)) is None else None
+    if occasion(asked, replace(meant, time=event.time)) is not None:
+        return None
+    if event.action == "change-lane":
+        raise did_not_happen(asked, meant)  # "how much time did we save?"
+    return meant
 
 
 def _instead(event: Event, asked: Asked) -> Answer | None:

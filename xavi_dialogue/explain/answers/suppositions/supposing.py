@@ -88,15 +88,15 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
             raise Unanswered(CannotSay("unsupported-condition"))
         return _of_several(question, scene, several)
     of, negated = unwrapped(question.supposed)
+    if getattr(getattr(of, "thing", None), "described", None) and not negated:
+        raise Unanswered(CannotSay("imagined"))
     if _is_free_road(of, negated=negated):
         free = Event("wait", tense="past", modal="would")
         return hastened(free, scene, "arrival" if form == "what-if" else form)
-    event = event_of(of)
-    if event is not None and reacting.is_somebody(event) and not negated:
+    if (event := event_of(of)) is not None and reacting.is_somebody(event) and not negated:
         return reacting.for_anybody(event, scene)
     of, negated = _mistaken(scene, of, negated=negated)
-    event = event_of(of)
-    vehicle = _whom(scene, of)
+    event, vehicle = event_of(of), _whom(scene, of)
     if stays_ahead(event) and not negated:
         of, negated = kept_ahead(event, form)
     if _asks_of_other(question.then):
@@ -154,7 +154,7 @@ def _asks_of_other(then: Question | None) -> bool:
 def _is_free_road(of: Proposition | None, *, negated: bool) -> bool:
     """Tell whether it is supposed that nobody, or no queue, had been in our way."""
     match of:
-        case Exists(thing=Nobody()) | Related(thing=Nobody()):
+        case Exists(thing=Nobody(described=None)) | Related(thing=Nobody(described=None)):
             return not negated
         case Exists(thing=Feature(kind="queue" | "obstacle" | "light") | Everyone()):
             return negated
@@ -195,7 +195,8 @@ def _of_other(
     quick = manner_of(event, "fast", "slowly", "early", "late") is not None
     away = is_absence(of, negated=negated)
     if quick or (event is None and not negated and not away):  # nobody can be put where he was not
-        raise Unanswered(CannotSay("unsupported-condition"))
+        topic = "imagined" if isinstance(of, Exists) else "unsupported-condition"
+        raise Unanswered(CannotSay(topic))
     supposed = None if away else event
     if supposed is None and not past and asks_pace(question.then):
         return Measures((scene.world.measure("speed", Ego(), scene.now),))

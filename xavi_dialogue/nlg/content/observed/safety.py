@@ -165,10 +165,16 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
         risk = message("CLOSENESS", lead=_lead(answer), risk=Chance(answer.risk), past=answer.past)
         return Plan((risk,))
     left = answer.ttc.value if answer.ttc is not None else None
-    if judged and left is not None and left <= URGENT:
+    urgent = judged and left is not None and left <= URGENT
+    if urgent and left is not None:
         details.append(message("TIME_LEFT", ttc=Quantity(left, "s")))
     details += [_braked(one) for one in answer.braked]
-    if judged and not (left is not None and left <= URGENT) and answer.risk is not None and (vehicle is not None or answer.giving):
+    if (
+        judged
+        and not (left is not None and left <= URGENT)
+        and answer.risk is not None
+        and (vehicle is not None or answer.giving)
+    ):
         details.append(message("RISK", risk=Chance(answer.risk), past=answer.past))
     return Plan((first,), tuple(details))
 

@@ -35,7 +35,14 @@ from xavi_dialogue.nlu.compose.wh_questions.grades import (
     remaining,
     sure_of,
 )
-from xavi_dialogue.nlu.compose.wh_questions.lasting import left_over, long_lasting, measured, until
+from xavi_dialogue.nlu.compose.wh_questions.lasting import (
+    SAVING,
+    left_over,
+    long_lasting,
+    measured,
+    saving,
+    until,
+)
 from xavi_dialogue.nlu.compose.wh_questions.towards import reference
 
 
@@ -45,7 +52,7 @@ def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -
         return HowMany(cast(Event, with_fields(sem, tense="future")))
     actor = as_thing(clause.subject)
     event = value.event if isinstance(value, Happens) else None
-    lost = isinstance(value, Special) and value.name in ("cost", "delay", "save")
+    lost = isinstance(value, Special) and value.name in ("cost", "delay", *SAVING)
     counting = isinstance(sem, Noun) and sem.key == "time" and sem.plural and not lost
     if (isinstance(sem, Moment) and sem.unit == "times" and not lost) or counting:
         if event is not None and isinstance(event.actor, Unknown):
@@ -113,9 +120,11 @@ def _changes(clause: Clause, event: Event | None) -> bool:
 def _stretch(clause: Clause, value: Any, actor: Thing | None, event: Event | None) -> Question:
     if isinstance(clause.time, Relative) and clause.time.relation == "until":
         return until(clause.time.anchor)
-    if isinstance(value, Special) and value.name in ("cost", "delay", "save"):
+    if isinstance(value, Special) and value.name in ("cost", "delay", *SAVING):
         by = value.match.phrases.get("by")
         deed = with_fields(by, tense=clause.tense) if isinstance(by, Event) else None
+        if value.name in SAVING and deed is None:
+            deed = saving(clause)
         return measured("delay", clause, actor, event=deed)
     if left_over(event):
         return HowMuch(Measured("time-to-go"))  # "how much time have we left"

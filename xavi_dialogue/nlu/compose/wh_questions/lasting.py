@@ -38,10 +38,16 @@ from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
 
 #: What is driving as such, and no moment of the ride.
 DRIVING = frozenset({"move", "go", "do", "continue", "happen", "speed-up", "slow-down"})
+SAVING = ("save", "gain")  # what a manoeuvre does with time
 #: What lasts beside events.
 _STATES = (Related, Is, Has, Exists, Compares, Not)
 _TURNS = frozenset({"turn", "exit-left", "exit-right", "exit-straight"})
 _SEEING = frozenset({"see", "look", "watch", "know", "track", "notice"})
+
+
+def saving(clause: Clause) -> Event:
+    """Name what may have saved time: the manoeuvre that we chose, not what held us up."""
+    return Event("change-lane", Ego(), tense=cast(Any, clause.tense))
 
 
 def left_over(event: Event | None) -> bool:
@@ -133,7 +139,9 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
     for phrase in clause.complements:
         if phrase.key == "until" and phrase.sem is not None:
             return until(as_thing(phrase.sem))
-    if isinstance(value, Special) and value.name in ("cost", "delay", "save", "gain"):
+    if isinstance(value, Special) and value.name in SAVING:
+        return measured("delay", clause, actor, event=saving(clause))
+    if isinstance(value, Special) and value.name in ("cost", "delay"):
         return measured("delay", clause, actor)
     if isinstance(value, Special) and value.name in ("take-time", "last", "take-care"):
         return _taking(clause, value, actor)

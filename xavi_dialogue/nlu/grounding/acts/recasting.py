@@ -26,6 +26,7 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import (
+    Both,
     Compares,
     Described,
     Ego,
@@ -162,6 +163,10 @@ def _of_deed(spoken: Question, g: Grounder) -> Question | None:
         ):  # "did that save time?"
             g.notes.leaned = True
             return Whether(replace(that, left=replace(of, thing=Ego(), event=deed)))
+        case Whether(
+            that=Both(contents=(Not(Happens(event)) | Happens(event), Happens(Event("do") as same)))
+        ) if is_vague(same.object) and event.modal == "could":  # "... and done the same"
+            return Whether(Happens(replace(event, then=None)))
     return None
 
 
