@@ -71,6 +71,8 @@ OPTIONS = (
     OptionValue("stop", False, "termination", 0.9, None, None, -1.0),
 )
 
+DEAD = (OptionValue("exit-right", False, "dead", 1.0, None, None, -130.0),)
+
 CASES: tuple[Answer, ...] = (
     Verdict(
         Happens(Event("stop")),
@@ -232,4 +234,9 @@ CASES: tuple[Answer, ...] = (
     Activity(V, NOW, (Episode(V, "stand", 8.0),), 0.0, "standing"),
     DidNotHappen(Event("turn", tense="present"), (Episode(E, "exit-right", 18.0),)),
     DidNotHappen(Event("turn", side="left", tense="present"), (Episode(E, "exit-right", 18.0),)),
+    Options(OPTIONS[:2], 2.0, Evidence(), rival="better"),
+    Options(OPTIONS[:2], 2.0, Evidence(), rival="close"),
+    Options((OPTIONS[0], OPTIONS[2]), 2.0, Evidence(), rival="better"),
+    Options((OPTIONS[0], *DEAD), 2.0, Evidence(), rival="better"),
+    Options(OPTIONS[:1], 2.0, Evidence(), rival="alone"),
 )

@@ -108,4 +108,6 @@ CASES: tuple[Answer, ...] = (
     Closeness(1, THEN, risk=0.008, asked="safe", braked=(replace(BRAKES, peak=4.5),)),
     Closeness(1, THEN, asked="dangerous", braked=(replace(OURS, peak=6.0),)),
     Closeness(1, THEN, asked="dangerous", braked=(replace(OURS, peak=6.0, object=V),)),
+    Closeness(1, Measure("distance", E, 17.0, 4.2, to=V), risk=0.008, degree=True),
+    Closeness(None, None, risk=0.12, past=False, degree=True),
 )

@@ -141,4 +141,6 @@ CASES: tuple[Answer, ...] = (
     SupposedOfUs(SAME, past=False, done=Performed("exit-right", "will")),
     SupposedOfOther(2, None, None, LATER.fact, LATER.fact, True, others=(1,)),
     SupposedOfOther(2, STOPS, None, LATER.fact, LATER.fact, True, left_out=(1,)),
+    SupposedOfOther(2, STOPS, None, LATER.fact, LATER.fact, True, within=LATER),
+    SupposedOfOther(2, None, None, LATER.fact, LATER.fact, True, within=LATER, past=False),
 )

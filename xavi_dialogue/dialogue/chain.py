@@ -42,6 +42,7 @@ from xavi_dialogue.domain.answers import (
     OtherReason,
     PeakMoment,
     PlanAhead,
+    Reaction,
     Refusal,
     SupposedOfOther,
     SupposedOfUs,
@@ -49,15 +50,31 @@ from xavi_dialogue.domain.answers import (
     Verdict,
 )
 from xavi_dialogue.domain.facts import Belief, Episode, Measure
-from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, HowKnow, HowSure, Reading, Repair, Why
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Elliptic,
+    HowKnow,
+    HowSure,
+    Listing,
+    Question,
+    Reading,
+    Repair,
+    WhatIf,
+    WhatWouldChange,
+    Why,
+)
+from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     At,
     Believed,
+    Compares,
     Ego,
     Event,
     Happens,
     Not,
     Proposition,
+    Tense,
     That,
     Vehicle,
 )
@@ -89,6 +106,12 @@ def _recast(act: Act, last: Turn) -> Act:
     if _is_bare_why(act):
         found = deeper(last)
         return act if found == "leave" else Repair(kind="why") if found == "bottom" else found
+    if _is_of_supposed(act, result := _main(last)):
+        if isinstance(result, SupposedOfUs) and _blamed(result) is not None:
+            told = _asked(result, last)  # names the cause
+            return act if told is None else Ask(told)
+        found = deeper(last)
+        return act if isinstance(found, str) else found
     match act:
         case Ask(question=HowKnow(of=None | That())):
             event = _blamed(_main(last))
@@ -97,6 +120,47 @@ def _recast(act: Act, last: Turn) -> Act:
             event = _doubted(_main(last))
             return act if event is None else Ask(replace(question, of=Happens(event)))
     return act
+
+
+def _is_of_supposed(act: Act, result: Answer | Refusal | None) -> bool:
+    """Tell whether words after a supposition stay in it: "what would cause that?"."""
+    match act:
+        case Ask(question=Why(of=of, instead=None, suspect=None)):
+            supposed = isinstance(result, SupposedOfUs | SupposedOfOther)
+            weighed = isinstance(of, Compares) and of.right is None  # "why would it take longer?"
+            of_it = weighed or isinstance(of, That) or _is_imagined(first(of, Event))
+            return supposed and of_it
+        case Ask(question=WhatWouldChange(of=None | That(), most=False)):
+            return isinstance(result, SupposedOfOther)
+        case Ask(question=HowSure(of=of, changed=False)):
+            open_ = of is None or isinstance(of, That) or _is_imagined(first(of, Event))
+            return isinstance(result, SupposedOfOther) and open_
+        case Ask(question=Listing(of="rivals", event=event)):
+            return isinstance(result, SupposedOfOther) and _is_imagined(event)
+    return False
+
+
+def _is_imagined(event: Event | None) -> bool:
+    return event is not None and event.actor == Ego() and event.modal == "would"
+
+
+def _of_other(result: SupposedOfOther, last: Turn) -> Act:
+    """Return why we would do so in a world that was supposed; once told, why we do what we do."""
+    asked, tense = _asked(result, last), _tense_of(result.past)
+    if isinstance(asked, WhatIf) and result.within is None:
+        would = Event(result.then[0], tense=tense, modal="would")
+        return Ask(WhatIf(asked.supposed, Why(Happens(would))))
+    return Ask(Why(Happens(Event(result.plan[0], tense=tense))))
+
+
+def _asked(result: Answer | Refusal, last: Turn) -> Question | None:
+    """Return what a turn asked that an answer of it is to."""
+    acts = (p.act.act for p in last.parts if p.act is not None and p.result == result)
+    return next((act.question for act in acts if isinstance(act, Ask)), None)
+
+
+def _tense_of(past: bool) -> Tense:
+    return "past" if past else "present"
 
 
 def deeper(last: Turn) -> Deeper:
@@ -128,13 +192,18 @@ def deeper(last: Turn) -> Deeper:
             return Ask(Why(Happens(Event(after.steps[0], time=At(after.time)))))
         case PlanAhead(steps=steps) if steps:
             return Ask(Why(Happens(Event(steps[0][0], tense="future", modal="will"))))
-        case SupposedOfOther(plan=plan) if plan:
-            return Ask(Why(Happens(Event(plan[0], tense="past" if result.past else "present"))))
+        case SupposedOfOther(plan=plan, then=then) if plan and then:
+            return _of_other(result, last)
+        case Certainty(contrast=Contrast(fact=fact, foil=foil, decided=time)) if fact and foil:
+            told = next((a for a, b in zip(fact, foil, strict=False) if a != b), fact[0])
+            return Ask(Why(Happens(Event(told, time=At(time)))))
         case Options(options=options, decided=decided):
             chosen = [one.action for one in options if one.chosen]
             return Ask(Why(Happens(Event(chosen[0], time=At(decided))))) if chosen else "bottom"
         case OtherReason() | Grounds() | Certainty() | Method() | DecisiveFactor() | Avoidance():
             return "bottom"
+        case Reaction():
+            return MORE
         case CannotSay() | NotApplicable() | TooLittle():
             return "bottom"
     return "leave"

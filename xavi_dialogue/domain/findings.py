@@ -4,7 +4,7 @@ from typing import Literal
 
 from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
-from xavi_dialogue.domain.evidence import Contrast, Evidence
+from xavi_dialogue.domain.evidence import Contrast, Evidence, Weighing
 from xavi_dialogue.domain.facts import (
     Belief,
     Episode,
@@ -169,6 +169,7 @@ class Options(Value, frozen=True):
     hits: int = 0  # drives imagined of it that ended in a collision
     drives: int = 0  # of so many
     earlier: bool = False  # of a decision before the latest one
+    rival: Weighing | None = None  # only the next best, and how what was chosen weighs against it
 
 
 class Compared(Value, frozen=True):
@@ -245,6 +246,7 @@ class Closeness(Value, frozen=True):
     foreseen: bool = False  # it is how close it comes if all goes as planned and expected
     grounds: "Assurance | None" = None  # why no collision is expected, where that is asked
     giving: tuple[int, ...] = ()  # whom we are about to let go first, where it is asked of now
+    degree: bool = False  # it is asked how risky it is, not whether
 
 
 class Assurance(Value, frozen=True):

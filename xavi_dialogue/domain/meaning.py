@@ -39,6 +39,7 @@ class Whether(Value, frozen=True):
 
     that: Proposition
     tag: bool = False  # put as a statement: "you saw him, right?"
+    degree: bool = False  # "how risky was that?"
 
 
 class Which(Value, frozen=True):
@@ -119,7 +120,7 @@ class Listing(Value, frozen=True):
 
     of: Literal[
         "events", "vehicles", "options", "beliefs", "causes", "reasons", "stops", "decisions",
-        "wrong-predictions", "capabilities",
+        "wrong-predictions", "capabilities", "rivals",
         "hidden",  # parts of the road
     ]  # fmt: skip
     about: Thing | None = None

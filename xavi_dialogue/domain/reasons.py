@@ -244,6 +244,7 @@ class SupposedOfOther(Value, frozen=True):
     left_out: tuple[int, ...] = ()  # vehicles of which something is supposed that could not be
     everybody: bool = False  # nobody else is supposed to be there
     undone: bool = False  # what is asked about did not come about as things were
+    within: Contrast | None = None  # asked why: of what else there is (foil) against `then` (fact)
 
 
 class Reaction(Value, frozen=True):

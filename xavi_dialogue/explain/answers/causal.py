@@ -75,7 +75,7 @@ QUESTIONS: Mapping[type, Explainer] = {
     HowAvoid: deciding.how_avoid,
 }
 NEEDED = frozenset(("necessary", "worth-it", "better"))
-LISTED = frozenset(("options", "decisions"))
+LISTED = frozenset(("options", "rivals"))
 #: What of ours is for something or somebody.
 HELD = frozenset(("wait", "slow-down", "brake", "stop", "stand", "give-way", "let-go"))
 SLOWED = frozenset(("brake", "slow-down", "stop", "wait"))
@@ -124,7 +124,7 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
             return _who_caused
         case Compare(options) if options and all(_is_option(option) for option in options):
             return deciding.compared
-        case Listing(of) if of in LISTED and of == "options":
+        case Listing(of) if of in LISTED:
             return deciding.listed
         case Listing(of) if of in REASONS:
             return _reasons

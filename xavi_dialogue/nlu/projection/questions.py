@@ -72,7 +72,7 @@ _CAUSED = frozenset(("wait", "stop", "brake", "slow-down"))
 _OUTSIDE = {"law": "legality", "weather": "off-topic", "sound": "perception", "money": "off-topic",
             "world": "off-topic", "battery": "capability"}  # fmt: skip
 #: What is listed as it is now.
-_STANDING = frozenset(("vehicles", "options", "capabilities"))
+_STANDING = frozenset(("vehicles", "options", "rivals", "capabilities"))
 
 
 def question_fields(question: Question) -> QueryFields:

@@ -12,13 +12,13 @@ from planner.record.trace import (
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Bound
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation
-from xavi_dialogue.domain.terms import Event, Feature, Road, Vehicle
+from xavi_dialogue.domain.terms import Event, Feature, Road, Unsaid, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.precedence import before_us, first, into_our_road
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
-from xavi_dialogue.explain.answers.reference.occasions import overlaps
+from xavi_dialogue.explain.answers.reference.occasions import occasions, overlaps
 from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.plans.contrast import factual
 from xavi_dialogue.explain.history.motion import branches_off, foresees
@@ -82,16 +82,27 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
 
 
 def unconsidered(asked: Asked, event: Event, at: float) -> Bound | None:
-    """Tell of a turn or exit that a decision up to a time [s] left out of account; None: else."""
+    """Tell of a turn or exit that a decision up to a time [s] left out of account; None: else.
+
+    What a vehicle has done by then is behind it, and was no longer considered.
+    """
     vehicle = number(event.actor)
     trace = None if vehicle is None else asked.ride.at(at, vehicle)
     known = None if trace is None or vehicle is None else prediction(trace, vehicle)
     if vehicle is None or known is None or not _ignored(known, event):
         return None
+    done = replace(event, time=Unsaid(), tense="past", modal=None)
+    if any(one.begin <= at for one in occasions(asked, done)):
+        return None
     who, belief = Vehicle(vehicle), asked.world.belief(vehicle, at)
     shown = asked.world.episodes(actor=who, actions=("signal",), begin=at - SHORT, end=at)
     lit = [e for e in shown if e.end is None or e.end > at]
     return Bound(who, belief, unconsidered=event, signal=lit[-1] if lit else None)
+
+
+def is_behind(asked: Asked, event: Event, at: float) -> bool:
+    """Tell whether what was done is asked of as past, or is no longer foreseen."""
+    return event.tense == "past" or chance(asked, event, at) is None
 
 
 def _ignored(known: VehiclePrediction, event: Event) -> bool:

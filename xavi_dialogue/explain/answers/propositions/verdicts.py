@@ -4,7 +4,15 @@ from dataclasses import replace as refound
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Answer, Beliefs, NeedRollout, Priority, Verdict, Wavered
+from xavi_dialogue.domain.answers import (
+    Answer,
+    Beliefs,
+    Closeness,
+    NeedRollout,
+    Priority,
+    Verdict,
+    Wavered,
+)
 from xavi_dialogue.domain.meaning import Claim, HowMuch, Whether, Why
 from xavi_dialogue.domain.terms import (
     Believed,
@@ -65,6 +73,8 @@ def whether(question: Whether, asked: Asked) -> Answer:
         return kept
     if found.holds is False and isinstance(that, Happens) and "safely" in that.event.manner:
         that = Happens(replace(that.event, manner=()))  # it has not done so at all
+    if question.degree and isinstance(found.answer, Closeness):
+        return replace(found.answer, degree=True)
     return found.answer if found.answer is not None else found.verdict(that)
 
 

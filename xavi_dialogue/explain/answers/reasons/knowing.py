@@ -25,6 +25,7 @@ from xavi_dialogue.explain.answers.expectations.foreseen import (
     besides,
     chance,
     collision_chance,
+    is_behind,
     unconsidered,
 )
 from xavi_dialogue.explain.answers.measuring.closeness import assured
@@ -201,9 +202,10 @@ def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
     known = [t for t in ride.traces if prediction(t, vehicle) is not None]
     if not known:
         raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=at))
+    event = None if event is None else replace(event, actor=Vehicle(vehicle))
     names = () if event is None else conduct_names(event)
     done = () if event is None else _done(scene, event)
-    if event is not None and event.modal == "would":  # "how sure were you that it would stop?"
+    if event is not None and (event.modal == "would" or (done and is_behind(scene, event, at))):
         entered = [t for t in entries(scene) if max(known[0].sim_time, at - LATELY) <= t <= at]
         at = min(at, done[-1].begin - BEFORE) if done else entered[-1] if entered else at
     trace = last_with(ride, vehicle, at) if known[0].sim_time <= at else known[0]

@@ -91,7 +91,7 @@ def _moved(event: Event, scene: Asked) -> Answer:
 
 
 def listed(question: Listing, scene: Asked) -> Answer:
-    """List what could have been done, best first.
+    """List what could have been done, best first; or what came nearest to what was done.
 
     Raises:
         Unanswered: the record lacks it, or has too little evidence.
@@ -100,15 +100,18 @@ def listed(question: Listing, scene: Asked) -> Answer:
     moment = None
     if said is not None and said.said and said.begin == said.end:
         moment = ride.at(said.begin)
-    if moment is None:  # of the deed that was spoken of before, where no time is said
+    if question.event is not None:
+        found = options.with_choice(ride, premise(ride, subject(scene, question.event)))
+    elif moment is None:  # of the deed that was spoken of before, where no time is said
         found = options.with_choice(ride, premise(ride, Subject(None, (), False, scene.span)))
     else:
         found = options.with_choice(ride, Premise(moment, None))
-    rows = options.weighed(ride, found)
-    rests_on = options.situations(found)
-    del question
+    rows, rival = options.weighed(ride, found), None
+    if question.of == "rivals":
+        rows, rival = options.with_rival(ride, found)
     decided = found.trace.sim_time
-    return Options(rows, decided, rests_on, earlier=decided < ride.latest.sim_time)
+    earlier = decided < ride.latest.sim_time
+    return Options(rows, decided, options.situations(found), earlier=earlier, rival=rival)
 
 
 def compared(question: Compare, scene: Asked) -> Answer:

@@ -6,8 +6,18 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import NotRecorded
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.meaning import Compare, Doing, Question, Whether
-from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.domain.meaning import Compare, Doing, Question, Whether, Why
+from xavi_dialogue.domain.terms import (
+    At,
+    Ego,
+    Event,
+    Happens,
+    Next,
+    Now,
+    Proposition,
+    Time,
+    Vehicle,
+)
 from xavi_dialogue.explain.answers.reasons import choices, motions
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import event_of, subject
@@ -23,7 +33,7 @@ from xavi_dialogue.explain.causes.plans.premise import happened, manoeuvre, prem
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, DRIVING, EXITS, names_of, same
 from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names, probability
 from xavi_dialogue.explain.history.deeds import Deed
-from xavi_dialogue.explain.history.ride import planned, prediction
+from xavi_dialogue.explain.history.ride import ROUNDING, planned, prediction
 
 POSSIBLE = 0.02  # probability from which it is open whether somebody does something
 
@@ -170,3 +180,55 @@ def open_until(scene: Asked, vehicle: int, event: Event, moment: float) -> float
     chances = [(t.sim_time, probability(scene.ride, t, vehicle, names)) for t in known]
     open_ = [time for time, chance in chances if POSSIBLE < chance < 1.0 - POSSIBLE]
     return open_[-1] if open_ else moment
+
+
+def is_over(
+    scene: Asked,
+    of: Proposition | None,
+    question: Question | None,
+    then: Event | None,
+    vehicle: int,
+) -> bool:
+    """Check whether it is supposed of what has been: "if he braked now" is not.
+
+    "If he stopped" may be either: of now as long as it can still come about. Asked why, it is of
+    what the reason is asked of.
+
+    Args:
+        scene: the act and its setting.
+        of: what is supposed, without its negation.
+        question: what is asked of the supposed world.
+        then: the deed of ours that it is asked about.
+        vehicle: of which it is supposed.
+    """
+    if isinstance(question, Why):
+        asked = event_of(question.of)
+        return asked is not None and asked.tense in ("past", "perfect")
+    event = event_of(of)
+    if event is not None and _is_now(event.time, scene):
+        return False
+    tense = event.tense if event is not None else getattr(of, "tense", "present")
+    said = scene.past is not None and scene.past.said
+    if tense in ("present", "future") and isinstance(of, Happens) and not said:
+        return False
+    if scene.past is not None or tense == "perfect" or (then is not None and then.tense == "past"):
+        return True
+    if _asks_now(question) or tense != "past":
+        return False
+    if event is None:
+        return True
+    look = scene.world.look(vehicle, scene.now)
+    return look is None or not look.in_view or look.ahead < 0.0
+
+
+def _asks_now(question: Question | None) -> bool:
+    """Check whether what is asked of the supposed world is what we would do, not have done."""
+    event = event_of(question.that) if isinstance(question, Whether) else None
+    if event is not None:
+        return event.tense != "past"
+    return isinstance(question, Doing) and question.tense != "past"
+
+
+def _is_now(time: Time, scene: Asked) -> bool:
+    reached = isinstance(time, At) and time.at >= scene.now - ROUNDING
+    return reached or isinstance(time, Now | Next)

@@ -4,9 +4,8 @@ from msgspec import structs
 
 from xavi_dialogue.domain.answers import Answer, CannotSay, Measures, SupposedOfOther, TooLittle
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.meaning import Doing, Question, WhatIf, Whether
+from xavi_dialogue.domain.meaning import Question, WhatIf, Whether, Why
 from xavi_dialogue.domain.terms import (
-    At,
     Ego,
     Event,
     Everyone,
@@ -14,12 +13,9 @@ from xavi_dialogue.domain.terms import (
     Feature,
     Happens,
     Is,
-    Next,
     Nobody,
-    Now,
     Proposition,
     Related,
-    Time,
     Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
@@ -55,6 +51,7 @@ from xavi_dialogue.explain.answers.suppositions.supposed_when import (
     driven,
     imagined,
     is_new,
+    is_over,
     moment,
     open_until,
     was_done,
@@ -66,11 +63,11 @@ from xavi_dialogue.explain.causes.driving.suppositions import (
     otherwise,
     share_of,
     together,
+    within,
     without,
 )
 from xavi_dialogue.explain.causes.vehicles.actions import DRIVING, names_of, same
 from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names
-from xavi_dialogue.explain.history.ride import ROUNDING
 
 LIKELY = 0.5  # probability from which the ego is said to do something
 
@@ -183,7 +180,7 @@ def _of_other(
     if event is not None and event.then is not None and event.then.action in reacting.COLLIDING:
         event = structs.replace(event, action="cut-in", object=None, then=None)
         of = Happens(event)
-    past = _past(scene, of, _then(question.then), vehicle, now=_asks_now(question.then))
+    past = is_over(scene, of, question.then, _then(question.then), vehicle)
     if event is not None and event.action in reacting.COLLIDING:
         return closeness(scene, vehicle, Window(scene.now, scene.now), "hit", past=False)
     here = scene.moment if past else scene.now
@@ -211,7 +208,7 @@ def _of_several(question: WhatIf, scene: Asked, several: Joint) -> Answer:
     tense = content.tense if isinstance(content, Exists) else "present"  # "was gone" is of now
     gone = Exists(Vehicle(first), tense=tense)
     of = gone if event is None else Happens(event)
-    past = _past(scene, of, _then(question.then), first, now=_asks_now(question.then))
+    past = is_over(scene, of, question.then, _then(question.then), first)
     return _replanned(question, scene, several, past=past)
 
 
@@ -249,6 +246,7 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
         then=found.there.plan,
         same=found.same,
         contrast=found.contrast,
+        within=within(scene.ride, found) if isinstance(question.then, Why) else None,
         past=past,
         asked=then,
         still=still,
@@ -311,40 +309,3 @@ def _mark(action: ActionName, driven: Episode | None) -> ActionName:
     if action in ("stop", "stand") or (driven is not None and driven.standing):
         return "stop"
     return "speed-up" if action == "speed-up" else "slow-down"
-
-
-def _past(
-    scene: Asked, of: Proposition | None, then: Event | None, vehicle: int, *, now: bool
-) -> bool:
-    """Check whether it is supposed of what has been: "if he braked now" is not.
-
-    "If he stopped" may be either: of now as long as it can still come about.
-    """
-    event = event_of(of)
-    if event is not None and _is_now(event.time, scene):
-        return False
-    tense = event.tense if event is not None else getattr(of, "tense", "present")
-    said = scene.past is not None and scene.past.said
-    if tense in ("present", "future") and isinstance(of, Happens) and not said:
-        return False
-    if scene.past is not None or tense == "perfect" or (then is not None and then.tense == "past"):
-        return True
-    if now or tense != "past":
-        return False
-    if event is None:
-        return True
-    look = scene.world.look(vehicle, scene.now)
-    return look is None or not look.in_view or look.ahead < 0.0
-
-
-def _asks_now(question: Question | None) -> bool:
-    """Check whether what is asked of the supposed world is what we would do, not have done."""
-    event = event_of(question.that) if isinstance(question, Whether) else None
-    if event is not None:
-        return event.tense != "past"
-    return isinstance(question, Doing) and question.tense != "past"
-
-
-def _is_now(time: Time, scene: Asked) -> bool:
-    reached = isinstance(time, At) and time.at >= scene.now - ROUNDING
-    return reached or isinstance(time, Now | Next)

@@ -13,7 +13,12 @@ from xavi_dialogue.domain.answers import Contrast, Evidence, NeedRollout, NotRec
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.causes.driving.driving import Reasons
-from xavi_dialogue.explain.causes.plans.contrast import evidence, factual, sides
+from xavi_dialogue.explain.causes.plans.contrast import (
+    alternatives,
+    evidence,
+    factual,
+    sides,
+)
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, is_macro, means
 from xavi_dialogue.explain.causes.vehicles.conduct import matching, probability
 from xavi_dialogue.explain.causes.vehicles.course import lines, speed_mark, stands
@@ -50,6 +55,7 @@ class Supposed:
     there: Intervention
     prior: float | None  # probability of what is supposed, as it was believed
     contrast: Contrast
+    model: CausalModel  # of the supposed world
     proxy: MacroAction | None = None  # what was supposed instead, where that could not be
 
     @property
@@ -236,7 +242,7 @@ def _given(ride: Ride, model: CausalModel, supposed: dict[int, frozenset[Choice]
     given = CausalModel(trace, supposed)
     there, here = _best(given, planned(trace)), factual(model, trace)
     contrast = replace(sides(ride, model, here, there, there.plan), likely=None)
-    return Supposed(trace, trace, here, there, chance, contrast)
+    return Supposed(trace, trace, here, there, chance, contrast, given)
 
 
 def _best(given: CausalModel, plan: Actions) -> Intervention:
@@ -265,7 +271,24 @@ def compared(ride: Ride, trace: PlanTrace, again: PlanTrace, prior: float | None
     )
     contrast = sides(ride, model, here, there, there.plan)
     contrast = replace(contrast, evidence=both, likely=None)
-    return Supposed(trace, again, here, there, prior, contrast)
+    return Supposed(trace, again, here, there, prior, contrast, other)
+
+
+def within(ride: Ride, found: Supposed) -> Contrast:
+    """Compare what would be planned with what was, or with the next best, in the supposed world.
+
+    Raises:
+        Unanswered: there is too little evidence.
+    """
+    tried = alternatives(found.model, found.there.plan[0])
+    rival = next((pair for pair in tried if pair[0] == found.here.plan[:1]), None)
+    rival = rival or next(iter(tried), None)
+    if rival is None:
+        raise thin(found.here.plan[:1], found.model.intervene(found.here.plan[:1]))
+    told = sides(ride, found.model, found.there, rival[1], rival[0])
+    if told.verdict == "worse":  # by the situations that were tried with both
+        raise Unanswered(TooLittle("too-little-evidence"))
+    return replace(told, likely=None)
 
 
 def share_of(trace: PlanTrace, plan: Intervention, name: ActionName) -> float | None:

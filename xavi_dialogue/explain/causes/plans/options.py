@@ -3,7 +3,7 @@
 from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import CausalModel, Intervention, plan_of
-from xavi_dialogue.domain.answers import Evidence
+from xavi_dialogue.domain.answers import Evidence, Weighing
 from xavi_dialogue.domain.facts import OptionValue
 from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.plans.contrast import alternatives, factual
@@ -108,6 +108,24 @@ def weighed(ride: Ride, found: Premise) -> tuple[OptionValue, ...]:
     for foil, there in alternatives(model, chosen, node):
         rows.append(_option(model, foil[len(node)], there, here, base))
     return tuple(sorted(rows, key=lambda row: (-(row.value or 0.0), not row.chosen)))
+
+
+def with_rival(ride: Ride, found: Premise) -> tuple[tuple[OptionValue, ...], Weighing]:
+    """List what a decision chose and the best of the rest, and tell how the first weighs.
+
+    Raises:
+        Unanswered: there is too little evidence of what was chosen.
+    """
+    rows = weighed(ride, found)
+    chosen = [row for row in rows if row.chosen]
+    others = [row for row in rows if not row.chosen]
+    if not chosen or not others:
+        return rows, "alone"
+    model = ride.model(found.trace)
+    there = model.intervene((*found.node, others[0].action))
+    assert there is not None  # it was valued
+    verdict = differences(model, there, factual(model, found.trace)).verdict
+    return (*chosen, others[0]), verdict
 
 
 def _chosen(action: Action, plan: Intervention, value: float) -> OptionValue:

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import get_args
 
 from xavi_dialogue.domain.answers import Beliefs, Compared, Options
-from xavi_dialogue.domain.facts import Belief, Measure
+from xavi_dialogue.domain.facts import Belief, Measure, OptionValue
 from xavi_dialogue.domain.terms import Ego, Event, Proposition, Thing, Vehicle
 from xavi_dialogue.nlg.content.clauses.clauses import doing, event_clause
 from xavi_dialogue.nlg.content.clauses.facts import (
@@ -14,6 +14,7 @@ from xavi_dialogue.nlg.content.clauses.facts import (
     option_message,
     verbs_of,
 )
+from xavi_dialogue.nlg.content.clauses.manoeuvres import own_verbs
 from xavi_dialogue.nlg.content.clauses.measures import UNITS, measure_message
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.propositions import clause_of, eventful
@@ -25,6 +26,7 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, W
 
 MOVED = 0.1  # change of probability from which it is stated
 NAMED = 5  # options named
+NARROW = 1.0  # [s] of value up to which a decision that is no tie was still close
 #: How well something is known by its probability, best first.
 _KNOWN = ((0.95, "sure"), (0.65, "likely"), (0.35, "guess"), (0.0, "no"))
 
@@ -156,6 +158,8 @@ def plan_options(answer: Options, context: SpeechContext) -> Plan:
     verb = _verb(chosen.action)
     if not others:
         return Plan((message("OPTIONS_ONE", chosen=verb),))
+    if answer.rival is not None:
+        return _rival(answer, chosen, others[0], context)
     first = message(
         "OPTIONS_MANY",
         besides=answer.besides,
@@ -167,6 +171,29 @@ def plan_options(answer: Options, context: SpeechContext) -> Plan:
     scores = tuple(option_message(o) for o in others)
     shown = (message("ITEMS", items=scores[:NAMED]),)
     return Plan((first,), shown)
+
+
+def _rival(
+    answer: Options, chosen: OptionValue, rival: OptionValue, context: SpeechContext
+) -> Plan:
+    """Plan which option came nearest to what was chosen, and how near."""
+    apart = None
+    if chosen.value is not None and rival.value is not None:
+        apart = abs(chosen.value - rival.value)
+    fatal = rival.outcome in ("dead", "collision")
+    verb = own_verbs((rival.action,), (chosen.action,))
+    first = message(
+        "RIVAL",
+        when=Moment(answer.decided) if context.now - answer.decided > PRESENT else None,
+        verb=verb,
+        chosen=own_verbs((chosen.action,), (rival.action,)),
+        verdict=answer.rival,
+        fatal=fatal,
+        near=apart is not None and apart < NARROW,
+        apart=None if apart is None or fatal else Quantity(apart, "s"),
+    )
+    told = option_message(rival)
+    return Plan((first,), (message(told.rule, **{**told.slots, "verb": verb}),))
 
 
 def _verb(action: str) -> Clause:

@@ -161,6 +161,9 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
                                closest=Quantity(answer.ever.value or 0.0, "m"),
                                peak_at=Moment(answer.ever.time)))  # fmt: skip
     alone = closest is None and not answer.giving
+    if answer.degree and answer.risk is not None:
+        risk = message("RISK", risk=Chance(answer.risk), past=answer.past)
+        return Plan((risk,), () if alone else (Message("DISTANT", first.slots),))
     if answer.risk is not None and (alone or (answer.asked == "hit" and not answer.past)):
         risk = message("CLOSENESS", lead=_lead(answer), risk=Chance(answer.risk), past=answer.past)
         return Plan((risk,))

@@ -10,7 +10,7 @@ from xavi_dialogue.nlg.content.clauses.clauses import event_clause
 from xavi_dialogue.nlg.content.clauses.manoeuvres import own_verbs
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.proposals import about_cause
-from xavi_dialogue.nlg.content.reasons.contrasts import RISK, time_effect
+from xavi_dialogue.nlg.content.reasons.contrasts import RISK, consequence_slots, time_effect
 from xavi_dialogue.nlg.content.reasons.evidence import rests_on
 from xavi_dialogue.nlg.content.reasons.terms import looked_ahead
 from xavi_dialogue.nlg.context import SpeechContext
@@ -38,6 +38,11 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
         event = event_clause(answer.asked, context.now)
         slots["asked"] = Clause(event.subject, event.verb, event.rest)
     slots["slows"] = answer.slows
+    if answer.within is not None:
+        told = {**slots, **consequence_slots(answer.within, context, past=answer.past)}
+        rests = rests_on(answer.within.evidence, answer.within.decided)
+        more = () if rests is None else (rests,)
+        return Plan((Message("SUPPOSED_WHY", told),), (), more, (), about_cause(answer))
     timed = _timed(answer, context)
     if timed is not None:
         told = Message("SUPPOSED_ARRIVAL", {**slots, **timed})

@@ -187,6 +187,7 @@ _LISTS: Mapping[str, tuple[str, Clause]] = {
     "events": ("subject", Clause("what", "happen")),
     "vehicles": ("subject", Clause("which vehicles", "be", ("around us",), "present", plural=True)),
     "options": ("what", Clause(Who(), "do", modal="could")),
+    "rivals": ("subject", Clause("what", "be", ("the next best option",))),
     "beliefs": ("what", Clause(Who(), "expect", ("others to do",))),
     "causes": ("why", Clause("that", "happen")),
     "reasons": ("why", Clause("that", "happen")),

@@ -46,6 +46,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.alternatives.blames import blamed, cleft_cause, rival
 from xavi_dialogue.nlu.compose.alternatives.choosing import asks_which, chosen
 from xavi_dialogue.nlu.compose.alternatives.comparing import Comparing
+from xavi_dialogue.nlu.compose.alternatives.nearness import nearly_even
 from xavi_dialogue.nlu.compose.alternatives.recast import about_whom, caused_by, judged_so
 from xavi_dialogue.nlu.compose.clauses.adoption import as_of
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
@@ -144,6 +145,8 @@ class Polar(Comparing):
             return self.whether(clause.that, tag=True)  # "do you mean that he will stop?"
         if (amiss := hindsight(clause)) is not None:
             return [(amiss, 0.0)]
+        if (even := nearly_even(clause)) is not None:
+            return [(even, 0.0)]
         if (limited := permitted(clause)) is not None:
             return [(Whether(limited, tag), 0.0)]
         if found := chosen(clause, self.propositions):

@@ -65,7 +65,7 @@ from xavi_dialogue.nlu.compose.clauses.sem import (
     as_thing,
 )
 
-_LISTED = {"option": "options", "event": "events", "prediction": "beliefs",
+_LISTED = {"option": "options", "rival": "rivals", "event": "events", "prediction": "beliefs",
            "wrong-prediction": "wrong-predictions", "factor": "causes", "stop": "stops",
            "decision": "decisions", "capability": "capabilities"}  # fmt: skip
 

@@ -15,6 +15,7 @@ LEFT_OTHER = 0.35  # of another phrase without a role
 MISSING = 2.0  # of a role that must be filled
 ALMOST = 0.5  # of a thing of another type that might do
 LEFT_PARTICLE = 0.25
+CAUSED = 1.0  # of what somebody was caused to do
 NO_ACTOR = 0.6  # of a deed that is said to drive: "its turning passed us"
 UNITLESS = 0.4  # what a number is cheaper by beside a verb of speed: "doing 60"
 STEADY = 0.4  # of being about to do what may as well last: "is driving in front of us"
@@ -49,6 +50,8 @@ def amiss(clause: Clause, found: Match) -> float:
     """Say what it costs that a deed would drive, and what a speed without a unit is cheaper by."""
     if found.sense.head == "@exceed" and clause.objects and isinstance(found.object, Quantity):
         return -UNITLESS
+    if found.sense.head == "@cause" and clause.infinitive is not None:
+        return CAUSED  # "what caused you to slow down": what was caused is the slowing down
     if found.sense.head == "cut-in" and clause.verb is not None and clause.verb.key == "drive":
         return STEADY * (clause.verb.category == "VING")
     return NO_ACTOR * (isinstance(clause.subject, Event) and found.sense.head in _OF_VEHICLES)

@@ -38,7 +38,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.adoption import compared_times, with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.followers import relation_of
-from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, as_thing, is_thing
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, as_thing, between, is_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.states.existence import existing
 from xavi_dialogue.nlu.compose.states.pacing import pace_said
@@ -282,6 +282,8 @@ def _free_place(clause: Clause) -> Thing | None:
 def _near_what(clause: Clause, thing: Thing) -> Thing:
     """Tell what "that was close with the car" and "is it still far" are said of."""
     for phrase in clause.complements:
+        if phrase.key == "between" and (pair := between(phrase.sem)) is not None:
+            return pair[0]  # "was it close between the two?"
         other = as_thing(phrase.sem)
         if phrase.key in _APART and isinstance(other, (Described, Vehicle)):
             return other

@@ -3,8 +3,9 @@
 from typing import Any, cast
 
 from msgspec import structs
+from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import HowLong, HowMany, HowMuch, Question, When
+from xavi_dialogue.domain.meaning import HowLong, HowMany, HowMuch, HowSure, Question, When
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -68,6 +69,8 @@ def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -
         return _lengths(sem, clause, value, actor, event)
     if isinstance(sem, Measure) and sem.of.attribute == "speed" and _changes(clause, event):
         return measured("speed-change", clause, actor, event=event)
+    if isinstance(sem, Measure) and isinstance(sem.of.event, Event):
+        return HowSure(Happens(replace(sem.of.event, tense=clause.tense)), clause.time)
     if isinstance(sem, Measure):
         to = reference(clause)
         if sem.of.attribute == "distance" and to is None and remaining(clause, actor):

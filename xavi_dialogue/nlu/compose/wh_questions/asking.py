@@ -260,6 +260,10 @@ class Asking(What, WhichOne):
                 lasting = since(clause, value) if wh.key == "since" else None
                 return lasting or self.when(wh, clause, value)
             case "grade":
+                governed = clause.infinitive
+                if wh.key == "safe" and governed is not None and is_that(clause.subject):
+                    governed.subject = Ego()  # "how risky would it be to stop?"
+                    clause.subject = self.propositions.as_event(governed) or clause.subject
                 return graded(wh.key, wh.words, clause, value)
             case "count":
                 return amounts(cast(Sem, wh.sem), clause, value, wh.words)

@@ -12,6 +12,7 @@ from xavi_dialogue.domain.meaning import (
     HowSure,
     Listing,
     Question,
+    WhatIf,
     When,
     Whether,
 )
@@ -32,11 +33,12 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Related,
     Relative,
-    That,
+    Tense,
     Thing,
     Unsaid,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.alternatives.nearness import how_near
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -87,6 +89,8 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
             if on and reference(clause) is None and not isinstance(actor, (Exit, Junction)):
                 return measured("distance-to-go", clause, Ego())
             return far_to(clause, event, value, actor, words)
+        case "close" if (even := how_near(clause)) is not None:
+            return even
         case "close":
             return _close(clause, event, value, actor)
         case "long":
@@ -167,6 +171,7 @@ def _permitted(clause: Clause) -> bool:
 
 def _quality(clause: Clause, words: tuple[str, ...], value: Any, actor: Thing | None) -> Question:
     state = {"safe": "safe", "dangerous": "dangerous", "risky": "dangerous", "bad": "dangerous",
+             "unsafe": "dangerous", "hazardous": "dangerous",
              "important": "necessary", "necessary": "necessary", "well": "visible",
              "free": "free", "busy": "busy", "old": "right", "crowded": "busy"}  # fmt: skip
     if isinstance(value, Related) and value.relation == "can-see":
@@ -176,10 +181,15 @@ def _quality(clause: Clause, words: tuple[str, ...], value: Any, actor: Thing | 
         event = with_fields(clause.subject, tense=clause.tense)
     name: Any = state.get(words[-1], "safe")
     deed = actor in (Pronoun("that"), Pronoun("it"))
-    if clause.modal == "would" and name in ("safe", "dangerous") and deed:
-        return Compare((That(),), "safety")  # "how risky would that have been?"
-    return Whether(Is(name, None if event else actor, event, time=clause.time,
-                      tense=cast(Any, clause.tense)))  # fmt: skip
+    risk = name in ("safe", "dangerous")
+    if clause.modal == "would" and risk and (deed or event is not None):
+        collides = HowSure(Happens(Event("collide", modal="would")))
+        if event is None:
+            return collides  # "how risky would that have been?"
+        tense: Tense = "perfect" if clause.has("have") else "present"
+        return WhatIf(Happens(replace(event, tense=tense)), collides)
+    asked = Is(name, None if event else actor, event, time=clause.time, tense=tense_of(clause))
+    return Whether(asked, degree=risk)
 
 
 def sure_of(clause: Clause, value: Any) -> Question:

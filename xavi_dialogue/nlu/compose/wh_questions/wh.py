@@ -66,8 +66,13 @@ def content_of(clause: Clause, value: Any) -> Proposition | None:
 
 
 def held_then(clause: Clause, content: Proposition | None) -> Proposition | None:
-    """Take for foreseen what was asked of then: "what chance did you give it stopping?"."""
+    """Take for foreseen what was asked of then: "what chance did you give it stopping?".
+
+    A decision that would be taken is one that is supposed.
+    """
     event = content.event if isinstance(content, Happens) else None
+    if event is not None and event.action == "do" and clause.modal == "would":
+        return Happens(with_fields(event, modal="would"))
     if event is None or clause.tense != "past" or event.actor == Ego():
         return content
     open_ = event.tense == "present" and event.modal is None and event.time == Unsaid()

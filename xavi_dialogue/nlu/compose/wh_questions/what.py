@@ -43,6 +43,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
     WholeRide,
 )
+from xavi_dialogue.nlu.compose.alternatives.nearness import rivals
 from xavi_dialogue.nlu.compose.clauses.adoption import adopted, with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement
@@ -105,6 +106,8 @@ class What:
         for phrase in clause.complements:
             if phrase.sem is not None:
                 subject = adopted(subject, phrase) or subject
+        if isinstance(subject, Noun) and subject.key == "rival":
+            return rivals(clause)
         found = asked_of(subject, clause.time, clause.tense)
         return _person(wh, found or Identify(as_thing(subject) or Pronoun("that")))
 

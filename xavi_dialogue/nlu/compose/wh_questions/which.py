@@ -37,6 +37,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.nominal import asked_of
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, SideOf, as_thing
@@ -160,6 +161,8 @@ class WhichOne:
         )  # fmt: skip
 
     def _abstract(self, sem: Noun, clause: Clause, value: Any) -> Question:
+        if isinstance(value, Special) and value.name in ("matter", "influence"):
+            return WhatWouldChange(None, most=True)  # "which factor mattered most?"
         if sem.key in ("reason", "factor"):
             return Why(fact(value)) if value is not None else Why(That())
         if sem.key == "order":

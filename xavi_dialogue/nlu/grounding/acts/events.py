@@ -58,7 +58,7 @@ FRESH: Final = 10.0  # [s] that "why didn't you" reaches back
 
 def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -> Event:
     """Ground an event: its actor, its object and its time."""
-    spoken = afoot(out_of(_at_junction(completed(_by_anybody(spoken), g)), g), g)
+    spoken = afoot(out_of(_at_junction(completed(_by_anybody(spoken), g, mode)), g), g)
     if spoken.tense == "future" and _meanwhile(spoken.time):
         spoken = replace(spoken, time=Unsaid())
     window = _window(spoken, mode, g, outer)
@@ -82,9 +82,7 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     if spoken.then is not None:
         found = replace(found, then=event(spoken.then, "supposed", g, window))
     if not real:
-        if (outer is None and (window.said or window.ahead) and mode != "supposed") or (
-            outer is None and window.said
-        ):
+        if outer is None and (window.said or (window.ahead and mode != "supposed")):
             g.notes.spans(window.span)
         return replace(found, time=window.term)
     return _placed(found, mode, g, window, outer is not None and not outer.said)
@@ -110,15 +108,17 @@ def _meanwhile(time: Time) -> bool:
     return time.relation == "during" and time.anchor.tense in ("present", "future")
 
 
-def completed(spoken: Event, g: Grounder) -> Event:
-    """Put the event under discussion in the place of "do", "do that"."""
+def completed(spoken: Event, g: Grounder, mode: Mode = "asked") -> Event:
+    """Put the event under discussion in the place of "do": what was really done where granted."""
     vague = spoken.object is None or isinstance(spoken.object, Pronoun)
     if spoken.action != "do" or not vague:
         return spoken
     actor = spoken.actor
     if isinstance(actor, Pronoun):
         actor = g.thing(actor, g.window(spoken.time, spoken.tense))
-    known = discussed(g.context, actor) or discussed(g.context)
+    real = mode == "presupposed" or (mode == "asked" and spoken.object is None)
+    real = real and spoken.modal is None and spoken.tense != "future"
+    known = discussed(g.context, actor, real=real) or discussed(g.context, real=real)
     if known is None:
         return spoken
     g.notes.leaned = True

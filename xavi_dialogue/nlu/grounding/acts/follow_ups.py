@@ -5,13 +5,36 @@ from typing import Any, Final
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.discourse import Span
-from xavi_dialogue.domain.meaning import Compare, HowSure, Question, Why
+from xavi_dialogue.domain.meaning import (
+    Compare,
+    HowDecide,
+    HowMuch,
+    HowSure,
+    Listing,
+    Question,
+    WhatIf,
+    WhatWouldChange,
+    Whether,
+    Why,
+)
 from xavi_dialogue.domain.rewriting import first
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Not, Proposition, That
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Measured,
+    Not,
+    Pronoun,
+    Proposition,
+    That,
+)
 from xavi_dialogue.nlu.grounding.completion.discussion import affirmed, asserted, proposition_of
 from xavi_dialogue.nlu.grounding.context import Grounder
 
 _STAYING: Final = ("wait", "keep-lane", "stand")
+_MISHAPS: Final = ("collide", "nearly-collide")
+_SPOKEN_OF: Final = ("it", "that", "them-all")
 
 
 def followed(spoken: Question, g: Grounder) -> Question:
@@ -23,10 +46,39 @@ def followed(spoken: Question, g: Grounder) -> Question:
             if discourse.option is not None:
                 g.notes.leaned = True
                 return replace(spoken, of=Not(Happens(replace(discourse.option, modal=None))))
+        case (
+            Whether(that=Is(state="close", thing=Pronoun(form=form), event=None))
+            | HowMuch(of=Measured(attribute="distance", thing=Pronoun(form=form)))
+        ) if form in _SPOKEN_OF and _weighs(asked, pair=form == "them-all"):
+            g.notes.leaned = True
+            return Listing("rivals")
+        case Whether(that=Is(state="close", thing=Pronoun(form="them-all")) as near):
+            return replace(spoken, that=replace(near, thing=Pronoun("it")))
+        case HowSure(of=Happens(event=Event(action="do", actor=Ego(), modal=None) as done)):
+            return replace(spoken, of=Happens(replace(done, object=None)))  # "that decision"
         case HowSure(of=None, changed=False) if isinstance(asked, Why) and _is_ours(asked.of):
             g.notes.leaned = True
             return replace(spoken, of=asked.of)
     return spoken
+
+
+def _weighs(asked: Question | None, *, pair: bool) -> bool:
+    """Tell whether a question is about what a decision of ours weighed.
+
+    "Between the two" is about that after a reason for it and after a supposition, too.
+    """
+    match asked:
+        case Listing(of="options" | "rivals" | "decisions") | HowDecide() | WhatWouldChange():
+            return True
+        case Compare(options=options):
+            return all(isinstance(one, Happens) and one.event.actor == Ego() for one in options)
+        case HowSure(of=of):
+            event = first(of, Event)
+            return event is not None and event.actor == Ego() and event.action not in _MISHAPS
+        case Why(of=of):
+            event = first(of, Event)
+            return pair and event is not None and event.actor == Ego()
+    return pair and isinstance(asked, WhatIf)
 
 
 def _is_ours(of: Proposition) -> bool:

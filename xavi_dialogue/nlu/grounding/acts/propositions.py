@@ -288,7 +288,7 @@ def _of_event(spoken: Is, g: Grounder) -> Is:
     if spoken.state in PERILS and spoken.tense == "past":
         known = fresh_event(g)
     elif spoken.state in _ONLY_EVENTS or spoken.tense == "past":
-        known = discussed(g.context)
+        known = discussed(g.context, real=spoken.tense == "past")
     else:
         known = next(events(g.context.discourse), None)
     if known is not None:

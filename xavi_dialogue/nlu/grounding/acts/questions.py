@@ -62,6 +62,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     explained,
     hindrance,
     interval,
+    is_supposed,
     questioned,
     spoken_of,
 )
@@ -100,9 +101,7 @@ def _during(event: Event | None, g: Grounder) -> Window:
 
 def _what_if(spoken: WhatIf, g: Grounder) -> WhatIf:
     supposed = g.proposition(spoken.supposed, "supposed")
-    then = spoken.then
-    if then is not None:
-        then = _supposed_question(then, g)
+    then = None if spoken.then is None else _supposed_question(spoken.then, g)
     focus = g.context.discourse.episode
     if g.notes.span is None and focus is not None:
         g.notes.spans(inferred(focus, g).span)
@@ -181,7 +180,7 @@ def _how_long(spoken: HowLong, g: Grounder) -> HowLong:
     return replace(spoken, of=g.event(spoken.of, "asked" if state else "presupposed"))
 
 
-_OF_MOMENTS: Final = ("beliefs", "options", "vehicles")  # listed as they are at one time
+_OF_MOMENTS: Final = ("beliefs", "options", "rivals", "vehicles")  # listed as they are at one time
 
 
 def _where(spoken: Where, g: Grounder) -> Where:
@@ -277,7 +276,8 @@ def _deed(spoken: Any, g: Grounder) -> Any:
     if spoken.of is not None:
         return replace(spoken, of=g.proposition(spoken.of, "presupposed"))
     decision = isinstance(spoken, WhatWouldChange) and not spoken.most  # else that in force
-    if (known := (spoken_of if decision else questioned)(g.context)) is None:
+    known = (spoken_of if decision else questioned)(g.context)
+    if known is None or (getattr(spoken, "most", False) and is_supposed(known, g.context)):
         return spoken
     g.notes.leaned = True
     _span_of(known, g)

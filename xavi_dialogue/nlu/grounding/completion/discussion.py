@@ -15,6 +15,7 @@ from xavi_dialogue.domain.meaning import (
     Listing,
     Question,
     Request,
+    WhatIf,
     Where,
     Which,
     Whither,
@@ -110,23 +111,33 @@ def spoken_of(context: Context) -> Proposition | None:
     return next(said, None)
 
 
+def is_supposed(known: Proposition, context: Context) -> bool:
+    """Tell whether it is of a supposition, or of what would come of it."""
+    event = first(known, Event)
+    imagined = event is not None and event.modal == "would"
+    return imagined or isinstance(context.discourse.question, WhatIf)
+
+
 def affirmed(proposition: Proposition) -> Proposition:
     """Strip a negation."""
     return proposition.content if isinstance(proposition, Not) else proposition
 
 
-def events(discourse: Discourse) -> Iterator[Event]:
-    """Yield the events spoken of, those of the question under discussion first."""
-    for source in (discourse.question, discourse.propositions):
-        yield from parts(source, Event)
-    for act in discourse.last_acts:
-        if isinstance(act, Ask | Claim | Request):
-            yield from parts(act, Event)
+def events(discourse: Discourse, *, real: bool = False) -> Iterator[Event]:
+    """Yield the events spoken of, those of the question under discussion first.
+
+    Those of the real world alone leave out what was supposed, and what would come of it.
+    """
+    acts = (act for act in discourse.last_acts if isinstance(act, Ask | Claim | Request))
+    for source in (discourse.question, *discourse.propositions, *acts):
+        if not real or first(source, WhatIf) is None:
+            found = parts(source, Event)
+            yield from (e for e in found if not real or e.modal != "would")
 
 
-def discussed(context: Context, actor: Thing | None = None) -> Event | None:
-    """Give the event under discussion, of an actor where one is given."""
-    for event in events(context.discourse):
+def discussed(context: Context, actor: Thing | None = None, *, real: bool = False) -> Event | None:
+    """Give the event under discussion, of an actor where one is given; `real`: none supposed."""
+    for event in events(context.discourse, real=real):
         if actor is None or event.actor == actor:
             return event
     if isinstance(actor, Vehicle):

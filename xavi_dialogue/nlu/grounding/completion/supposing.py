@@ -36,6 +36,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import discussed, questio
 from xavi_dialogue.nlu.grounding.context import Grounder
 
 PLACES: Final = (Exit, Junction, Lane)
+_OUR_COLLISION: Final = Happens(Event("collide", modal="would"))
 HALTING: Final = ("stop", "brake", "avoid", "slow-down")
 
 
@@ -86,6 +87,8 @@ def subordinate(spoken: Question, g: Grounder) -> Question:
     if earlier is None or not _hypothetical(spoken, earlier):
         return spoken
     g.notes.leaned = True
+    if isinstance(spoken, HowSure) and spoken.of == _OUR_COLLISION:
+        return WhatIf(earlier, spoken)  # "how risky would that have been?"
     if isinstance(spoken, HowSure):
         return WhatIf(earlier, Whether(spoken.of or earlier))
     return WhatIf(earlier, spoken)

@@ -1,0 +1,36 @@
+"""Nearness of options: "was it a close decision", "how close were the two options"."""
+
+from xavi_dialogue.domain.meaning import Listing
+from xavi_dialogue.domain.terms import Ego, Event
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import Noun, Sem
+from xavi_dialogue.nlu.compose.clauses.tree import words_of
+
+_NEAR = frozenset({"close", "narrow", "tight", "near", "hard", "difficult", "tough"})
+
+
+def is_choice(sem: Sem | None) -> bool:
+    """Say whether a noun phrase is of a decision of ours, or of what it could choose from."""
+    if isinstance(sem, Noun):
+        return sem.key in ("option", "rival", "decision")
+    return isinstance(sem, Event) and sem.action == "do" and isinstance(sem.actor, Ego)
+
+
+def how_near(clause: Clause) -> Listing | None:
+    """Ask which option came nearest to what was chosen, where it is asked how near one came."""
+    return rivals(clause) if is_choice(clause.subject) else None
+
+
+def nearly_even(clause: Clause) -> Listing | None:
+    """Ask the same where it is asked whether a decision was close; None: of something else."""
+    if any(key == "close" for key, _ in clause.adjectives) or "close" in clause.manner:
+        return how_near(clause)
+    if clause.verb is not None or not clause.objects or not is_choice(clause.objects[0][0]):
+        return None
+    return rivals(clause) if _NEAR & {*words_of(clause.objects[0][1]).split()} else None
+
+
+def rivals(clause: Clause) -> Listing:
+    """Ask for the next best option, of a decision that would be taken where that is supposed."""
+    supposed = Event("do", modal="would") if clause.modal == "would" else None
+    return Listing("rivals", time=clause.time, event=supposed)
