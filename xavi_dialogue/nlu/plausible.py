@@ -75,12 +75,6 @@ def _top(act: Act) -> float:
     match act:
         case Elliptic(time=Relative(anchor=Event(tense="future"))):
             return SLIGHT  # "when we will arrive?" asks when
-        case Ask(
-            question=Whether(
-                that=Caused(cause=Happens(event=Event(action="do", actor=Pronoun(form="who"))))
-            )
-        ):
-            return ODD
         case Claim(that=Caused(cause=cause, effect=None)) if isinstance(cause, (*_PLACES, Ego)):
             return ODD
         case Claim(

@@ -53,10 +53,13 @@ from xavi_dialogue.domain.meaning import (
     HowKnow,
     HowMuch,
     HowSure,
+    Listing,
     Reading,
     Repair,
     Request,
     Social,
+    WhatIf,
+    WhatWouldChange,
     Why,
 )
 from xavi_dialogue.domain.terms import (
@@ -64,6 +67,7 @@ from xavi_dialogue.domain.terms import (
     Believed,
     Ego,
     Event,
+    Exists,
     Happens,
     Measured,
     Not,
@@ -290,3 +294,34 @@ def test_a_why_after_a_question_of_the_same_text_is_of_that() -> None:
 def test_an_option_that_did_not_apply_is_the_end() -> None:
     refused = NotApplicable(("change-left",), "there is no lane to the left", 4.0)
     assert deeper(turn(refused)) == "bottom"
+
+
+GONE = Not(Exists(Vehicle(3)))
+WITHOUT = SupposedOfOther(3, None, None, ("stop",), ("continue",), False, past=False)
+WOULD = Event("continue", tense="present", modal="would")
+SUPPOSED = turn(WITHOUT, act=Ask(WhatIf(GONE)))
+
+
+@pytest.mark.parametrize(
+    "act",
+    [
+        Elliptic(form="why"),
+        Ask(Why(That())),
+        Ask(Why(Happens(WOULD))),
+        Ask(WhatWouldChange()),
+        Ask(HowSure(Happens(Event("do", modal="would")))),
+        Ask(Listing("rivals", event=Event("do", modal="would"))),
+    ],
+)
+def test_what_follows_a_supposition_stays_in_it_by_its_words(act: Any) -> None:
+    assert asked(act, SUPPOSED) == Ask(WhatIf(GONE, Why(Happens(WOULD))))
+
+
+@pytest.mark.parametrize("act", [Ask(HowSure(Happens(Event("do")))), Ask(Listing("rivals"))])
+def test_what_was_really_decided_is_left_to_the_record(act: Any) -> None:
+    assert asked(act, SUPPOSED) == act
+
+
+def test_once_told_why_it_would_be_it_is_asked_why_it_is() -> None:
+    told = turn(replace(WITHOUT, within=CONTRAST), act=Ask(WhatIf(GONE, Why(Happens(WOULD)))))
+    assert deeper(told) == why(Event("stop", tense="present"))

@@ -9,7 +9,7 @@ from tests.explain.answers.supposed import GONE, LATER, ONE, TURNS, Setting, did
 from xavi_dialogue.domain.answers import CannotSay, Measures, TooLittle
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.meaning import Doing, HowMuch, When, Whether
+from xavi_dialogue.domain.meaning import Doing, HowMuch, When, Whether, Why
 from xavi_dialogue.domain.terms import (
     At,
     Described,
@@ -26,7 +26,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.explain.answers.reference.moments import Window
 from xavi_dialogue.explain.answers.reference.reading import unwrapped
-from xavi_dialogue.explain.answers.suppositions import reacting, supposing
+from xavi_dialogue.explain.answers.suppositions import reacting, supposed_when
 from xavi_dialogue.explain.answers.suppositions.jointly import is_absence
 
 
@@ -217,7 +217,15 @@ def test_what_else_is_told_of_another(setting: Setting, monkeypatch: pytest.Monk
 
 def past(of: Any, then: Any = None, span: Any = None, *, now: bool = False, **more: Any) -> bool:
     given = {"looks": {1: look(1)}} | more
-    return supposing._past(Given(**given).asked(span), of, then, 1, now=now)
+    question = Doing(Ego()) if now else None
+    return supposed_when.is_over(Given(**given).asked(span), of, question, then, 1)
+
+
+def test_a_reason_in_a_supposed_world_is_of_when_it_is_asked_of() -> None:
+    scene = Given(looks={1: look(1)}).asked(Span(5.0, 7.0))
+    for tense, over in (("past", True), ("present", False)):
+        reason = Why(did("continue", Ego(), tense=tense, modal="would"))
+        assert supposed_when.is_over(scene, Exists(ONE), reason, None, 1) is over
 
 
 def test_what_is_supposed_of_now_is_not_past() -> None:

@@ -39,10 +39,10 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
         slots["asked"] = Clause(event.subject, event.verb, event.rest)
     slots["slows"] = answer.slows
     if answer.within is not None:
-        told = {**slots, **consequence_slots(answer.within, context, past=answer.past)}
-        rests = rests_on(answer.within.evidence, answer.within.decided)
-        more = () if rests is None else (rests,)
-        return Plan((Message("SUPPOSED_WHY", told),), (), more, (), about_cause(answer))
+        slots |= consequence_slots(answer.within, context, past=answer.past)
+        based = rests_on(answer.within.evidence, answer.within.decided)
+        shown = () if based is None else (based,)
+        return Plan((Message("SUPPOSED_WHY", slots),), (), shown, (), about_cause(answer))
     timed = _timed(answer, context)
     if timed is not None:
         told = Message("SUPPOSED_ARRIVAL", {**slots, **timed})
