@@ -87,7 +87,7 @@ def spoken_of(g: Grounder) -> Vehicle | None:
 
 def fresh_event(g: Grounder) -> Event | None:
     """Give the event that the turn before was about; None where that is too long ago for "that"."""
-    return next(events(g.context.discourse), None) if _is_recent(g) else None
+    return next(events(g.context.discourse, real=True), None) if _is_recent(g) else None
 
 
 def _is_recent(g: Grounder) -> bool:
