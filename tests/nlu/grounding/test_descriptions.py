@@ -166,6 +166,23 @@ def test_one_that_is_gone_is_found_by_what_it_did() -> None:
     assert meant(Described(colour="green"), world) == Vehicle(1)
 
 
+@pytest.mark.parametrize(("begin", "meant_is"), [(6.0, 2), (15.0, 1)])
+def test_whether_it_was_done_is_asked_of_who_is_there_unless_it_was_just_done(
+    begin: float, meant_is: int
+) -> None:
+    world = FakeWorld(
+        {
+            1: Car(10.0, 3.0, "motorcycle", seen=(0.0, begin + 2.0)),
+            2: Car(12.0, kind="bicycle"),
+        },
+        (did("brake", begin, begin + 1.0, who=1),),
+        now=20.0,
+    )
+    braked = Happens(Event("brake", Described(kind="bike"), tense="past"))
+    found = question_of(asked(Whether(braked), world))
+    assert found.that.event.actor == Vehicle(meant_is)  # type: ignore[union-attr]
+
+
 def test_a_side_that_was_true_of_the_deed_counts() -> None:
     world = FakeWorld(
         {1: Car(-60.0, -3.5, drift=-5.0, at=20.0, colour="blue"), 2: Car(30.0, 3.5, colour="red")},

@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.alternatives.options import WEAK, Options, alternatives, several_of
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement, wanted_pronoun
+from xavi_dialogue.nlu.compose.clauses.followers import place_subject
 from xavi_dialogue.nlu.compose.clauses.nominal import deed_of, event_in, propose
 from xavi_dialogue.nlu.compose.clauses.peaks import nearest_of, peak_of
 from xavi_dialogue.nlu.compose.clauses.sem import (
@@ -161,6 +162,8 @@ class Questions(Options):
     def of(self, wh: Wh, clause: Clause) -> list[tuple[Question, float]]:
         """Build the questions that a question word asks of a clause."""
         wh, clause = cleft(wh, clause)
+        if wh.kind in ("where", "grade"):
+            place_subject(clause)
         if (pointed := _pointed(wh, clause)) is not None:
             return [(pointed, 0.0)]
         if wh.kind == "what" and clause.verb is not None and clause.verb.key == "do":

@@ -53,8 +53,8 @@ def test_what_came_as_expected_is_no_mistake() -> None:
 
 
 def test_we_were_wrong_where_we_were() -> None:
-    both = Finding(True, (STRAIGHT, LEFT), None, (ALSO, RIGHT), mistaken=True)
-    assert wrong(Is("wrong", None, tense="past")) == both
+    last = Finding(True, (LEFT,), None, (RIGHT,), mistaken=True)
+    assert wrong(Is("wrong", None, tense="past")) == last
     assert wrong(Is("right", None, tense="past")).holds is False
     assert wrong(Is("wrong", IT)) == Finding(True, (LEFT,), None, (RIGHT,), mistaken=True)
     assert wrong(Is("wrong", None, time=At(3.0))) == Finding(False)

@@ -44,6 +44,8 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> Any:
         monkeypatch.setattr(pulling_up, "_comes_up", lambda *args: behind)
         met = None if rule is None else (NOW, rule)
         monkeypatch.setattr(pulling_up, "rule_between", lambda *args: met)
+        ruled = SimpleNamespace(first=values.get("first"))
+        monkeypatch.setattr(pulling_up, "priority_at", lambda *args: ruled)
         monkeypatch.setattr(pulling_up, "collision_chance", lambda *args: 0.01)
         monkeypatch.setattr(pulling_up, "chance", lambda *args: values.get("chance", 0.9))
         scene: Any = SimpleNamespace(now=NOW, past=None, span=None, world=Given(**values))
@@ -69,6 +71,7 @@ def test_across_our_way_it_is_the_right_of_way(asked: Any) -> None:
     owes = asked(STOPS, rule="priority")
     assert (owes.how, owes.chance) == ("owes", 0.9)
     assert asked(MANAGES).how == "apart"
+    assert asked(STOPS, rule="priority", first=V) is None  # it has gone by
 
 
 def test_who_brakes_to_a_standstill_soon_stops_whatever_the_rule(asked: Any) -> None:

@@ -150,7 +150,9 @@ def _has_been(asked: Asked, event: Event) -> Finding:
         holds = over == (event.tense == "perfect")
         return Finding(holds, (found,))  # who still crosses is not yet across
     if found is not None:
-        wrong = wrong_belief(asked, event, Window(found.begin, found.begin), came=True)
+        spent = Window(found.begin, found.begin)
+        halts = event.action in HALTS  # who goes straight on may stop on his way
+        wrong = None if halts else wrong_belief(asked, event, spent, came=True)
         believed = () if wrong is None else (wrong,)
         return Finding(True, (found,), None, believed, wrong is not None)
     lost = _lost(asked, event, about) or left_behind(asked, event)
@@ -208,7 +210,8 @@ def _to_come(asked: Asked, event: Event) -> Finding:
         begins = Measure(
             "time", event.actor, now, value=found.moment, low=found.low, high=found.high
         )
-        return expected(found.share, *going, begins)
+        begun = bool(going) and found.moment <= now
+        return expected(found.share, *going, *(() if begun else (begins,)))
     vehicle = naming.number(event.actor)
     if vehicle is None:
         return likeliest(asked, event)

@@ -50,7 +50,8 @@ def closeness(
         return Closeness(walker, far, None, risk, how, about.end, past, giving=first)
     judged = past and how in ("safe", "dangerous")
     tight = _tightest(asked, seen) if judged and vehicle is None else None
-    who = vehicle or tight or nearest_vehicle(asked, seen, fading)
+    among = _level(asked) if how == "room" and not past else None
+    who = vehicle or tight or nearest_vehicle(asked, seen, fading, among)
     if who is None:
         return Closeness(None, None, None, risk, how, about.end, past)
     closest = closest_approach(asked, who, seen)
@@ -140,6 +141,13 @@ def _let_first(asked: Asked) -> tuple[int, ...]:
     trace = asked.world.states.trace(asked.now)
     held = () if trace is None else top_holders(asked.world.states, trace, EGO)
     return tuple(vehicle for vehicle, how in held if how == "right-of-way")
+
+
+def _level(asked: Asked) -> tuple[int, ...] | None:
+    """Name those in view who are not behind us yet; None where there are none."""
+    looks = (asked.world.look(vehicle, asked.now) for vehicle in asked.world.in_view(asked.now))
+    found = (look.vehicle for look in looks if look is not None and look.ahead > -look.length)
+    return tuple(found) or None
 
 
 def _on_foot(asked: Asked) -> int | None:

@@ -4,6 +4,7 @@ from typing import Final
 
 from msgspec.structs import replace
 
+from sim.scene import EGO
 from xavi_dialogue.domain.answers import PlaceReason
 from xavi_dialogue.domain.facts import Fact, Look, Measure, Relating
 from xavi_dialogue.domain.terms import Ego, Event, Now, Unsaid, Vehicle
@@ -168,6 +169,7 @@ def trails(asked: Asked, event: Event) -> Finding | None:
         return None
     if not look.bearing.startswith("behind") or look.oncoming or look.speed == 0.0:
         return None
-    if occasion(asked, event) is not None:
+    seen = asked.world.states.offset(EGO, look.vehicle, asked.now)
+    if occasion(asked, event) is not None or (seen is not None and not seen.same_way):
         return None
     return Finding(None, answer=PlaceReason(look.vehicle, "behind", None))

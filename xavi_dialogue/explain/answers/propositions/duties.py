@@ -129,11 +129,18 @@ def _unwilling(asked: Asked, event: Event) -> Finding | None:
     if occasion(asked, present) is not None:
         return None
     found = _owed(asked, present, event.actor, event.object)
+    if isinstance(found.answer, Priority) and _gone_by(found.answer):
+        return None
     if found.holds and isinstance(found.answer, Priority):
         return found  # it slows down to, if it does not stand yet
     if (chance(asked, event, asked.now) or 0.0) >= LIKELY:
         return None
     return found if found.holds is False and isinstance(found.answer, Priority) else None
+
+
+def _gone_by(rule: Priority) -> bool:
+    """Tell whether somebody who had to let us go first has gone first."""
+    return rule.rule == "priority" and isinstance(rule.first, Vehicle)
 
 
 def _not_given(asked: Asked, event: Event) -> Finding | None:

@@ -194,8 +194,9 @@ def _waits_for(event: Event, asked: Asked) -> Answer:
         Unanswered: it does neither, or was never seen.
     """
     owed = weigh(Related("must-yield-to", event.actor, Ego()), asked)
-    if event.tense == "present" and owed.holds and isinstance(owed.answer, Priority):
-        return replace(owed.answer, holds=None)
+    rule = owed.answer if event.tense == "present" and owed.holds else None
+    if isinstance(rule, Priority) and not isinstance(rule.first, Vehicle):
+        return replace(rule, holds=None)
     return why(replace(event, action="wait", object=None), asked, negated=False)
 
 

@@ -1,5 +1,6 @@
 """Leaving: whom we have left behind, who is still there, and how far two others are apart."""
 
+from sim.scene import EGO
 from xavi_dialogue.domain.facts import Fact
 from xavi_dialogue.domain.terms import Ego, Event, Related, Vehicle
 from xavi_dialogue.explain.answers.reference.asked import Asked
@@ -16,7 +17,10 @@ def left_behind(asked: Asked, event: Event) -> Finding | None:
     vehicle = number(event.object)
     look = None if vehicle is None else look_of(asked, event.object, asked.now)
     first = None if vehicle is None else first_look(asked, vehicle, asked.world.begin)
+    seen = None if vehicle is None else asked.world.states.offset(EGO, vehicle, asked.now)
     if look is None or first is None or look.oncoming or not look.in_view:
+        return None
+    if seen is not None and not seen.same_way:  # it came towards us
         return None
     behind = look.ahead < -look.length and first.ahead > -look.length
     that = Related("behind", Vehicle(look.vehicle), Ego(), tense="present")

@@ -58,9 +58,8 @@ def wrong(of: Is, asked: Asked) -> Finding:
     if not found:
         right = Finding(of.state == "right")
         return right if vehicle is None else _borne_out(of, asked, vehicle, about)
-    facts = tuple(episode for _, episode in found)
-    believed = tuple(belief for belief, _ in found)
-    return Finding(of.state == "wrong", facts, None, believed, mistaken=True)
+    belief, came = found[-1]  # the latest is the one that is spoken of
+    return Finding(of.state == "wrong", (came,), None, (belief,), mistaken=True)
 
 
 def _borne_out(of: Is, asked: Asked, vehicle: int, about: Window) -> Finding:

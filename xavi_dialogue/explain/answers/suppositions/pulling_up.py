@@ -15,7 +15,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import Finding
 from xavi_dialogue.explain.answers.reference.moments import Window, is_ahead
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
-from xavi_dialogue.explain.answers.ride.priority import rule_between
+from xavi_dialogue.explain.answers.ride.priority import priority_at, rule_between
 from xavi_dialogue.explain.answers.suppositions.reacting import for_anybody
 from xavi_dialogue.explain.causes.driving.stopping import stopping_distance
 from xavi_dialogue.explain.facts.approach import following
@@ -41,7 +41,10 @@ def pulls_up(asked: Asked, event: Event) -> Finding | None:
     if look.speed < STANDING:
         return Finding(True, answer=PullingUp(vehicle, "stands")) if able else None
     behind = _comes_up(asked, vehicle, EGO) or (able and _follows(asked, vehicle))
-    met = rule_between(asked, vehicle, Window(asked.now, asked.now))
+    now = Window(asked.now, asked.now)
+    met = rule_between(asked, vehicle, now)
+    if met is not None and isinstance(priority_at(asked, vehicle, now).first, Vehicle):
+        met = None  # it has gone by
     if not able and not is_us(event.object) and not behind and met is None:
         return None
     found = PullingUp(

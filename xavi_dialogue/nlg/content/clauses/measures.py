@@ -33,6 +33,7 @@ _NAMES = {"distance-to-go": "the distance to our destination", "turn": "the next
 SOON = 1.0  # [s] within which something comes at once
 BETWEEN = frozenset(("gap", "headway", "distance", "time-to-collision"))
 AT_HAND = 4.0  # [m] below which a place is just ahead
+AT = 1.5  # [m] below which we are at a place
 OVER = 0.5  # [m/s] over the limit from which it is stated
 STANDING = 0.3  # [m/s]
 EVEN_SPEED = 0.8  # [m/s] by which a speed that is stated as one may vary
@@ -223,6 +224,8 @@ def _particular(one: Measure, value: float | None, context: SpeechContext) -> di
             return {"number": one.thing.number if isinstance(one.thing, Vehicle) else None}
         case "place":
             return {"far": Quantity(value, "m") if value is not None else None}
+        case "distance" if value is not None:
+            return {"at_hand": value < AT}
         case "exit-number" | "turn":
             at_hand = one.attribute == "turn" and (value or 0.0) < AT_HAND
             return _route_verbs(one, context) | {"at_hand": at_hand}

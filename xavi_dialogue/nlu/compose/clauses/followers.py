@@ -4,7 +4,18 @@ from typing import Any, cast
 
 from msgspec import structs
 
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Not, Passenger, Related, Thing, Wanted
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Happens,
+    Not,
+    Passenger,
+    Related,
+    Thing,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Sem, as_thing
 from xavi_dialogue.nlu.compose.clauses.traits import Traits
 from xavi_dialogue.nlu.compose.clauses.tree import is_negated
@@ -110,3 +121,21 @@ def doing(thing: Thing, event: Event | None) -> Sem:
 def relation_of(bearing: str) -> str:
     """Name the relation that a bearing is one side of."""
     return _RELATIONS.get(bearing.split("-")[0], "near")
+
+
+def place_subject(clause: Clause) -> None:
+    """Take "behind us" in "how fast is the car behind us" for a part of the subject."""
+    subject = clause.subject
+    if not isinstance(subject, Described) or subject.bearing is not None:
+        return
+    if clause.verb is not None or clause.objects or not clause.has("be"):
+        return
+    for one in clause.complements:
+        bearing = one.key.removeprefix("bearing-")
+        if isinstance(one.sem, Ego | Passenger) and bearing != one.key:
+            clause.subject = structs.replace(subject, bearing=cast(Any, bearing))
+            clause.complements = [c for c in clause.complements if c is not one]
+            return
+    if clause.bearings and clause.bearings[0][0] != "there":
+        clause.subject = structs.replace(subject, bearing=cast(Any, clause.bearings[0][0]))
+        del clause.bearings[0]

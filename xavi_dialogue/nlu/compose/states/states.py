@@ -180,7 +180,9 @@ def _found(clause: Clause) -> list[Found]:
                           ("gently", "comfortable"), ("hard", "uncomfortable"),
                           ("suddenly", "uncomfortable"), ("close", "close"), ("late", "late"),
                           ("early", "late"), ("far", "far")):  # fmt: skip
-        if manner in clause.manner and not clause.objects and not isinstance(subject, Measure):
+        hurried = manner == "suddenly" and isinstance(subject, Passenger | Ego)  # "in a hurry"
+        open_ = not clause.objects and not isinstance(subject, Measure) and not hurried
+        if manner in clause.manner and open_:
             return [(_is(clause, state, "too" in clause.focus), 0.05)]
     if isinstance(subject, Measure) and subject.of.attribute in ("brake-lights", "indicator"):
         return lights(clause, subject)

@@ -65,7 +65,10 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     real = mode != "supposed" and not window.ahead and spoken.modal in (None, "must", "want")
     # "Is it braking?" is of whom was spoken of, whether he brakes or not.
     open_ = mode == "asked" and spoken.tense == "present" and isinstance(spoken.actor, Pronoun)
-    actor = _somebody(spoken.actor, g, window, real and not open_, _acting(spoken, g, window))
+    open_ |= spoken.action == "go" and not spoken.manner and isinstance(spoken.actor, Pronoun)
+    lately = _is_open(spoken.actor, mode, window)
+    fits = _done(_acting(spoken, g, window, lately), g, lately)
+    actor = _somebody(spoken.actor, g, window, real and not open_, fits)
     if spoken.where is not None and spoken.where.thing == spoken.actor:
         spoken = replace(spoken, where=replace(spoken.where, thing=actor))
     spoken = afoot(replace(spoken, actor=actor), g)
@@ -73,7 +76,9 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     if target is not None:
         other = apart(target, actor, g)
         spoken_of = target
-        target = _somebody(target, other, window, real, _undergoing(spoken, g, window))
+        lately = _is_open(target, mode, window)
+        fits = _done(_undergoing(spoken, g, window, lately), g, lately)
+        target = _somebody(target, other, window, real, fits)
         if isinstance(target, Nobody) and _pictured(spoken_of):
             target = other.thing(spoken_of, window)  # "you pulled out in front of a lorry"
     elif spoken.action == "leave":
@@ -194,13 +199,13 @@ def _where(spoken: Event, g: Grounder, window: Window) -> Related | None:
     return replace(where, thing=thing, to=g.thing(where.to, window), time=window.term)
 
 
-def _acting(spoken: Event, g: Grounder, window: Window) -> Fits:
+def _acting(spoken: Event, g: Grounder, window: Window, open_: bool) -> Fits:
     target = spoken.object
     if isinstance(target, Passenger):
         target = Ego()
     elif isinstance(target, Described | Pronoun):
         target = None
-    exact = spoken.actor == Described(definite=False)  # "has anyone changed lanes?"
+    exact = open_ or spoken.actor == Described(definite=False)  # "has anyone changed lanes?"
     anybody = isinstance(spoken.actor, Described) and not spoken.actor.definite
     fits = _fitting(g, window, lambda n: replace(spoken, actor=Vehicle(n), object=target), exact)
     if not (anybody and spoken.tense == "present" and spoken.action in _ONGOING):
@@ -214,8 +219,27 @@ def _acting(spoken: Event, g: Grounder, window: Window) -> Fits:
     return still
 
 
-def _undergoing(spoken: Event, g: Grounder, window: Window) -> Fits:
-    return _fitting(g, window, lambda n: replace(spoken, object=Vehicle(n)))
+def _undergoing(spoken: Event, g: Grounder, window: Window, open_: bool) -> Fits:
+    return _fitting(g, window, lambda n: replace(spoken, object=Vehicle(n)), open_)
+
+
+def _is_open(thing: Thing, mode: Mode, window: Window) -> bool:
+    """Tell whether it is asked of somebody, known by more than that, whether he did it lately."""
+    definite = isinstance(thing, Described) and thing.definite and not thing.plural
+    return mode == "asked" and not window.said and (definite or isinstance(thing, Pronoun))
+
+
+def _done(fits: Fits, g: Grounder, lately: bool) -> Fits:
+    """Let only what was done lately tell who is meant, where that is asked for."""
+    if not lately:
+        return fits
+
+    def just(vehicle: int) -> Episode | None:
+        found = fits(vehicle)
+        over = found is not None and found.end is not None and found.end < g.context.now - LATELY
+        return None if over else found
+
+    return just
 
 
 def _fitting(

@@ -42,6 +42,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import Bearing, Relation
+from xavi_dialogue.nlu.grounding.completion.discussion import events
 from xavi_dialogue.nlu.grounding.context import Context, Grounder
 
 _VAGUE: Final = ("it", "that", "this")
@@ -65,6 +66,9 @@ def of_others(spoken: Question, g: Grounder) -> Question | None:
     match spoken:
         case HowSure(of=Related(relation="can-see", thing=thing) as seen) if thing != Ego():
             return Whether(seen)  # no chance is held of what others see
+        case HowSure(of=Happens(event=Event("do", actor, None))) if not isinstance(actor, Ego):
+            spoken_of = any(isinstance(e.actor, Vehicle) for e in events(g.context.discourse))
+            return None if spoken_of else HowSure(Related("near", actor, Ego()), spoken.time)
         case Whether(that=Happens(event=Event("go", actor, Feature(kind="way")) as event)):
             ours = isinstance(actor, Ego)
             return Whither() if ours else Whether(Related("with", actor, Ego(), event.time))
