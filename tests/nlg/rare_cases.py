@@ -61,6 +61,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Exit,
+    Feature,
     Happens,
     Is,
     Junction,
@@ -70,6 +71,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.domain.traffic_lights import Shown
 
 STOOD = (Episode(E, "stand", 4.0, 6.0), Episode(E, "stand", 14.0, 18.0))
 MANY = tuple(
@@ -112,6 +114,14 @@ OTHERS = (
 )  # fmt: skip
 BRAKED = Episode(E, "brake", 4.0, 8.0, speed_to=6.0)
 LONG_AGO = Episode(E, "give-way", 4.0, 8.0, object=V)
+
+SPED_UP = Episode(E, "speed-up", NOW - 2.0, speed_from=0.0, speed_to=8.0)
+#: What held us up, and does no longer.
+FREED = (
+    MotionCause("light", shown=Shown(Feature("light"), "green", NOW - 3.0, True)),
+    MotionCause("moved-on", 1),
+    MotionCause("let-go", 1),
+)
 
 CASES: tuple[Answer, ...] = (
     Happenings("list", RIDE * 6),
@@ -385,5 +395,17 @@ CASES: tuple[Answer, ...] = (
             replace(LATER, collision=0.3, fact_collision=0.3),
             ends("collision", 0.8, 2),
         )
+    ),
+    *(
+        one
+        for cause in FREED
+        for past in (False, True)
+        for one in (
+            MotionReason(SPED_UP, (cause,), asked="speed-up", past=past),
+            GoReason(SPED_UP, (), None, past=past, freed=cause),
+        )
+    ),
+    ChoiceReason(
+        "why", CHANGED, replace(LATER, causation=Causation("several", (1, 2, 3))), of_causes=True
     ),
 )

@@ -74,6 +74,8 @@ class MotionCause(Value, frozen=True):
         "next-move",  # the change of lanes that `actions` are comes next
         "given-up",  # a stop, or the turn that `actions` are, was decided, and given up again
         "light",  # a traffic light, `shown`
+        "moved-on",  # somebody who held us up has driven on ...
+        "let-go",  # ... or was let go first
     ]
     vehicle: int | None = None
     actions: tuple[MacroAction, ...] = ()  # what it was expected to do ...
@@ -139,6 +141,7 @@ class GoReason(Value, frozen=True):
     past: bool = True
     refrained: ActionName | None = None  # what was asked: why we did not wait, stop, ...
     evidence: Evidence = Evidence()  # the decision in force when we went
+    freed: MotionCause | None = None  # what held us up until then
 
 
 #: What is asked of a supposition about us: what would come of it, whether or how probably we would

@@ -224,12 +224,18 @@ def _joined(event: Event, scene: Asked, instead: Proposition | None) -> Answer:
     other = event.object if event.where is None else event.where.to
     if vehicle_in(other) is not None and going.crossed(scene) is not None:
         return going.went(structs.replace(event, action="go", object=other, where=None), scene)
+    crossed = going.crossed(scene)
     try:
-        return choices.why(event, scene, instead)
+        found = choices.why(event, scene, instead)
     except Unanswered as unanswered:
-        if not isinstance(unanswered.result, DidNotHappen) or going.crossed(scene) is None:
+        if not isinstance(unanswered.result, DidNotHappen) or crossed is None:
             raise
-    return going.went(structs.replace(event, action="go"), scene)
+        return going.went(structs.replace(event, action="go"), scene)
+    deed = found.deed if isinstance(found, ChoiceReason) else None
+    if event.action == "cut-in" or deed is None or crossed is None:
+        return found
+    later = deed.begin < crossed.time <= scene.moment  # the last one is meant
+    return going.went(structs.replace(event, action="go"), scene) if later else found
 
 
 def _by_latest(found: Answer, scene: Asked) -> Answer:

@@ -9,6 +9,7 @@ from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reasons import choices
 from xavi_dialogue.explain.answers.reference.asked import LEEWAY, Asked
 from xavi_dialogue.explain.answers.reference.reading import is_past, vehicle_in
+from xavi_dialogue.explain.causes.driving.freed import freed
 from xavi_dialogue.explain.causes.driving.going import bystanders
 from xavi_dialogue.explain.causes.plans.contrast import contrast
 from xavi_dialogue.explain.causes.plans.premise import Premise, Subject, is_open, premise
@@ -46,16 +47,17 @@ def went(event: Event, scene: Asked) -> Answer:
     others = bystanders(scene.ride, scene.world, begun)
     asked = vehicle_in(event.object)
     others = tuple(one for one in others if one.vehicle == asked) or others
+    held = None if asked is not None else freed(scene.ride, scene.world, begun)
     trace = scene.ride.at(begun)
     unknown = trace is None or trace.road is None  # who has right of way
-    if not others and (found.deed is None or unknown):
+    if held is None and not others and (found.deed is None or unknown):
         return choices.why(None, scene)
     past = past or (found.deed is not None and begun < scene.now - BEGUN)
     deed = choices.deed_of(scene, found)
     if deed is not None and open_:
         deed = structs.replace(deed, begin=begun)
     rests_on = Evidence(traces=() if trace is None else (trace.trace_id,))
-    return GoReason(deed, others, against, past=past, evidence=rests_on)
+    return GoReason(deed, others, against, past=past, evidence=rests_on, freed=held)
 
 
 def sideways(event: Event, scene: Asked) -> Event:

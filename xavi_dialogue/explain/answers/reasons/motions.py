@@ -24,6 +24,7 @@ from xavi_dialogue.explain.answers.reasons.kept import peak, with_yielding
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import is_own, is_past, vehicle_in
 from xavi_dialogue.explain.causes.driving.driving import Reasons, as_of, reasons_for
+from xavi_dialogue.explain.causes.driving.freed import freed
 from xavi_dialogue.explain.causes.driving.roadside import limit_at, setting_off
 from xavi_dialogue.explain.causes.driving.slowness import AT_LIMIT, Slowness, slowness, with_nearest
 from xavi_dialogue.explain.causes.plans.natural import stopping
@@ -251,10 +252,17 @@ def _preferring(found: list[Episode], kinds: tuple[ActionName, ...]) -> list[Epi
 
 
 def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premise: bool) -> Answer:
+    if named == "speed-up":
+        deed = replace(deed, action="speed-up")  # setting off is
     reasons = reasons_for(scene.ride, scene.world, deed, scene.moment)
     if deed.action in (*STILL, "give-way"):
         end = scene.moment if deed.end is None else deed.end
         reasons = with_yielding(scene, reasons, deed.begin, end)
+    if deed.action == "speed-up":
+        released = freed(scene.ride, scene.world, deed.begin)
+        rest = [cause for cause in reasons.causes if cause.kind != "starting"]
+        if released is not None:
+            reasons = dataclasses.replace(reasons, causes=(released, *rest))
     ours = [cause for cause in reasons.causes if cause.vehicle is not None]
     stops = _stops(scene, deed, named)
     lit = any(cause.kind == "light" for cause in reasons.causes) and not stops

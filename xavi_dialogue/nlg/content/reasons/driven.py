@@ -103,9 +103,11 @@ def _shown(cause: MotionCause, *, past: bool) -> dict[str, object]:
     if shown is None:
         return {}
     turned = shown.colour == "amber" and shown.begun
-    over = shown.end is not None and shown.ended and not past
+    freed = shown.colour == "green" and shown.begun
+    over = shown.end is not None and shown.ended and not past and not freed
     until = Moment(shown.end) if over and shown.end is not None else None
-    return {"colour": COLOURS[shown.colour], "turned": turned and past, "until": until}
+    colour = COLOURS[shown.colour]
+    return {"colour": colour, "turned": turned and past, "until": until, "freed": freed}
 
 
 def is_gone(cause: MotionCause, context: SpeechContext) -> bool:

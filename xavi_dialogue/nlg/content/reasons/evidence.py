@@ -86,10 +86,24 @@ def _needed(cause: Cause, contrast: Contrast, *, past: bool) -> Message | None:
     return message("WITHOUT_CAUSE", who=who, changes=cause.decision_changes, past=past)
 
 
-def hangs_on(causation: Causation | None, time: float, *, past: bool) -> Message | None:
-    """Tell how it hangs on vehicles, where it does not on one alone."""
+def hangs_on(
+    causation: Causation | None, time: float, *, past: bool, brief: int | None = None
+) -> Message | None:
+    """Tell how it hangs on vehicles, where it does not on one alone.
+
+    Args:
+        causation: what it hangs on.
+        time: [s] at which vehicles are described.
+        past: it is past.
+        brief: the vehicle that the reason names, where of several only who else counts is wanted.
+    """
     if causation is None or causation.kind in ("one", "open"):
         return None
+    if brief is not None and causation.kind == "several":
+        others = tuple(v for v in causation.vehicles if v != brief)
+        told = causation.minimal and 0 < len(others) < NAMED
+        who = all_of(others, time) if told else None
+        return message("OTHERS", who=who, many=len(others) > 1 or not told, past=past)
     first = sorted(causation.vehicles, key=lambda vehicle: vehicle not in causation.alters)
     one, other = (*(Who(Vehicle(v), time) for v in first[:2]), None, None)[:2]
     mixed = not causation.decides and any(v in causation.alters for v in causation.vehicles)

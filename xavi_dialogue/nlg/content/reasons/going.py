@@ -36,6 +36,9 @@ def plan_going(answer: GoReason, context: SpeechContext) -> Plan:
     let_go = tuple(Who(Vehicle(one.vehicle), time) for one in gone)
     told = [one for one in ranked if not one.gone][: 2 - len(gone[:1])]
     first = (message("LET_GO", whos=let_go, past=past),) if gone else ()
+    if answer.freed is not None:
+        held = motion_cause(answer.freed, context.now if time is None else time, context, past=past)
+        first, told = (held,) if answer.freed.kind == "let-go" else (held, *first), []
     free = (*first, *(_free(one, time, past=past) for one in told))
     then = answer.refrained is None and past
     core = message("WENT", deed=deed, free=free, past=past, then=then)

@@ -81,7 +81,11 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
     core = (*core, *last_open(answer.open_at), *performed_later(answer.later))
     hangs = hangs_on(contrast.causation, contrast.decided, past=past)
     if hangs is not None and _jointly(answer):
-        core, hangs = (*core, hangs), None  # one of them alone is no reason
+        named = None if answer.of_causes or answer.suspected else told_cause(contrast)
+        brief = None if named is None else named.vehicle
+        joint = hangs_on(contrast.causation, contrast.decided, past=past, brief=brief)
+        assert joint is not None
+        core, hangs = (*core, joint), None if joint == hangs else hangs  # one alone is no reason
     asked = (answer.of_causes or is_next(contrast.causation)) and _of_vehicles(contrast)
     details = () if hangs is None or not asked else (hangs,)
     more = more if hangs is None or details else (hangs, *more)
