@@ -38,7 +38,9 @@ def plan_going(answer: GoReason, context: SpeechContext) -> Plan:
     first = (message("LET_GO", whos=let_go, past=past),) if gone else ()
     if answer.freed is not None:
         held = motion_cause(answer.freed, context.now if time is None else time, context, past=past)
-        first, told = (held,) if answer.freed.kind == "let-go" else (held, *first), []
+        yielded = answer.freed.kind == "let-go"
+        first = (first or (held,)) if yielded else (held, *first)
+        told = told if yielded else [one for one in told if one.first in ("vehicle", "depends")]
     free = (*first, *(_free(one, time, past=past) for one in told))
     then = answer.refrained is None and past
     core = message("WENT", deed=deed, free=free, past=past, then=then)

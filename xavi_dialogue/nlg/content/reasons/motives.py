@@ -60,8 +60,8 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
     alone = not answer.causes and _nobody(answer)  # which the reason itself tells then
     hangs = None if alone else hangs_on(answer.causation, answer.deed.begin, past=past)
     if hangs is not None and is_joint(answer.causation, asked=answer.of_causes):
-        asked = answer.of_causes or answer.suspected is not None
-        brief = None if asked else first_of
+        whole = answer.of_causes or answer.suspected is not None
+        brief = None if whole else first_of
         joint = hangs_on(answer.causation, answer.deed.begin, past=past, brief=brief)
         assert joint is not None
         core, hangs = (*core, joint), None if joint == hangs else hangs  # one alone is no reason
