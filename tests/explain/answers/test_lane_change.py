@@ -182,8 +182,8 @@ def test_a_question_for_yes_or_no_is_answered_by_what_went_on(
         (Measured("lane"), 1.0, 3.0),
         (Measured("distance-to-go"), 304.0, 8.0),
         (Measured("distance-driven"), 96.3, 8.0),  # the lane change is a little longer
-        # Between bodies of 4.8 m by 1.8 m: 8 m ahead and 3.5 m aside, then right behind.
-        (Measured("distance", TRUCK), math.hypot(8.0 - 4.8, 3.5 - 1.8), 8.0),
+        # Between bodies of 4.8 m, 1.8 m and 2.5 m wide: 8 m ahead and 3.5 m aside.
+        (Measured("distance", TRUCK), math.hypot(8.0 - 4.8, 3.5 - 2.15), 8.0),
         (Measured("distance", TRUCK, time=At(2.0), tense="past"), 32.0 - 4.8, 8.0),
         (Measured("distance", CAR), 96.0 - (-12.0 + 62.5 + 10.75 + 18.0) - 4.8, 8.0),
         (Measured("gap", TRUCK), 28.0 - 4.8, 3.0),
@@ -202,7 +202,7 @@ def test_a_measure_is_what_geometry_makes_of_it(of: Measured, value: float, now:
     [
         (Measured("speed", CAR), "highest", 12.5, None),
         (Measured("speed", CAR), "lowest", 9.0, 6.0),
-        (Measured("distance", to=TRUCK), "lowest", math.hypot(3.2, 1.7), 8.0),
+        (Measured("distance", to=TRUCK), "lowest", math.hypot(3.2, 1.35), 8.0),
         (Measured("distance", to=TRUCK), "highest", 35.2, 0.0),
         (Measured("deceleration", CAR), "highest", 3.5, None),
     ],

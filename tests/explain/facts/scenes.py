@@ -140,7 +140,7 @@ def _state(actor: Actor, time: float) -> VehicleState:
         round(speed, 2),
         0.0,
         actor.length,
-        1.8,
+        2.5 if actor.kind == "truck" else 1.8,
         actor.kind,
         actor.colour,
     )
