@@ -50,7 +50,7 @@ def because(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
         known["going_on"] = going_on
         return known["contrast"]
 
-    monkeypatch.setattr(room, "reasons_for", reasons)
+    monkeypatch.setattr(room, "driven_for", reasons)
     monkeypatch.setattr(room, "stopping", stopping)
     monkeypatch.setattr(room, "_speaks", lambda contrast, somebody: contrast == somebody)
     return known
@@ -79,7 +79,7 @@ def motion(event: Event, span: Span | None = None, **more: Any) -> Any:
         ("give-way", (did("wait", 8.0, 12.0),), did("wait", 8.0, 12.0), False),
         ("give-way", (STANDS,), STANDS, False),
         ("let-go", (BRAKES,), BRAKES, False),
-        ("speed-up", (did("go", 5.0, 7.0),), did("go", 5.0, 7.0), True),
+        ("speed-up", (did("go", 5.0, 7.0),), did("speed-up", 5.0, 7.0), True),
         ("block", (BRAKES, STANDS), STANDS, True),
         ("avoid", (STANDS,), STANDS, False),
         ("merge", (BRAKES,), BRAKES, True),

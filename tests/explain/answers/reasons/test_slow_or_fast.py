@@ -51,7 +51,7 @@ class Slow:
         self.times: list[float] = []
         self.deeds: list[Episode] = []
         patch.setattr(room, "slowness", self._slowness)
-        patch.setattr(room, "reasons_for", self._reasons)
+        patch.setattr(room, "driven_for", self._reasons)
         patch.setattr(room, "as_of", self._as_of)
 
     def _slowness(self, ride: Any, _: Any, time: float) -> Slowness:

@@ -23,8 +23,8 @@ from xavi_dialogue.explain.answers.expectations.plans import is_halting
 from xavi_dialogue.explain.answers.reasons.kept import peak, with_yielding
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import is_own, is_past, vehicle_in
-from xavi_dialogue.explain.causes.driving.driving import Reasons, as_of, reasons_for
-from xavi_dialogue.explain.causes.driving.freed import freed
+from xavi_dialogue.explain.causes.driving.driving import Reasons, as_of
+from xavi_dialogue.explain.causes.driving.freed import driven_for
 from xavi_dialogue.explain.causes.driving.roadside import limit_at, setting_off
 from xavi_dialogue.explain.causes.driving.slowness import AT_LIMIT, Slowness, slowness, with_nearest
 from xavi_dialogue.explain.causes.plans.natural import stopping
@@ -178,14 +178,13 @@ def _slowed_for(scene: Asked, found: Slowness) -> Slowness:
     slowing = tuple(e for e in slowing if e.action in (*SLOWING, "give-way"))
     if not slowing:
         return found
-    reasons = reasons_for(scene.ride, scene.world, slowing[-1])
+    reasons = driven_for(scene.ride, scene.world, slowing[-1])
     if not any(c.vehicle is not None and c.kind != "give-way-line" for c in reasons.causes):
         return found
     causes = as_of(scene.ride, reasons.causes, time)
     if not any(cause.vehicle for cause in causes):
         return found
-    reasons = dataclasses.replace(reasons, causes=causes)
-    return dataclasses.replace(found, reasons=reasons)
+    return dataclasses.replace(found, reasons=dataclasses.replace(reasons, causes=causes))
 
 
 def fast(scene: Asked) -> Answer:
@@ -252,17 +251,11 @@ def _preferring(found: list[Episode], kinds: tuple[ActionName, ...]) -> list[Epi
 
 
 def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premise: bool) -> Answer:
-    if named == "speed-up":
-        deed = replace(deed, action="speed-up")  # setting off is
-    reasons = reasons_for(scene.ride, scene.world, deed, scene.moment)
+    deed = replace(deed, action="speed-up") if named == "speed-up" else deed  # setting off is
+    reasons = driven_for(scene.ride, scene.world, deed, scene.moment)
     if deed.action in (*STILL, "give-way"):
         end = scene.moment if deed.end is None else deed.end
         reasons = with_yielding(scene, reasons, deed.begin, end)
-    if deed.action == "speed-up":
-        released = freed(scene.ride, scene.world, deed.begin)
-        rest = [cause for cause in reasons.causes if cause.kind != "starting"]
-        if released is not None:
-            reasons = dataclasses.replace(reasons, causes=(released, *rest))
     ours = [cause for cause in reasons.causes if cause.vehicle is not None]
     stops = _stops(scene, deed, named)
     lit = any(cause.kind == "light" for cause in reasons.causes) and not stops
@@ -337,8 +330,7 @@ def _state(scene: Asked, event: Event, named: ActionName) -> Answer:
         reason = slow(scene)
         if isinstance(reason, MotionReason):
             return replace(reason, premise=False, asked=named)
-    rows = KINDS.get(named, (SLOWING,))
-    raise _denied(scene, event, rows)
+    raise _denied(scene, event, KINDS.get(named, (SLOWING,)))
 
 
 def _denied(scene: Asked, event: Event, rows: tuple[tuple[ActionName, ...], ...]) -> Unanswered:

@@ -1,10 +1,13 @@
 """Freed: what held the ego up before it set off or sped up, and does so no longer."""
 
+import dataclasses
+
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import MotionCause
+from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Feature
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.causes.driving.driving import reasons_for
+from xavi_dialogue.explain.causes.driving.driving import Reasons, reasons_for
 from xavi_dialogue.explain.facts.episodes.light_waits import holds
 from xavi_dialogue.explain.facts.traffic_lights import told
 from xavi_dialogue.explain.facts.world import World
@@ -14,6 +17,20 @@ from xavi_dialogue.explain.history.traffic_lights import shown
 LATELY = 4.0  # [s] since when what held us explains that we go now
 FASTER = 1.0  # [m/s] by which somebody is faster who has moved on
 HELD: tuple[ActionName, ...] = ("stop", "stand", "wait", "give-way", "slow-down", "brake")
+
+
+def driven_for(ride: Ride, world: World, deed: Episode, at: float | None = None) -> Reasons:
+    """Find why the ego drove so; where it sped up, what held it up until then goes first.
+
+    Raises:
+        Unanswered: the record lacks the decision; or rollouts are needed.
+    """
+    found = reasons_for(ride, world, deed, at)
+    released = freed(ride, world, deed.begin) if deed.action == "speed-up" else None
+    if released is None:
+        return found
+    rest = (cause for cause in found.causes if cause.kind != "starting")
+    return dataclasses.replace(found, causes=(released, *rest))
 
 
 def freed(ride: Ride, world: World, time: float) -> MotionCause | None:
