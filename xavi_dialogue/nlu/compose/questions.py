@@ -191,13 +191,8 @@ class Questions(Options):
             content = self._believed(clause) or (believed(held) if held and chance else None)
             if content is not None:
                 return [(HowSure(held_then(clause, content), clause.time), 0.0)]
-        if wh.kind == "grade" and (hangs := self.needing(clause)) is not None:
-            return [(hangs, 0.0)]
-        judged = wh.key == "worse" or (wh.key == "faster" and clause.than is not None)
-        if wh.kind == "grade" and judged:
-            weighed = self.weighed(wh, clause)
-            if weighed is not None:
-                return [(weighed, 0.0)]
+        if wh.kind == "grade" and (graded := self._graded(wh, clause)) is not None:
+            return [(graded, 0.0)]
         if wh.preposition and clause.gap is None and wh.kind in ("what", "who", "which"):
             clause.gap = Wanted()
             if wh.preposition == "for":  # "for whom did you stop?"
@@ -221,6 +216,11 @@ class Questions(Options):
             extra = emphatic + WEAK * _is_lost(wh, clause, value, question)
             found.append((self.framed(question, clause, value), cost + extra))
         return found
+
+    def _graded(self, wh: Wh, clause: Clause) -> Question | None:
+        """Ask how much something hangs on another, or how much better or worse it is."""
+        judged = wh.key == "worse" or (wh.key == "faster" and clause.than is not None)
+        return self.needing(clause) or (self.weighed(wh, clause) if judged else None)
 
     def _nominal(self, wh: Wh, clause: Clause) -> Question | None:
         """Ask "what are the chances that he stops", "whose fault is it"."""

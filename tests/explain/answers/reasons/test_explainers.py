@@ -160,8 +160,6 @@ GAVE = (did("give-way", 3.0, 5.0, object=ONE), did("give-way", 12.0, 14.0, objec
         (Vehicles((1, 2)), blocks(time=Between(2.0, 6.0)), GAVE[:1]),
         (Wanted(), Compares(Measured("delay", Wanted(), time=WholeRide(), tense="past"), "more"),
          GAVE),
-        (Vehicles((1, 2)), Compares(
-            Measured("delay", Wanted(), time=Between(10.0, 15.0), tense="past"), "more"), GAVE[1:]),
     ],
 )  # fmt: skip
 def test_who_held_us_up_over_the_ride(thing: Any, such: Any, told: Any) -> None:
@@ -170,6 +168,20 @@ def test_who_held_us_up_over_the_ride(thing: Any, such: Any, told: Any) -> None:
     found = of(question)(question, scene(episodes=GAVE, looks=looks))
     assert isinstance(found, Happenings)
     assert found.episodes == told
+
+
+def test_which_of_two_cost_more_counts_only_the_time_named():
+    slow = (
+        did("give-way", 3.0, 5.0, object=ONE),
+        did("give-way", 12.0, 14.0, object=TWO),
+        did("give-way", 30.0, 33.0, object=ONE),
+    )
+    looks = {1: look(1), 2: look(2)}
+    delay = Measured("delay", Wanted(), time=Between(10.0, 15.0), tense="past")
+    question = Which(Vehicles((1, 2)), Compares(delay, "more"))
+    found = of(question)(question, scene(episodes=slow, looks=looks, delays={"give-way": 3.0}))
+    assert isinstance(found, Measures)
+    assert [(one.to, one.count) for one in found.measures] == [(TWO, 1), (ONE, 0)]
 
 
 def test_who_blocks_us_now_is_a_reason(whys: list[Why]) -> None:

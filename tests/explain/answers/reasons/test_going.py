@@ -8,7 +8,7 @@ from xavi_dialogue.domain.discourse import GroundedAct, Span
 from xavi_dialogue.domain.meaning import Ask, Doing, WhatIf, Why
 from xavi_dialogue.domain.terms import Ego, Event, Happens, Now, Related, Vehicle
 from xavi_dialogue.explain.answers.engine import explain
-from xavi_dialogue.explain.answers.suppositions.supposing import _asks_now
+from xavi_dialogue.explain.answers.suppositions.supposed_when import _asks_now
 from xavi_dialogue.explain.causes.driving.crossing import crossing
 from xavi_dialogue.explain.causes.driving.going import bystanders
 from xavi_dialogue.explain.facts.world import World

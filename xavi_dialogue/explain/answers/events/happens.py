@@ -68,10 +68,7 @@ def happens(of: Happens, asked: Asked) -> Finding:
         return _blocks(asked, event)
     if event.action in ("collide", "nearly-collide"):
         return _collides(asked, event)
-    here = event.action == "come" and event.tense == "present"
-    if here and (coming := comes(asked, event)) is not None:
-        return coming
-    for told_by in (_moves, closes, trails, keeps):
+    for told_by in (comes, _moves, closes, trails, keeps):
         if (moves := told_by(asked, event)) is not None:
             return moves
     ahead = is_ahead(asked, event.time, event.tense) or _all_the_way(event)

@@ -6,7 +6,17 @@ from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, Happenings, Measures
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.meaning import Which
-from xavi_dialogue.domain.terms import Ego, Event, Feature, Thing, Vehicle, WholeRide
+from xavi_dialogue.domain.terms import (
+    Between,
+    Compares,
+    Ego,
+    Event,
+    Feature,
+    Measured,
+    Thing,
+    Vehicle,
+    WholeRide,
+)
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.foreseen import EXPECTED, HALTS
 from xavi_dialogue.explain.answers.expectations.plans import foreseen, horizon, moving_on
@@ -237,10 +247,13 @@ def total_cost(asked: Asked, other: Vehicle, about: Window) -> Measure:
 
 
 def compared_costs(question: Which, asked: Asked) -> Measures:
-    """Tell what each of several cost us in time, the most first."""
+    """Tell what each of several cost us in time, the most first: in the time named, else in all."""
     numbers = dict.fromkeys(n for of in (question.thing, *question.among) for n in numbers_in(of))
-    ride = Window(asked.world.begin, asked.now)
-    costs = [total_cost(asked, Vehicle(n), ride) for n in numbers]
+    left = question.such.left if isinstance(question.such, Compares) else None
+    about = Window(asked.world.begin, asked.now)
+    if isinstance(left, Measured) and isinstance(left.time, Between):
+        about = window(asked, left.time)
+    costs = [total_cost(asked, Vehicle(n), about) for n in numbers]
     return Measures(tuple(sorted(costs, key=lambda cost: -(cost.value or 0.0))))
 
 

@@ -90,12 +90,13 @@ def _went_first(asked: Asked, event: Event) -> Finding | None:
     if vehicle is None:
         return None
     found = priority_at(asked, vehicle, window(asked, event.time, "past"))
-    if found.first is None and found.rule == "none":
-        return None
     if found.first is None:
-        return Finding(None, answer=found)
-    holds = isinstance(found.first, Ego) == is_us(event.actor)
-    return Finding(holds, answer=replace(found, holds=holds))
+        return None if found.rule == "none" else Finding(None, answer=found)
+    return _held(found, isinstance(found.first, Ego) == is_us(event.actor))
+
+
+def _held(rule: Priority, holds: bool) -> Finding:
+    return Finding(holds, answer=replace(rule, holds=holds))
 
 
 def _before_him(asked: Asked, event: Event) -> Finding | None:
@@ -106,8 +107,7 @@ def _before_him(asked: Asked, event: Event) -> Finding | None:
     found = priority_at(asked, vehicle, window(asked, event.time, "past"))
     crossing = found.rule in ("give-way", "equal", "depends")
     if crossing and isinstance(found.first, Ego):
-        holds = not found.stood  # whom we passed as it stood, we took nothing from
-        return Finding(holds, answer=replace(found, holds=holds))
+        return _held(found, not found.stood)  # whom we passed as it stood, we took nothing from
     waits = asked.world.episodes(Vehicle(vehicle), WAITING, begin=asked.now - LATELY)
     held = [e for e in waits if not is_us(e.object)]
     return Finding(False, tuple(held[-1:])) if held and found.first is None else None
@@ -129,18 +129,13 @@ def _unwilling(asked: Asked, event: Event) -> Finding | None:
     if occasion(asked, present) is not None:
         return None
     found = _owed(asked, present, event.actor, event.object)
-    if isinstance(found.answer, Priority) and _gone_by(found.answer):
-        return None
-    if found.holds and isinstance(found.answer, Priority):
+    rule = found.answer
+    if isinstance(rule, Priority) and rule.rule == "priority" and isinstance(rule.first, Vehicle):
+        return None  # it has gone first, though it had to let us
+    if found.holds and isinstance(rule, Priority):
         return found  # it slows down to, if it does not stand yet
-    if (chance(asked, event, asked.now) or 0.0) >= LIKELY:
-        return None
-    return found if found.holds is False and isinstance(found.answer, Priority) else None
-
-
-def _gone_by(rule: Priority) -> bool:
-    """Tell whether somebody who had to let us go first has gone first."""
-    return rule.rule == "priority" and isinstance(rule.first, Vehicle)
+    likely = (chance(asked, event, asked.now) or 0.0) >= LIKELY
+    return found if found.holds is False and isinstance(rule, Priority) and not likely else None
 
 
 def _not_given(asked: Asked, event: Event) -> Finding | None:
@@ -156,9 +151,9 @@ def _not_given(asked: Asked, event: Event) -> Finding | None:
     about = about if vehicle is not None else where_rule_holds(asked, None, about)
     found = priority_at(asked, vehicle, about)
     if vehicle is not None and found.first is None and found.rule == "give-way":
-        return Finding(True, answer=replace(found, holds=True))  # we are about it
+        return _held(found, True)  # we are about it
     ours = isinstance(found.first, Ego) and found.rule == "give-way"
-    return Finding(False, answer=replace(found, holds=False)) if ours else None
+    return _held(found, False) if ours else None
 
 
 def is_owed(of: Proposition) -> bool:
@@ -214,7 +209,7 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
     if vehicle is None and other is None and ours and not past:
         told = _to_all(asked, about, yielder, other)
         if told is not None:
-            return Finding(True, answer=replace(told, holds=True))
+            return _held(told, True)
     if vehicle is None:
         about = where_rule_holds(asked, None, about)
     if several or every is not None:
@@ -286,9 +281,8 @@ def blamed(question: Fault, asked: Asked) -> Answer:
     struck = event is not None and event.action in ("collide", "nearly-collide")
     if event is None or not is_us(event.actor) or struck or question.legal:
         return fault(question, asked)
-    plain: Proposition = Happens(replace(event, modal=None))
-    if event.action in STUCK:
-        plain = Not(Happens(Event("go", tense="present")))
+    stuck = Not(Happens(Event("go", tense="present")))
+    plain = stuck if event.action in STUCK else Happens(replace(event, modal=None))
     why = Why(plain, suspect=question.suspect)
     explainer = causal.explainer(why, asked)
     return fault(question, asked) if explainer is None else explainer(why, asked)

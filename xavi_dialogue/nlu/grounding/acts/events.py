@@ -1,6 +1,5 @@
 """Events: who did what, and when: matched with the episodes of the record."""
 
-from collections.abc import Callable
 from dataclasses import replace as replaced
 from typing import Final
 
@@ -18,7 +17,6 @@ from xavi_dialogue.domain.terms import (
     Feature,
     Junction,
     Nobody,
-    Passenger,
     Pronoun,
     Related,
     Relative,
@@ -31,6 +29,16 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.facts.episodes.lead_in import held_since
 from xavi_dialogue.nlu.grounding.acts.afoot import afoot
+from xavi_dialogue.nlu.grounding.acts.fitting import (
+    JUST,
+    LASTING,
+    ONGOING,
+    acting,
+    done,
+    is_open,
+    searched,
+    undergoing,
+)
 from xavi_dialogue.nlu.grounding.acts.generic import specified
 from xavi_dialogue.nlu.grounding.acts.hiding import out_of
 from xavi_dialogue.nlu.grounding.completion.discussion import discussed
@@ -49,10 +57,8 @@ UNMET: Final = 0.5  # cost of taking for granted what never happened
 NEARLY: Final = 0.2  # ... where something like it did
 ELSEWHEN: Final = 0.3  # ... where it happened, but at another time
 UNSEEN: Final = 0.05  # cost of asking after what did not happen
-LATELY: Final = 12.0  # [s] within which what is over is still asked about in the present tense
 DENIED: Final = 0.2  # cost of taking for granted that something did not happen that did
 BEFORE: Final = 4.0  # [s] for which who has left a roundabout was still on it before
-JUST: Final = 0.5  # [s] since when what ended still goes on
 FRESH: Final = 10.0  # [s] that "why didn't you" reaches back
 
 
@@ -66,8 +72,8 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     # "Is it braking?" is of whom was spoken of, whether he brakes or not.
     open_ = mode == "asked" and spoken.tense == "present" and isinstance(spoken.actor, Pronoun)
     open_ |= spoken.action == "go" and not spoken.manner and isinstance(spoken.actor, Pronoun)
-    lately = _is_open(spoken.actor, mode, window)
-    fits = _done(_acting(spoken, g, window, lately), g, lately)
+    lately = is_open(spoken.actor, mode, window)
+    fits = done(acting(spoken, g, window, lately), g, lately)
     actor = _somebody(spoken.actor, g, window, real and not open_, fits)
     if spoken.where is not None and spoken.where.thing == spoken.actor:
         spoken = replace(spoken, where=replace(spoken.where, thing=actor))
@@ -76,8 +82,8 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     if target is not None:
         other = apart(target, actor, g)
         spoken_of = target
-        lately = _is_open(target, mode, window)
-        fits = _done(_undergoing(spoken, g, window, lately), g, lately)
+        lately = is_open(target, mode, window)
+        fits = done(undergoing(spoken, g, window, lately), g, lately)
         target = _somebody(target, other, window, real, fits)
         if isinstance(target, Nobody) and _pictured(spoken_of):
             target = other.thing(spoken_of, window)  # "you pulled out in front of a lorry"
@@ -199,69 +205,6 @@ def _where(spoken: Event, g: Grounder, window: Window) -> Related | None:
     return replace(where, thing=thing, to=g.thing(where.to, window), time=window.term)
 
 
-def _acting(spoken: Event, g: Grounder, window: Window, open_: bool) -> Fits:
-    target = spoken.object
-    if isinstance(target, Passenger):
-        target = Ego()
-    elif isinstance(target, Described | Pronoun):
-        target = None
-    exact = open_ or spoken.actor == Described(definite=False)  # "has anyone changed lanes?"
-    anybody = isinstance(spoken.actor, Described) and not spoken.actor.definite
-    fits = _fitting(g, window, lambda n: replace(spoken, actor=Vehicle(n), object=target), exact)
-    if not (anybody and spoken.tense == "present" and spoken.action in _ONGOING):
-        return fits
-
-    def still(vehicle: int) -> Episode | None:
-        found = fits(vehicle)
-        over = found is not None and (found.end or g.context.now) < g.context.now - JUST
-        return None if over else found
-
-    return still
-
-
-def _undergoing(spoken: Event, g: Grounder, window: Window, open_: bool) -> Fits:
-    return _fitting(g, window, lambda n: replace(spoken, object=Vehicle(n)), open_)
-
-
-def _is_open(thing: Thing, mode: Mode, window: Window) -> bool:
-    """Tell whether it is asked of somebody, known by more than that, whether he did it lately."""
-    definite = isinstance(thing, Described) and thing.definite and not thing.plural
-    return mode == "asked" and not window.said and (definite or isinstance(thing, Pronoun))
-
-
-def _done(fits: Fits, g: Grounder, lately: bool) -> Fits:
-    """Let only what was done lately tell who is meant, where that is asked for."""
-    if not lately:
-        return fits
-
-    def just(vehicle: int) -> Episode | None:
-        found = fits(vehicle)
-        over = found is not None and found.end is not None and found.end < g.context.now - LATELY
-        return None if over else found
-
-    return just
-
-
-def _fitting(
-    g: Grounder, window: Window, filled: Callable[[int], Event], exact: bool = False
-) -> Fits:
-    def fits(vehicle: int) -> Episode | None:
-        found = g.context.holds(filled(vehicle), *_searched(g, window))
-        if not found and not exact:
-            found = like(g.context, filled(vehicle), *_searched(g, window))
-            found = tuple(e for e in found if Vehicle(vehicle) in (e.actor, e.object))
-        return found[-1] if found else None
-
-    return fits
-
-
-def _searched(g: Grounder, window: Window) -> tuple[float, float]:
-    begin, end = window.search
-    if not window.said and window.end - window.begin < 0.1:  # the present
-        return end - LATELY, end
-    return begin, end
-
-
 def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) -> Event:
     """Find the episode that an event is, and note whether what is taken for granted holds."""
     held = g.context.holds(found, *window.search)
@@ -270,17 +213,17 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
     aside = mode == "asked" and found.tense == "present"  # "now we are going further left?"
     if not held and (mode == "presupposed" or aside) and found.action in SIDEWAYS:
         moved = replace(found, action=SIDEWAYS[found.action])  # "left again, what is that for"
-        if isinstance(found.actor, Ego) and (held := g.context.holds(moved, *_searched(g, window))):
+        if isinstance(found.actor, Ego) and (held := g.context.holds(moved, *searched(g, window))):
             found = moved
     present = mode == "asked" and found.tense == "present" and _is_present(window)
     now = present and not window.said
-    if held and now and found.action in _ONGOING | _LASTING:  # "are we speeding up?"
+    if held and now and found.action in ONGOING | LASTING:  # "are we speeding up?"
         held = tuple(e for e in held if e.end is None or e.end >= g.context.now - JUST)
     if held:
         return _at(found, _pick(held, window, g), g, window, inner)
     granted = mode == "presupposed"
     if not window.said and window.term != Unsaid() and _is_present(window):
-        late = g.context.holds(found, *_searched(g, window))
+        late = g.context.holds(found, *searched(g, window))
         if late and granted:
             return _at(found, late[-1], g, window, inner)
     if not inner:
@@ -292,7 +235,7 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
     if window.said and g.context.holds(found, g.context.begin, g.context.now):
         g.notes.cost += ELSEWHEN
         return replace(found, time=window.term)
-    near = like(g.context, found, *_searched(g, window))
+    near = like(g.context, found, *searched(g, window))
     if not near:
         g.notes.cost += 0.0 if _is_next(found, g) else UNMET
         return replace(found, time=window.term)
@@ -310,10 +253,6 @@ def _is_next(found: Event, g: Grounder) -> bool:
     road = g.context.world.road(g.context.now)
     route = () if road is None or found.tense != "present" else road.route
     return isinstance(found.actor, Ego) and bool(route) and route[0].turn == found.action
-
-
-_ONGOING: Final = frozenset(("speed-up", "slow-down", "brake", "cross"))
-_LASTING: Final = frozenset(("move", "stand", "wait"))
 
 
 def _is_present(window: Window) -> bool:

@@ -1,0 +1,90 @@
+"""Fitting: which vehicles did, or had done to them, what an event says, and in which episode."""
+
+from collections.abc import Callable
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Passenger,
+    Pronoun,
+    Thing,
+    Vehicle,
+)
+from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Mode, Window
+from xavi_dialogue.nlu.grounding.kin import like
+
+ONGOING: Final = frozenset(("speed-up", "slow-down", "brake", "cross"))
+LASTING: Final = frozenset(("move", "stand", "wait"))
+LATELY: Final = 12.0  # [s] within which what is over is still asked about in the present tense
+JUST: Final = 0.5  # [s] since when what ended still goes on
+
+
+def acting(spoken: Event, g: Grounder, window: Window, open_: bool) -> Fits:
+    """Fit the vehicles that may have done something, with the episode in which they did."""
+    target = spoken.object
+    if isinstance(target, Passenger):
+        target = Ego()
+    elif isinstance(target, Described | Pronoun):
+        target = None
+    exact = open_ or spoken.actor == Described(definite=False)  # "has anyone changed lanes?"
+    anybody = isinstance(spoken.actor, Described) and not spoken.actor.definite
+    fits = _fitting(g, window, lambda n: replace(spoken, actor=Vehicle(n), object=target), exact)
+    if not (anybody and spoken.tense == "present" and spoken.action in ONGOING):
+        return fits
+
+    def still(vehicle: int) -> Episode | None:
+        found = fits(vehicle)
+        over = found is not None and (found.end or g.context.now) < g.context.now - JUST
+        return None if over else found
+
+    return still
+
+
+def undergoing(spoken: Event, g: Grounder, window: Window, open_: bool) -> Fits:
+    """Fit the vehicles to whom something may have been done, with the episode."""
+    return _fitting(g, window, lambda n: replace(spoken, object=Vehicle(n)), open_)
+
+
+def is_open(thing: Thing, mode: Mode, window: Window) -> bool:
+    """Tell whether it is asked of somebody, known by more than that, whether he did it lately."""
+    definite = isinstance(thing, Described) and thing.definite and not thing.plural
+    return mode == "asked" and not window.said and (definite or isinstance(thing, Pronoun))
+
+
+def done(fits: Fits, g: Grounder, lately: bool) -> Fits:
+    """Let only what was done lately tell who is meant, where that is asked for."""
+    if not lately:
+        return fits
+
+    def just(vehicle: int) -> Episode | None:
+        found = fits(vehicle)
+        over = found is not None and found.end is not None and found.end < g.context.now - LATELY
+        return None if over else found
+
+    return just
+
+
+def _fitting(
+    g: Grounder, window: Window, filled: Callable[[int], Event], exact: bool = False
+) -> Fits:
+    def fits(vehicle: int) -> Episode | None:
+        found = g.context.holds(filled(vehicle), *searched(g, window))
+        if not found and not exact:
+            found = like(g.context, filled(vehicle), *searched(g, window))
+            found = tuple(e for e in found if Vehicle(vehicle) in (e.actor, e.object))
+        return found[-1] if found else None
+
+    return fits
+
+
+def searched(g: Grounder, window: Window) -> tuple[float, float]:
+    """Give the stretch of the ride in which an event is looked for [s]."""
+    begin, end = window.search
+    if not window.said and window.end - window.begin < 0.1:  # the present
+        return end - LATELY, end
+    return begin, end
