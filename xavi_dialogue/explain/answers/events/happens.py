@@ -68,11 +68,13 @@ def happens(of: Happens, asked: Asked) -> Finding:
         return _blocks(asked, event)
     if event.action in ("collide", "nearly-collide"):
         return _collides(asked, event)
-    for told_by in (comes, _moves, closes, trails, keeps):
+    here = event.action == "come" and event.tense == "present"
+    if here and (coming := comes(asked, event)) is not None:
+        return coming
+    for told_by in (_moves, closes, trails, keeps):
         if (moves := told_by(asked, event)) is not None:
             return moves
-    ahead = is_ahead(asked, event.time, event.tense) or _all_the_way(event)
-    if ahead or _intended(asked, event):
+    if is_ahead(asked, event.time, event.tense) or _all_the_way(event) or _intended(asked, event):
         return _to_come(asked, past_leader(asked, event))
     return _has_been(asked, event)
 

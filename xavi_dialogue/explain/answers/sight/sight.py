@@ -95,8 +95,6 @@ def others_mind(asked: Asked, vehicle: int) -> Finding:
 
 def comes(asked: Asked, event: Event) -> Finding | None:
     """Tell whether somebody comes towards us, or for our way from a side; None of other things."""
-    if event.action != "come" or event.tense != "present":
-        return None
     if event.object is not None and not is_us(event.object):
         return None
     look = look_of(asked, event.actor, asked.now)
