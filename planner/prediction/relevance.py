@@ -79,6 +79,7 @@ def _of_ego(roads: Roads, here: Location, goal: EgoGoal, reach: float, view: flo
     """Return where the ego may come to: out of every junction on its ways by any link."""
     network, found = roads.network, Reach()
     ahead = approach(roads, here, view)
+    _add(network, found, ahead.lanes)
     for first in _beside(network, ahead.lanes):
         row = onward(roads, (first,), reach, goal)
         _add(network, found, row)

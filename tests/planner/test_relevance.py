@@ -60,6 +60,14 @@ def test_who_turns_into_the_way_back_crosses_the_way_of_the_ego() -> None:
     assert 20 in planned_for(crowd() | {20: crossing})
 
 
+def test_inside_the_junction_who_crosses_the_way_of_the_ego_may_meet_it() -> None:
+    turning = on_lane(crossroads(), ":south_left_0", 8.0).location
+    goal = EgoGoal("west_out", 100.0, None)
+    oncoming, passing = at(":north_straight_0", 6.0), at(":east_right_0", 6.0)
+    others = crowd() | {20: oncoming, 21: passing}
+    assert {20, 21} & relevant(crossroads(), others, turning, goal, SETTINGS) == {20}
+
+
 def test_who_is_on_no_lane_or_has_ways_of_its_own_may_be_anywhere() -> None:
     passed = at("south_out_0", 30.0)
     astray = VehicleState((500.0, 500.0), 0.0, 8.0, 0.0, LENGTH, WIDTH)
