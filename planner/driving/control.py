@@ -24,6 +24,7 @@ from planner.kernels.driving import (
     towards,
 )
 from planner.manoeuvres.clearance import first_touch
+from planner.manoeuvres.layout import INSIDE
 from planner.manoeuvres.plans import ActionPlan, GiveWay
 from planner.motion.everybody import everybody_in, standing
 from planner.motion.forward import DT, Hindrance, Keeping, Lane, Motion, accelerate
@@ -38,7 +39,6 @@ CAUTION = 0.08  # probability from which a motion of a slow vehicle must be give
 CERTAIN = 0.5  # the same for people once they have kept the ego for a while: else it never goes
 LIKELY = 0.3  # probability from which room is made for a vehicle that moves in
 SLOW = 4.0  # [m/s] who drives faster is given way to in every motion that is foreseen
-INSIDE = 1.0  # [m] beyond its line from which the ego is in the way of those who may go first
 PATIENCE = 25  # samples at 5 Hz for which one of them stands before it is taken to wait
 STANDING = 0.1  # [m/s]
 SPARE = 3.0  # [m] to look beyond where the ego can stop

@@ -4,8 +4,10 @@ import math
 
 from planner.kernels.driving import COMFORT, EMERGENCY, FOLLOWING
 from planner.manoeuvres.layout import (
+    BEFORE_LINE,
     CLEAR,
     FAR,
+    INSIDE,
     STRAIGHTEN,
     WAITS,
     Layout,
@@ -100,7 +102,7 @@ def _room_to_choose(roads: Roads, lane: str, goal: EgoGoal | None, view: float) 
 
 
 def stop(roads: Roads, here: Situation, goal: EgoGoal | None) -> ActionPlan | Refusal:
-    """Brake to a standstill on the road ahead."""
+    """Brake to a standstill on the road ahead; a front that sticks out over a line is no harm."""
     network, lane = roads.network, here.location.lane
     if network.lanes[lane].internal:
         return Refusal("it must not stop inside a junction")
@@ -111,7 +113,8 @@ def stop(roads: Roads, here: Situation, goal: EgoGoal | None) -> ActionPlan | Re
     lines = [m.stop for m in waits_along(roads, path, row) if isinstance(m, GiveWay | LetCross)]
     for braking in (COMFORT, FOLLOWING, EMERGENCY):
         end = _rest(here.speed, braking)
-        if end <= min(lines, default=end) and not network.lanes[path.lane_at(end)[0]].internal:
+        before = path.lane_at(end - INSIDE + BEFORE_LINE)[0]
+        if end <= min(lines, default=end) + INSIDE and not network.lanes[before].internal:
             halt = Stop(0.0, braking)
             return finish(roads, "stop", path, (halt,), path.length, math.inf, goal)
     return Refusal("it would come to a stop inside the junction")

@@ -30,6 +30,7 @@ AHEAD = 80.0  # [m] of path at least beyond the end of an action, to see leaders
 FAR = 400.0  # [m] beyond which no action reaches
 CLEAR = 5.0  # [m] beyond a junction at which crossing it is over
 BEFORE_LINE = 0.5  # [m] at which a vehicle waits
+INSIDE = 1.0  # [m] beyond its line from which a vehicle is in the way of those who may go first
 WAITS = GiveWay | KeepClear | LetCross | ObeyLight  # where one may have to wait
 SHORT = 10.0  # [m] before the goal at which no action ends: the next would begin beyond it
 

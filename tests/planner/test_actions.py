@@ -152,6 +152,21 @@ def test_what_applies_inside_a_junction(
         assert found["exit-left"] == found["exit-right"] == INSIDE
 
 
+@pytest.mark.parametrize(
+    ("name", "lane", "away", "speed"),
+    [
+        ("s2", "south_in_0", 0.1, 0.0),  # past the line, and still before the junction
+        ("s2", "south_in_0", 0.2, 0.5),
+        ("s2", "south_in_0", 1.0, 1.5),
+        ("s2", "west_in_0", 0.1, 0.4),  # comes to rest with the bumper in the junction
+    ],
+)
+def test_who_stands_or_crawls_at_a_line_can_stop_there(
+    name: str, lane: str, away: float, speed: float
+) -> None:
+    assert reasons(name, lane, before_end(name, lane, away), speed)["stop"] is None
+
+
 @given(st.floats(1.0, 190.0), st.sampled_from(["main_in_0", "main_in_1", "from_s_0", "exit_n_0"]))
 def test_some_action_applies_everywhere_on_the_road(offset: float, lane: str) -> None:
     found = reasons("s1", lane, min(offset, before_end("s1", lane, 1.0)))
