@@ -194,7 +194,7 @@ def _restore(trace: PlanTrace, roads: Roads, request: WhatIf) -> tuple[Frame, Mo
         trace.sim_time,
         scene,
         history,
-        Root(here, rest),
+        Root(here, rest, trace.driving),
         {vehicle: since for vehicle, since in trace.unseen.items() if vehicle not in gone},
         frozenset(_followers(trace, gone)),
         _lit(roads, trace, request),

@@ -132,13 +132,14 @@ class Driver:
         current = self._current
         committed = current is not None and current.committed
         under_way = (current.plan, current.motion) if current is not None and committed else None
+        driving = current.plan.action if current is not None and not committed else None
         now = self._memory.now
         moment = Moment(
             self._number,
             round(scene.time, 3),
             now,
             {vehicle: self._memory.recorded(vehicle, scene.time) for vehicle in now},
-            Root(self._situation(scene), under_way),
+            Root(self._situation(scene), under_way, driving),
             self._memory.unseen,
             lights=self._lookout(scene),
             phantoms=self._imagined(scene),

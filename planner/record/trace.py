@@ -268,6 +268,7 @@ class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True, dict=True):
     costs: Costs | None = None  # None in older traces, which were reckoned by FORMER
     lights: tuple[LightPrediction, ...] = ()  # the traffic lights in view, by controller
     phantoms: tuple[Phantom, ...] = ()  # who might come out of hidden parts of the road
+    driving: Action | None = None  # what is being driven and can be taken back; kept if as good
 
     @property
     def reckoned(self) -> Costs:

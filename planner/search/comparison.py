@@ -110,6 +110,13 @@ def weighted(
     return [(samples, weight / total) for samples, weight in found.items()]
 
 
+def standard_error(weights: Sequence[float], values: Sequence[float]) -> float:
+    """Return the standard error of the mean of values whose weights sum to 1 (Hajek 1971)."""
+    pairs = list(zip(weights, values, strict=True))
+    mean = sum(weight * value for weight, value in pairs)
+    return math.sqrt(sum((weight * (value - mean)) ** 2 for weight, value in pairs))
+
+
 def likeliest(
     beliefs: Mapping[int, Sequence[Belief]],
     lights: Outlook = DARK,

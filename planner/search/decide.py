@@ -211,6 +211,7 @@ def record(
         costs=COSTS,
         lights=moment.lights,
         phantoms=moment.phantoms,
+        driving=moment.root.driving,
     )
     return fitted(trace)
 

@@ -31,7 +31,7 @@ from planner.roads.routes import Refusal
 from planner.rollouts.reward import EFFORT, absent, reward, terms
 from planner.rollouts.rollout import Leg, Task, held_by_lights, held_up, hindered, summarise, take
 from planner.rollouts.waypoints import cost_by, cost_left
-from planner.search.comparison import Samples, draw, source_of, weighted
+from planner.search.comparison import Samples, draw, source_of, standard_error, weighted
 from planner.search.simulated import Simulated
 from planner.search.tree import Edge, Node, Tree
 from planner.traffic_lights.signals import DARK, Lights, Outlook
@@ -43,6 +43,7 @@ Options: TypeAlias = tuple[Mapping[Action, ActionPlan], tuple[Action, ...]]
 
 LATE = 1e3  # [s] by which a stop is put behind all that leads on
 ENOUGH = 0.05  # share of the rollouts that an action of the plan must have had
+FATAL: tuple[Outcome, ...] = ("collision", "dead")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +52,7 @@ class Root:
 
     here: Situation
     under_way: tuple[ActionPlan, Motion] | None = None  # must be finished first
+    driving: Action | None = None  # what is being driven, and can be taken back
 
 
 @dataclass
@@ -139,13 +141,30 @@ class Search:
         enough = max(1, int(ENOUGH * self.settings.rollouts))
         if not self.compared:
             return _planned(self.tree.best(enough))
-        first = max(self.compared, key=lambda action: self.compared[action])
+        first = self._preferred()
         visits = self.tree.edges[()][first].visits
         rest = self.tree.best(1, (first,))
         return (
             PlannedAction(first, round(self.compared[first], 3), visits),
             *_planned(rest),
         )
+
+    def _preferred(self) -> Action:
+        """Return the first action that does best; what is being driven, where that is as good.
+
+        It is where the best is ahead by no more than the error of the difference, and no safer.
+        """
+        best, kept = max(self.compared, key=lambda action: self.compared[action]), self.root.driving
+        if kept is None or kept not in self.compared:
+            return best
+        tried = [one for one in self.rollouts if one.weight is not None]
+        ours, theirs = ([one for one in tried if one.actions[0] == a] for a in (kept, best))
+        losses = [b.reward - a.reward for a, b in zip(ours, theirs, strict=True)]
+        weights = [one.weight or 0.0 for one in ours]
+        ahead = self.compared[best] - self.compared[kept]
+        if ahead <= standard_error(weights, losses) and _risk(ours) <= _risk(theirs):
+            return kept
+        return best
 
     def not_applicable(self) -> tuple[NotApplicable, ...]:
         """Return why actions did not apply, by node in the order of first visit."""
@@ -309,6 +328,11 @@ class Search:
             one, roads = self.phantoms[phantom], self.task.roads
             found = self._imagined[phantom] = coming(roads, one, name_of(phantom), steps)
         return found
+
+
+def _risk(tried: Sequence[Simulated]) -> float:
+    """Return the probability of a collision, or of losing the way."""
+    return round(sum(one.weight or 0.0 for one in tried if one.outcome in FATAL), 6)
 
 
 def _planned(best: Sequence[tuple[Action, Edge]]) -> tuple[PlannedAction, ...]:

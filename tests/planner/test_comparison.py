@@ -13,7 +13,7 @@ from planner.motion.obstacles import Motions, Obstacle
 from planner.prediction.goals import Goal
 from planner.prediction.recognise import Belief, Trajectory
 from planner.record.trace import Sample
-from planner.search.comparison import draw, likeliest, weighted
+from planner.search.comparison import draw, likeliest, standard_error, weighted
 
 Known: TypeAlias = dict[int, tuple[Belief, ...]]
 
@@ -121,3 +121,10 @@ def test_the_estimate_is_without_bias(likely: float) -> None:
     error = float(np.std(ours)) / math.sqrt(len(ours))
     assert abs(float(np.mean(ours)) - exact) < 4.0 * error
     assert np.std(ours) < 1.02 * np.std(plain)
+
+
+def test_the_standard_error_is_that_of_a_mean_of_equal_weights() -> None:
+    values = [3.0, 5.0, 10.0, 2.0]
+    expected = float(np.std(values)) / math.sqrt(len(values))
+    assert standard_error([0.25] * 4, values) == pytest.approx(expected)
+    assert standard_error([0.5, 0.5], [4.0, 4.0]) == 0.0

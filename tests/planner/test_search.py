@@ -1,10 +1,12 @@
 import random
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from planner.motion.forward import Motion
-from planner.record.trace import ACTIONS, Settings
+from planner.record.trace import ACTIONS, Action, Outcome, Settings
 from planner.search.comparison import likeliest
 from planner.search.decide import predict, prepare
 from planner.search.mcts import Root, Search
@@ -136,6 +138,46 @@ def test_only_the_action_under_way_applies_at_the_root() -> None:
     start = plan.path.pose(8.0)[0]
     for rollout in one.rollouts:
         assert rollout.legs[0].position[0] == pytest.approx(start)
+
+
+def weighed(driven: Sequence[Outcome], other: Sequence[Outcome], losses: Sequence[float]) -> Search:
+    """A search in which a stop came to more, by these losses [s], than what is being driven."""
+    one = ran()
+    assert one.root.driving is None
+    one.root = replace(one.root, driving="continue")
+    kinds: list[tuple[Action, Sequence[Outcome], list[float]]] = [
+        ("continue", driven, [-40.0] * len(losses)),
+        ("stop", other, [loss - 40.0 for loss in losses]),
+    ]
+    one.rollouts = [r for r in one.rollouts if r.weight is None]
+    one.compared = {}
+    for action, outcomes, rewards in kinds:
+        like = next(r for r in one.rollouts if r.actions[0] == action)
+        weight = 1.0 / len(rewards)
+        one.compared[action] = weight * sum(rewards)
+        for outcome, reward in zip(outcomes, rewards, strict=True):
+            one.rollouts.append(replace(like, outcome=outcome, reward=reward, weight=weight))
+    return one
+
+
+DONE: tuple[Outcome, ...] = ("done",) * 4
+
+
+def test_what_is_being_driven_is_kept_unless_something_else_is_clearly_better() -> None:
+    wavers = [6.0, -4.0, 5.0, -4.0]  # 0.75 s better, give or take 2.4 s
+    one = weighed(DONE, DONE, wavers)
+    assert one.plan()[0].action == "continue"
+    assert one.plan()[0].value == one.compared["continue"]
+    one.root = replace(one.root, driving=None)
+    assert one.plan()[0].action == "stop"
+    assert weighed(DONE, DONE, [1.0, 0.5, 1.0, 0.5]).plan()[0].action == "stop"
+
+
+def test_what_is_being_driven_is_not_kept_where_it_is_more_dangerous() -> None:
+    losses = [160.0, -20.0, -20.0, -20.0]
+    risky: tuple[Outcome, ...] = ("collision", "done", "done", "done")
+    assert weighed(risky, DONE, losses).plan()[0].action == "stop"
+    assert weighed(risky, risky, losses).plan()[0].action == "continue"
 
 
 def test_randomness_comes_from_seed_and_decision_alone() -> None:
