@@ -138,6 +138,8 @@ CASES: tuple[Answer, ...] = (
     Measures((Measure("weather", E, NOW, 1.0),)),
     Beliefs(1, None, ()),
     Bound(V),
+    Bound(E, measures=(Measure("distance-to-go", E, NOW, gap="no-way"),)),
+    Measures((Measure("time-to-go", E, NOW, gap="no-way"),)),
     Options((), 2.0, Evidence()),
     Verdict(Is("safe"), None),
     Priority(

@@ -40,6 +40,7 @@ _BY_GAP: dict[Gap, Reason] = {
     "out-of-sight": "outside-record",
     "not-sensed": "out-of-scope",
     "not-recorded": "outside-record",
+    "no-way": "not-applicable",
     "not-applicable": "not-applicable",
     "others-thoughts": "out-of-scope",
     "unknown-plans": "out-of-scope",

@@ -12,7 +12,7 @@ from tests.explain.facts.scenes import Actor, kept, made, speeds, straight
 from tests.traces import Actions, Aim, Chosen, End, Way, trace_of
 from tests.traces import World as Plain
 from xavi_dialogue.domain.facts import Episode, Measure
-from xavi_dialogue.domain.terms import Ego, Thing, Vehicle
+from xavi_dialogue.domain.terms import Destination, Ego, Thing, Vehicle
 from xavi_dialogue.domain.vocabulary import Attribute
 from xavi_dialogue.explain.facts.measures.measuring import measure
 from xavi_dialogue.explain.facts.measures.trip import delay, standing_within
@@ -49,6 +49,14 @@ def test_where_nobody_is_in_the_way_the_rest_is_driven_freely() -> None:
     assert of(nothing, "time-to-go", at=4.0).gap == "not-recorded"
     assert of(nothing, "arrival-time", at=4.0).attribute == "arrival-time"
     assert of(nothing, "arrival-time", at=4.0).gap == "not-recorded"
+
+
+def test_where_no_road_leads_to_the_destination_that_is_what_is_told() -> None:
+    ride = made({0: OURS}, 4.0, roads=lambda _: RoadFacts({}))
+    bare = tuple(replace(t, rollouts=()) for t in ride.record.traces)
+    lost = States(Ride(changed(ride.record, traces=bare)))
+    for attribute in ("time-to-go", "arrival-time", "distance-to-go"):
+        assert of(lost, attribute, at=4.0, to=Destination()).gap == "no-way"
 
 
 CHANCES = ((10.0, 0.04), (12.0, 0.46), (20.0, 0.46), (30.0, 0.04))  # [s] to the goal

@@ -236,6 +236,8 @@ def _arrived(asked: Asked, event: Event) -> Finding:
     if is_ahead(asked, event.time, event.tense) and not asked.ride.arrived:
         found = foreseen(asked, event)
         facts = told(to_go(asked, asked.now))
+        if any(fact.gap == "no-way" for fact in facts):
+            return Finding(False, facts[:1])
         return Finding(True if found is None else found.share >= 0.5, facts)
     if asked.ride.arrived:
         times = [e.sim_time for e in asked.ride.events if e.kind == "arrived"]

@@ -200,7 +200,7 @@ def time_to_go(asked: Asked, at: float) -> Measure:
     if asked.ride.arrived:
         return Measure("time-to-go", Ego(), at, value=0.0, to=Destination())
     known = current_plan(asked)
-    if known is None:
+    if known is None or known[1].likeliest == "dead":
         return found
     trace, plan = known
     passed, times = at - trace.sim_time, plan.present("time")
@@ -230,9 +230,9 @@ def measured(asked: Asked, attributes: tuple[Attribute, ...], at: float) -> tupl
 
 
 def told(measures: tuple[Measure, ...]) -> tuple[Measure, ...]:
-    """Keep those that have a value; all where none has one, so that the reason can be said."""
+    """Keep those that have a value; where none has one, those that tell the reason."""
     known = tuple(m for m in measures if m.gap is None)
-    return known or measures
+    return known or tuple(m for m in measures if m.gap == "no-way")[:1] or measures
 
 
 def took_place(asked: Asked, event: Event) -> Located:

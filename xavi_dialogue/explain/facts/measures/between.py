@@ -97,7 +97,7 @@ def to_place(asked: Asked, place: Thing | None) -> Measure:
     elif isinstance(place, Exit):
         far = road.route[0].distance if road.route else None
     if far is None:
-        return asked.none("not-recorded")
+        return asked.none("not-recorded" if isinstance(place, Exit) else "no-way")
     return asked.found(round(max(still_to(asked.states.ride, far, asked.at), 0.0), 1))
 
 

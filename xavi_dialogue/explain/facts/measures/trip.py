@@ -130,8 +130,10 @@ def _length(trace: PlanTrace, rollout: Rollout) -> float | None:
 def _freely(asked: Asked) -> Measure:
     """Return the time to the destination where nobody is in the way."""
     trace = asked.states.trace(asked.at)
-    if trace is None or trace.road is None or trace.road.free_time is None:
+    if trace is None or trace.road is None:
         return asked.none("not-recorded")
+    if trace.road.free_time is None:
+        return asked.none("no-way")
     left = max(trace.road.free_time - (asked.at - trace.sim_time), 0.0)
     return replace(asked.found(round(left, 1), time=asked.at), at_least=True)
 

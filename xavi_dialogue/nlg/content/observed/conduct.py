@@ -240,6 +240,8 @@ def plan_bound(answer: Bound, context: SpeechContext) -> Plan:
         )
         times = [m.time for m in answer.measures if context.now - m.time > PRESENT]
         when = Moment(times[0]) if times and len(answer.measures) == 1 else None
+        if any(m.gap == "no-way" for m in answer.measures):
+            return Plan((message("NO_VALUE", gap="no-way"),))
         first = message("BOUND_US", far=Quantity(far, "m") if far is not None else None, when=when)
         return Plan((first,), others)
     went, look = answer.went, answer.look
