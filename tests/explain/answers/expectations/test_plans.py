@@ -203,7 +203,8 @@ def test_where_the_drives_do_not_arrive_it_takes_at_least_so_long() -> None:
     hit = Drive(0.75, end=End("collision")), Drive(0.25, end=End(time=18.0))
     assert time_to_go(*hit) == (16.0, 16.0, None, True)
     never = Drive(1.0, end=End("dead"))
-    assert time_to_go(never) == (None, None, None, False)  # it does not get there
+    assert time_to_go(never) == (None, None, None, False)
+    assert places.time_to_go(asked(decided(("continue",), never)), NOW).gap == "no-way"
     quick = Drive(1.0, end=End(time=1.0))
     assert time_to_go(quick, waypoint=True) == (0.0, 0.0, None, True)
 

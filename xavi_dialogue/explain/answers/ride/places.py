@@ -1,5 +1,7 @@
 """Places: where somebody or something is or was, and where somebody is going."""
 
+from msgspec.structs import replace
+
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, Bound, Identified, Located, NotRecorded, PlanAhead
 from xavi_dialogue.domain.facts import Belief, Episode, Measure
@@ -200,9 +202,11 @@ def time_to_go(asked: Asked, at: float) -> Measure:
     if asked.ride.arrived:
         return Measure("time-to-go", Ego(), at, value=0.0, to=Destination())
     known = current_plan(asked)
-    if known is None or known[1].likeliest == "dead":
+    if known is None or found.gap == "no-way":
         return found
     trace, plan = known
+    if plan.likeliest == "dead":
+        return replace(found, gap="no-way")
     passed, times = at - trace.sim_time, plan.present("time")
     if trace.waypoint is not None or plan.likeliest != "done" or not times:
         least = min((t for _, _, t in times), default=trace.settings.horizon) - passed
