@@ -73,14 +73,129 @@ def project(
     if count == 0:
         return found
     line = _line(points, arc, heading)
-    start, stop = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
+    window = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
     corridor = 0.5 * width + SIDE_MARGIN
     for m in range(count):
-        found.speed[m] = states[m, :, 3]
-        _occupied(line, states[m, start:stop], sizes[m], corridor, found, m, start)
-        _note_entries(found.low[m], found.entered[m])
-        _widen(found, m)
+        _project_one(line, states[m], sizes[m], corridor, window, found, m)
     return found
+
+
+@_jit
+def project_some(
+    points: Floats,
+    arc: Floats,
+    heading: Floats,
+    states: Floats,
+    sizes: Floats,
+    width: float,
+    first: int,
+    last: int,
+    which: Ints,
+) -> tuple[Ints, Stretches]:
+    """Do the same for some of the vehicles, and keep those alone that come onto the path.
+
+    Who stays far from the path costs next to nothing.
+
+    Args:
+        points, arc, heading, states, sizes, width, first, last: as for `project`.
+        which: [K] indices of the vehicles.
+
+    Returns:
+        The row of each in the stretches found [K], -1 for one that is never on the path.
+    """
+    total, rows = states.shape[1], np.full(len(which), -1, np.int64)
+    line = _line(points, arc, heading)
+    window = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
+    corridor = 0.5 * width + SIDE_MARGIN
+    near = np.empty(len(which), np.int64)
+    count = 0
+    for k in range(len(which)):
+        m = which[k]
+        if _may_come(line, states[m, window[0] : window[1]], sizes[m], corridor):
+            near[count] = k
+            count += 1
+    found = _empty(count, total)
+    on = 0
+    for i in range(count):
+        m = which[near[i]]
+        _project_one(line, states[m], sizes[m], corridor, window, found, on)
+        if found.last[on] >= 0.0:
+            rows[near[i]] = on
+            on += 1
+    low, high, wide_low, wide_high, along, cosine, speed, entered, ends, top = found
+    some = (low[:on], high[:on], wide_low[:on], wide_high[:on], along[:on], cosine[:on])
+    return rows, Stretches(*some, speed[:on], entered[:on], ends[:on], top[:on])
+
+
+@_jit
+def _project_one(
+    line: Line,
+    states: Floats,
+    size: Floats,
+    corridor: float,
+    window: tuple[int, int],
+    found: Stretches,
+    m: int,
+) -> None:
+    """Fill in a row of stretches, which holds nothing of the path yet.
+
+    Args:
+        line: the path.
+        states, size: of the vehicle.
+        corridor: [m] to either side of the path.
+        window: the steps that are needed, the last one excluded.
+        found: what is filled in.
+        m: the row.
+    """
+    found.speed[m] = states[:, 3]
+    _occupied(line, states[window[0] : window[1]], size, corridor, found, m, window[0])
+    _note_entries(found.low[m], found.entered[m])
+    _widen(found, m)
+
+
+@_jit
+def _may_come(line: Line, states: Floats, size: Floats, corridor: float) -> bool:
+    """Whether a vehicle may be on a path, by the box that its front stays in."""
+    low_x, low_y, high_x, high_y = math.inf, math.inf, -math.inf, -math.inf
+    for t in range(len(states)):
+        x, y = states[t, 0], states[t, 1]
+        if x < low_x:
+            low_x = x
+        if x > high_x:
+            high_x = x
+        if y < low_y:
+            low_y = y
+        if y > high_y:
+            high_y = y
+    if not low_x <= high_x:
+        return False  # it is never in the network
+    widest, behind, reach = _reaches(size, corridor)
+    box = line.box
+    off = max(box[0] - high_x, low_x - box[2], box[1] - high_y, low_y - box[3])
+    if off <= reach:
+        return True
+    ahead, left, right = math.inf, -math.inf, math.inf
+    for x in (low_x, high_x):
+        for y in (low_y, high_y):
+            dx, dy = x - line.points[0, 0], y - line.points[0, 1]
+            aside = dy * line.cos[0] - dx * line.sin[0]
+            ahead = min(ahead, dx * line.cos[0] + dy * line.sin[0])
+            left, right = max(left, aside), min(right, aside)
+    most = widest + behind + SLACK
+    return bool(ahead < behind + SLACK and left > -most and right < most)  # follows
+
+
+@_jit
+def _reaches(size: Floats, corridor: float) -> tuple[float, float, float]:
+    """How far [m] from the path a body may be that is on it.
+
+    Returns:
+        How far aside its middle may be; how far ahead of the path's beginning the front of one
+        that follows may be; and how far from the front the path may be.
+    """
+    length, width = size[0], size[1]
+    widest = corridor + 0.5 * (length + width)
+    return widest, 0.5 * length + SLACK, widest + 1.5 * length + SLACK
 
 
 @_jit
@@ -163,10 +278,8 @@ def _occupied(
     """
     low, high = found.low[m, start:], found.high[m, start:]
     along, cosine = found.along[m, start:], found.cosine[m, start:]
-    points, length = line.points, size[0]
-    widest = corridor + 0.5 * (length + size[1])
-    reach = widest + 1.5 * length + SLACK  # [m] from its front within which the path must lie
-    behind = 0.5 * length + SLACK
+    points = line.points
+    widest, behind, reach = _reaches(size, corridor)
     near, room, again = 0, 0.0, 0
     for t in range(len(states)):
         x, y = states[t, 0], states[t, 1]

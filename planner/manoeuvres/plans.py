@@ -1,9 +1,12 @@
 """Manoeuvres, and the plan of a macro action that is made of them."""
 
 from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
 
 from planner.record.trace import Action
-from planner.roads.trajectory import Path
+from planner.roads.trajectory import Array, Path
 from sim.roads.network import Crossing, Direction, Link, Location
 from sim.scene import Point, Signal
 
@@ -110,9 +113,9 @@ class Situation:
     location: Location
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class ActionPlan:
-    """One macro action, ready to be driven."""
+    """One macro action, ready to be driven. What is asked of it again and again is kept."""
 
     action: Action
     path: Path
@@ -121,27 +124,27 @@ class ActionPlan:
     commit: float  # [m] arc from which it can no longer be taken back
     goal: float | None  # [m] arc at which the goal is reached, if this action reaches it
 
-    @property
+    @cached_property
     def give_ways(self) -> tuple[GiveWay, ...]:
         """The lines at which this action may have to wait."""
         return tuple(m for m in self.manoeuvres if isinstance(m, GiveWay))
 
-    @property
+    @cached_property
     def crossings(self) -> tuple[LetCross, ...]:
         """The crossings for people that this action comes to."""
         return tuple(m for m in self.manoeuvres if isinstance(m, LetCross))
 
-    @property
+    @cached_property
     def lines(self) -> tuple[GiveWay | LetCross, ...]:
         """Where this action may have to wait for others who go first."""
         return (*self.give_ways, *self.crossings)
 
-    @property
+    @cached_property
     def obey_lights(self) -> tuple[ObeyLight, ...]:
         """The lights that this action comes to."""
         return tuple(m for m in self.manoeuvres if isinstance(m, ObeyLight))
 
-    @property
+    @cached_property
     def keep_clears(self) -> tuple[KeepClear, ...]:
         """The junctions that this action must not block."""
         return tuple(m for m in self.manoeuvres if isinstance(m, KeepClear))
@@ -151,12 +154,34 @@ class ActionPlan:
         """Whether the action ends at a standstill."""
         return self.action == "stop"
 
-    @property
+    @cached_property
+    def line_arcs(self) -> Array:
+        """The arcs [m] of `lines`, where each is left, and whether it is a line to give way at."""
+        rows = [(line.stop, line.clear, isinstance(line, GiveWay)) for line in self.lines]
+        return np.array(rows, np.float64).reshape(-1, 3)
+
+    @cached_property
+    def room_arcs(self) -> Array:
+        """The arcs [m] of `keep_clears`, and where each junction is left."""
+        rows = [(room.stop, room.out) for room in self.keep_clears]
+        return np.array(rows, np.float64).reshape(-1, 2)
+
+    @cached_property
+    def light_arcs(self) -> Array:
+        """The arcs [m] of `obey_lights`."""
+        return np.array([light.stop for light in self.obey_lights], np.float64)
+
+    @cached_property
+    def signals(self) -> tuple[Signal, ...]:
+        """What the lights are that this action comes to."""
+        return tuple(light.signal for light in self.obey_lights)
+
+    @cached_property
     def halting(self) -> float:
         """The braking [m/s2] with which it comes to a standstill; 0 unless it stops."""
         return max((m.braking for m in self.manoeuvres if isinstance(m, Stop)), default=0.0)
 
-    @property
+    @cached_property
     def changes_lane(self) -> bool:
         """Whether the action moves to another lane of the same edge."""
         return any(isinstance(m, LaneChange) for m in self.manoeuvres)

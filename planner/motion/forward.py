@@ -14,9 +14,8 @@ import numpy as np
 
 from planner.kernels import driving
 from planner.kernels.along import braking_caps
-from planner.kernels.course import Codes, Course, Ints
+from planner.kernels.course import Course, Ints
 from planner.manoeuvres.actions import ActionPlan
-from planner.manoeuvres.plans import GiveWay
 from planner.motion.obstacles import HOW, Occupancy, Traffic, meeting
 from planner.record.trace import SAMPLE_PERIOD, HoldUp
 from planner.roads.trajectory import KEPT, Array, Path
@@ -54,6 +53,8 @@ class Stops:
 
     def before(self, step: int) -> "Stops":
         """Return those before a step."""
+        if len(self.step) == 0 or self.step[-1] < step:
+            return self
         n = int(np.searchsorted(self.step, step))
         return Stops(self.step[:n], self.which[:n], self.signals)
 
@@ -69,8 +70,15 @@ class Hindrances:
 
     def before(self, step: int) -> "Hindrances":
         """Return those before a step."""
+        if len(self.step) == 0 or self.step[-1] < step:
+            return self
         n = int(np.searchsorted(self.step, step))
         return Hindrances(self.step[:n], self.vehicle[:n], self.how[:n], self.speed[:n])
+
+
+NOTHING: Ints = np.empty(0, np.int64)
+NO_STOPS = Stops(NOTHING, NOTHING, ())
+NO_HINDRANCES = Hindrances(NOTHING, NOTHING, NOTHING, np.empty(0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,40 +222,26 @@ def accelerate(
 
 def _course(plan: ActionPlan, caps: Array, lights: Lights, length: float) -> Course:
     """Return a plan as the kernels know it, with the highest speed [m/s] at every metre."""
-    lines = [(line.stop, line.clear, isinstance(line, GiveWay)) for line in plan.lines]
-    rooms = [(room.stop, room.out + length) for room in plan.keep_clears]
-    ahead = plan.obey_lights
-    return Course(
-        caps,
-        plan.halting,
-        np.array(lines, np.float64).reshape(-1, 3),
-        np.array(rooms).reshape(-1, 2),
-        np.array([light.stop for light in ahead], np.float64),
-        _shown(lights, tuple(light.signal for light in ahead)),
-    )
-
-
-def _shown(lights: Lights, signals: tuple[Signal, ...]) -> Codes:
-    """Return what some lights show at each step [S, T]."""
-    steps = max((len(lights.shows(signal, 1)) for signal in signals), default=1)
-    rows = [lights.shows(signal, steps) for signal in signals]
-    return np.array(rows, np.int8).reshape(len(rows), steps)
+    rooms = plan.room_arcs + (0.0, length) if len(plan.room_arcs) else plan.room_arcs
+    shown = lights.table(plan.signals)
+    return Course(caps, plan.halting, plan.line_arcs, rooms, plan.light_arcs, shown)
 
 
 def _stops(held: Ints, first: int, plan: ActionPlan) -> Stops:
     """From which light held up at every step [S - 1, 3]."""
+    if not plan.signals:
+        return NO_STOPS
     at = np.flatnonzero(held[:, 2] >= 0)
-    signals = tuple(light.signal for light in plan.obey_lights)
-    return Stops(first + at, held[at, 2], signals)
+    return Stops(first + at, held[at, 2], plan.signals)
 
 
 def _hindrances(held: Ints, first: int, others: Occupancy) -> Hindrances:
     """From who held up at every step, and how [S - 1, 3]."""
     at = np.flatnonzero(held[:, 0] >= 0)
+    if len(at) == 0:
+        return NO_HINDRANCES
     who, step = held[at, 0], first + at
     names = np.array(others.traffic.vehicles, dtype=np.int64)
-    if len(at) == 0:
-        return Hindrances(step, who, held[at, 1], np.empty(0))
     speeds = others.stretches.speed
     speed = speeds[who, np.minimum(step, speeds.shape[1] - 1)]
     return Hindrances(step, names[who], others.manner(who, step, held[at, 1]), speed)

@@ -8,7 +8,7 @@ import numpy as np
 
 from planner.kernels.course import Bools
 from planner.kernels.driving import ALIGNED, OPEN, RIGHT_OF_WAY, SHUT
-from planner.kernels.projection import SIDE_MARGIN, Stretches, project, select
+from planner.kernels.projection import SIDE_MARGIN, Stretches, project, project_some, select
 from planner.kernels.reaction import Ints, react
 from planner.manoeuvres.plans import Foe, GiveWay, LetCross
 from planner.record.trace import HoldUp
@@ -69,6 +69,9 @@ class Pool:
     met: dict[tuple[Path, float, int, int, int], Met] = field(default_factory=dict)
     #: Who is above or below a path at each step [T]; by path, and steps in all.
     elsewhere: dict[tuple[Path, int], dict[object, Bools]] = field(default_factory=dict)
+    #: Who goes first at a line with a light at each step [T]; by its link, what lights show, and
+    #: steps in all.
+    firsts: dict[tuple[str, int, Lights, int], dict[object, Bools]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -284,27 +287,42 @@ def meeting(
         met = traffic.pool.met[key] = Met()
     fresh = [m for m, tag in enumerate(traffic.tags) if tag not in met.rows]
     if fresh or met.stretches is None:
-        _add(met, path, traffic.only(fresh), width, first, last)
+        _add(met, path, traffic, fresh, width, first, last)
     assert met.stretches is not None
-    firsts: set[tuple[str, int]] = set()
-    for line in lines:
-        firsts.update(line.yields_to, (foe.key for foe in line.foes))
     rows = [met.rows[tag] for tag in traffic.tags]
-    there = [m for m, own in enumerate(traffic.links) if rows[m] >= 0 or not firsts.isdisjoint(own)]
-    some = traffic.only(there)
-    chosen = np.array([rows[m] for m in there], np.int64)
-    return Occupancy(some, select(met.stretches, chosen, some.states))
+    there = [m for m, row in enumerate(rows) if row >= 0]
+    if lines:
+        firsts: set[tuple[str, int]] = set()
+        for line in lines:
+            firsts.update(line.yields_to, (foe.key for foe in line.foes))
+        links = enumerate(traffic.links)
+        there = [m for m, own in links if rows[m] >= 0 or not firsts.isdisjoint(own)]
+    some, chosen = traffic.only(there), [rows[m] for m in there]
+    if chosen == list(range(len(met.stretches.last))):
+        return Occupancy(some, met.stretches)
+    return Occupancy(some, select(met.stretches, np.array(chosen, np.int64), some.states))
 
 
-def _add(met: Met, path: Path, traffic: Traffic, width: float, first: int, last: int) -> None:
-    """Project motions that have not been projected onto a path yet."""
-    found = _projected(path, traffic, width, first, last)
+def _add(
+    met: Met,
+    path: Path,
+    traffic: Traffic,
+    fresh: Sequence[int],
+    width: float,
+    first: int,
+    last: int,
+) -> None:
+    """Project motions, by their indices, that have not been projected onto a path yet."""
+    line, states = (path.points, path.arc, path.heading), traffic.beside(path)
+    which = np.array(fresh, np.int64)
+    rows, found = project_some(*line, states, traffic.spaces, width, first, last, which)
     known = 0 if met.stretches is None else len(met.stretches.last)
-    for m, (tag, last_on) in enumerate(zip(traffic.tags, found.last.tolist(), strict=True)):
-        met.rows[tag] = known + m if last_on >= 0 else -1
-    if met.stretches is not None:
-        found = Stretches(*map(np.concatenate, zip(met.stretches, found, strict=True)))
-    met.stretches = found
+    for m, row in zip(fresh, rows.tolist(), strict=True):
+        met.rows[traffic.tags[m]] = known + row if row >= 0 else -1
+    if met.stretches is None:
+        met.stretches = found
+    elif len(found.last):
+        met.stretches = Stretches(*map(np.concatenate, zip(met.stretches, found, strict=True)))
 
 
 def _by_light(traffic: Traffic, line: GiveWay, steps: int) -> Bools:
@@ -313,20 +331,41 @@ def _by_light(traffic: Traffic, line: GiveWay, steps: int) -> Bools:
     Who is inside the junction is let out, whatever the light; of the others, those go first for
     whom the junction's rules say so while their light lets them in, and ours does not let us first.
     """
-    first: Bools = np.zeros((len(traffic.links), steps), np.bool_)
+    key = (line.link.junction, line.link.index, traffic.lights, steps)
+    known = traffic.pool.firsts.setdefault(key, {})
+    yields: Bools | None = None
+    for m, (tag, links) in enumerate(zip(traffic.tags, traffic.links, strict=True)):
+        if tag not in known:
+            yields = _not_first(traffic, line, steps) if yields is None else yields
+            known[tag] = _first_by_light(traffic, line, links, traffic.states[m], yields)
+    rows = [known[tag] for tag in traffic.tags]
+    return np.array(rows, np.bool_).reshape(len(rows), steps)
+
+
+def _not_first(traffic: Traffic, line: GiveWay, steps: int) -> Bools:
+    """At which steps [T] our own light does not let us first at a line."""
     ours = line.link.control
-    yields = (
-        traffic.lights.shows(ours, steps)[:steps] >= OPEN
-        if isinstance(ours, Signal)
-        else np.ones(steps, np.bool_)
-    )
-    for m, links in enumerate(traffic.links):
-        for foe in line.foes:
-            if foe.key in links:
-                inside = _beyond(traffic.states[m], foe)
-                first[m] |= inside
-                if foe.first:
-                    first[m] |= yields & ~inside & ~_held(traffic, foe, inside, steps)
+    if not isinstance(ours, Signal):
+        return np.ones(steps, np.bool_)
+    found: Bools = traffic.lights.shows(ours, steps)[:steps] >= OPEN
+    return found
+
+
+def _first_by_light(
+    traffic: Traffic,
+    line: GiveWay,
+    links: frozenset[tuple[str, int]],
+    states: Array,
+    yields: Bools,
+) -> Bools:
+    """Return when one of the others goes first at a line with a light [T]."""
+    first: Bools = np.zeros(len(states), np.bool_)
+    for foe in line.foes:
+        if foe.key in links:
+            inside = _beyond(states, foe)
+            first |= inside
+            if foe.first:
+                first |= yields & ~inside & ~_held(traffic, foe, inside, len(states))
     return first
 
 

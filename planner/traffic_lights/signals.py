@@ -2,7 +2,7 @@
 
 import itertools
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -29,6 +29,7 @@ class Lights:
     """What lights show in one course of events, sampled from step 0 on."""
 
     meaning: Mapping[Signal, Codes]  # [T] to who comes to the line; the last one stays
+    _tables: dict[tuple[Signal, ...], Codes] = field(default_factory=dict)
 
     def shows(self, signal: Signal, steps: int) -> Codes:
         """Return what a light means at each of so many steps, or more [T]."""
@@ -36,6 +37,17 @@ class Lights:
         if len(codes) >= steps:
             return codes
         return np.concatenate((codes, np.full(steps - len(codes), codes[-1])))
+
+    def table(self, signals: tuple[Signal, ...]) -> Codes:
+        """Return what some lights mean at each step [S, T], kept."""
+        if not signals or not self.meaning:
+            return np.full((len(signals), 1), OPEN, np.int8)
+        found = self._tables.get(signals)
+        if found is None:
+            steps = max((len(self.shows(signal, 1)) for signal in signals), default=1)
+            rows = [self.shows(signal, steps) for signal in signals]
+            found = self._tables[signals] = np.array(rows, np.int8).reshape(len(rows), steps)
+        return found
 
     def since(self, step: int) -> "Lights":
         """Return the same, with a later step as step 0."""
