@@ -85,9 +85,10 @@ def control(driving: Driving, around: Around, dt: float) -> tuple[float, Keeping
     path, ego, lights = driving.plan.path, around.scene.ego, shown_now(around.scene)
     seen = _seen(around)
     plan, walkers = with_walkers(driving.plan, around.roads, seen, ego)
-    meeting = _predicted(driving, around, 0.0) if plan.lines else []
+    predicted = _predicted(driving, around, 0.0 if plan.lines else LIKELY)
+    meeting = [motion for _, motion in predicted] if plan.lines else []
     crossing = Traffic.of([*meeting, *walkers], lights)
-    foreseen = Traffic.of(_predicted(driving, around, LIKELY))
+    foreseen = Traffic.of([motion for probability, motion in predicted if probability >= LIKELY])
     chosen = accelerate(
         plan,
         driving.lane,
@@ -188,9 +189,9 @@ def _seen(around: Around) -> list[Obstacle]:
     ]
 
 
-def _predicted(driving: Driving, around: Around, likely: float) -> list[Obstacle]:
-    """Return the motions that the last decision found likely enough, from now on."""
-    found: list[Obstacle] = []
+def _predicted(driving: Driving, around: Around, likely: float) -> list[tuple[float, Obstacle]]:
+    """Return the motions that the last decision found likely enough, and how probable each is."""
+    found: list[tuple[float, Obstacle]] = []
     if around.outlook is None:
         return found
     elapsed, seen = round((around.scene.time - around.outlook.time) / DT), around.seen
@@ -205,8 +206,10 @@ def _predicted(driving: Driving, around: Around, likely: float) -> list[Obstacle
             least = max(least, CERTAIN)
         for belief in beliefs:
             for line in belief.trajectories:
-                if belief.probability * line.probability >= least:
-                    found.append(aligned(line.motion, -elapsed, GAP_HORIZON + 10))
+                probability = belief.probability * line.probability
+                if probability >= least:
+                    motion = aligned(line.motion, -elapsed, GAP_HORIZON + 10)
+                    found.append((probability, motion))
     return found
 
 

@@ -222,7 +222,7 @@ def accelerate(
 
 def _course(plan: ActionPlan, caps: Array, lights: Lights, length: float) -> Course:
     """Return a plan as the kernels know it, with the highest speed [m/s] at every metre."""
-    rooms = plan.room_arcs + (0.0, length) if len(plan.room_arcs) else plan.room_arcs
+    rooms = np.add(plan.room_arcs, (0.0, length))
     shown = lights.table(plan.signals)
     return Course(caps, plan.halting, plan.line_arcs, rooms, plan.light_arcs, shown)
 

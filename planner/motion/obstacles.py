@@ -1,8 +1,9 @@
 """Other vehicles as moving obstacles, and the stretches of a path that they occupy in time."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from sim.scene import Signal
 HOW: tuple[HoldUp, ...] = ("leader", "right-of-way", "cut-in", "blocked", "cut-in")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Obstacle:
     """A vehicle whose motion is given, sampled in the common time base from step 0 on."""
 
@@ -35,6 +36,13 @@ class Obstacle:
     berth: float = SIDE_MARGIN  # [m] kept free beside it
     on_foot: bool = False
 
+    @cached_property
+    def states(self) -> Array:
+        """Its x, y [m], heading [rad] and speed [m/s] in one table [T, 4]."""
+        found = np.empty((len(self.speed), 4))
+        found[:, :2], found[:, 2], found[:, 3] = self.position, self.heading, self.speed
+        return found
+
     @property
     def rests(self) -> bool:
         """Whether it comes to rest in the end."""
@@ -46,11 +54,11 @@ class Motions:
     """How one vehicle moves, which may depend on how lights go on."""
 
     usual: Obstacle  # where they take their likeliest courses
-    other: Mapping[tuple[int, ...], Obstacle] = field(default_factory=dict)  # by courses
+    make: Callable[[tuple[int, ...]], Obstacle] | None = None  # by courses; None: always as usual
 
     def under(self, courses: tuple[int, ...]) -> Obstacle:
-        """Return the motion where controllers take certain courses."""
-        return self.other.get(courses, self.usual)
+        """Return the motion where controllers take certain courses, made when it is needed."""
+        return self.usual if self.make is None else self.make(courses)
 
 
 @dataclass(slots=True, eq=False)
@@ -108,24 +116,29 @@ class Traffic:
         states = np.empty((len(obstacles), total, 4))
         for m, obstacle in enumerate(obstacles):
             count = len(obstacle.speed)
-            states[m, :count, :2] = obstacle.position
-            states[m, :count, 2], states[m, :count, 3] = obstacle.heading, obstacle.speed
-            states[m, count:] = states[m, count - 1]
-        wider = [(0.0, 2.0 * (o.berth - SIDE_MARGIN)) for o in obstacles]
-        sizes = np.array([(o.length, o.width) for o in obstacles]).reshape(-1, 2)
-        return cls(
-            tuple(obstacle.vehicle for obstacle in obstacles),
-            states,
-            sizes,
-            tuple(obstacle.links for obstacle in obstacles),
-            np.zeros(len(obstacles), np.int64),
-            np.zeros(len(obstacles), np.bool_),
-            sizes + np.array(wider).reshape(-1, 2),
-            np.array([o.on_foot for o in obstacles], np.bool_),
-            tuple(obstacles),
-            lights,
-            Pool() if pool is None else pool,
-        )
+            states[m, :count] = obstacle.states
+            if count < total:
+                states[m, count:] = states[m, count - 1]
+        return _in_table(obstacles, states, lights, Pool() if pool is None else pool)
+
+    @classmethod
+    def shifted(
+        cls, obstacles: Sequence[tuple[Obstacle, int]], steps: int, lights: Lights
+    ) -> "Traffic":
+        """Return the motions of obstacles, each later by so many steps: absent before, then cut.
+
+        Args:
+            obstacles: the others, and by how many steps each is moved.
+            steps: the last step.
+            lights: what they show.
+        """
+        total = steps + 1 if obstacles else 1
+        states = np.zeros((len(obstacles), total, 4))
+        states[:, :, :2] = np.nan
+        for m, (obstacle, shift) in enumerate(obstacles):
+            source = obstacle.states[max(-shift, 0) :][: total - max(shift, 0)]
+            states[m, max(shift, 0) : max(shift, 0) + len(source)] = source
+        return _in_table([obstacle for obstacle, _ in obstacles], states, lights, Pool())
 
     def reacting(
         self, own: Array, size: tuple[float, float], first: int, path: Path | None = None
@@ -189,6 +202,25 @@ class Traffic:
             self.lights,
             self.pool,
         )
+
+
+def _in_table(obstacles: Sequence[Obstacle], states: Array, lights: Lights, pool: Pool) -> Traffic:
+    """Return the motions of obstacles, given their states [M, T, 4]."""
+    sizes = [(o.length, o.width, o.width + 2.0 * (o.berth - SIDE_MARGIN)) for o in obstacles]
+    table = np.array(sizes, np.float64).reshape(-1, 3)
+    return Traffic(
+        tuple(obstacle.vehicle for obstacle in obstacles),
+        states,
+        np.ascontiguousarray(table[:, :2]),
+        tuple(obstacle.links for obstacle in obstacles),
+        np.zeros(len(obstacles), np.int64),
+        np.zeros(len(obstacles), np.bool_),
+        np.ascontiguousarray(table[:, ::2]),
+        np.array([o.on_foot for o in obstacles], np.bool_),
+        tuple(obstacles),
+        lights,
+        pool,
+    )
 
 
 NOBODY = Traffic.of(())

@@ -36,21 +36,21 @@ class Scenery:
         return found
 
     def motions(self, make: Callable[[tuple[int, ...]], Obstacle]) -> Motions:
-        """Return the motions of a vehicle under all courses of the controllers that it comes to."""
+        """Return how a vehicle moves under each course of the controllers that it comes to."""
         usual = self.outlook.usual
         motion = make(usual)
         if len(self.outlook.joint) == 1:
             return Motions(motion)
         near = _controllers(self.roads, motion.links)
         made = {usual: motion}
-        other = {}
-        for courses in self.outlook.joint:
+
+        def under(courses: tuple[int, ...]) -> Obstacle:
             alike = self.outlook.with_usual(courses, near)
-            if alike != usual:
-                if alike not in made:
-                    made[alike] = make(alike)
-                other[courses] = made[alike]
-        return Motions(motion, other)
+            if alike not in made:
+                made[alike] = make(alike)
+            return made[alike]
+
+        return Motions(motion, under)
 
     def coast(self, track: Observed) -> Motions:
         """Return how a vehicle goes on if nothing changes but the lights."""

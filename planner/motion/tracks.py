@@ -3,7 +3,7 @@
 import itertools
 import math
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -233,25 +233,8 @@ def coast(
 
 def aligned(obstacle: Obstacle, shift: int, steps: int) -> Obstacle:
     """The obstacle with its track moved by `shift` steps: absent before, cut to 0 ... steps."""
-    total = steps + 1
-
-    def move(values: Array, empty: float) -> Array:
-        moved = np.full((total, *values.shape[1:]), empty)
-        source = values[max(-shift, 0) :][: total - max(shift, 0)]
-        moved[max(shift, 0) : max(shift, 0) + len(source)] = source
-        return moved
-
-    return Obstacle(
-        obstacle.vehicle,
-        obstacle.length,
-        obstacle.width,
-        move(obstacle.position, np.nan),
-        move(obstacle.heading, 0.0),
-        move(obstacle.speed, 0.0),
-        obstacle.links,
-        obstacle.berth,
-        obstacle.on_foot,
-    )
+    moved = Traffic.shifted([(obstacle, shift)], steps, NO_LIGHTS).states[0]
+    return replace(obstacle, position=moved[:, :2], heading=moved[:, 2], speed=moved[:, 3])
 
 
 def drive_on(

@@ -5,8 +5,9 @@ far tells `planner.prediction.likelihood`.
 """
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -17,7 +18,6 @@ from planner.motion.obstacles import NOBODY, Motions, Obstacle, Traffic
 from planner.motion.scenery import Others, Scenery
 from planner.motion.tracks import (
     Observed,
-    aligned,
     berth_of,
     coast,
     drive_on,
@@ -32,8 +32,7 @@ from planner.prediction.likelihood import likelihoods
 from planner.prediction.people import past_of, recognise_people
 from planner.prediction.relevance import gives_way
 from planner.prediction.stopping import stopping
-from planner.record.light_record import HeldByLight
-from planner.record.trace import ON_FOOT, Action, EgoGoal, HeldUp, Settings
+from planner.record.trace import ON_FOOT, Action, EgoGoal, Settings
 from planner.roads.trajectory import Roads
 from planner.rollouts.rollout import Leg, Task, held_by_lights, held_up
 from planner.traffic_lights.signals import DARK, Outlook
@@ -41,16 +40,20 @@ from planner.traffic_lights.signals import DARK, Outlook
 __all__ = ["Belief", "Trajectory", "motion_along", "recognise", "trajectories_to"]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class _Way:
-    """One way on from now."""
+    """One way on from now; how it is driven beyond its goal is worked out when it is needed."""
 
     cost: float  # [s]
     waiting: float  # [s] of it, for others and at lights
     actions: tuple[Action, ...]
-    motions: Motions
-    held_up: tuple[HeldUp, ...] = ()
-    held_by_lights: tuple[HeldByLight, ...] = ()
+    legs: tuple[Leg, ...]
+    drive_on: Callable[[], Motions]
+
+    @cached_property
+    def motions(self) -> Motions:
+        """Return it as others reckon with it."""
+        return self.drive_on()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -189,7 +192,7 @@ def _beliefs(
         return _unknown(scenery, observed)
     weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
     return tuple(
-        Belief(goal, like, weight / sum(weights), _trajectories(onward, settings), share)
+        Belief(goal, like, weight / sum(weights), _trajectories(onward, settings, time), share)
         for goal, like, weight, onward, share in zip(
             goals, likelihood, weights, onwards, shown, strict=True
         )
@@ -199,9 +202,9 @@ def _beliefs(
 
 def _before(scenery: Scenery, observed: Observed, others: Sequence[_Coasting]) -> Traffic:
     """Return the others from the first sample of a track on."""
-    horizon = scenery.steps + observed.elapsed
-    return Traffic.of(
-        [aligned(other.past, observed.elapsed - other.elapsed, horizon) for other in others],
+    return Traffic.shifted(
+        [(other.past, observed.elapsed - other.elapsed) for other in others],
+        scenery.steps + observed.elapsed,
         scenery.outlook.before(observed.elapsed, scenery.steps + GAP_HORIZON),
     )
 
@@ -240,7 +243,7 @@ def _ways_on(
     if goal.target is None:
         motion = stopping(frame, starts[0], observed, others.usual)
         cost = starts[0].speed / COMFORT
-        return [] if motion is None else [_Way(cost, 0.0, ("stop",), Motions(motion))]
+        return [] if motion is None else [_Way(cost, 0.0, ("stop",), (), lambda: Motions(motion))]
     task = replace(frame, goal=goal.target)
     solutions = ways(task, starts, others.usual, SOLUTIONS, grip)
     if not solutions:
@@ -250,9 +253,8 @@ def _ways_on(
             solution.cost,
             len(solution.waits) * DT,
             solution.actions,
-            _motions(task, starts, solution, observed, others),
-            held_up(solution.legs, task.start),
-            held_by_lights(solution.legs, task.start),
+            solution.legs,
+            partial(_motions, task, starts, solution, observed, others),
         )
         for solution in solutions
     ]
@@ -265,9 +267,9 @@ def _held_up(
     found = []
     for free in ways(task, starts, NOBODY, 1, grip):
         legs = held(task, starts, free.actions, others.usual) or free.legs
-        motions = _motions(task, starts, Solution(free.cost, legs), observed, others)
-        stretches, stops = held_up(legs, task.start), held_by_lights(legs, task.start)
-        found.append(_Way(free.cost, 0.0, free.actions, motions, stretches, stops))
+        far = Solution(free.cost, legs)
+        drive_on = partial(_motions, task, starts, far, observed, others)
+        found.append(_Way(free.cost, 0.0, free.actions, legs, drive_on))
     return found
 
 
@@ -310,13 +312,19 @@ def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic)
     )
 
 
-def _trajectories(onwards: list[_Way], settings: Settings) -> tuple[Trajectory, ...]:
+def _trajectories(onwards: list[_Way], settings: Settings, time: float) -> tuple[Trajectory, ...]:
     """Return the ways on with p(way | goal) by softmax over their costs."""
     best = onwards[0].cost
     weights = [math.exp(-settings.rationality * (way.cost - best)) for way in onwards]
     weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
     return tuple(
-        Trajectory(weight / sum(weights), way.actions, way.motions, way.held_up, way.held_by_lights)
+        Trajectory(
+            weight / sum(weights),
+            way.actions,
+            way.motions,
+            held_up(way.legs, time),
+            held_by_lights(way.legs, time),
+        )
         for way, weight in zip(onwards, weights, strict=True)
         if weight > 0.0
     )
@@ -332,7 +340,7 @@ def trajectories_to(
 ) -> tuple[Trajectory, ...]:
     """Return the ways on to a goal, however improbable it is; none where no way leads there."""
     onwards = _ways_on(frame, starts, goal, observed, others)
-    return _trajectories(onwards, settings) if onwards else ()
+    return _trajectories(onwards, settings, frame.start) if onwards else ()
 
 
 def motion_along(frame: Task, legs: Sequence[Leg], observed: Observed, others: Traffic) -> Obstacle:

@@ -26,23 +26,32 @@ def fitted(trace: PlanTrace) -> PlanTrace:
     holds them up, then the rollouts recorded last lose path and speed, then all predictions do;
     what rollouts came to, and why, always stays.
     """
-    if len(encode(trace)) <= MAX_BYTES:
-        return trace
-    trace = _without_past(trace)
-    for below in IMPROBABLE:
-        if len(encode(trace)) > MAX_BYTES:
-            trace = _without_lines(trace, below)
     excess = len(encode(trace)) - MAX_BYTES
+    if excess <= 0:
+        return trace
+    shorter = _without_past(trace)
+    excess -= _size(trace.history) - _size(shorter.history)
+    trace, size = shorter, _size(trace.predictions)
+    for below in IMPROBABLE:
+        if excess > 0:
+            trace = _without_lines(trace, below)
+            now = _size(trace.predictions)
+            excess, size = excess - (size - now), now
     if excess <= 0:
         return trace
     rollouts = list(trace.rollouts)
     for k in range(len(rollouts) - 1, -1, -1):
         if excess > 0 and rollouts[k].path is not None:
             bare = msgspec.structs.replace(rollouts[k], path=None, speed=None)
-            excess -= len(msgspec.json.encode(rollouts[k])) - len(msgspec.json.encode(bare))
+            excess -= _size(rollouts[k]) - _size(bare)
             rollouts[k] = bare
     trace = msgspec.structs.replace(trace, rollouts=tuple(rollouts))
     return trace if excess <= 0 else _without_lines(trace, 1.0)
+
+
+def _size(part: object) -> int:
+    """Return how many bytes a part of a trace takes."""
+    return len(msgspec.json.encode(part))
 
 
 def _without_past(trace: PlanTrace) -> PlanTrace:

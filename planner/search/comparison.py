@@ -9,6 +9,7 @@ import heapq
 import itertools
 import math
 import random
+from bisect import bisect
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import TypeAlias
@@ -67,7 +68,7 @@ def _summed(known: tuple[Belief, ...]) -> tuple[list[float], list[list[float]]]:
 
 
 def _drawn_by(rng: random.Random, sums: list[float]) -> int:
-    return rng.choices(range(len(sums)), cum_weights=sums)[0]
+    return bisect(sums, rng.random() * sums[-1], 0, len(sums) - 1)  # as `choices` does
 
 
 def _drawn(rng: random.Random, probabilities: Sequence[float]) -> int:
