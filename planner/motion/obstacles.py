@@ -345,11 +345,13 @@ def _add(
     last: int,
 ) -> None:
     """Project motions, by their indices, that have not been projected onto a path yet."""
-    line, states = (path.points, path.arc, path.heading), traffic.beside(path)
-    which = np.array(fresh, np.int64)
-    rows, found = project_some(*line, states, traffic.spaces, width, first, last, which)
+    line, which = (path.points, path.arc, path.heading), np.array(fresh, np.int64)
+    if path.passings:
+        traffic, which = traffic.only(fresh), np.arange(len(fresh))
+    states, spaces = traffic.beside(path), traffic.spaces
+    rows, found = project_some(*line, states, spaces, width, first, last, which)
     known = 0 if met.stretches is None else len(met.stretches.last)
-    for m, row in zip(fresh, rows.tolist(), strict=True):
+    for m, row in zip(which.tolist(), rows.tolist(), strict=True):
         met.rows[traffic.tags[m]] = known + row if row >= 0 else -1
     if met.stretches is None:
         met.stretches = found
