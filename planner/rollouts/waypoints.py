@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from planner.record.trace import EgoGoal
+from planner.roads.classes import CLASSES, roads_of
 from planner.roads.routes import remaining, rest_of
 from planner.roads.trajectory import Roads
 from planner.rollouts.reward import WEIGHTS
@@ -160,8 +161,11 @@ def survey(roads: Roads, goal: EgoGoal) -> None:
     _costs_to(roads, goal.edge)
     for edge in _before(roads):
         toll(roads, network.edge_lanes(edge)[0].id)
-    network.locate((0.0, 0.0), 0.0)
-    roads.levels.prepare()
+    for kind in CLASSES:
+        roads_of(roads, kind)
+    for known in {roads, *roads.classes.values()}:
+        known.network.locate((0.0, 0.0), 0.0)
+        known.levels.prepare()
 
 
 def _before(roads: Roads) -> Mapping[str, Mapping[str, float]]:
