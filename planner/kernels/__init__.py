@@ -1,6 +1,7 @@
 """What is computed step by step, compiled by numba.
 
-No kernel calls one of another file: numba's cache sees no changes in files that a kernel imports.
+Kernels call only those of their own file and of `stretches`: numba's cache sees no changes in
+files that a kernel imports.
 `tests/planner/reference.py` says the same in plain Python, but for `reaction`.
 
 M is the number of other vehicles, T of steps of 0.2 s, N of path points, S of samples driven.

@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from planner.kernels.course import Bools, Course, Floats, Ints, Motion
-from planner.kernels.projection import Stretches, stay_behind
+from planner.kernels.stretches import Stretches, stay_behind
 
 STEP = 0.2  # [s] of the common time base
 COMFORT = 2.0  # [m/s2] braking for bends, waiting lines and stops

@@ -7,9 +7,10 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from planner.kernels.stretches import Stretches, empty
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
 
 SIDE_MARGIN = 0.3  # [m] kept free beside the body
 BEFORE, AFTER = 4, 5  # steps by which a gap must precede and outlast a vehicle with priority
@@ -34,21 +35,6 @@ class Line(NamedTuple):
     box: tuple[float, float, float, float]  # [m] least x and y, greatest x and y
 
 
-class Stretches(NamedTuple):
-    """What other vehicles occupy of a path; NaN where the path is free of them."""
-
-    low: Floats  # [m] [M, T] arcs between which the body lies
-    high: Floats  # [m] [M, T]
-    wide_low: Floats  # [m] [M, T] the same over the safety time around the step
-    wide_high: Floats  # [m] [M, T]
-    along: Floats  # [m/s] [M, T] speed along the path
-    cosine: Floats  # [M, T] of the angle to the path
-    speed: Floats  # [m/s] [M, T]
-    entered: Floats  # [M, T] step at which it last came onto the path
-    last: Floats  # [M] last step at which it is on the path; -1 never, FOREVER if at the end
-    top: Floats  # [m] [M] highest arc that it reaches
-
-
 @_jit
 def project(
     points: Floats,
@@ -59,98 +45,45 @@ def project(
     width: float,
     first: int,
     last: int,
-) -> Stretches:
-    """The stretch of a path that every vehicle occupies at each step.
+    which: Ints,
+) -> tuple[Ints, Stretches]:
+    """The stretch of a path that some vehicles occupy at each step; who stays away costs little.
 
     Args:
         points, arc, heading: of the path, [N, 2] [m], [N] [m], [N] [rad].
-        states, sizes: of the vehicles.
+        states, sizes: of all vehicles.
         width: [m] of the vehicle that drives along the path.
         first, last: steps from and up to which this is needed.
-    """
-    count, total = states.shape[0], states.shape[1]
-    found = _empty(count, total)
-    if count == 0:
-        return found
-    line = _line(points, arc, heading)
-    window = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
-    corridor = 0.5 * width + SIDE_MARGIN
-    for m in range(count):
-        _project_one(line, states[m], sizes[m], corridor, window, found, m)
-    return found
-
-
-@_jit
-def project_some(
-    points: Floats,
-    arc: Floats,
-    heading: Floats,
-    states: Floats,
-    sizes: Floats,
-    width: float,
-    first: int,
-    last: int,
-    which: Ints,
-) -> tuple[Ints, Stretches]:
-    """Do the same for some of the vehicles, and keep those alone that come onto the path.
-
-    Who stays far from the path costs next to nothing.
-
-    Args:
-        points, arc, heading, states, sizes, width, first, last: as for `project`.
-        which: [K] indices of the vehicles.
+        which: [K] indices of those that are looked at.
 
     Returns:
-        The row of each in the stretches found [K], -1 for one that is never on the path.
+        The stretches of those that come onto the path, and the row of each there [K]; -1 for one
+        that never does.
     """
     total, rows = states.shape[1], np.full(len(which), -1, np.int64)
     line = _line(points, arc, heading)
-    window = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
+    start, stop = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
     corridor = 0.5 * width + SIDE_MARGIN
     near = np.empty(len(which), np.int64)
     count = 0
     for k in range(len(which)):
-        m = which[k]
-        if _may_come(line, states[m, window[0] : window[1]], sizes[m], corridor):
+        if _may_come(line, states[which[k], start:stop], sizes[which[k]], corridor):
             near[count] = k
             count += 1
-    found = _empty(count, total)
+    found = empty(count, total)
     on = 0
-    for i in range(count):
-        m = which[near[i]]
-        _project_one(line, states[m], sizes[m], corridor, window, found, on)
+    for k in near[:count]:
+        m = which[k]
+        _occupied(line, states[m, start:stop], sizes[m], corridor, found, on, start)
+        _widen(found, on)
         if found.last[on] >= 0.0:
-            rows[near[i]] = on
+            _note_entries(found.low[on], found.entered[on])
+            found.speed[on] = states[m, :, 3]
+            rows[k] = on
             on += 1
     low, high, wide_low, wide_high, along, cosine, speed, entered, ends, top = found
     some = (low[:on], high[:on], wide_low[:on], wide_high[:on], along[:on], cosine[:on])
     return rows, Stretches(*some, speed[:on], entered[:on], ends[:on], top[:on])
-
-
-@_jit
-def _project_one(
-    line: Line,
-    states: Floats,
-    size: Floats,
-    corridor: float,
-    window: tuple[int, int],
-    found: Stretches,
-    m: int,
-) -> None:
-    """Fill in a row of stretches, which holds nothing of the path yet.
-
-    Args:
-        line: the path.
-        states, size: of the vehicle.
-        corridor: [m] to either side of the path.
-        window: the steps that are needed, the last one excluded.
-        found: what is filled in.
-        m: the row.
-    """
-    found.speed[m] = states[:, 3]
-    _occupied(line, states[window[0] : window[1]], size, corridor, found, m, window[0])
-    _note_entries(found.low[m], found.entered[m])
-    _widen(found, m)
 
 
 @_jit
@@ -199,40 +132,6 @@ def _reaches(size: Floats, corridor: float) -> tuple[float, float, float]:
 
 
 @_jit
-def select(found: Stretches, rows: Ints, states: Floats) -> Stretches:
-    """Some rows of what was found, in order; -1 for a vehicle that is never on the path.
-
-    Args:
-        found: the stretches of several vehicles.
-        rows: [M] of these.
-        states: [M, T, 4] of the vehicles wanted.
-    """
-    count, total = states.shape[0], states.shape[1]
-    some = _empty(count, total)
-    for m in range(count):
-        k = rows[m]
-        some.speed[m] = states[m, :, 3]
-        if k < 0:
-            _note_entries(some.low[m], some.entered[m])
-            some.last[m], some.top[m] = -1.0, -math.inf
-            continue
-        some.low[m], some.high[m] = found.low[k], found.high[k]
-        some.wide_low[m], some.wide_high[m] = found.wide_low[k], found.wide_high[k]
-        some.along[m], some.cosine[m] = found.along[k], found.cosine[k]
-        some.entered[m] = found.entered[k]
-        some.last[m], some.top[m] = found.last[k], found.top[k]
-    return some
-
-
-@_jit
-def stay_behind(behind: Bools, found: Stretches, step: int, rear: float) -> None:
-    """Note who is behind a place [m] on the path: it stays there, even if it would drive on."""
-    t = min(step, found.low.shape[1] - 1)
-    for m in range(len(behind)):
-        behind[m] = behind[m] or 0.5 * (found.low[m, t] + found.high[m, t]) < rear
-
-
-@_jit
 def _line(points: Floats, arc: Floats, heading: Floats) -> Line:
     spacing = 1e-9
     for k in range(len(arc) - 1):
@@ -243,23 +142,6 @@ def _line(points: Floats, arc: Floats, heading: Floats) -> Line:
         low_y, high_y = min(low_y, points[k, 1]), max(high_y, points[k, 1])
     box = (low_x, low_y, high_x, high_y)
     return Line(points, arc, heading, np.cos(heading), np.sin(heading), spacing, box)
-
-
-@_jit
-def _empty(count: int, total: int) -> Stretches:
-    shape = (count, total)
-    return Stretches(
-        np.full(shape, np.nan),
-        np.full(shape, np.nan),
-        np.full(shape, np.nan),
-        np.full(shape, np.nan),
-        np.zeros(shape),
-        np.zeros(shape),
-        np.empty(shape),
-        np.empty(shape),
-        np.empty(count),
-        np.empty(count),
-    )
 
 
 @_jit

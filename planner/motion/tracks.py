@@ -233,7 +233,7 @@ def coast(
 
 def aligned(obstacle: Obstacle, shift: int, steps: int) -> Obstacle:
     """The obstacle with its track moved by `shift` steps: absent before, cut to 0 ... steps."""
-    moved = Traffic.shifted([(obstacle, shift)], steps, NO_LIGHTS).states[0]
+    moved = obstacle.shifted(shift, steps)
     return replace(obstacle, position=moved[:, :2], heading=moved[:, 2], speed=moved[:, 3])
 
 

@@ -1,0 +1,81 @@
+"""The stretches of a path that other vehicles occupy, in tables."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+_jit = njit(cache=True, error_model="numpy")
+
+
+class Stretches(NamedTuple):
+    """What other vehicles occupy of a path; NaN where the path is free of them."""
+
+    low: Floats  # [m] [M, T] arcs between which the body lies
+    high: Floats  # [m] [M, T]
+    wide_low: Floats  # [m] [M, T] the same over the safety time around the step
+    wide_high: Floats  # [m] [M, T]
+    along: Floats  # [m/s] [M, T] speed along the path
+    cosine: Floats  # [M, T] of the angle to the path
+    speed: Floats  # [m/s] [M, T]
+    entered: Floats  # [M, T] step at which it last came onto the path
+    last: Floats  # [M] last step at which it is on the path; -1 never, FOREVER if at the end
+    top: Floats  # [m] [M] highest arc that it reaches
+
+
+@_jit
+def empty(count: int, total: int) -> Stretches:
+    """Stretches of so many vehicles over so many steps, none of which is on the path."""
+    shape = (count, total)
+    return Stretches(
+        np.full(shape, np.nan),
+        np.full(shape, np.nan),
+        np.full(shape, np.nan),
+        np.full(shape, np.nan),
+        np.zeros(shape),
+        np.zeros(shape),
+        np.empty(shape),
+        np.empty(shape),
+        np.empty(count),
+        np.empty(count),
+    )
+
+
+@_jit
+def select(found: Stretches, rows: Ints, states: Floats) -> Stretches:
+    """Some rows of what was found, in order; -1 for a vehicle that is never on the path.
+
+    Args:
+        found: the stretches of several vehicles.
+        rows: [M] of these.
+        states: [M, T, 4] of the vehicles wanted.
+    """
+    count, total = states.shape[0], states.shape[1]
+    some = empty(count, total)
+    for m in range(count):
+        k = rows[m]
+        some.speed[m] = states[m, :, 3]
+        if k < 0:
+            some.entered[m] = np.arange(1.0, total + 1.0)
+            some.last[m], some.top[m] = -1.0, -math.inf
+            continue
+        some.low[m], some.high[m] = found.low[k], found.high[k]
+        some.wide_low[m], some.wide_high[m] = found.wide_low[k], found.wide_high[k]
+        some.along[m], some.cosine[m] = found.along[k], found.cosine[k]
+        some.entered[m] = found.entered[k]
+        some.last[m], some.top[m] = found.last[k], found.top[k]
+    return some
+
+
+@_jit
+def stay_behind(behind: Bools, found: Stretches, step: int, rear: float) -> None:
+    """Note who is behind a place [m] on the path: it stays there, even if it would drive on."""
+    t = min(step, found.low.shape[1] - 1)
+    for m in range(len(behind)):
+        behind[m] = behind[m] or 0.5 * (found.low[m, t] + found.high[m, t]) < rear
