@@ -1,8 +1,10 @@
 """What the factual explainers say of made rides of which it is known what happens."""
 
 import math
+from dataclasses import replace
 
 import pytest
+from msgspec import structs
 
 from planner.record.events import Event as Told
 from planner.record.places import LightChange, PriorityFact, RoadFacts, RoadPlace, RouteStep
@@ -62,6 +64,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
     WholeRide,
 )
+from xavi_dialogue.explain.history.ride import Ride
 
 STOPS = ((0.0, 14.0), (4.0, 14.0), (8.0, 0.0), (12.0, 0.0), (16.0, 8.0))
 HALT = {0: Actor(speeds(0.0, 0.0, STOPS)), 1: Actor(straight(20.0, 3.5, 14.0), colour="red")}
@@ -300,6 +303,15 @@ def test_are_we_there_yet() -> None:
     assert {m.attribute for m in found.facts} == {"distance-to-go", "time-to-go"}
     there = made(HALT, 6.0, events=(Told("arrived", 5.5),))
     assert told(there, Whether(Happens(Event("arrive", tense="perfect")))).holds is True
+
+
+def test_we_do_not_arrive_where_no_road_leads() -> None:
+    arrives = Whether(Happens(Event("arrive", tense="future")))
+    ride = made(HALT, 6.0, roads=lambda _: RoadFacts({}))
+    bare = tuple(structs.replace(t, rollouts=()) for t in ride.record.traces)
+    found = told(Ride(replace(ride.record, traces=bare)), arrives)
+    assert (found.holds, [m.gap for m in found.facts]) == (False, ["no-way"])
+    assert told(made(HALT, 6.0, roads=lambda _: road("ego")), arrives).holds is True
 
 
 def test_nobody_there_is_told_with_who_is() -> None:

@@ -78,7 +78,7 @@ def test_why_a_distance_to_a_place_is_not_known() -> None:
     assert of(AHEAD, "distance", to=Junction(rank=-1)).gap == "not-recorded"
     assert of(states(), "distance", to=Destination()).gap == "not-recorded"
     bare = States(made({0: Actor(straight(0.0, 0.0, 10.0))}, 4.0, roads=lambda _: RoadFacts({})))
-    assert of(bare, "distance", to=Destination()).gap == "not-recorded"
+    assert of(bare, "distance", to=Destination()).gap == "no-way"
     assert of(bare, "distance", to=Exit()).gap == "not-recorded"
     late = made(
         {0: Actor(straight(0.0, 0.0, 10.0))}, 9.0, roads=lambda t: roads(t) if t <= 4 else None
