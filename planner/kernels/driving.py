@@ -268,7 +268,7 @@ def _blocker(
 ) -> int:
     """Who must be waited for, which would be in the way of who drives freely and go first.
 
-    Beyond the line, that is asked only as long as one can stop before getting in the way.
+    Beyond the line, that is asked only of those before whom one can still stop.
     """
     arc, speed, acceleration = motion
     last = others.low.shape[1] - 1
@@ -293,8 +293,9 @@ def _blocker(
             low, high = others.wide_low[m, t], others.wide_high[m, t]
             if concerned[m] and low < here + 1.0 and high > here - length - 1.0:
                 stopping = speed * speed / (2.0 * FOLLOWING)
-                late = arc > line and low - arc < stopping - INTRUSION
-                return -1 if late else m
+                if not (arc > line and low - arc < stopping - INTRUSION):
+                    return m
+                concerned[m] = False
     return -1
 
 

@@ -418,8 +418,9 @@ def _blocker(
 ) -> Occupancy | None:
     """Who must be waited for: going on freely would get in the way of its right to go first.
 
-    Beyond the line, that is asked only as long as one can stop before getting in the way.
+    Beyond the line, that is asked only of those before whom one can still stop.
     """
+    late: list[Occupancy] = []
     first = [
         other
         for other in others
@@ -439,12 +440,13 @@ def _blocker(
         arc += 0.5 * (before + speed) * DT
         if arc > passed:
             return None
-        for other in first:
+        for other in [one for one in first if one not in late]:
             begin = other.meets(arc - length - 1.0, arc + 1.0, ahead)
             if begin is not None:
                 stopping = motion.speed**2 / (2.0 * FOLLOWING)
-                late = motion.arc > line.stop and begin - motion.arc < stopping - INTRUSION
-                return None if late else other
+                if not (motion.arc > line.stop and begin - motion.arc < stopping - INTRUSION):
+                    return other
+                late.append(other)
     return None
 
 

@@ -23,6 +23,7 @@ from planner.manoeuvres.actions import ActionPlan, expand
 from planner.motion.forward import DT, Drive, Lane, Motion, advance, drive
 from planner.motion.obstacles import HOW, Obstacle, Traffic
 from sim.roads.network import Direction
+from tests.planner import crossroads
 from tests.planner.nets import arc, drawn, lane, on_lane
 from tests.planner.worlds import (
     LENGTH,
@@ -323,3 +324,14 @@ def test_a_late_conflict_stops_the_ego_inside_the_junction_if_it_still_can() -> 
     start = Motion(line + 8.0, 4.0, 0.0)  # in the way of the other: it had better clear it
     driven = drive(plan, start, 0, Traffic.of((other,)), SIZE, HORIZON)
     assert np.min(speeds(driven)) > 3.0
+
+
+def test_being_in_the_way_of_one_does_not_excuse_from_waiting_for_another() -> None:
+    turn = crossroads.plan(crossroads.before(10.0, 3.0), "exit-left")
+    start = Motion(23.0, 0.5, 0.0)  # across the lane of who comes on
+    ahead = crossroads.driving("north", "straight", [142.0 + 1.6 * k for k in range(STEPS)], 1)
+    right = crossroads.driving("north", "right", [135.0 + 1.4 * k for k in range(STEPS)], 2)
+    for others, waits in (((ahead,), set()), ((right,), {2}), ((ahead, right), {2})):
+        driven = drive(turn, start, 0, Traffic.of(others), SIZE, HORIZON)
+        assert {who for who, how, _ in held_up(driven) if how == "right-of-way"} == waits
+        assert (np.min(speeds(driven)[:15]) < 0.1) == bool(waits)
