@@ -155,6 +155,12 @@ class ActionPlan:
         return self.action == "stop"
 
     @cached_property
+    def met(self) -> frozenset[tuple[str, int]]:
+        """The links, as (junction, index), of all that matter at `lines`, wherever they are."""
+        foes = (foe.key for line in self.lines for foe in line.foes)
+        return frozenset().union(foes, *(line.yields_to for line in self.lines))
+
+    @cached_property
     def line_arcs(self) -> Array:
         """The arcs [m] of `lines`, where each is left, and whether it is a line to give way at."""
         rows = [(line.stop, line.clear, isinstance(line, GiveWay)) for line in self.lines]

@@ -145,7 +145,7 @@ def drive(
         pace: [m/s] faster than which it does not want to drive, or [N] at every metre of the path.
     """
     last = horizon + driving.GAP_HORIZON
-    others = meeting(plan.path, plan.lines, traffic, size[1], first, last)
+    others = meeting(plan.path, plan.met, traffic, size[1], first, last)
     motion, held, finished, goal_time = driving.drive(
         _course(plan, np.minimum(lane_of(plan.path).caps, pace), traffic.lights, size[0]),
         float(plan.end),

@@ -106,7 +106,7 @@ def _projected(
 
 def meeting(
     path: Path,
-    lines: Sequence[GiveWay | LetCross],
+    met_at_lines: frozenset[tuple[str, int]],
     traffic: Traffic,
     width: float,
     first: int,
@@ -116,7 +116,7 @@ def meeting(
 
     Args:
         path: the line that is driven.
-        lines: on it; who goes first at one of them counts, wherever it is.
+        met_at_lines: links, as (junction, index); who drives along one counts, wherever it is.
         traffic: the other vehicles.
         width: [m] of the vehicle that drives along the path.
         first, last: steps from which, and up to which, the occupancy is needed.
@@ -133,12 +133,9 @@ def meeting(
     assert met.stretches is not None
     rows = [met.rows[tag] for tag in traffic.tags]
     there = [m for m, row in enumerate(rows) if row >= 0]
-    if lines:
-        firsts: set[tuple[str, int]] = set()
-        for line in lines:
-            firsts.update(line.yields_to, (foe.key for foe in line.foes))
+    if met_at_lines:
         links = enumerate(traffic.links)
-        there = [m for m, own in links if rows[m] >= 0 or not firsts.isdisjoint(own)]
+        there = [m for m, own in links if rows[m] >= 0 or not met_at_lines.isdisjoint(own)]
     some, chosen = traffic.only(there), [rows[m] for m in there]
     if chosen == list(range(len(met.stretches.last))):
         return Occupancy(some, met.stretches)

@@ -21,6 +21,7 @@ class Scenery:
     outlook: Outlook
     steps: int
     _lights: dict[tuple[int, ...], Lights] = field(default_factory=dict)
+    _before: dict[int, Lights] = field(default_factory=dict)
 
     def on(self, kind: str) -> "Scenery":
         """Return the same on the roads for a kind of vehicle."""
@@ -33,6 +34,14 @@ class Scenery:
         if found is None:
             found = self.outlook.lights(courses, self.steps + GAP_HORIZON)
             self._lights[courses] = found
+        return found
+
+    def lights_before(self, elapsed: int) -> Lights:
+        """Return what lights showed from so many steps ago on, and most likely will show."""
+        found = self._before.get(elapsed)
+        if found is None:
+            found = self.outlook.before(elapsed, self.steps + GAP_HORIZON)
+            self._before[elapsed] = found
         return found
 
     def motions(self, make: Callable[[tuple[int, ...]], Obstacle]) -> Motions:

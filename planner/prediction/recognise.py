@@ -11,7 +11,6 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from planner.kernels.driving import GAP_HORIZON
 from planner.manoeuvres.actions import COMFORT, Situation
 from planner.motion.forward import DT
 from planner.motion.obstacles import NOBODY, Motions, Obstacle, Traffic
@@ -205,7 +204,7 @@ def _before(scenery: Scenery, observed: Observed, others: Sequence[_Coasting]) -
     return Traffic.shifted(
         [(other.past, observed.elapsed - other.elapsed) for other in others],
         scenery.steps + observed.elapsed,
-        scenery.outlook.before(observed.elapsed, scenery.steps + GAP_HORIZON),
+        scenery.lights_before(observed.elapsed),
     )
 
 
