@@ -60,7 +60,7 @@ def weighed(event: Event, span: Span | None = None, **more: Any) -> Any:
     ("event", "by"),
     [
         (Event("see", IT), "sees"),
-        (Event("arrive"), "_arrived"),
+        (Event("arrive"), "arrived"),
         (Event("block"), "_blocks"),
         (Event("collide", IT, US), "_collides"),
         (Event("nearly-collide"), "_collides"),
@@ -84,7 +84,7 @@ def weighed(event: Event, span: Span | None = None, **more: Any) -> Any:
 def test_each_event_is_weighed_by_its_kind(
     monkeypatch: pytest.MonkeyPatch, event: Event, by: str
 ) -> None:
-    for name in ("sees", "_arrived", "_blocks", "_collides", "comes", "_has_been", "_to_come"):
+    for name in ("sees", "arrived", "_blocks", "_collides", "comes", "_has_been", "_to_come"):
         monkeypatch.setattr(room, name, lambda *_, name=name: name)
     assert weighed(event) == by
 

@@ -27,6 +27,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Vehicle,
 )
+from xavi_dialogue.explain.answers.events import arriving
 from xavi_dialogue.explain.answers.events import happens as room
 from xavi_dialogue.explain.answers.reference.findings import Finding
 from xavi_dialogue.explain.answers.reference.moments import Window
@@ -43,13 +44,13 @@ def weighed(event: Event, span: Span | None = None, **more: Any) -> Any:
 
 def arrives(tense: Any, share: float | None, monkeypatch: pytest.MonkeyPatch, **more: Any) -> Any:
     found = None if share is None else Expected(share, 24.0, 22.0, 26.0)
-    monkeypatch.setattr(room, "foreseen", lambda *_: found)
+    monkeypatch.setattr(arriving, "foreseen", lambda *_: found)
     to_go = tuple(
         Measure(name, US, 20.0, value=more.pop(name))
         for name in ("distance-to-go", "time-to-go")
         if name in more
     )
-    monkeypatch.setattr(room, "to_go", lambda *_: to_go)
+    monkeypatch.setattr(arriving, "to_go", lambda *_: to_go)
     return weighed(Event("arrive", tense=tense), **more), to_go
 
 

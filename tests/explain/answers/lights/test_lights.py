@@ -27,6 +27,7 @@ from xavi_dialogue.domain.terms import (
     Feature,
     Happens,
     Has,
+    Is,
     Measured,
     Not,
     Related,
@@ -184,9 +185,11 @@ def test_had_it_stayed_red_we_had_waited():
 
 def test_why_not_on_red_is_answered_by_the_way_and_the_light():
     turn = Event("exit-right", object=RED, tense="present", modal="can")
-    found = answer(Ask(Why(Not(Happens(turn)))), 20.0)
-    assert isinstance(found, TurnOnRed)
-    assert (found.asked, found.way, found.shown.colour) == ("right", "straight", "red")
+    allowed = Is("allowed", event=Event("exit-right", object=RED, tense="present"))
+    for act in (Ask(Why(Not(Happens(turn)))), Ask(Whether(allowed))):
+        found = answer(act, 20.0)
+        assert isinstance(found, TurnOnRed)
+        assert (found.asked, found.way, found.shown.colour) == ("right", "straight", "red")
 
 
 def test_no_light_is_known_of_one_that_was_never_in_view():

@@ -2,10 +2,11 @@
 
 from msgspec.structs import replace as with_fields
 
-from xavi_dialogue.domain.answers import Bound, Course, Verdict
+from xavi_dialogue.domain.answers import Bound, Verdict
 from xavi_dialogue.domain.facts import Episode, Fact, Measure
 from xavi_dialogue.domain.terms import Ego, Event, Happens, Now, Unsaid, Vehicle, WholeRide
 from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
+from xavi_dialogue.explain.answers.events.arriving import arrived
 from xavi_dialogue.explain.answers.events.picking import likeliest
 from xavi_dialogue.explain.answers.expectations.foreseen import (
     HALTS,
@@ -36,7 +37,6 @@ from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, is_ah
 from xavi_dialogue.explain.answers.reference.occasions import instead, occasion, occasions, overlaps
 from xavi_dialogue.explain.answers.ride.leaving import apart, left_behind, still_there
 from xavi_dialogue.explain.answers.ride.onward import other_exit
-from xavi_dialogue.explain.answers.ride.places import to_go, told
 from xavi_dialogue.explain.answers.sight.sight import comes, sees
 from xavi_dialogue.explain.history.thresholds import MOVING
 
@@ -44,8 +44,6 @@ from xavi_dialogue.explain.history.thresholds import MOVING
 INTENDED: tuple[ActionName, ...] = ("pull-out", "let-go", "give-way", "enter", "cross")
 CHANGES: frozenset[ActionName] = frozenset(("change-left", "change-right", "change-lane"))
 RECENT = 2.0  # [s] for which it may still be told what somebody who is hidden is going to do
-NEARLY = 10.0  # [s] before we are there from which on we are nearly there
-AT_HAND = 150.0  # [m] likewise
 SPEEDS = HALTS | YIELDS | frozenset(("slow-down", "speed-up", "brake", "go", "move"))
 
 
@@ -63,7 +61,7 @@ def happens(of: Happens, asked: Asked) -> Finding:
     if event.action == "see":
         return sees(asked, event)
     if event.action == "arrive" and ours:
-        return _arrived(asked, event)
+        return arrived(asked, event)
     if event.action == "block" and ours and naming.number(event.object) is None:
         return _blocks(asked, event)
     if event.action in ("collide", "nearly-collide"):
@@ -231,31 +229,12 @@ def _to_come(asked: Asked, event: Event) -> Finding:
     return expected(share, *going, believed=() if belief is None else (belief,))
 
 
-def _arrived(asked: Asked, event: Event) -> Finding:
-    """Tell whether we are there, or are going to be."""
-    if is_ahead(asked, event.time, event.tense) and not asked.ride.arrived:
-        found = foreseen(asked, event)
-        facts = told(to_go(asked, asked.now))
-        if any(fact.gap == "no-way" for fact in facts):
-            return Finding(False, facts[:1])
-        return Finding(True if found is None else found.share >= 0.5, facts)
-    if asked.ride.arrived:
-        times = [e.sim_time for e in asked.ride.events if e.kind == "arrived"]
-        return Finding(True, (Episode(Ego(), "arrive", times[0], times[0]),))
-    facts = told(to_go(asked, asked.now))
-    soon = next((m.value for m in facts if m.attribute == "time-to-go"), None)
-    left = next((m.value for m in facts if m.attribute == "distance-to-go"), None)
-    if soon is not None and soon <= NEARLY and (left or 0.0) <= AT_HAND:
-        return Finding(None, facts, answer=Course("nearly", (), left=left, soon=soon))
-    return Finding(False, facts)
-
-
 def _collides(asked: Asked, event: Event) -> Finding:
     """Tell whether there was a collision, nearly was one, or may be."""
-    others = (naming.number(event.actor), naming.number(event.object))
-    if others[0] is not None and others[1] is not None:
+    one, other = naming.number(event.actor), naming.number(event.object)
+    if one is not None and other is not None:
         return apart(asked, event)
-    vehicle = others[0] or others[1]
+    vehicle = one or other
     about = window(asked, event.time, event.tense)
     ahead = is_ahead(asked, event.time, event.tense) or event.tense == "present"
     crash = occasion(asked, Event("collide", Ego(), event.object, time=event.time))

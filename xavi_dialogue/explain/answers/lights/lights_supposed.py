@@ -11,7 +11,7 @@ from planner.record.trace import PlanTrace
 from sim.scene import EGO, LightState, Signal
 from xavi_dialogue.domain.answers import Answer, NotRecorded
 from xavi_dialogue.domain.meaning import Question, WhatIf, Whether, Why
-from xavi_dialogue.domain.terms import Event, Feature, Happens, Proposition
+from xavi_dialogue.domain.terms import Event, Feature, Happens, Is, Proposition
 from xavi_dialogue.domain.traffic_lights import LightColour, Shown, SupposedOfLight, TurnOnRed
 from xavi_dialogue.explain.answers.lights.lights_ahead import wanted_of
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -180,10 +180,14 @@ def turn_on_red(of: Proposition | None) -> Event | None:
 
 
 def turns_on_red(of: Proposition | None) -> Event | None:
-    """Find a turn of ours on red."""
-    if not isinstance(of, Happens) or not is_own(of.event.actor):
-        return None
-    event = of.event
+    """Find a turn of ours on red: that we make it, or that it is allowed."""
+    match of:
+        case Happens(event=event) | Is(state="allowed", event=Event() as event) if is_own(
+            event.actor
+        ):
+            pass
+        case _:
+            return None
     light = light_in(event.object, None if event.where is None else event.where.to)
     on_red = light is not None and light.colour == "red"
     return event if on_red and event.action in TURNS else None

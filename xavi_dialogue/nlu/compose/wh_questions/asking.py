@@ -247,7 +247,9 @@ class Asking(What, WhichOne):
             case "evidence":
                 of = content_of(clause, value)
                 match of:
-                    case Not(content=Happens(event=Event(actor=Ego()))):
+                    case Not(content=Happens(event=Event(actor=Ego(), tense=tense))) if (
+                        tense != "future"
+                    ):
                         return Why(of)  # "on what basis are you not stopping?"
                 return HowKnow(of)
             case "what" | "who" | "whose":

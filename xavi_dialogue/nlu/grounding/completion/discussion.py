@@ -51,6 +51,8 @@ PROPOSITIONS: Final = (
     Happens, Related, Is, Has, Compares, Exists, Caused, Believed, Not, Both, That,
 )  # fmt: skip
 
+UNREAL: Final = ("would", "can", "could", "might")
+
 
 def proposition_of(question: Question | None) -> Proposition | None:
     """Give the proposition that a question is about."""
@@ -126,13 +128,14 @@ def affirmed(proposition: Proposition) -> Proposition:
 def events(discourse: Discourse, *, real: bool = False) -> Iterator[Event]:
     """Yield the events spoken of, those of the question under discussion first.
 
-    Those of the real world alone leave out what was supposed, and what would come of it.
+    Those of the real world alone leave out what was supposed, what would come of it, and what
+    somebody could do.
     """
     acts = (act for act in discourse.last_acts if isinstance(act, Ask | Claim | Request))
     for source in (discourse.question, *discourse.propositions, *acts):
         if not real or first(source, WhatIf) is None:
             found = parts(source, Event)
-            yield from (e for e in found if not real or e.modal != "would")
+            yield from (e for e in found if not real or e.modal not in UNREAL)
 
 
 def discussed(context: Context, actor: Thing | None = None, *, real: bool = False) -> Event | None:
