@@ -3,7 +3,12 @@
 import re
 from dataclasses import dataclass
 
-from benchmarks.truth import (
+from benchmarks.truth.context import RULES, Fault, Said, Told
+from benchmarks.truth.decision import Decision
+from benchmarks.truth.mentions import mentions
+from benchmarks.truth.phrases import COUNTS
+from benchmarks.truth.ridden import Ridden
+from benchmarks.truth.statements import (
     blames,
     chances,
     conduct,
@@ -15,11 +20,6 @@ from benchmarks.truth import (
     own,
     without,
 )
-from benchmarks.truth.context import RULES, Fault, Said, Told
-from benchmarks.truth.decision import Decision
-from benchmarks.truth.mentions import mentions
-from benchmarks.truth.phrases import COUNTS
-from benchmarks.truth.ridden import Ridden
 
 __all__ = [
     "blames", "chances", "checked", "conduct", "consequences", "deeds", "hazards", "motion",

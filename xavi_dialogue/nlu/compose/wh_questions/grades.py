@@ -26,6 +26,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Junction,
+    Lane,
     Measured,
     Next,
     Not,
@@ -176,9 +177,8 @@ def _quality(clause: Clause, words: tuple[str, ...], value: Any, actor: Thing | 
              "free": "free", "busy": "busy", "old": "right", "crowded": "busy"}  # fmt: skip
     if isinstance(value, Related) and value.relation == "can-see":
         return HowMuch(Measured("visibility", value.to, time=clause.time))
-    event = value.event if isinstance(value, Happens) else None
-    if isinstance(clause.subject, Event):  # "how risky is moving back?"
-        event = with_fields(clause.subject, tense=clause.tense)
+    deed_told = isinstance(value, Happens) and not isinstance(clause.subject, Event)
+    event = value.event if deed_told else _weighed(clause, actor)
     name: Any = state.get(words[-1], "safe")
     deed = actor in (Pronoun("that"), Pronoun("it"))
     risk = name in ("safe", "dangerous")
@@ -190,6 +190,20 @@ def _quality(clause: Clause, words: tuple[str, ...], value: Any, actor: Thing | 
         return WhatIf(Happens(replace(event, tense=tense)), collides)
     asked = Is(name, None if event else actor, event, time=clause.time, tense=tense_of(clause))
     return Whether(asked, degree=risk)
+
+
+def _weighed(clause: Clause, actor: Thing | None) -> Event | None:
+    """Find the deed that is called risky: "how risky is moving back?", "... is the left lane?"."""
+    if isinstance(clause.subject, Event):
+        return with_fields(clause.subject, tense=clause.tense)
+    match actor:
+        case Lane(which="left"):
+            return Event("change-left", tense=clause.tense)
+        case Lane(which="right"):
+            return Event("change-right", tense=clause.tense)
+    deeds = (part.sem for part in clause.complements if isinstance(part.sem, Event))
+    deed = next(deeds, None)  # "how risky would it be to move to the left lane?"
+    return None if deed is None else with_fields(deed, tense=clause.tense)
 
 
 def sure_of(clause: Clause, value: Any) -> Question:

@@ -3,12 +3,12 @@
 import re
 from collections.abc import Iterator
 
-from benchmarks.truth.chances import chances
 from benchmarks.truth.context import KMH, Fault, Said, Told, claim, rounded
 from benchmarks.truth.decision import Decision
 from benchmarks.truth.naming import percents
 from benchmarks.truth.phrases import COUNTS, acts, count, is_chance
 from benchmarks.truth.reckoning import Actions
+from benchmarks.truth.statements.chances import chances
 from planner.record.trace import Action, HeldUp, PlanTrace
 from sim.scene import EGO
 

@@ -5,8 +5,8 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
-from benchmarks.truth.chances import risks, told_as
 from benchmarks.truth.context import Fault, Said, claim, near, rounded
+from benchmarks.truth.statements.chances import risks, told_as
 from sim.scene import EGO
 
 DOING = {
