@@ -6,8 +6,8 @@ import pytest
 
 from tests.nlg.causal_cases import LEADER, E
 from tests.nlg.test_nlg_causes import CONTEXT
-from xavi_dialogue.domain.answers import MotionCause, MotionReason
-from xavi_dialogue.domain.evidence import Causation
+from xavi_dialogue.domain.answers import ChoiceReason, Contrast, Evidence, MotionCause, MotionReason
+from xavi_dialogue.domain.evidence import Causation, OutcomeEstimate, Share
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.nlg.say import say
 
@@ -56,7 +56,7 @@ def test_where_no_vehicle_made_the_difference_none_is_given_as_the_reason(detail
 @pytest.mark.parametrize(
     ("kind", "words"),
     [
-        ("both", "Both it and "),
+        ("both", "The blue car "),
         ("either", "Either of them would have been enough, it or "),
     ],
 )
@@ -67,9 +67,8 @@ def test_a_reason_with_two_causes_is_never_told_with_one(
     found = Causation(kind, (2, 3))
     text = told(LEADER, causation=found, detail=detail, of_causes=False)
     assert text.split(". ")[1].startswith(words)
-    assert told(LEADER, causation=found, detail=detail).count("without one of them") == (
-        kind == "both"
-    )
+    whole = told(LEADER, causation=found, detail=detail).count("without one of them")
+    assert whole == (kind == "both")  # asked about causes
 
 
 @pytest.mark.parametrize("decides", [True, False])
@@ -91,12 +90,11 @@ def test_several_that_no_one_of_them_accounts_for_are_told_together(
 
 
 @pytest.mark.parametrize("asked", [True, False])
-def test_who_would_have_taken_the_place_of_the_cause_is_told_with_it(asked: bool) -> None:
-    """Else it would seem that without the one named it would not have come about."""
+def test_who_would_have_taken_the_place_of_the_cause_is_told_where_it_is_asked(asked: bool) -> None:
     found = Causation("pre-empted", (2, 3))
     for detail in ("usual", "more"):
         text = told(LEADER, causation=found, detail=detail, of_causes=asked)
-        assert text.count("just as well") == 1
+        assert text.count("just as well") == (asked or detail == "more")
     assert "just as well" not in told(LEADER, causation=found, detail="less", of_causes=asked)
 
 
@@ -156,3 +154,21 @@ def test_where_not_all_of_several_may_be_needed_nobody_is_named() -> None:
     text = told(LEADER, causation=several)
     assert text.endswith("would have come to the same.")
     assert "4" not in text
+
+
+def changing(outcome: str, later: tuple[str, ...]) -> str:
+    """Say why we changed to the right, where we turn right next."""
+    contrast = Contrast(
+        fact=("change-right", "continue", "exit-right"), foil=("continue",),
+        outcome=OutcomeEstimate(outcome, 0.97), effects=(), causes=(), evidence=Evidence(),
+        decided=1.0, continued=later, verdict="better",  # type: ignore[arg-type]
+        terms=(Share("late", 9.0, 0.97),), told=(Share("late", 9.0, 0.97),),
+    )  # fmt: skip
+    return say(ChoiceReason("why", None, contrast), CONTEXT).text
+
+
+def test_a_lane_is_changed_for_the_turn_that_needs_it() -> None:
+    turn = "because we have to turn right next"
+    assert turn in changing("termination", ("change-right", "exit-right"))
+    assert turn in changing("dead", ())
+    assert turn not in changing("termination", ("exit-right",))  # we can turn without it

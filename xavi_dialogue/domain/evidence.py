@@ -198,6 +198,17 @@ class Contrast(Value, frozen=True):
         return arrives and late
 
     @property
+    def lane_for(self) -> MacroAction | None:
+        """The turn for which the fact changes lanes: the foil does so later, or misses the turn."""
+        change, *rest = self.fact or ("continue",)
+        turn = next((action for action in rest if action in EXITS), None)
+        if change not in CHANGES or turn is None or self.foil != ("continue",):
+            return None
+        to_side = turn.removeprefix("exit-") == change.removeprefix("change-")
+        lost = self.outcome is not None and self.outcome.name == "dead"
+        return turn if (to_side and change in self.continued) or lost else None
+
+    @property
     def close(self) -> bool:
         """Whether the two are as good within the error of the comparison."""
         return self.verdict == "close"

@@ -61,6 +61,18 @@ def with_speeds(ride: Ride, causes: Iterable[MotionCause], time: float) -> tuple
     )
 
 
+def with_lowest(
+    ride: Ride, causes: Iterable[MotionCause], begin: float, end: float
+) -> tuple[MotionCause, ...]:
+    """Give reasons with how slow [m/s] the vehicles that they name were between two times [s]."""
+    found = []
+    for cause in causes:
+        motion = None if cause.vehicle is None else ride.motion(cause.vehicle)
+        seen = [] if motion is None else [motion.speed[k] for k in motion.within(begin, end)]
+        found.append(replace(cause, speed=min(seen)) if seen else cause)
+    return tuple(found)
+
+
 def still_to(ride: Ride, distance: float, time: float) -> float:
     """Tell how far [m] it still is at a time [s] to what the last decision recorded at a distance.
 

@@ -9,8 +9,10 @@ from planner.record.trace import HeldUp
 from tests.explain.causes.decisions import Driven, in_the_way
 from tests.explain.facts.scenes import Actor, made, speeds, straight
 from tests.traces import Actions
-from xavi_dialogue.domain.answers import MotionCause, NotRecorded
+from xavi_dialogue.domain.answers import Evidence, MotionCause, NotRecorded
+from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.explain.causes.driving.driving import Reasons
 from xavi_dialogue.explain.causes.driving.slowness import Slowness, slowness, with_nearest
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.ride import Unanswered
@@ -128,6 +130,11 @@ def test_the_road_makes_us_slow() -> None:
     assert [c.kind for c in found.reasons.causes] == ["turn"]
 
 
+def counting(causes: tuple[MotionCause, ...], *vehicles: int) -> Reasons:
+    causation = Causation("several", vehicles) if vehicles else None
+    return Reasons(causes, causation, Evidence(), Driven({0: OURS}, 1.0).ride().latest)
+
+
 def test_who_is_nearer_than_the_leader_that_is_the_reason_is_named_too() -> None:
     ride = made(
         {
@@ -140,11 +147,17 @@ def test_who_is_nearer_than_the_leader_that_is_the_reason_is_named_too() -> None
     )
     causes = (MotionCause("leader", 1), MotionCause("right-of-way", 1), MotionCause("limit"))
     world = World(ride)
-    found = with_nearest(ride, world, causes, 4.0)
+    found = with_nearest(ride, world, counting(causes), 4.0)
     assert [(c.kind, c.vehicle, c.between) for c in found] == [
         ("leader", 1, 2),
         ("right-of-way", 1, None),
         ("limit", None, None),
     ]
     both = (MotionCause("leader", 2), MotionCause("leader", 1))
-    assert with_nearest(ride, world, both, 4.0) == both  # it is named already
+    assert with_nearest(ride, world, counting(both), 4.0) == both  # it is named already
+    near = (MotionCause("leader", 2, speed=9.0),)
+    assert with_nearest(ride, world, counting(near), 4.0) == near
+    (told,) = with_nearest(ride, world, counting(near, 1, 2), 4.0)
+    assert (told.vehicle, told.between) == (1, 2)  # who holds up the nearest, and counts as well
+    (told,) = with_nearest(ride, world, counting((MotionCause("blocked", 1),)), 4.0)
+    assert told.between is None  # it is too far off to be in sight behind the nearest

@@ -1,10 +1,11 @@
-"""Kept: whom we gave way to where no other reason is known, and how hard we braked."""
+"""Kept: whom we gave way to, how that goes on, and how hard we braked."""
 
 from dataclasses import replace
 
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Event
+from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.reading import manner_of, vehicle_in
 from xavi_dialogue.explain.causes.driving.driving import Reasons
@@ -35,3 +36,12 @@ def with_yielding(scene: Asked, found: Reasons, begin: float, end: float) -> Rea
         return found
     cause = MotionCause("right-of-way", vehicle=gave[-1])
     return replace(found, causes=(cause,))
+
+
+def going_on(scene: Asked, deed: Episode, rows: tuple[tuple[ActionName, ...], ...]) -> Episode:
+    """Take for giving way that has begun the slowing or standing that goes on for it."""
+    if deed.action != "give-way" or deed.end is None or scene.past is not None:
+        return deed
+    kinds = tuple(kind for row in rows for kind in row)
+    now = (e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds and e.end is None)
+    return max((e for e in now if e.action != "give-way"), key=lambda e: e.begin, default=deed)

@@ -20,7 +20,7 @@ from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Compares, Ego, Event, Measured
 from xavi_dialogue.domain.vocabulary import ActionName, Manner
 from xavi_dialogue.explain.answers.expectations.plans import is_halting
-from xavi_dialogue.explain.answers.reasons.kept import peak, with_yielding
+from xavi_dialogue.explain.answers.reasons.kept import going_on, peak, with_yielding
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import is_own, is_past, vehicle_in
 from xavi_dialogue.explain.causes.driving.driving import Reasons, as_of
@@ -31,7 +31,7 @@ from xavi_dialogue.explain.causes.plans.natural import stopping
 from xavi_dialogue.explain.causes.plans.premise import episode_of
 from xavi_dialogue.explain.causes.plans.terms import RISK
 from xavi_dialogue.explain.causes.vehicles import when
-from xavi_dialogue.explain.history.nearing import speed_at
+from xavi_dialogue.explain.history.nearing import speed_at, tellable
 from xavi_dialogue.explain.history.ride import chose
 
 SLOWING: tuple[ActionName, ...] = ("slow-down", "brake")
@@ -70,6 +70,7 @@ def motion(event: Event, scene: Asked, *, asked: ActionName | None = None) -> An
     for rank, kinds in enumerate(rows):
         deed = _episode(scene, event, kinds, present=present)
         if deed is not None:
+            deed = going_on(scene, deed, rows) if present else deed
             return _told(scene, event, deed, named, premise=rank == 0)
     if present and named != "speed-up":
         return _state(scene, event, named)
@@ -149,7 +150,7 @@ def slow(scene: Asked, manner: Manner = "slowly", event: Event | None = None) ->
         return standing_or_slow(scene)
     return MotionReason(
         deed=found.deed,
-        causes=with_nearest(scene.ride, scene.world, found.reasons.causes, found.deed.begin),
+        causes=with_nearest(scene.ride, scene.world, found.reasons, found.deed.begin),
         premise=manner != "slowly" or found.is_slow is not False,
         asked="move",
         evidence=found.reasons.evidence,
@@ -261,16 +262,15 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
     lit = any(cause.kind == "light" for cause in reasons.causes) and not stops
     decided = scene.ride.latest if stops else reasons.trace
     if not lit and deed.action in (*STILL, *SLOWING) and chose(decided, "stop"):
-        going_on = deed.end is None and scene.moment >= scene.now - BEGUN
-        contrast = stopping(scene.ride, decided, going_on=going_on)
+        still = deed.end is None and scene.moment >= scene.now - BEGUN
+        contrast = stopping(scene.ride, decided, going_on=still)
         if _speaks(contrast, somebody=bool(ours)):
             return ChoiceReason("why", deed, contrast, past=is_past(scene, event))
         if not ours and _given_up(scene, deed):
             reasons = dataclasses.replace(reasons, causes=(MotionCause("given-up"),))
-    time = scene.now if deed.end is None else deed.begin
     return MotionReason(
         deed=deed,
-        causes=with_nearest(scene.ride, scene.world, reasons.causes, time),
+        causes=with_nearest(scene.ride, scene.world, reasons, tellable(deed, scene.now)),
         premise=premise or stops or (named in STILL and is_halting(scene)),
         asked=named,
         evidence=reasons.evidence,

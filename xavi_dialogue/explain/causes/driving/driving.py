@@ -32,7 +32,7 @@ from xavi_dialogue.explain.causes.vehicles.involved import LIKELY, expected_acti
 from xavi_dialogue.explain.causes.vehicles.necessity import proven
 from xavi_dialogue.explain.facts.episodes.light_waits import held_then
 from xavi_dialogue.explain.facts.world import World
-from xavi_dialogue.explain.history.nearing import speed_at, with_speeds
+from xavi_dialogue.explain.history.nearing import speed_at, with_lowest, with_speeds
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 
 BEFORE = 3.0  # [s] by which way may be given before the ego stands or slows for it
@@ -63,6 +63,11 @@ class Reasons:
     def cleared(self) -> tuple[int, ...]:
         """The vehicles that make no difference."""
         return () if self.causation is None else self.causation.cleared
+
+    @property
+    def counted(self) -> tuple[int, ...]:
+        """The vehicles that it hangs on."""
+        return () if self.causation is None else self.causation.vehicles
 
 
 def reasons_for(ride: Ride, world: World, deed: Episode, at: float | None = None) -> Reasons:
@@ -102,6 +107,8 @@ def reasons_for(ride: Ride, world: World, deed: Episode, at: float | None = None
     causes = tuple(motion_cause(ride, world, cause, trace, deed.begin) for cause in tried.causes)
     over = deed.end is not None and ride.now - deed.end > JUST_OVER
     causes = as_of(ride, causes, deed.begin if over else ride.now)
+    if deed.end is not None:
+        causes = with_lowest(ride, causes, deed.begin - LEEWAY, deed.end)
     rests_on = evidence(ride, model, plan)
     if not causes:
         causes = beside(of_road(ride, world, trace, deed, plan, tried.cleared), tried.cleared)

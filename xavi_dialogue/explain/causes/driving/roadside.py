@@ -101,6 +101,8 @@ def _drawn(ride: Ride, trace: PlanTrace, deed: Episode) -> tuple[PlanTrace, Moti
 def _beyond_slowest(ride: Ride, trace: PlanTrace, deed: Episode) -> bool:
     """Whether the drive planned is slowest well before the next junction, then faster again."""
     found = _drawn(ride, trace, deed)
+    if trace.under_way is not None and trace.under_way.action in TURNS:
+        return False
     if found is None or found[0].road is None or not found[0].road.route:
         return False
     distance = found[0].road.route[0].distance

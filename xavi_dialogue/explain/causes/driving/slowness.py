@@ -4,7 +4,7 @@ Driving slowly is judged against the limit. Who drives in front of us within som
 reason where it is no faster than we are and planning without it is faster.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 from msgspec.structs import replace as changed
@@ -90,24 +90,41 @@ def leader(ride: Ride, world: World, time: float) -> Look | None:
 
 
 def with_nearest(
-    ride: Ride, world: World, causes: Sequence[MotionCause], time: float
+    ride: Ride, world: World, reasons: Reasons, time: float
 ) -> tuple[MotionCause, ...]:
     """Name with a leader that is the reason who drives in between, nearer to us, at a time [s].
 
-    Who sits in the car sees the nearer one first.
+    Who sits in the car sees the nearer one first. Where the reason is the nearest itself, and who
+    is right before it counts as well, that one holds both up.
     """
+    causes = [_farther(ride, world, cause, time, reasons.counted) for cause in reasons.causes]
     named = {cause.vehicle for cause in causes}
     found = []
     for cause in causes:
         seen = None if cause.vehicle is None else world.look(cause.vehicle, time)
-        if cause.kind == "leader" and seen is not None:
+        leads = cause.kind == "blocked" and seen is not None and _in_front(seen, NEAR + NEAR)
+        if seen is not None and (cause.kind == "leader" or leads):
             near = leader(ride, world, time)
             between = near is not None and near.distance < seen.distance
             if between and near is not None and near.vehicle not in named:
-                found.append(changed(cause, between=near.vehicle))
+                found.append(changed(cause, kind="leader", between=near.vehicle))
                 continue
         found.append(cause)
     return tuple(found)
+
+
+def _farther(
+    ride: Ride, world: World, cause: MotionCause, time: float, counted: Collection[int]
+) -> MotionCause:
+    """Take for the nearest leader who is right before it, counts as well, and is no faster."""
+    reach = max(NEAR, HEADWAY * (speed_at(ride, time) or 0.0))
+    ahead = in_lane_ahead(ride, world, time, reach)[:2]
+    if cause.kind != "leader" or len(ahead) < 2 or cause.vehicle != ahead[0].vehicle:
+        return cause
+    near, far = ahead
+    if far.vehicle not in counted or far.speed > near.speed + FASTER:
+        return cause
+    return MotionCause("leader", far.vehicle, speed=far.speed)
 
 
 def in_lane_ahead(

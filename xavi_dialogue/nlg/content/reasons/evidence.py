@@ -1,5 +1,7 @@
 """Evidence: what is told of a comparison where more is wanted: ranges, causes, what it rests on."""
 
+from collections.abc import Collection
+
 from xavi_dialogue.domain.answers import Cause, Contrast, Effect, Evidence
 from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.terms import Vehicle
@@ -87,7 +89,7 @@ def _needed(cause: Cause, contrast: Contrast, *, past: bool) -> Message | None:
 
 
 def hangs_on(
-    causation: Causation | None, time: float, *, past: bool, brief: int | None = None
+    causation: Causation | None, time: float, *, past: bool, brief: Collection[int] = ()
 ) -> Message | None:
     """Tell how it hangs on vehicles, where it does not on one alone.
 
@@ -95,12 +97,14 @@ def hangs_on(
         causation: what it hangs on.
         time: [s] at which vehicles are described.
         past: it is past.
-        brief: the vehicle that the reason names, where of several only who else counts is wanted.
+        brief: the vehicles that are told of, where of several only who else counts is wanted.
     """
     if causation is None or causation.kind in ("one", "open"):
         return None
-    if brief is not None and causation.kind == "several":
-        others = tuple(v for v in causation.vehicles if v != brief)
+    if brief and causation.kind in ("both", "several"):
+        others = tuple(v for v in causation.vehicles if v not in brief)
+        if not others or len(brief) > 1:
+            return None
         told = causation.minimal and 0 < len(others) < NAMED
         who = all_of(others, time) if told else None
         return message("OTHERS", who=who, many=len(others) > 1 or not told, past=past)
@@ -128,11 +132,6 @@ def is_joint(causation: Causation | None, *, asked: bool) -> bool:
     Where the same would be done without them, only who asks about causes needs it.
     """
     return causation is not None and causation.is_joint and (causation.decides or asked)
-
-
-def is_next(causation: Causation | None) -> bool:
-    """Tell whether another would have been the cause: who names the first one says so, too."""
-    return causation is not None and causation.kind == "pre-empted"
 
 
 def is_needed(causation: Causation | None) -> bool:

@@ -1,5 +1,7 @@
 """Motives: why we slowed, stood, waited or drove so."""
 
+from collections.abc import Iterable
+
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import MotionCause, MotionReason
@@ -17,7 +19,6 @@ from xavi_dialogue.nlg.content.reasons.evidence import (
     hangs_on,
     is_joint,
     is_needed,
-    is_next,
     rests_on,
 )
 from xavi_dialogue.nlg.content.reasons.suspects import suspected
@@ -44,7 +45,8 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
     past = answer.past or is_past(answer.deed, context)
     answer = answer if past else _current(answer, context)
     first = _driving(answer, context, past)
-    told = bool(answer.causes) and answer.causes[0].vehicle == answer.suspect
+    first_of = _vehicles_of(answer.causes[:1])
+    told = answer.suspect in first_of
     core = suspected(
         first,
         answer.suspect,
@@ -55,22 +57,26 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
         past=past,
         told=told,
     )
-    first_of = answer.causes[0].vehicle if answer.causes else None
-    others = [c for c in answer.causes[1:] if c.vehicle is not None and c.vehicle != first_of]
+    others = [c for c in answer.causes[1:] if c.vehicle is not None and c.vehicle not in first_of]
     alone = not answer.causes and _nobody(answer)  # which the reason itself tells then
     hangs = None if alone else hangs_on(answer.causation, answer.deed.begin, past=past)
     if hangs is not None and is_joint(answer.causation, asked=answer.of_causes):
         whole = answer.of_causes or answer.suspected is not None
-        brief = None if whole else first_of
+        counted = set() if answer.causation is None else set(answer.causation.vehicles)
+        besides = _vehicles_of(others[:1])
+        brief = () if whole else first_of
+        if not whole and counted and counted <= {*first_of, *besides}:
+            brief = (*first_of, *besides)  # each is told of
+        elif not whole:
+            others = [c for c in others if c.vehicle not in counted]
         joint = hangs_on(answer.causation, answer.deed.begin, past=past, brief=brief)
-        assert joint is not None
-        core, hangs = (*core, joint), None if joint == hangs else hangs  # one alone is no reason
+        core = core if joint is None else (*core, joint)  # one alone is no reason
+        hangs = None if joint == hangs else hangs
     others = list(answer.causes[1:]) if answer.suspected == "beside" else others
-    named = answer.of_causes or is_next(answer.causation)
-    asked = hangs if named else None
+    asked = hangs if answer.of_causes else None
     details = [*(_also(c, answer, context, past) for c in others[:1]), asked]
     more = [
-        None if named else hangs,
+        None if asked else hangs,
         *(_expectation(c, answer, context, past=past) for c in answer.causes[:1]),
         *(_also(c, answer, context, past) for c in answer.causes[1:] if c not in others[:1]),
         *(_needed(c, answer, past=past) for c in answer.causes[:1] if is_needed(answer.causation)),
@@ -84,6 +90,11 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
         (),
         about_cause(answer),
     )
+
+
+def _vehicles_of(causes: Iterable[MotionCause]) -> tuple[int, ...]:
+    """List the vehicles that reasons name."""
+    return tuple(v for c in causes for v in (c.vehicle, c.between) if v is not None)
 
 
 def _current(answer: MotionReason, context: SpeechContext) -> MotionReason:

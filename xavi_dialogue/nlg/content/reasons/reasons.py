@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Literal
 
-from xavi_dialogue.domain.answers import ChoiceReason, Contrast, MotionCause
+from xavi_dialogue.domain.answers import ChoiceReason, Contrast, Mechanism, MotionCause
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.nlg.content.clauses.manoeuvres import (
     deed_clause,
@@ -25,7 +25,7 @@ from xavi_dialogue.nlg.content.reasons.contrasts import (
     told_cause,
 )
 from xavi_dialogue.nlg.content.reasons.driven import STANDING, motion_cause
-from xavi_dialogue.nlg.content.reasons.evidence import further, hangs_on, is_joint, is_next
+from xavi_dialogue.nlg.content.reasons.evidence import further, hangs_on, is_joint
 from xavi_dialogue.nlg.content.reasons.suspects import suspected
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message
@@ -53,6 +53,8 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
         "lead": _leads(contrast),
         "ahead": _ahead(answer, context),
         "weak": _weak(answer),
+        "turn": _lane_for(answer),
+        "over": _told_past(answer, context),
         "beside": answer.ahead is not None and answer.ahead.kind in ("lane-beside", "lane-ahead"),
     }
     rule = {
@@ -81,12 +83,13 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
     core = (*core, *last_open(answer.open_at), *performed_later(answer.later))
     hangs = hangs_on(contrast.causation, contrast.decided, past=past)
     if hangs is not None and _jointly(answer):
-        named = None if answer.of_causes or answer.suspected else told_cause(contrast)
-        brief = None if named is None else named.vehicle
+        named = answer.ahead if answer.ahead is not None and slots["weak"] else told_cause(contrast)
+        whole = answer.of_causes or answer.suspected is not None or named is None
+        brief = () if whole or named is None or named.vehicle is None else (named.vehicle,)
         joint = hangs_on(contrast.causation, contrast.decided, past=past, brief=brief)
-        assert joint is not None
-        core, hangs = (*core, joint), None if joint == hangs else hangs  # one alone is no reason
-    asked = (answer.of_causes or is_next(contrast.causation)) and _of_vehicles(contrast)
+        core = core if joint is None else (*core, joint)  # one alone is no reason
+        hangs = None if joint == hangs else hangs
+    asked = answer.of_causes and _of_vehicles(contrast)
     details = () if hangs is None or not asked else (hangs,)
     more = more if hangs is None or details else (hangs, *more)
     return Plan(core, details, more, (), about_cause(answer))
@@ -106,7 +109,7 @@ def _jointly(answer: ChoiceReason) -> bool:
     causation = answer.contrast.causation
     asked = answer.suspected not in (None, "none", "neither")
     known = is_joint(causation, asked=asked or answer.of_causes)
-    if causation is None or not known or answer.contrast.way:
+    if causation is None or not known or answer.contrast.way or _lane_for(answer) is not None:
         return False
     return asked or any(_names(answer, vehicle) for vehicle in causation.vehicles)
 
@@ -114,6 +117,8 @@ def _jointly(answer: ChoiceReason) -> bool:
 def _silent(rule: str, slots: Mapping[str, object]) -> bool:
     """Check whether a reason tells of the way or of who was ahead, and nothing of the foil."""
     if rule in ("WHY", "WHY_NOT") and slots["ahead"] is not None and slots["weak"]:
+        return True
+    if rule == "WHY" and slots["turn"] is not None:
         return True
     due = {"WHY_NOT": slots["kind"] == "late", "NECESSARY": slots["need"] == "way"}
     return bool(slots["way"]) and due.get(rule, True)
@@ -156,7 +161,7 @@ def _weak(answer: ChoiceReason) -> bool:
     struck = ahead.vehicle == answer.contrast.collided_with
     if stands and (struck or kind not in ("collision", "risk")):
         return True  # where it would go says nothing while it stands
-    if how is not None and not how.present:
+    if how is not None and not how.present and not _goes_on(how, ahead):
         return False  # what it was expected to do says more than where it was
     if ahead.vehicle in answer.contrast.cleared:
         return False
@@ -164,6 +169,20 @@ def _weak(answer: ChoiceReason) -> bool:
         return False  # the risk of what was not done goes first
     first = answer.contrast.decisive
     return kind in ("alone", "close") or first in DELAYS or (first == "collision" and struck)
+
+
+def _goes_on(how: Mechanism, ahead: MotionCause) -> bool:
+    """Check whether somebody ahead is expected to hold us up at the speed at which it is seen."""
+    if how.how != "leader" or how.speed_to is None or ahead.speed is None:
+        return False
+    return abs(how.speed_to - ahead.speed) <= OTHERWISE
+
+
+def _lane_for(answer: ChoiceReason) -> tuple[Clause, ...] | None:
+    """Return the turn that a lane is changed for, where no vehicle is asked about or told."""
+    turn = answer.contrast.lane_for
+    of_vehicles = answer.of_causes or answer.suspected is not None or answer.ahead is not None
+    return None if turn is None or of_vehicles else own_verbs((turn,))
 
 
 def _names(answer: ChoiceReason, vehicle: int | None) -> bool:
