@@ -168,7 +168,7 @@ def changing(outcome: str, later: tuple[str, ...]) -> str:
 
 
 def test_a_lane_is_changed_for_the_turn_that_needs_it() -> None:
-    turn = "because we have to turn right next"
+    turn = "because we had to turn right next"
     assert turn in changing("termination", ("change-right", "exit-right"))
     assert turn in changing("dead", ())
     assert turn not in changing("termination", ("exit-right",))  # we can turn without it

@@ -202,7 +202,7 @@ def test_speeds_are_those_of_then_or_of_now() -> None:
     """The leader slows by 0.5 m/s in each second, from 10 m/s: its lowest, or what it is now."""
     leader = Actor(speeds(30.0, 0.0, ((0.0, 10.0), (20.0, 0.0))))
     whole = Driven({0: OURS, 1: leader}, 8.0, held=lambda t: (in_the_way(1, t, t + 9.0),)).ride()
-    for end, speed in ((6.0, 7.0), (7.5, 6.25), (None, 6.0)):
+    for end, speed in ((6.0, 7.0), (7.5, 6.3), (None, 6.0)):
         episode = Episode(Ego(), "slow-down", 4.0, end, speed_from=10.0)
         found = reasons_for(whole, World(whole), episode)
         assert [c.speed for c in found.causes] == [approx(speed)]
