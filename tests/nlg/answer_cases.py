@@ -69,6 +69,7 @@ OPTIONS = (
     OptionValue("change-left", True, "done", 0.9, 12.0, 0.0, 1.0),
     OptionValue("continue", False, "done", 0.9, 16.0, 4.0, 0.5),
     OptionValue("stop", False, "termination", 0.9, None, None, -1.0),
+    OptionValue("exit-right", False, "termination", 0.9, None, None, -2.0, exceeds=9.4),
 )
 
 DEAD = (OptionValue("exit-right", False, "dead", 1.0, None, None, -130.0),)

@@ -2,11 +2,21 @@
 
 from msgspec.structs import replace
 
+from tests.nlg.causal_cases import LATER as WAITS
 from tests.nlg.scenery import BLUE, LORRY, NOW
-from xavi_dialogue.domain.answers import Altered, Answer, Course, Decided, PeakMoment, Wavered
+from xavi_dialogue.domain.answers import (
+    Altered,
+    Answer,
+    ChoiceReason,
+    Course,
+    Decided,
+    PeakMoment,
+    Wavered,
+)
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure
 from xavi_dialogue.domain.journeys import AbandonedPlan, WayStep
-from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.domain.terms import Ego, Feature, Vehicle
+from xavi_dialogue.domain.traffic_lights import Shown
 
 E = Ego()
 LEFT = WayStep("junction", "exit-left", 55.0, 1)
@@ -20,6 +30,8 @@ YIELD = Episode(E, "give-way", 9.0, 12.0, object=Vehicle(1))
 BEFORE = Decided(4.0, ("continue",))
 AFTER = Decided(9.0, ("change-left",), doing=(YIELD,))
 OLD = Belief(1, 4.0, (Expectation(("exit-right",), 0.4),))
+GREEN = Shown(Feature("light"), "green", 8.0, True)
+FALLEN = Belief(1, 9.0, (Expectation(("exit-right",), 0.6),))
 NEW = Belief(1, 9.0, (Expectation(("exit-right",), 0.9),))
 
 
@@ -87,6 +99,9 @@ CASES: tuple[Answer, ...] = (
     Altered(BEFORE, AFTER, (LORRY,), ((OLD, NEW),), (YIELD,)),
     Altered(BEFORE, AFTER, (LORRY,)),
     Altered(BEFORE, BEFORE),
+    Altered(BEFORE, AFTER, (), (), (), GREEN, True),
+    Altered(BEFORE, AFTER, sudden=True, reason=ChoiceReason("why", None, WAITS)),
+    Altered(BEFORE, AFTER, beliefs=((NEW, FALLEN),), sudden=True),
     Wavered("change-left", (AbandonedPlan(4.0, 0.2, 1),)),
     Wavered("change-left", (AbandonedPlan(4.0, 0.2, 1), AbandonedPlan(6.0, 0.31)), resumed=True),
 )

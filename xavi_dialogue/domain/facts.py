@@ -119,6 +119,7 @@ class OptionValue(Value, frozen=True):
     value: float | None  # mean reward
     collision: float = 0.0  # probability of one
     collided_with: int | None = None
+    exceeds: float | None = None  # [s] by which it takes longer at least, where its end is not seen
 
 
 class Relating(Value, frozen=True):

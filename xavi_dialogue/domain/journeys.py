@@ -6,6 +6,8 @@ from planner.record.places import JunctionKind, Rule, Turn
 from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
+from xavi_dialogue.domain.reasons import ChoiceReason
+from xavi_dialogue.domain.traffic_lights import Shown
 
 
 class WayStep(Value, frozen=True):
@@ -59,6 +61,9 @@ class Altered(Value, frozen=True):
     appeared: tuple[Look, ...] = ()
     beliefs: tuple[tuple[Belief, Belief], ...] = ()  # that moved, the most first
     did: tuple[Episode, ...] = ()  # what happened between them
+    light: Shown | None = None  # that had changed
+    sudden: bool = False  # the one was made right after the other
+    reason: ChoiceReason | None = None  # for the change, where that is asked
 
 
 class AbandonedPlan(Value, frozen=True):

@@ -167,6 +167,7 @@ class Unslowed(Value, frozen=True):
     saved: float | None = None  # [s] that the slowing or waiting cost
     arrival: float | None = None  # [s] when we would be there without
     red: bool = False  # a red light holds us
+    through: bool = False  # the light would have been red when we came to it
 
 
 class OtherReason(Value, frozen=True):

@@ -3,11 +3,14 @@
 from itertools import pairwise
 from typing import Final
 
+from msgspec import structs
+
 from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.domain.answers import Answer, DidNotHappen, Wavered
 from xavi_dialogue.domain.journeys import AbandonedPlan
 from xavi_dialogue.domain.meaning import Why
 from xavi_dialogue.domain.terms import Ego, Happens
+from xavi_dialogue.explain.answers.events.decisions import last_change, why_changed
 from xavi_dialogue.explain.answers.propositions import reasons
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, window
@@ -38,9 +41,12 @@ def wavered(question: Why, asked: Asked) -> Answer:
         and (turn := _turn(asked, after, plan)) is not None
     ]
     if not given:
-        if not asked.world.episodes(Ego(), ("change-plan",), asked.world.begin, asked.now):
+        found = last_change(asked, asked.world.begin)
+        if found is None:
+            if asked.world.episodes(Ego(), ("change-plan",), asked.world.begin, asked.now):
+                return reasons.why(question, asked)
             raise Unanswered(DidNotHappen(of.event))
-        return reasons.why(question, asked)
+        return structs.replace(found, reason=why_changed(asked, found))
     plan = given[-1][0]
     turns = tuple(turn for given_up, turn in given if given_up == plan)
     later = [t for t in near if t.sim_time > turns[-1].time]

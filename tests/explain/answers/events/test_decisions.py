@@ -142,11 +142,31 @@ def test_beliefs_that_moved_are_told_the_most_first() -> None:
 def test_what_was_not_expected_before_had_no_chance() -> None:
     other = (1, [("continue", 0.9)], [("exit-left", 0.14)])
     assert moved(other) == []
-    other = (1, [("continue", 0.9)], [("exit-left", 0.2)])
+    other = (1, [("continue", 0.9)], [("exit-left", 0.5)])
     assert moved(other) == [(1, 5.0, 11.0)]
+    unlikely = (1, [("continue", 0.9)], [("exit-left", 0.49)])
+    assert moved(unlikely) == []
     second = (1, [("continue", 0.6), ("exit-left", 0.4)], [("exit-left", 0.5)])
     assert moved(second) == []
     assert moved((1, [("continue", 0.6)], [])) == []
+
+
+def test_whoever_is_behind_us_is_left_out() -> None:
+    one = (1, [("continue", 0.2)], [("continue", 0.9)])
+    assert moved(one, looks={1: look(1, ahead=-5.0)}) == []
+
+
+def test_where_no_time_is_said_it_is_of_the_last_change_of_plan() -> None:
+    traces = [
+        decision(5.0, ("continue",)),
+        decision(8.0, ("change-left",)),
+        decision(14.0, ("change-left",)),
+    ]
+    changes = (did("change-plan", 8.0, 8.0),)
+    found = result(changed, Changed(), scene(traces=traces, episodes=changes, now=15.0))
+    assert (found.before.time, found.after.time, found.sudden) == (5.0, 8.0, True)
+    still = result(changed, Changed(), scene(traces=traces, now=15.0))
+    assert (still.before.time, still.after.time, still.sudden) == (8.0, 14.0, False)
 
 
 def test_beliefs_of_those_out_of_view_or_new_are_left_out() -> None:

@@ -1,17 +1,34 @@
 """Decisions: what was decided at a time, and what was different at another decision."""
 
+from msgspec.structs import replace
+
 from planner.record.trace import Action, PlanTrace
-from xavi_dialogue.domain.answers import Altered, Answer, Decided, NotRecorded
+from xavi_dialogue.domain.answers import (
+    Altered,
+    Answer,
+    ChoiceReason,
+    Decided,
+    NeedRollout,
+    NotRecorded,
+)
 from xavi_dialogue.domain.facts import Belief, Episode, Look
 from xavi_dialogue.domain.meaning import Changed
-from xavi_dialogue.domain.terms import Ego
+from xavi_dialogue.domain.terms import Ego, Feature
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.reference.moments import window
+from xavi_dialogue.explain.answers.reference.moments import was_said, window
+from xavi_dialogue.explain.causes.plans.contrast import contrast
+from xavi_dialogue.explain.causes.plans.natural import natural
+from xavi_dialogue.explain.causes.vehicles.actions import CHANGES
+from xavi_dialogue.explain.facts.traffic_lights import shown_at
 from xavi_dialogue.explain.history.ride import planned
 
 MOVED = 0.15  # by which a probability has to move to be stated
+EVEN = 0.5  # probability from which somebody is told to be expected to do something
 TOLD = 2  # beliefs that are stated
 BEFORE = 0.01  # [s]
+NEAR = 60.0  # [m] ahead of us within which somebody new is told
+LEAD = 4.0  # [s] before a decision from which on what changes around us may matter to it
+BACK = 20.0  # [s] before now that a change of plan may lie that is asked about
 AFTER = 0.5  # [s] after a decision in which what we do is still of it
 
 
@@ -58,22 +75,84 @@ def _rest(before: PlanTrace, after: PlanTrace) -> bool:
 def changed(question: Changed, asked: Asked) -> Answer:
     """Tell what was different at the end of a stretch of the ride from its beginning.
 
+    Where no stretch is named, that is about the last change of plan, else the last seconds.
+
     Raises:
         Unanswered: there was no decision at one of them.
     """
+    if not was_said(asked, question.time):
+        found = last_change(asked, max(asked.world.begin, asked.now - BACK))
+        if found is None:
+            return altered(asked, max(asked.world.begin, asked.now - LEAD), asked.now)
+        if found.appeared or found.beliefs or found.did or found.light is not None:
+            return found
+        return replace(found, reason=why_changed(asked, found))
     about = window(asked, question.time)
-    first, last = _trace(asked, about.begin), _trace(asked, about.end)
+    return altered(asked, about.begin, about.end)
+
+
+def last_change(asked: Asked, since: float) -> Altered | None:
+    """Tell of the last change of plan since a time [s] what was different by then, if any."""
+    until = asked.now if asked.past is None or not asked.past.said else asked.past.end
+    for one in reversed(asked.world.episodes(Ego(), ("change-plan",), since, until)):
+        before, after = _trace(asked, one.begin - BEFORE), _trace(asked, one.begin)
+        if _told(planned(before)) != _told(planned(after)):
+            found = altered(asked, before.sim_time, after.sim_time)
+            return replace(found, sudden=True)
+    return None
+
+
+def why_changed(asked: Asked, found: Altered) -> ChoiceReason | None:
+    """Tell why a new plan was better than the old one; None where nothing is known of that.
+
+    Raises:
+        Unanswered: rollouts are needed.
+    """
+    old, trace = _trace(asked, found.before.time), _trace(asked, found.after.time)
+    before, after = planned(old), planned(trace)
+    pairs = enumerate(zip(before, after, strict=False))
+    node = after[: next((k for k, (was, now) in pairs if was != now), len(before))]
+    if len(after) <= len(node):
+        return None
+    foil, moves = before[len(node) : len(node) + 1], after[len(node)] in CHANGES
+    if not moves and not foil:
+        return None
+    ride = asked.ride
+    try:
+        against = natural(ride, trace, node) if moves else contrast(ride, trace, foil, node)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    return ChoiceReason("why", None, against)
+
+
+def altered(asked: Asked, begin: float, end: float) -> Altered:
+    """Tell what was different at one time [s] from another, and around us a little before.
+
+    Raises:
+        Unanswered: there was no decision at one of them.
+    """
+    first, last = _trace(asked, begin), _trace(asked, end)
     if first is last:
         place = asked.ride.traces.index(last)
         first = asked.ride.traces[max(place - 1, 0)]
     begin, end = first.sim_time, last.sim_time
     before, after = decided_at(asked, begin), decided_at(asked, end)
-    new = set(asked.world.in_view(end)) - set(asked.world.in_view(begin))
+    since = max(min(begin, end - LEAD), asked.world.begin)
+    new = set(asked.world.in_view(end)) - set(asked.world.in_view(since))
     looks = (asked.world.look(v, end) for v in sorted(new))
-    appeared: tuple[Look, ...] = tuple(x for x in looks if x is not None)
-    did = [e for e in asked.world.account(begin, end) if begin < e.begin <= end]
+    appeared = sorted((x for x in looks if x is not None and 0.0 < x.ahead <= NEAR), key=_distance)
+    light = shown_at(asked.ride, Feature("light"), end)
+    turned = light is not None and light.begun and since < light.begin <= end
+    did = [e for e in asked.world.account(since, end) if since < e.begin <= end]
     ours = tuple(e for e in did if Ego() in (e.actor, e.object))
-    return Altered(before, after, appeared, _moved(asked, begin, end), ours)
+    beliefs = _moved(asked, since, end)
+    return Altered(before, after, tuple(appeared), beliefs, ours, light if turned else None)
+
+
+def _distance(look: Look) -> float:
+    return look.distance
 
 
 def _moved(asked: Asked, begin: float, end: float) -> tuple[tuple[Belief, Belief], ...]:
@@ -81,11 +160,13 @@ def _moved(asked: Asked, begin: float, end: float) -> tuple[tuple[Belief, Belief
     found: list[tuple[float, Belief, Belief]] = []
     for vehicle in asked.world.in_view(end):
         old, new = asked.world.belief(vehicle, begin), asked.world.belief(vehicle, end)
-        if old is None or new is None or not new.expectations:
+        look = asked.world.look(vehicle, end)
+        behind = look is None or look.ahead <= 0.0
+        if old is None or new is None or not new.expectations or behind:
             continue
         first = new.expectations[0]
         was = next((e.probability for e in old.expectations if e.actions == first.actions), 0.0)
-        if abs(first.probability - was) >= MOVED:
+        if first.probability >= EVEN and abs(first.probability - was) >= MOVED:
             found.append((abs(first.probability - was), old, new))
     ranked = sorted(found, key=lambda one: (-one[0], one[2].vehicle))
     return tuple((old, new) for _, old, new in ranked[:TOLD])

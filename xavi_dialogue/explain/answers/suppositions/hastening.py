@@ -2,6 +2,7 @@
 
 from msgspec import structs
 
+from planner.record.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import (
     Answer,
@@ -28,6 +29,9 @@ from xavi_dialogue.explain.history.nearing import speed_at
 SLOW = 4.0  # [m/s] below which going now is setting off
 JOINED = 0.5  # [s] between what belongs together
 LATELY = 1.0  # [s] since when what is named is still now
+QUEUING = 1.0  # [m/s] below which somebody stands in a queue
+QUEUE = 15.0  # [m] ahead within which somebody stands in the same queue
+BESIDE = 1.5  # [m] aside from which somebody is in another lane
 NEAR = 25.0  # [s] around the slowing in which somebody let go counts
 
 
@@ -80,7 +84,46 @@ def hastened(
         saved=saved,
         arrival=None if due is None or saved is None else due - saved,
         red=now is not None and _at_red(scene),
+        through=now is None and any(_through(scene, deed, one) for one in causes),
     )
+
+
+def _through(scene: Asked, deed: Episode, cause: MotionCause) -> bool:
+    """Tell whether the light that held us was still red when we would have come to it."""
+    shown, speed = cause.shown, deed.speed_from or 0.0
+    if cause.kind != "light" or shown is None or cause.vehicle is not None or speed <= 0.0:
+        return False
+    near = scene.world.episodes(Ego(), ("stand",), deed.begin, scene.now)
+    there = deed.begin + (cause.value or 0.0) / speed
+    alone = bool(near) and _leader(scene, near[-1]) is None
+    return alone and shown.colour == "red" and (shown.end is None or there < shown.end)
+
+
+def past_red(event: Event, scene: Asked) -> Unslowed | None:
+    """Tell that, had we not stopped, we would have passed a red light; None where none held us."""
+    if event.action != "stop" or event.tense == "present":
+        return None
+    stands = scene.world.episodes(Ego(), ("stand",))
+    last = scene.pick(stands, lambda e: (e.begin, e.end))
+    if last is None:
+        return None
+    end = scene.now if last.end is None else last.end
+    waits = scene.world.episodes(Ego(), ("wait",), last.begin, end)
+    held = [e for e in waits if isinstance(e.object, Feature) and e.object.kind == "light"]
+    return Unslowed(last, None, vehicle=_leader(scene, last), through=True) if held else None
+
+
+def _leader(scene: Asked, stand: Episode) -> int | None:
+    """Find who stood right ahead of us in our lane as we came to stand, if anybody."""
+    at = stand.begin
+    looks = (scene.world.look(v, at) for v in scene.world.in_view(at))
+    ahead = [
+        x for x in looks
+        if x is not None and x.kind not in ON_FOOT and x.speed < QUEUING
+        and 0.0 < x.ahead <= QUEUE and abs(x.left) < BESIDE
+    ]  # fmt: skip
+    nearest = min(ahead, key=lambda look: look.ahead, default=None)
+    return None if nearest is None else nearest.vehicle
 
 
 def _at_red(scene: Asked) -> bool:

@@ -47,7 +47,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
     vehicle_in,
 )
 from xavi_dialogue.explain.answers.suppositions import reacting
-from xavi_dialogue.explain.answers.suppositions.hastening import hastened
+from xavi_dialogue.explain.answers.suppositions.hastening import hastened, past_red
 from xavi_dialogue.explain.causes.driving.blocking import blocking
 from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.plans.contrast import alone, factual
@@ -314,6 +314,8 @@ def undone(event: Event, scene: Asked, form: Asking, struck: int | None) -> Answ
         Unanswered: it cannot be known; or rollouts are needed.
     """
     names = names_of(event)
+    if form == "what-if" and (red := past_red(event, scene)) is not None:
+        return red
     if happened(scene.ride, names, scene.span) is None and set(names) & DRIVING:
         trace = scene.ride.at(scene.moment)
         if event.action == "stop" and trace is not None and _stopped(scene):  # chosen, not begun

@@ -1,5 +1,7 @@
 """Options: what a decision weighed, and how each came out."""
 
+from msgspec.structs import replace
+
 from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.causal.effects import effects
 from xavi_dialogue.causal.model import CausalModel, Intervention, plan_of
@@ -7,6 +9,7 @@ from xavi_dialogue.domain.answers import Evidence, Weighing
 from xavi_dialogue.domain.facts import OptionValue
 from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.plans.contrast import alternatives, factual
+from xavi_dialogue.explain.causes.plans.lateness import exceeds
 from xavi_dialogue.explain.causes.plans.premise import Premise
 from xavi_dialogue.explain.causes.plans.terms import differences
 from xavi_dialogue.explain.facts.plans import last_choice
@@ -146,9 +149,12 @@ def _option(
     time = delta = None
     if plan.likeliest == "done":
         time = plan.expectation("time")
-        found = () if here is None else effects(plan, here)
-        delta = next((e.delta for e in found if e.component == "time"), None)
-    return _valued(action, plan, value, time=time, delta=delta, chosen=False)
+        known = () if here is None else effects(plan, here)
+        delta = next((e.delta for e in known if e.component == "time"), None)
+    found = _valued(action, plan, value, time=time, delta=delta, chosen=False)
+    if here is None or plan.likeliest != "termination":
+        return found
+    return replace(found, exceeds=exceeds(model.trace.settings.horizon, plan, here))
 
 
 def _valued(

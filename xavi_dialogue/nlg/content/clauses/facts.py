@@ -1,5 +1,6 @@
 """Facts: any fact of the record as a clause."""
 
+import math
 from collections.abc import Sequence
 
 from msgspec.structs import replace
@@ -219,7 +220,7 @@ def look_message(look: Look, context: SpeechContext, *, told: bool = False) -> M
 def option_message(option: OptionValue, *, risk: bool = False) -> Message:
     """Make a clause of how an option was valued; or only of with whom it would have collided."""
     verb = Clause(Who(), doing(option.action, ego=True))
-    delta = option.delta
+    delta, least = option.delta, option.exceeds
     return message(
         "OPTION_RISK" if risk else "OPTION",
         verb=verb,
@@ -228,6 +229,7 @@ def option_message(option: OptionValue, *, risk: bool = False) -> Message:
         chance=Chance(option.probability),
         later=Quantity(delta, "s") if delta is not None and delta > 0.25 else None,
         sooner=Quantity(-delta, "s") if delta is not None and delta < -0.25 else None,
+        least=None if least is None or least < 1.0 else Quantity(math.floor(least), "s"),
         struck=Who(Vehicle(option.collided_with)) if option.collided_with is not None else None,
         risk=Chance(option.collision) if option.collision >= RISK else None,
     )

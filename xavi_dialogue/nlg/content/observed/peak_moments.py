@@ -9,6 +9,8 @@ from xavi_dialogue.nlg.content.clauses.clauses import episode_clause
 from xavi_dialogue.nlg.content.clauses.facts import episode_message, verbs_of
 from xavi_dialogue.nlg.content.clauses.manoeuvres import own_verbs
 from xavi_dialogue.nlg.content.clauses.plan import Plan
+from xavi_dialogue.nlg.content.clauses.traffic_lights import COLOURS
+from xavi_dialogue.nlg.content.reasons.reasons import plan_choice
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Quantity, Who
@@ -82,16 +84,23 @@ def plan_altered(answer: Altered, context: SpeechContext) -> Plan:
     first = message(
         "ALTERED",
         same=same,
+        sudden=answer.sudden,
         begin=Moment(answer.before.time),
         end=Moment(answer.after.time),
         old=own_verbs(answer.before.steps),
         new=own_verbs(answer.after.steps),
     )
-    others = [_belief(old, new) for old, new in answer.beliefs]
+    others = []
+    if answer.light is not None:
+        others.append(message("ALTERED_LIGHT", colour=COLOURS[answer.light.colour]))
     if answer.appeared:
         looks = tuple(Who(Vehicle(x.vehicle), x.time) for x in answer.appeared[:NAMED])
         others.append(message("ALTERED_SEEN", looks=looks))
+    others += [_belief(old, new) for old, new in answer.beliefs]
     others += [episode_message(e, context) for e in answer.did[:1]]
+    if answer.reason is not None:
+        why = plan_choice(answer.reason, context)
+        return replace(why, core=(first, *why.core), more=(*why.more, *others[:1]))
     if not others:
         others.append(message("ALTERED_NOTHING"))
     return Plan((first, *others[:1]), tuple(others[1:2]), tuple(others[2:]))
@@ -128,6 +137,7 @@ def _belief(old: Belief, new: Belief) -> Message:
         "ALTERED_BELIEF",
         who=Who(Vehicle(new.vehicle), new.time),
         verbs=verbs_of(first.actions),
+        up=first.probability > was,
         old=Chance(was),
         new=Chance(first.probability),
     )

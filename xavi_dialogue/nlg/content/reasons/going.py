@@ -97,6 +97,7 @@ def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
         "simple": context.detail == "simpler",
         "past": answer.past,
         "right": answer.right,
+        "through": answer.through,
         "form": "what-if" if answer.red and answer.form == "crash" else answer.form,
     }
     timed = answer.form in ("arrival", "quicker")
