@@ -163,6 +163,7 @@ def test_where_no_time_is_said_it_is_of_the_last_change_of_plan() -> None:
         decision(14.0, ("change-left",)),
     ]
     changes = (did("change-plan", 8.0, 8.0),)
+    changes = (*changes, did("change-left", 8.0, 10.0))
     found = result(changed, Changed(), scene(traces=traces, episodes=changes, now=15.0))
     assert (found.before.time, found.after.time, found.sudden) == (5.0, 8.0, True)
     still = result(changed, Changed(), scene(traces=traces, now=15.0))

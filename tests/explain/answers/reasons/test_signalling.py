@@ -130,6 +130,7 @@ def wavered(
 
     patch.setattr(abandoned_plans, "of_trace", options)
     patch.setattr(reasons, "why", lambda question, asked: Told("why"))
+    patch.setattr(abandoned_plans, "last_change", lambda asked, since: None)
     event = PIPELINE if time is None else replace(PIPELINE, time=time)
     traces = tuple(plan(t, *((one,) if one else ())) for t, one in plans)
     changes = tuple(
