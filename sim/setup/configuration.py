@@ -13,12 +13,14 @@ from urllib.parse import parse_qsl, urlencode
 from sim.engine import Engine, SumoFailed
 from sim.perception import appearance
 from sim.quiet import warnings_in
+from sim.roads.netconvert import NetconvertMissing, package_folder
 from sim.roads.netfile import NetworkError, read_network
 from sim.roads.network import Network
 from sim.setup.checks import edges_of, near
 from sim.setup.departing import LONGEST, NeverDeparts, clock, depart, first_departures
 from sim.setup.mentioned import mentioned
 from sim.setup.options import ALWAYS, listed
+from sim.setup.packaged import EXTRA, PACKAGED
 from sim.setup.source import Added, Departing, Rider
 from sim.setup.tables import TableError
 
@@ -60,7 +62,7 @@ def split_place(place: str) -> tuple[Path, dict[str, str]]:
         TableError: a wish is unknown, or not written as key=value.
     """
     name, _, query = place.partition("?")
-    file = Path(name).expanduser().resolve()
+    file = _file(name)
     try:
         wishes = dict(parse_qsl(query, strict_parsing=True)) if query else {}
     except ValueError as error:
@@ -71,6 +73,16 @@ def split_place(place: str) -> tuple[Path, dict[str, str]]:
         if key not in KEYS:
             raise TableError(file, key, "unknown", f"known are {', '.join(KEYS)}")
     return file, wishes
+
+
+def _file(name: str) -> Path:
+    if not name.startswith(PACKAGED):
+        return Path(name).expanduser().resolve()
+    try:
+        return package_folder() / name.removeprefix(PACKAGED)
+    except NetconvertMissing as error:
+        problem = "it is part of eclipse-sumo, which is not installed"
+        raise TableError(Path(name), None, problem, f"run: pip install '{EXTRA}'") from error
 
 
 def place_of(file: Path, rider: Rider) -> str:

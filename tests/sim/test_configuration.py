@@ -5,11 +5,13 @@ from pathlib import Path
 
 import pytest
 
+from sim.roads.netconvert import NetconvertMissing
 from sim.roads.netfile import read_network
 from sim.scene import LightState
 from sim.setup import configuration
 from sim.setup.scenario import CONFIG, Scenario, ScenarioInvalid, load, with_rider
 from sim.setup.source import Added, Departing, FromConfiguration
+from sim.setup.tables import TableError
 from sim.sumo import Simulation
 from tests.sim.crossroads import signalled
 from xavi_dialogue.cli.new_scenario import write
@@ -265,3 +267,26 @@ def test_no_name_of_a_scenario_is_taken_for_a_file(
     (tmp_path / "s1").write_text("a file that lies about")
     monkeypatch.chdir(tmp_path)
     assert load("s1").name == "s1"
+
+
+def test_a_place_within_the_package_is_found(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "tools").mkdir()
+    inside = tmp_path / "tools" / "cross.sumocfg"
+    inside.write_text("<configuration/>", encoding="utf-8")
+    monkeypatch.setattr(configuration, "package_folder", lambda: tmp_path)
+    place = "sumo:tools/cross.sumocfg?ego=car.3"
+    assert configuration.is_place(place)
+    assert configuration.split_place(place) == (inside, {"ego": "car.3"})
+    with pytest.raises(TableError, match="there is no such file"):
+        configuration.split_place("sumo:tools/none.sumocfg")
+
+
+def test_a_place_within_the_package_needs_the_package(monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing() -> Path:
+        raise NetconvertMissing
+
+    monkeypatch.setattr(configuration, "package_folder", missing)
+    with pytest.raises(TableError, match="not installed"):
+        configuration.split_place("sumo:tools/cross.sumocfg")

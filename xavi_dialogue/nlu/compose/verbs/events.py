@@ -94,6 +94,9 @@ def event_of(clause: Clause, match: Match) -> Event:
     noun = isinstance(match.object, (Noun, Measure, Event))
     noun |= action == "brake" and match.object == Pronoun("they")  # "you slammed them on"
     thing = None if noun else as_thing(match.object)
+    halted = action == "block" and clause.verb is not None and clause.verb.key == "stop"
+    if halted and thing in (Described("car"), Described()) and actor_of(clause) == Ego():
+        action, thing = "stop", None  # "stop the car"
     side = clause.side
     if action in ("change-left", "change-right", "change-lane", "exit-left") and not (
         match.sided or _is_named(action, clause)
