@@ -217,7 +217,9 @@ def _differs(cause: MotionCause, context: SpeechContext) -> bool:
 def _denied(contrast: Contrast, *, past: bool) -> Clause:
     """Return that we did not, or do not, do what the foil is."""
     apart = terms.parted(contrast)
-    verbs = own_verbs(apart.foil, apart.fact) or (Clause(Who(), "do otherwise"),)
+    done = len(apart.foil) > 1 and apart.foil[:1] == apart.fact[:1]
+    foil = apart.foil[1:] if done else apart.foil  # what we do is not denied
+    verbs = own_verbs(foil, apart.fact) or (Clause(Who(), "do otherwise"),)
     rest = tuple(part for one in verbs[1:] for part in (f"and then {one.verb}",))
     tense: Literal["past", "present"] = "past" if past else "present"
     return Clause(Who(), verbs[0].verb, rest, tense, progressive=not past, negated=True)
