@@ -80,7 +80,13 @@ def decided_again(trace: PlanTrace, settings: Settings) -> PlanTrace:
     here = root_at(roads("s1"), trace.scene[EGO], trace.sim_time)
     assert here is not None
     frame = Frame(roads("s1"), trace.goal, settings, trace.seed, trace.vehicle)
-    moment = Moment(trace.decision, trace.sim_time, trace.scene, trace.history, Root(here))
+    moment = Moment(
+        trace.decision,
+        trace.sim_time,
+        trace.scene,
+        trace.history,
+        Root(here, driving=trace.driving),
+    )
     return decide(frame, moment).trace
 
 

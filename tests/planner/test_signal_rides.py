@@ -7,6 +7,7 @@ import pytest
 
 from planner.counterfactuals.whatif import NotInView, WhatIf, WhatIfError, replan
 from planner.driving.driver import Driver
+from planner.manoeuvres.actions import STANDING_TIME
 from planner.motion.tracks import lanes_at
 from planner.record.events import Event, LightPlace
 from planner.record.light_record import LightSupposed
@@ -170,7 +171,10 @@ def test_traces_with_lights_are_read_again(ride: Ride) -> None:
 
 
 def test_what_held_the_car_up_is_recorded(ride: Ride) -> None:
-    """While it stands at red, every rollout of the plan begins held by that light."""
+    """While it stands at red, every rollout of the plan is held by that light.
+
+    So it is from the beginning; where the plan is to stop, from the end of that stop.
+    """
     for trace in ride.traces:
         lights = () if trace.road is None else trace.road.lights
         standing = trace.scene[EGO].speed < 0.05
@@ -181,7 +185,8 @@ def test_what_held_the_car_up_is_recorded(ride: Ride) -> None:
                 held = rollout.held_by_lights
                 assert held
                 assert held[0].place == lights[0].place
-                assert held[0].since <= trace.sim_time + 0.5
+                stops = STANDING_TIME if trace.plan[0].action == "stop" else 0.0
+                assert held[0].since <= trace.sim_time + stops + 0.5
 
 
 @pytest.fixture(scope="module")
