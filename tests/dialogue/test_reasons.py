@@ -38,7 +38,7 @@ def test_who_asks_why_we_stay_behind_hears_how_fast_it_drives() -> None:
 
 
 def test_who_asks_why_so_hard_hears_how_hard() -> None:
-    assert "at up to 2.2 m/s²" in Talk("s4-0", 14.0).hear("Why did you brake so hard?")
+    assert "at up to 2.0 m/s²" in Talk("s4-0", 14.0).hear("Why did you brake so hard?")
     assert "m/s²" not in Talk("s4-0", 14.0).hear("Why did you brake?")
 
 
