@@ -42,6 +42,11 @@ def test_who_asks_why_so_hard_hears_how_hard() -> None:
     assert "m/s²" not in Talk("s4-0", 14.0).hear("Why did you brake?")
 
 
+def test_who_asks_why_we_changed_lanes_where_we_did_not_is_corrected() -> None:
+    told = Talk("s4-0", 20.0).hear("Why did you change lanes?")
+    assert told.startswith("I did not change lanes")
+
+
 def test_the_basis_for_entering_beside_somebody_is_who_goes_first() -> None:
     told = Talk("s3-0", 8.0).hear("On what basis are you entering with the blue car there?")
     assert "the blue car" in told

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from xavi_dialogue.domain.terms import Ego, Event, Pronoun, Quantity, Wanted
+from xavi_dialogue.domain.terms import Ego, Event, Lane, Pronoun, Quantity, Wanted
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.clauses.flags import flag
 from xavi_dialogue.nlu.compose.clauses.patterns import FLAGS, STRANDED, WORDED, Role, Sense
@@ -47,11 +47,16 @@ class Match:
 
 
 def amiss(clause: Clause, found: Match) -> float:
-    """Say what it costs that a deed would drive, and what a speed without a unit is cheaper by."""
+    """Say what it costs that a thing does or undergoes what things of its kind do not.
+
+    A speed without a unit is cheaper beside a verb of speed.
+    """
     if found.sense.head == "@exceed" and clause.objects and isinstance(found.object, Quantity):
         return -UNITLESS
     if found.sense.head == "@cause" and clause.infinitive is not None:
         return CAUSED  # "what caused you to slow down": what was caused is the slowing down
+    if found.sense.head == "@change-o" and isinstance(found.object, Lane):
+        return MISSING  # "change lanes" changes no plan
     if found.sense.head == "cut-in" and clause.verb is not None and clause.verb.key == "drive":
         return STEADY * (clause.verb.category == "VING")
     return NO_ACTOR * (isinstance(clause.subject, Event) and found.sense.head in _OF_VEHICLES)

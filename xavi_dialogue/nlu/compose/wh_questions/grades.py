@@ -195,15 +195,15 @@ def _quality(clause: Clause, words: tuple[str, ...], value: Any, actor: Thing | 
 def _weighed(clause: Clause, actor: Thing | None) -> Event | None:
     """Find the deed that is called risky: "how risky is moving back?", "... is the left lane?"."""
     if isinstance(clause.subject, Event):
-        return with_fields(clause.subject, tense=clause.tense)
+        return replace(clause.subject, tense=tense_of(clause))
     match actor:
         case Lane(which="left"):
-            return Event("change-left", tense=clause.tense)
+            return Event("change-left", tense=tense_of(clause))
         case Lane(which="right"):
-            return Event("change-right", tense=clause.tense)
+            return Event("change-right", tense=tense_of(clause))
     deeds = (part.sem for part in clause.complements if isinstance(part.sem, Event))
     deed = next(deeds, None)  # "how risky would it be to move to the left lane?"
-    return None if deed is None else with_fields(deed, tense=clause.tense)
+    return None if deed is None else replace(deed, tense=tense_of(clause))
 
 
 def sure_of(clause: Clause, value: Any) -> Question:

@@ -217,6 +217,8 @@ def _taking(clause: Clause, value: Special, actor: Thing | None) -> Question:
         return HowLong(content.event)
     if isinstance(clause.subject, Event):
         return HowLong(clause.subject)
+    if isinstance(clause.subject, Noun) and clause.subject.key == "ride":
+        return HowMuch(Measured("time-to-go" if clause.tense == "future" else "time"))
     return measured("duration", clause, actor)
 
 
