@@ -24,8 +24,8 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
 )
-from xavi_dialogue.nlu.grounding.acts.generic import come_along, in_order, specified
 from xavi_dialogue.nlu.grounding.context import Context, Window
+from xavi_dialogue.nlu.grounding.events.generic import come_along, in_order, specified
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 
 RING = Junction("roundabout")

@@ -53,10 +53,10 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
     Within,
 )
-from xavi_dialogue.nlu.grounding.acts.generic import come_along, in_order, specified
 from xavi_dialogue.nlu.grounding.acts.trips import of_trip
-from xavi_dialogue.nlu.grounding.acts.windows import pointed, unsaid, window
 from xavi_dialogue.nlu.grounding.context import Context
+from xavi_dialogue.nlu.grounding.events.generic import come_along, in_order, specified
+from xavi_dialogue.nlu.grounding.events.windows import pointed, unsaid, window
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 from xavi_dialogue.nlu.grounding.things.such import UNTOLD, condition_of
 

@@ -38,14 +38,14 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.grounding.acts.races import race
-from xavi_dialogue.nlu.grounding.acts.timing import (
+from xavi_dialogue.nlu.grounding.completion.repairs import answers_clarification
+from xavi_dialogue.nlu.grounding.context import Context
+from xavi_dialogue.nlu.grounding.events.timing import (
     believed_last,
     believed_then,
     changed,
     foreseen,
 )
-from xavi_dialogue.nlu.grounding.completion.repairs import answers_clarification
-from xavi_dialogue.nlu.grounding.context import Context
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 
 CAR, PLACE = Vehicle(1), Junction()

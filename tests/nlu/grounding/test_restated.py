@@ -40,8 +40,8 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.grounding.acts.restating import restated
-from xavi_dialogue.nlu.grounding.acts.timing import believed_last, believed_then, foreseen
 from xavi_dialogue.nlu.grounding.context import Context
+from xavi_dialogue.nlu.grounding.events.timing import believed_last, believed_then, foreseen
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 from xavi_dialogue.nlu.grounding.things.places import on_roundabout, presence, visit_of, visits
 

@@ -29,8 +29,8 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
     Within,
 )
-from xavi_dialogue.nlu.grounding.acts.windows import is_stale, notable, pointed, window
 from xavi_dialogue.nlu.grounding.context import Context, Window
+from xavi_dialogue.nlu.grounding.events.windows import is_stale, notable, pointed, window
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 
 NOW, BEGIN = 40.0, 2.0

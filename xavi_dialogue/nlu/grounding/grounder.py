@@ -4,8 +4,9 @@ from dataclasses import dataclass, field
 
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.terms import Event, Proposition, Tense, Thing, Time
-from xavi_dialogue.nlu.grounding.acts import events, propositions, windows
+from xavi_dialogue.nlu.grounding.acts import propositions
 from xavi_dialogue.nlu.grounding.context import Context, Fits, Mode, Notes, Window
+from xavi_dialogue.nlu.grounding.events import events, windows
 from xavi_dialogue.nlu.grounding.things.resolve import resolve
 
 

@@ -1,1 +1,1 @@
-"""Acts: times, events, propositions, questions and acts, grounded part by part."""
+"""Acts: propositions, questions and acts, grounded part by part."""

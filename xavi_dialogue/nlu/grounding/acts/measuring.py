@@ -26,9 +26,9 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
 )
-from xavi_dialogue.nlu.grounding.acts.windows import pointed
 from xavi_dialogue.nlu.grounding.completion.discussion import interval
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
+from xavi_dialogue.nlu.grounding.events.windows import pointed
 from xavi_dialogue.nlu.grounding.salience import vehicles_of
 
 #: What has a value at each moment.

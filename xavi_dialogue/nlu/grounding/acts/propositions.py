@@ -41,15 +41,10 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     WholeRide,
 )
-from xavi_dialogue.nlu.grounding.acts.afoot import walked
 from xavi_dialogue.nlu.grounding.acts.dangers import PERILS, fresh_event, is_of_undone, threatened
-from xavi_dialogue.nlu.grounding.acts.generic import come_along, in_order
-from xavi_dialogue.nlu.grounding.acts.hiding import behind_hider, past_hider, somebody_behind
 from xavi_dialogue.nlu.grounding.acts.measuring import just_named, measured, of_ride, spoken_of
 from xavi_dialogue.nlu.grounding.acts.recasting import of_nobody, something_wrong, within_limit
 from xavi_dialogue.nlu.grounding.acts.restating import restated
-from xavi_dialogue.nlu.grounding.acts.timing import believed_then
-from xavi_dialogue.nlu.grounding.acts.windows import is_stale, pointed
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
@@ -59,6 +54,11 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     questioned,
 )
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
+from xavi_dialogue.nlu.grounding.events.afoot import walked
+from xavi_dialogue.nlu.grounding.events.generic import come_along, in_order
+from xavi_dialogue.nlu.grounding.events.hiding import behind_hider, past_hider, somebody_behind
+from xavi_dialogue.nlu.grounding.events.timing import believed_then
+from xavi_dialogue.nlu.grounding.events.windows import is_stale, pointed
 from xavi_dialogue.nlu.grounding.salience import naming, vehicles_of
 from xavi_dialogue.nlu.grounding.things.descriptions import is_such
 from xavi_dialogue.nlu.grounding.things.pronouns import CLEAR, apart

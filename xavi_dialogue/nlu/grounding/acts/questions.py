@@ -53,8 +53,6 @@ from xavi_dialogue.nlu.grounding.acts.measuring import measured
 from xavi_dialogue.nlu.grounding.acts.others import asked_who
 from xavi_dialogue.nlu.grounding.acts.propositions import at_moment, inferred, suspect, timed
 from xavi_dialogue.nlu.grounding.acts.recasting import recast
-from xavi_dialogue.nlu.grounding.acts.timing import believed_last, changed, foreseen, over
-from xavi_dialogue.nlu.grounding.acts.windows import pointed
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     PROPOSITIONS,
     affirmed,
@@ -67,6 +65,8 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     spoken_of,
 )
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
+from xavi_dialogue.nlu.grounding.events.timing import believed_last, changed, foreseen, over
+from xavi_dialogue.nlu.grounding.events.windows import pointed
 
 _AWAY: Final = frozenset(("go", "move", "head", "disappear"))
 UNASKED: Final = 0.2  # cost of taking somebody for the cause where no cause was spoken of

@@ -49,7 +49,6 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.grounding.acts.follow_ups import compared, followed
 from xavi_dialogue.nlu.grounding.acts.others import of_others
 from xavi_dialogue.nlu.grounding.acts.races import race
-from xavi_dialogue.nlu.grounding.acts.timing import of_doing
 from xavi_dialogue.nlu.grounding.acts.trips import SIDES, is_plain_to_see, of_trip
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
@@ -61,6 +60,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     proposition_of,
 )
 from xavi_dialogue.nlu.grounding.context import Context, Grounder
+from xavi_dialogue.nlu.grounding.events.timing import of_doing
 from xavi_dialogue.nlu.grounding.things.lights import among
 
 _LASTING: Final = frozenset(("duration", "waiting-time", "delay"))

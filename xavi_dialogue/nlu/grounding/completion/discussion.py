@@ -44,8 +44,8 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
 )
-from xavi_dialogue.nlu.grounding.acts.windows import NOTABLE
 from xavi_dialogue.nlu.grounding.context import Context
+from xavi_dialogue.nlu.grounding.events.windows import NOTABLE
 
 PROPOSITIONS: Final = (
     Happens, Related, Is, Has, Compares, Exists, Caused, Believed, Not, Both, That,

@@ -28,8 +28,10 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.facts.episodes.lead_in import held_since
-from xavi_dialogue.nlu.grounding.acts.afoot import afoot
-from xavi_dialogue.nlu.grounding.acts.fitting import (
+from xavi_dialogue.nlu.grounding.completion.discussion import discussed
+from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Mode, Window
+from xavi_dialogue.nlu.grounding.events.afoot import afoot
+from xavi_dialogue.nlu.grounding.events.fitting import (
     JUST,
     LASTING,
     ONGOING,
@@ -39,10 +41,8 @@ from xavi_dialogue.nlu.grounding.acts.fitting import (
     searched,
     undergoing,
 )
-from xavi_dialogue.nlu.grounding.acts.generic import specified
-from xavi_dialogue.nlu.grounding.acts.hiding import out_of
-from xavi_dialogue.nlu.grounding.completion.discussion import discussed
-from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Mode, Window
+from xavi_dialogue.nlu.grounding.events.generic import specified
+from xavi_dialogue.nlu.grounding.events.hiding import out_of
 from xavi_dialogue.nlu.grounding.kin import like
 from xavi_dialogue.nlu.grounding.things.pronouns import apart
 

@@ -22,9 +22,9 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
 )
-from xavi_dialogue.nlu.grounding.acts.windows import notable, startling
 from xavi_dialogue.nlu.grounding.completion.discussion import last_deed
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
+from xavi_dialogue.nlu.grounding.events.windows import notable, startling
 
 
 def over(time: Any, g: Grounder) -> Window:

@@ -1,0 +1,1 @@
+"""Events: what happened, to whom and when, found in the record."""
