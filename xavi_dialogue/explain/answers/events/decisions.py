@@ -23,10 +23,10 @@ from xavi_dialogue.explain.facts.traffic_lights import shown_at
 from xavi_dialogue.explain.history.ride import planned
 
 MOVED = 0.15  # by which a probability has to move to be stated
-EVEN = 0.5  # probability from which somebody is told to be expected to do something
+EVEN = 0.5  # probability from which an expectation is stated
 TOLD = 2  # beliefs that are stated
 BEFORE = 0.01  # [s]
-NEAR = 60.0  # [m] ahead of us within which somebody new is told
+NEAR = 60.0  # [m] ahead of us within which a new road user is stated
 LEAD = 4.0  # [s] before a decision from which on what changes around us may matter to it
 BACK = 20.0  # [s] before now that a change of plan may lie that is asked about
 AFTER = 0.5  # [s] after a decision in which what we do is still of it

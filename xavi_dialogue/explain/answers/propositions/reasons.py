@@ -246,7 +246,7 @@ def _by_latest(found: Answer, scene: Asked) -> Answer:
 
 
 def _is_risky(event: Event, scene: Asked) -> bool:
-    """Tell whether what we did not do carries a risk, which is told before anything else."""
+    """Check whether what we did not do carries a risk: the answer states it first."""
     try:
         found = choices.why_not(event, scene)
     except Unanswered as unanswered:

@@ -97,7 +97,7 @@ def hangs_on(
         causation: what it hangs on.
         time: [s] at which vehicles are described.
         past: it is past.
-        brief: the vehicles that are told of, where of several only who else counts is wanted.
+        brief: the vehicles that the answer names; for several causes, only the others are added.
     """
     if causation is None or causation.kind in ("one", "open"):
         return None

@@ -66,7 +66,7 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
         besides = _vehicles_of(others[:1])
         brief = () if whole else first_of
         if not whole and counted and counted <= {*first_of, *besides}:
-            brief = (*first_of, *besides)  # each is told of
+            brief = (*first_of, *besides)  # the answer names each
         elif not whole:
             others = [c for c in others if c.vehicle not in counted]
         joint = hangs_on(answer.causation, answer.deed.begin, past=past, brief=brief)
