@@ -189,7 +189,7 @@ def test_the_largest_gain_is_told_with_the_reason_that_outweighs_it() -> None:
 def test_within_the_error_it_is_close() -> None:
     assert Difference({"time": 2.0}, 2.5).verdict == "close"
     assert Difference({"time": 2.0}, 1.5).verdict == "better"
-    assert Difference({"time": -2.0}, 1.5).verdict == "worse"
+    assert Difference({"time": -2.0}, 0.9).verdict == "worse"
     assert Difference({"time": 0.2}, 0.0).verdict == "close"
 
 

@@ -276,6 +276,8 @@ def test_what_never_arrives_costs_an_end() -> None:
         ({"time": -0.25}, 0.0, "worse"),
         ({"time": 3.0, "jerk": -2.0}, 0.9, "better"),
         ({"time": 3.0, "jerk": -2.0}, 1.1, "close"),
+        ({"time": -3.0, "jerk": 1.0}, 1.1, "close"),
+        ({"time": -3.0, "jerk": 1.0}, 0.9, "worse"),
     ],
 )
 def test_the_verdict(terms: dict[Term, float], error: float, verdict: str) -> None:

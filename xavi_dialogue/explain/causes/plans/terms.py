@@ -18,6 +18,7 @@ from xavi_dialogue.explain.causes.plans.chances import chances
 
 PAIRED = 0.5  # share of the weight of either side that must have been tried with both
 SPEAKS = 0.25  # [s] by which one plan must be better than another to be called so
+REVERSAL = 2.0  # standard errors by which the foil must be better to speak against the decision
 ROUNDING = 0.05  # [s] by which terms that are worked out from components may be off
 TINY = 1e-9  # what sums of floats are off by
 RISK = 0.01  # probability of a collision from which it is always told
@@ -43,8 +44,12 @@ class Difference:
 
     @property
     def verdict(self) -> Weighing:
-        """Whether the fact is better, or the two are as good within the error."""
-        least = max(self.error, SPEAKS)
+        """Whether the fact is better, or the two are as good within the error.
+
+        The decision itself is evidence: the planner compared both in the same situations. So it
+        takes more error to call what was decided worse than to call it better.
+        """
+        least = max(self.error * (REVERSAL if self.value < 0.0 else 1.0), SPEAKS)
         if abs(self.value) < least:
             return "close"
         return "better" if self.value > 0.0 else "worse"
