@@ -45,8 +45,8 @@ class NetconvertMissing(NetconvertError):
 
     def __init__(self) -> None:
         super().__init__(
-            "netconvert is not installed; it comes with the extra `maps`:"
-            " pip install 'xavi-dialogue[maps]'"
+            "netconvert is not installed (the extra `maps`):"
+            " pip install -U eclipse-sumo"
         )
 
 

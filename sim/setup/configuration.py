@@ -5,14 +5,14 @@ Places to load it from are texts such as `town.sumocfg?ego=car.3` and
 """
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import parse_qsl, urlencode
 
 from sim.engine import Engine, SumoFailed
 from sim.perception import appearance
-from sim.quiet import warnings_in
+from sim.quiet import errors_to, warnings_in
 from sim.roads.netconvert import NetconvertMissing, package_folder
 from sim.roads.netfile import NetworkError, read_network
 from sim.roads.network import Network
@@ -20,7 +20,7 @@ from sim.setup.checks import edges_of, near
 from sim.setup.departing import LONGEST, NeverDeparts, clock, depart, first_departures
 from sim.setup.mentioned import mentioned
 from sim.setup.options import ALWAYS, listed
-from sim.setup.packaged import EXTRA, PACKAGED
+from sim.setup.packaged import INSTALL, PACKAGED
 from sim.setup.source import Added, Departing, Rider
 from sim.setup.tables import TableError
 
@@ -82,7 +82,7 @@ def _file(name: str) -> Path:
         return package_folder() / name.removeprefix(PACKAGED)
     except NetconvertMissing as error:
         problem = "it is part of eclipse-sumo, which is not installed"
-        raise TableError(Path(name), None, problem, f"run: pip install '{EXTRA}'") from error
+        raise TableError(Path(name), None, problem, f"run: {INSTALL}") from error
 
 
 def place_of(file: Path, rider: Rider) -> str:
@@ -146,7 +146,7 @@ def _begin(file: Path, text: str | None) -> float | None:
 
 
 def _who_departs(file: Path) -> list[str]:
-    with _refused(file), _started(file) as engine:
+    with _refused(file), _started(file) as engine, _hushed(engine):
         return first_departures(engine)
 
 
@@ -157,7 +157,7 @@ def inspect(file: Path, rider: Rider) -> Inspected:
         TableError: SUMO refuses the configuration, or the car cannot be driven in it.
         SimulationError: SUMO is not installed, or runs in this process already.
     """
-    with _refused(file), _started(file) as engine:
+    with _refused(file), _started(file) as engine, _hushed(engine):
         return _Inspection(engine, file, rider).result()
 
 
@@ -188,6 +188,11 @@ def _started(file: Path) -> Engine:
         engine.close()
         raise
     return engine
+
+
+def _hushed(engine: Engine) -> AbstractContextManager[None]:
+    """Keep what SUMO says of others' driving, up to the ego's departure, off the terminal."""
+    return errors_to(engine.scratch / "driving.txt")
 
 
 class _Inspection:

@@ -6,7 +6,7 @@ from sim.roads.netconvert import NetconvertMissing, package_folder
 from sim.setup.tables import Table
 
 PACKAGED = "sumo:"  # before the path of a file within the package
-EXTRA = "xavi-dialogue[maps]"
+INSTALL = "pip install -U eclipse-sumo"
 
 
 def packaged_file(table: Table, key: str, folder: Path) -> Path:
@@ -23,8 +23,8 @@ def packaged_file(table: Table, key: str, folder: Path) -> Path:
         file = package_folder() / inside
     except NetconvertMissing as error:
         problem = f"{inside} is part of eclipse-sumo, which is not installed"
-        raise table.wrong(key, problem, f"run: pip install '{EXTRA}'") from error
+        raise table.wrong(key, problem, f"run: {INSTALL}") from error
     if not file.is_file():
         problem = f"the eclipse-sumo that is installed has no {inside}"
-        raise table.wrong(key, problem, f"run: pip install -U '{EXTRA}'")
+        raise table.wrong(key, problem, f"run: {INSTALL}")
     return file

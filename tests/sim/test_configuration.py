@@ -184,6 +184,19 @@ def test_a_file_that_is_not_there(tmp_path: Path) -> None:
         load(tmp_path / "a.sumocfg")
 
 
+def test_what_sumo_says_of_others_before_the_ego_departs_is_not_shown(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    hasty = """<vehicle id="slow" depart="31" departPos="60" departSpeed="0">
+        <route edges="bottom0A0 A0top0"/></vehicle>
+        <vehicle id="hasty" depart="31" departPos="53" departSpeed="13" insertionChecks="none">
+        <route edges="bottom0A0 A0top0"/></vehicle></routes>"""
+    file = configured(tmp_path, ROUTES.replace("</routes>", hasty))
+    with Simulation(load(f"{file}?ego=late"), 0):
+        pass
+    assert capfd.readouterr().err == ""
+
+
 def test_what_is_not_modelled_is_named(tmp_path: Path) -> None:
     walker = '<person id="p" depart="30"><walk edges="left0A0 A0right0"/></person></routes>'
     file = configured(tmp_path, ROUTES.replace("</routes>", walker))

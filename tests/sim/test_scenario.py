@@ -254,12 +254,12 @@ def of_the_package(folder: Path, file: str) -> Path:
     return folder
 
 
-def test_without_the_package_a_configuration_of_it_names_the_extra(
+def test_without_the_package_a_configuration_of_it_names_the_package(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     problem = "tools/a.sumocfg is part of eclipse-sumo, which is not installed"
-    with pytest.raises(NeedsMaps, match=rf"configuration: {problem}; run: pip install '.*maps"):
+    with pytest.raises(NeedsMaps, match=rf"configuration: {problem}; run: pip install -U eclipse"):
         load(of_the_package(tmp_path, "tools/a.sumocfg"))
 
 

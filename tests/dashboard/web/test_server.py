@@ -470,7 +470,7 @@ def test_without_its_packages_it_says_which_extra_brings_them(missing: str, root
         env=os.environ | {"PYTHONPATH": str(root)},
     )
     assert (done.returncode, done.stderr) == (0, "")
-    assert "pip install 'xavi-dialogue[dashboard]'" in done.stdout
+    assert "pip install starlette uvicorn websockets" in done.stdout
 
 
 def test_nothing_of_strangers_is_logged(here: Running, caplog: pytest.LogCaptureFixture) -> None:

@@ -1,3 +1,3 @@
 """The web server of the dashboard, and its messages to browsers."""
 
-MISSING = "the dashboard needs more packages: pip install 'xavi-dialogue[dashboard]'"
+MISSING = "the dashboard needs more packages: pip install starlette uvicorn websockets"
