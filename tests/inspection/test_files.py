@@ -42,3 +42,10 @@ def test_nothing_in_a_file_name_can_steer_a_terminal() -> None:
     assert told is not None
     assert "nowhere" in told.message
     assert "\x1b" not in told.message
+
+
+def test_a_saved_ride_is_found_without_its_ending(tmp_path: Path) -> None:
+    (tmp_path / "mine.ride.jsonl.gz").write_bytes(b"saved")
+    assert content(str(tmp_path / "mine")) == b"saved"
+    (tmp_path / "mine").write_bytes(b"another")
+    assert content(str(tmp_path / "mine")) == b"another"

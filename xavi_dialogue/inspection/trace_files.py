@@ -10,7 +10,7 @@ from pathlib import Path
 from planner.errors import TraceError
 from planner.record.trace import PlanTrace, decode
 from xavi_dialogue.process.exit_status import UsageFault
-from xavi_dialogue.storage.ride_file import RideFileError, load
+from xavi_dialogue.storage.ride_file import ENDING, RideFileError, load
 
 MAX_RIDE_BYTES = 64 * 1024 * 1024
 MAX_RIDE_LINES = 20_000
@@ -31,7 +31,7 @@ class Traces:
 
 
 def content(name: str) -> bytes:
-    """Return the bytes of a file; `-` is standard input.
+    """Return the bytes of a file; `-` is standard input, and a saved ride needs no ending.
 
     Raises:
         TraceFileError: it cannot be opened, or is too large.
@@ -39,13 +39,19 @@ def content(name: str) -> bytes:
     if name == "-" and sys.stdin is None:
         raise TraceFileError("cannot read -: standard input is closed")
     try:
-        with sys.stdin.buffer if name == "-" else Path(name).open("rb") as source:
+        with sys.stdin.buffer if name == "-" else _file(name).open("rb") as source:
             data = source.read(MAX_RIDE_BYTES + 1)
     except (OSError, ValueError) as error:
         raise TraceFileError(f"cannot read {name}: {error}") from error
     if len(data) > MAX_RIDE_BYTES:
         raise TraceFileError(f"{name} is larger than {MAX_RIDE_BYTES} bytes")
     return data
+
+
+def _file(name: str) -> Path:
+    path = Path(name)
+    saved = path.with_name(f"{path.name}{ENDING}") if path.name else path
+    return saved if not path.exists() and saved.is_file() else path
 
 
 def read(data: bytes) -> Traces:
