@@ -45,8 +45,7 @@ class NetconvertMissing(NetconvertError):
 
     def __init__(self) -> None:
         super().__init__(
-            "netconvert is not installed (the extra `maps`):"
-            " pip install -U eclipse-sumo"
+            "netconvert is not installed (the extra `maps`): pip install -U eclipse-sumo"
         )
 
 
