@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
     Time,
     Vehicle,
 )
+from xavi_dialogue.explain.answers.measuring.durations import halted
 from xavi_dialogue.explain.answers.reasons import choices, motions
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import event_of, subject
@@ -88,7 +89,7 @@ def was_done(scene: Asked, then: Event) -> bool:
     found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
     if scene.past is not None and scene.past.said:
         return scene.pick(found, lambda e: (e.begin, e.end)) is not None
-    return bool(found)
+    return bool(found) or ("stop" in kinds and halted(scene))
 
 
 def is_new(found: Supposed, then: Event) -> bool:
@@ -150,7 +151,7 @@ def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bo
             except Unanswered:
                 return stop.time
     if past:
-        meant = scene.act.leaned or (scene.past is not None and scene.past.said)
+        meant = (then is None and scene.act.leaned) or (scene.past is not None and scene.past.said)
         deed = manoeuvre(scene.ride, scene.span if meant else None)
         if deed is not None and deed.action != "continue":
             try:

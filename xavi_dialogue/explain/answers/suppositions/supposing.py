@@ -237,6 +237,8 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
     new = then is not None and (not was_done(scene, then) if past else is_new(found, then))
     if past and new and then is not None and still:  # what the plan has yet to do stays
         still = not _comes_anyway(found, then)
+    if still and "stop" in found.here.plan[:1] and "stop" not in found.there.plan[:1]:
+        then, still = None, None  # it would come to a halt, but no more by choice: tell the plan
     return SupposedOfOther(
         vehicle=numbers[0],
         supposed=event,

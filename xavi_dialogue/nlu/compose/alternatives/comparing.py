@@ -3,11 +3,12 @@
 from typing import Any, cast
 
 from xavi_dialogue.domain.meaning import Compare, Question
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Lane, Pronoun, That
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Pronoun, That
 from xavi_dialogue.nlu.compose.clauses.adoption import as_of, with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Sem, as_thing
 from xavi_dialogue.nlu.compose.wh_questions.frames import Frames
+from xavi_dialogue.nlu.compose.wh_questions.savings import lane_taken
 
 BY = {
     "fast": "time",
@@ -55,7 +56,7 @@ class Comparing(Frames):
             governed.subject = Ego()
             deed = self.propositions.as_event(governed)
         if deed is None and clause.modal in ("would", "could"):
-            deed = _lane_taken(clause)
+            deed = lane_taken(clause)
         spoken = isinstance(clause.subject, Pronoun) and clause.subject.form in (
             "that",
             "it",
@@ -106,17 +107,6 @@ class Comparing(Frames):
 
 def _at(option: Any, tense: str) -> Any:
     return as_of(option, tense) if isinstance(option, Happens) else option
-
-
-def _lane_taken(clause: Clause) -> Event | None:
-    """Read "would the other lane have been faster", "... quicker in the left lane"."""
-    places = [as_thing(phrase.sem) for phrase in clause.complements if phrase.key in ("in", "on")]
-    lane = next((t for t in (as_thing(clause.subject), *places) if isinstance(t, Lane)), None)
-    if lane is None or lane.of is not None or clause.verb is not None:
-        return None
-    side = {"left": "left", "right": "right", "leftmost": "left", "rightmost": "right"}
-    action: Any = f"change-{side.get(lane.which, 'lane')}"
-    return Event(action, tense=cast(Any, clause.tense))
 
 
 def _sooner(clause: Clause) -> bool:

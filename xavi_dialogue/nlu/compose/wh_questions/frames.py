@@ -42,6 +42,7 @@ from xavi_dialogue.nlu.compose.clauses.sem import (
 )
 from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
 from xavi_dialogue.nlu.compose.states.pacing import at_pace
+from xavi_dialogue.nlu.compose.wh_questions.savings import of_option
 
 
 class Frames:
@@ -70,8 +71,13 @@ class Frames:
             return question
         supposed = None if _if_needed(clause.condition) else self.supposition(clause)
         if supposed is None:
-            return question
+            return of_option(question, clause, self._deed(clause))
         return WhatIf(supposed, None if _of_difference(question) else question)
+
+    def _deed(self, clause: Clause) -> Proposition | None:
+        """Read the deed of "what would it cost us to go straight on"."""
+        governed = clause.infinitive
+        return None if governed is None else self.propositions.plain(governed)
 
     def supposition(self, clause: Clause) -> Proposition | None:
         """Read what is supposed: "if he had stopped", "without the lorry"."""

@@ -46,8 +46,11 @@ _SEEING = frozenset({"see", "look", "watch", "know", "track", "notice"})
 
 
 def saving(clause: Clause) -> Event:
-    """Name what may have saved time: the manoeuvre that we chose, not what held us up."""
-    return Event("change-lane", Ego(), tense=cast(Any, clause.tense))
+    """Name what may have saved time: what we chose, not what held us up."""
+    named = clause.subject
+    if isinstance(named, Event) and isinstance(named.actor, Ego):
+        return cast(Event, with_fields(named, tense=clause.tense))
+    return Event("do", Ego(), tense=cast(Any, clause.tense))
 
 
 def left_over(event: Event | None) -> bool:

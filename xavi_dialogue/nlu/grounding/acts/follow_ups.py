@@ -29,9 +29,15 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     That,
 )
-from xavi_dialogue.nlu.grounding.completion.discussion import affirmed, asserted, proposition_of
+from xavi_dialogue.nlu.grounding.completion.discussion import (
+    affirmed,
+    asserted,
+    events,
+    proposition_of,
+)
 from xavi_dialogue.nlu.grounding.context import Grounder
 
+TURNS: Final = ("turn", "exit-left", "exit-right", "exit-straight", "leave")
 _STAYING: Final = ("wait", "keep-lane", "stand")
 _MISHAPS: Final = ("collide", "nearly-collide")
 _SPOKEN_OF: Final = ("it", "that", "them-all")
@@ -54,12 +60,29 @@ def followed(spoken: Question, g: Grounder) -> Question:
             return Listing("rivals")
         case Whether(that=Is(state="close", thing=Pronoun(form="them-all")) as near):
             return replace(spoken, that=replace(near, thing=Pronoun("it")))
+        case HowMuch(of=Measured(attribute="delay", event=Event(action="do")) as of):
+            return _saved(of, g)
         case HowSure(of=Happens(event=Event(action="do", actor=Ego(), modal=None) as done)):
             return replace(spoken, of=Happens(replace(done, object=None)))  # "that decision"
         case HowSure(of=None, changed=False) if isinstance(asked, Why) and _is_ours(asked.of):
             g.notes.leaned = True
             return replace(spoken, of=asked.of)
     return spoken
+
+
+def _saved(of: Measured, g: Grounder) -> Question:
+    """Ask what time was saved by what we did and spoke of, else by the last change of lanes.
+
+    Of another choice it is asked what else there was to choose.
+    """
+    known = next((e for e in events(g.context.discourse, real=True) if e.actor == Ego()), None)
+    if known is None:
+        changed = Event("change-lane", tense="perfect")
+        done = g.context.holds(changed, g.context.begin, g.context.now)
+        return HowMuch(replace(of, event=changed)) if done else Listing("rivals")
+    g.notes.leaned = True
+    chosen = known.action in (*TURNS, "keep-lane", "continue")
+    return Listing("rivals", event=known) if chosen else HowMuch(replace(of, event=known))
 
 
 def _weighs(asked: Question | None, *, pair: bool) -> bool:

@@ -122,9 +122,9 @@ def _of_what_was_explained(spoken: WhatIf, g: Grounder) -> Window | None:
             Why(of=of) | WhatWouldChange(of=of),
         ):
             event, focus = first(of, Event), g.context.discourse.episode
-            ours = event is not None and event.actor == Ego()
-            if ours and focus is not None and event.tense in ("past", "perfect"):
-                return inferred(focus, g)
+            if event is None or event.actor != Ego() or event.tense not in ("past", "perfect"):
+                return None
+            return None if focus is None else inferred(focus, g)
     return None
 
 

@@ -46,7 +46,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     WholeRide,
 )
-from xavi_dialogue.nlu.grounding.acts.follow_ups import compared, followed
+from xavi_dialogue.nlu.grounding.acts.follow_ups import TURNS, compared, followed
 from xavi_dialogue.nlu.grounding.acts.others import of_others
 from xavi_dialogue.nlu.grounding.acts.races import race
 from xavi_dialogue.nlu.grounding.acts.trips import SIDES, is_plain_to_see, of_trip
@@ -119,7 +119,7 @@ def recast(spoken: Question, g: Grounder) -> Question:
             return HowMuch(Measured("distance-to-go"))
         case Whether(
             that=Is(state="right", thing=Pronoun(), event=Event(actor=Ego()) as event)
-        ) if event.action in _TURNS:
+        ) if event.action in TURNS:
             return Whether(Happens(replace(event, tense="present")))
         case Whether(that=Happens(event=Event(action="arrive", actor=Ego(), manner=manner))) if {
             "early",
@@ -197,7 +197,6 @@ def _lasted(spoken: Question, g: Grounder) -> Question | None:
 
 
 _ARRIVING: Final = ("leave", "arrive", "exit-left", "exit-right", "turn")
-_TURNS: Final = ("turn", "exit-left", "exit-right", "exit-straight", "leave")
 
 
 def _by_side(relation: str, spoken: Question, g: Grounder) -> Question:

@@ -8,7 +8,9 @@ from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
     Elliptic,
+    HowMuch,
     HowSure,
+    Listing,
     Question,
     WhatIf,
     When,
@@ -25,6 +27,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Junction,
     Lane,
+    Measured,
     Not,
     Pronoun,
     Proposition,
@@ -36,6 +39,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import discussed, questio
 from xavi_dialogue.nlu.grounding.context import Grounder
 
 PLACES: Final = (Exit, Junction, Lane)
+_UNREAL: Final = Event("do", modal="would")  # "how much time would that save?"
 _OUR_COLLISION: Final = Happens(Event("collide", modal="would"))
 HALTING: Final = ("stop", "brake", "avoid", "slow-down")
 
@@ -84,14 +88,24 @@ def through(place: Thing, of: Proposition | None) -> Proposition:
 def subordinate(spoken: Question, g: Grounder) -> Question:
     """Ask "would we have hit it?" of what was supposed in the question before."""
     earlier = _supposed_before(g)
-    if earlier is None or not _hypothetical(spoken, earlier):
-        return spoken
+    option = isinstance(spoken, HowMuch) and spoken.of.event == _UNREAL
+    if earlier is None or not (option or _hypothetical(spoken, earlier)):
+        return _of_nothing(spoken) if isinstance(spoken, HowMuch) and option else spoken
     g.notes.leaned = True
+    if option:
+        return WhatIf(earlier, HowMuch(Measured("delay")))
     if isinstance(spoken, HowSure) and spoken.of == _OUR_COLLISION:
         return WhatIf(earlier, spoken)  # "how risky would that have been?"
     if isinstance(spoken, HowSure):
         return WhatIf(earlier, Whether(spoken.of or earlier))
     return WhatIf(earlier, spoken)
+
+
+def _of_nothing(spoken: HowMuch) -> Question:
+    """Ask how much time would be saved where nothing was supposed: by the next best option."""
+    if spoken.of.attribute == "delay":
+        return Listing("rivals")
+    return replace(spoken, of=replace(spoken.of, event=None))
 
 
 def _hypothetical(spoken: Question, earlier: Proposition) -> bool:
@@ -118,7 +132,10 @@ def _supposed_before(g: Grounder) -> Proposition | None:
             return supposed
         case Whether(that=Happens(event=Event(modal="could") as event)):
             return Happens(replace(event, modal=None, tense="perfect"))
+    option = g.context.discourse.option
+    if option is not None:
+        return Happens(option)
+    match g.context.discourse.question:
         case Why(of=Not(content=Happens(event=event))):
             return Happens(replace(event, modal=None, tense="perfect"))
-    option = g.context.discourse.option
-    return None if option is None else Happens(option)
+    return None

@@ -1,0 +1,73 @@
+"""Savings: how much time an option would take or save: "how much later would that have been?"."""
+
+from typing import Any, Final, cast
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.meaning import HowMuch, Question, WhatIf
+from xavi_dialogue.domain.rewriting import first
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Exit,
+    Happens,
+    Lane,
+    Measured,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Tense,
+)
+from xavi_dialogue.domain.vocabulary import Attribute
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.sem import as_thing
+
+_IT: Final = (Pronoun("it"), Pronoun("that"), Pronoun("this"))
+_VAGUE: Final = (None, Ego(), Passenger(), *_IT)
+_UNREAL: Final = Event("do", modal="would")
+_TIME: Final = HowMuch(Measured("delay"))
+
+
+def of_option(question: Question, clause: Clause, deed: Proposition | None) -> Question:
+    """Ask of the option that is named how much time it would take; else of the one spoken of.
+
+    Args:
+        question: as it was read.
+        clause: its clause, which stands under no condition.
+        deed: of "to overtake" in "how much would it save to overtake".
+    """
+    match question:
+        case HowMuch(
+            of=Measured(attribute="delay" | "duration" | "speed" as attribute), extreme=None
+        ):
+            if clause.modal != "would":
+                return question
+        case _:
+            return question
+    subject = as_thing(clause.subject)
+    named = clause.subject if isinstance(clause.subject, Event) else lane_taken(clause)
+    if isinstance(subject, Exit):
+        named = Event("leave", object=subject)
+    named = named or first(deed, Event)
+    if named is not None and isinstance(named.actor, Ego) and attribute != "duration":
+        tense: Tense = "perfect" if clause.has("have") else "present"
+        return WhatIf(Happens(replace(named, tense=tense, modal=None)), _TIME)
+    if any(as_thing(phrase.sem) is not None for phrase in clause.complements):
+        return question
+    if subject not in (_IT if attribute != "delay" else _VAGUE):
+        return question
+    asked: Attribute = "duration" if attribute == "duration" else "delay"
+    return HowMuch(replace(question.of, attribute=asked, to=None, event=_UNREAL))
+
+
+def lane_taken(clause: Clause) -> Event | None:
+    """Read "would the other lane have been faster", "... quicker in the left lane"."""
+    places = [as_thing(phrase.sem) for phrase in clause.complements if phrase.key in ("in", "on")]
+    lane = next((t for t in (as_thing(clause.subject), *places) if isinstance(t, Lane)), None)
+    if lane is None or lane.of is not None:
+        return None
+    if clause.verb is not None and not isinstance(as_thing(clause.subject), Lane):
+        return None
+    side = {"left": "left", "right": "right", "leftmost": "left", "rightmost": "right"}
+    action: Any = f"change-{side.get(lane.which, 'lane')}"
+    return Event(action, tense=cast(Any, clause.tense))
