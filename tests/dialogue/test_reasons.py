@@ -56,3 +56,22 @@ def test_the_basis_for_entering_beside_somebody_is_who_goes_first() -> None:
 def test_overtaking_where_the_only_lane_is_the_oncoming_one_says_so() -> None:
     told = Talk("bend-0", 5.0).hear("Why don't you just overtake it?")
     assert told.endswith("and I do not use an oncoming lane.")
+
+
+def test_without_it_is_asked_of_the_deed_whose_reason_was_told() -> None:
+    talk = Talk("s1-0", 9.0)
+    talk.hear("Why did you change lanes?")
+    assert talk.hear("And without it?").startswith("Without the blue car, I would have stayed")
+
+
+@pytest.mark.parametrize("text", ["How much time would that save?", "How much sooner would we be?"])
+def test_what_it_would_save_is_asked_of_the_option_spoken_of(text: str) -> None:
+    talk = Talk("motorway-0", 8.0)
+    talk.hear("Why don't you move to the left lane?")
+    told = talk.hear(text)
+    assert told.startswith("If I moved to the left lane, we would get there about")
+
+
+def test_what_it_would_save_is_of_the_next_best_option_where_none_was_spoken_of() -> None:
+    told = Talk("motorway-0", 8.0).hear("How much time would it save?")
+    assert "the next best option was" in told

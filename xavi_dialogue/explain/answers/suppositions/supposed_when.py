@@ -151,8 +151,8 @@ def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bo
             except Unanswered:
                 return stop.time
     if past:
-        meant = (then is None and scene.act.leaned) or (scene.past is not None and scene.past.said)
-        deed = manoeuvre(scene.ride, scene.span if meant else None)
+        said = scene.past is not None and scene.past.said
+        deed = manoeuvre(scene.ride, scene.span if said else None)
         if deed is not None and deed.action != "continue":
             try:
                 return scene.ride.choice_of(deed).sim_time

@@ -38,10 +38,8 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
-    Exists,
     Happens,
     Nobody,
-    Not,
     Now,
     Proposition,
     That,
@@ -102,30 +100,12 @@ def _during(event: Event | None, g: Grounder) -> Window:
 
 
 def _what_if(spoken: WhatIf, g: Grounder) -> WhatIf:
-    meant = _of_what_was_explained(spoken, g)
-    supposed = g.proposition(spoken.supposed, "supposed", meant)
-    if meant is not None:
-        g.notes.leaned = True
-        g.notes.span = meant.span
+    supposed = g.proposition(spoken.supposed, "supposed")
     then = None if spoken.then is None else _supposed_question(spoken.then, g)
     focus = g.context.discourse.episode
     if g.notes.span is None and focus is not None:
         g.notes.spans(inferred(focus, g).span)
     return replace(spoken, supposed=supposed, then=then)
-
-
-def _of_what_was_explained(spoken: WhatIf, g: Grounder) -> Window | None:
-    """Give when it was that "and without it?" is of: the deed whose reason was asked, if over."""
-    match spoken, g.context.discourse.question:
-        case (
-            WhatIf(supposed=Not(content=Exists(time=Unsaid(), tense="present")), then=None),
-            Why(of=of) | WhatWouldChange(of=of),
-        ):
-            event, focus = first(of, Event), g.context.discourse.episode
-            if event is None or event.actor != Ego() or event.tense not in ("past", "perfect"):
-                return None
-            return None if focus is None else inferred(focus, g)
-    return None
 
 
 def _supposed_question(spoken: Question, g: Grounder) -> Question:

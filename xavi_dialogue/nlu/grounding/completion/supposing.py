@@ -13,12 +13,14 @@ from xavi_dialogue.domain.meaning import (
     Listing,
     Question,
     WhatIf,
+    WhatWouldChange,
     When,
     Whether,
     Why,
 )
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
+    Between,
     Described,
     Ego,
     Event,
@@ -86,7 +88,15 @@ def through(place: Thing, of: Proposition | None) -> Proposition:
 
 
 def subordinate(spoken: Question, g: Grounder) -> Question:
-    """Ask "would we have hit it?" of what was supposed in the question before."""
+    """Ask "would we have hit it?" of what was supposed in the question before.
+
+    "And without it?" is asked of the time of what we did, where its reason was asked.
+    """
+    match spoken:
+        case WhatIf(supposed=Not(content=Exists(time=Unsaid(), tense="present") as of), then=None):
+            then = _explained_at(g)
+            g.notes.leaned = g.notes.leaned or then is not None
+            return spoken if then is None else WhatIf(Not(replace(of, time=then)))
     earlier = _supposed_before(g)
     option = isinstance(spoken, HowMuch) and spoken.of.event == _UNREAL
     if earlier is None or not (option or _hypothetical(spoken, earlier)):
@@ -99,6 +109,17 @@ def subordinate(spoken: Question, g: Grounder) -> Question:
     if isinstance(spoken, HowSure):
         return WhatIf(earlier, Whether(spoken.of or earlier))
     return WhatIf(earlier, spoken)
+
+
+def _explained_at(g: Grounder) -> Between | None:
+    """Give when it was that we did what the reason was asked of; None: we do so, or plan to."""
+    focus = g.context.discourse.episode
+    match g.context.discourse.question:
+        case Why(of=of) | WhatWouldChange(of=of) if focus is not None:
+            event = first(of, Event)
+            if event is not None and event.actor == Ego() and event.tense in ("past", "perfect"):
+                return Between(*focus)
+    return None
 
 
 def _of_nothing(spoken: HowMuch) -> Question:
