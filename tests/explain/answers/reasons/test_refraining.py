@@ -240,3 +240,12 @@ def test_what_we_did_not_do_is_compared_with_a_stop(monkeypatch: pytest.MonkeyPa
     need = NeedRollout("trace")
     monkeypatch.setattr(motions, "motion", raising(need))
     assert refused(refrained, Event("wait")) == need
+
+
+def test_who_goes_first_and_was_in_no_way_imagined_is_no_reason(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    name = "xavi_dialogue.explain.answers.reasons.refraining.reckoned_with"
+    monkeypatch.setattr(name, lambda *_: False)
+    one, two = CrossingVehicle(1, "ego"), CrossingVehicle(2, "vehicle")
+    assert went(Event("give-way"), one, two).others == (one,)

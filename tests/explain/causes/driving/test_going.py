@@ -6,11 +6,13 @@ import pytest
 
 from planner.record.events import Event as Told
 from planner.record.places import PriorityFact, RoadFacts
+from tests.explain.causes.rides import recorded
 from tests.explain.facts.scenes import Actor, made, speeds, straight
 from xavi_dialogue.domain.answers import CrossingVehicle
-from xavi_dialogue.explain.causes.driving.going import bystanders
+from xavi_dialogue.explain.causes.driving.going import bystanders, reckoned_with
 from xavi_dialogue.explain.causes.driving.yielding import goes_first
 from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.explain.history.ride import Ride
 
 
@@ -76,3 +78,16 @@ def test_who_was_let_go_lately(waited: float, known: bool) -> None:
     whole = made(actors, 9.0, events=(Told("gave-way", waited, vehicle=2),))
     found = bystanders(whole, World(whole), 8.0)
     assert found == ((CrossingVehicle(2, "vehicle", gone=True),) if known else ())
+
+
+@pytest.mark.parametrize(("vehicle", "time", "found"), [(5, 23.0, True), (99, 23.0, False)])
+def test_who_is_reckoned_with_was_in_the_way_in_a_drive_imagined(
+    vehicle: int, time: float, found: bool
+) -> None:
+    drive = recorded("town-0")
+    ride = Ride(Record(40.0, tuple(drive.traces), tuple(drive.events)))
+    assert reckoned_with(ride, vehicle, time) is found
+
+
+def test_where_nothing_was_imagined_anybody_may_have_been_reckoned_with() -> None:
+    assert reckoned_with(with_road(None), 99, -9.0)

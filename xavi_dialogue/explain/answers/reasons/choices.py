@@ -67,7 +67,13 @@ def why(event: Event | None, scene: Asked, instead: Proposition | None = None) -
 
 
 def _reason(scene: Asked, event: Event | None, found: Premise, against: Contrast) -> ChoiceReason:
-    """Return the reason for what was chosen, with whom a lane was left for."""
+    """Return the reason for what was chosen, with whom a lane was left for.
+
+    Going straight on is not what was chosen where the plan begins with something else.
+    """
+    chosen = against.fact[len(found.node) : len(found.node) + 1]
+    if found.deed is not None and found.deed.action == "continue" and chosen not in ((), STAYING):
+        found = Premise(found.trace, None, found.node)
     past = _over(scene, event, found)
     ahead = _left_for(scene, found, against)
     return ChoiceReason("why", deed_of(scene, found), against, past=past, ahead=ahead)

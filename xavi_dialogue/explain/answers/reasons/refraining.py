@@ -24,6 +24,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window
 from xavi_dialogue.explain.answers.reference.reading import foil_subject, is_past, vehicle_in
 from xavi_dialogue.explain.answers.ride.priority import priority_at
+from xavi_dialogue.explain.causes.driving.going import reckoned_with
 from xavi_dialogue.explain.causes.driving.yielding import leads
 from xavi_dialogue.explain.causes.plans.premise import is_open
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, HALTS
@@ -121,8 +122,22 @@ def _went(event: Event, scene: Asked, crossed: Deed) -> Answer:
         if any(one.gone for one in named):
             return _done(event, scene)
         others = named or (CrossingVehicle(asked, first="none"),)
+    else:
+        counted = tuple(one for one in others if _counts(scene, one, crossed.time))
+        if others and not counted:
+            return _undone(event, scene)
+        others = counted
     short = event.action if event.action in HALTS else "wait"
     return structs.replace(reason, others=others, refrained=short, past=True)
+
+
+def _counts(scene: Asked, one: CrossingVehicle, time: float) -> bool:
+    """Tell whether somebody whose way crossed ours may be told as a reason for not waiting.
+
+    Who goes first by the rule is one only where a drive imagined reckons with it.
+    """
+    yields = one.first != "vehicle" or one.gone
+    return yields or reckoned_with(scene.ride, one.vehicle, time)
 
 
 def _done(event: Event, scene: Asked) -> Answer:
@@ -145,7 +160,9 @@ def _undone(event: Event, scene: Asked) -> Answer:
             return _kept_speed(event, vehicle, scene)
     if is_past(scene, event) and event.action != "stop":
         try:
-            return _done(structs.replace(event, object=None), scene)
+            found = _done(structs.replace(event, object=None), scene)
+            if not isinstance(found, MotionReason) or found.premise:
+                return found  # else it was only braking
         except Unanswered as unanswered:
             if not isinstance(unanswered.result, DidNotHappen):
                 raise

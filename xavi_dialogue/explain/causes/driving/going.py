@@ -4,12 +4,13 @@ from planner.record.events import Event as RideEvent
 from planner.record.trace import PlanTrace
 from xavi_dialogue.domain.answers import CrossingVehicle
 from xavi_dialogue.explain.facts.world import World
-from xavi_dialogue.explain.history.ride import Ride
+from xavi_dialogue.explain.history.ride import Ride, planned
 
 NEXT = 18.0  # [m] within which one who was given way to is just passing
 APART = 3.0  # [m] by which one who goes away is farther
 MOVING = 0.5  # [m/s] from which a vehicle is on its way
 PASSED = 6.0  # [s] before a deed within which way was given for it
+LATELY = 4.0  # [s] before a deed within which it may have been decided
 
 
 def bystanders(ride: Ride, world: World, time: float) -> tuple[CrossingVehicle, ...]:
@@ -24,6 +25,23 @@ def bystanders(ride: Ride, world: World, time: float) -> tuple[CrossingVehicle, 
     gone = dict.fromkeys((*others, *(v for v in known if v in past)))
     still = tuple(one for one in found if one.vehicle not in gone)
     return (*(CrossingVehicle(v, first="vehicle", gone=True) for v in gone), *still)
+
+
+def reckoned_with(ride: Ride, vehicle: int, time: float) -> bool:
+    """Tell whether a vehicle was in the way of going or of stopping, as imagined before a time.
+
+    Of whom that is not so, neither depended on what it did. Where nothing was imagined, it is not
+    known, and the rule of the road stands.
+    """
+    drives = [
+        drive
+        for trace in ride.traces
+        if time - LATELY <= trace.sim_time <= time
+        for drive in trace.rollouts
+        if drive.actions and drive.actions[0].action in (*planned(trace)[:1], "stop")
+    ]
+    hit = any(drive.collided_with == vehicle for drive in drives)
+    return not drives or hit or any(h.vehicle == vehicle for d in drives for h in d.held_up)
 
 
 def _parts(world: World, wait: RideEvent, time: float) -> bool:

@@ -24,6 +24,7 @@ from xavi_dialogue.explain.history.ride import Ride, Unanswered, chose, planned
 
 DIRECTIONS: tuple[Action, ...] = (*EXITS, "continue-next-exit")
 STAYING: Actions = ("continue",)
+APPROACH = 10.0  # [s] before a decision since when a junction may be the next one
 
 
 def natural(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast:
@@ -47,8 +48,9 @@ def other_way(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast | No
     """Compare the way that a plan takes with the best other one; None where nothing is known.
 
     Where no other way leads to the destination, the way taken is the reason, and so it is where
-    the map has it on the route and no other is known to lead there. Where one is, what speaks
-    against that one is: the route of a trace follows the plan.
+    the map has it on the route and no other is known to lead there. Where one is, or was until
+    somebody got in its way, what speaks against that one is: the route of a trace follows the
+    plan.
 
     Raises:
         Unanswered: there is too little evidence of the plan, or rollouts are needed.
@@ -62,7 +64,7 @@ def other_way(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast | No
         if pair[0][-1] in DIRECTIONS or (fact in DIRECTIONS and pair[0][-1] == "continue")
     ]
     by_map = on_route(trace, fact, node)
-    arriving = [pair for pair in others if pair[1].likeliest == "done"]
+    arriving = [pair for pair in others if _leads_there(ride, trace, *pair)]
     astray = [pair for pair in others if pair[1].likeliest == "dead"]
     if astray and not arriving:
         return replace(_compared(ride, model, here, astray[0]), way=True)
@@ -71,6 +73,22 @@ def other_way(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast | No
     if not others:
         return None
     return _compared(ride, model, here, (arriving or others)[0])
+
+
+def _leads_there(ride: Ride, trace: PlanTrace, foil: Actions, there: Intervention) -> bool:
+    """Tell whether a way leads to the destination: what it collides with now it did not before."""
+    if there.likeliest != "collision" or len(foil) > 1:
+        return there.likeliest == "done"
+    for before in reversed(ride.traces):
+        if before.sim_time >= trace.sim_time:
+            continue
+        done = before.under_way is not None and before.under_way.action in EXITS
+        if done or trace.sim_time - before.sim_time > APPROACH:
+            break
+        earlier = ride.model(before).intervene(foil)
+        if before.under_way is None and earlier is not None and earlier.likeliest == "done":
+            return True
+    return False
 
 
 def _compared(
