@@ -11,8 +11,10 @@ from xavi_dialogue.domain.answers import (
     Identified,
     Located,
     Measures,
+    NeedRollout,
     NotRecorded,
     Options,
+    SupposedOfOther,
 )
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import HowMany, HowMuch, HowSure, WhatIf, Where, Whither, Why
@@ -21,6 +23,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
+    Exists,
     Happens,
     Junction,
     Measured,
@@ -65,6 +68,7 @@ from xavi_dialogue.explain.answers.ride.places import gone, locate, where, whith
 from xavi_dialogue.explain.answers.ride.priority import right_of_way, where_rule_holds
 from xavi_dialogue.explain.causes.plans.options import options_at
 
+LITTLE = 1.0  # [s] below which somebody costs us next to nothing
 MOSTLY = 0.9  # probability of arriving from which the times of two choices are compared
 GOING: frozenset[ActionName] = frozenset(("move", "go", "follow", "continue"))
 #: What is chosen, and whose cost is shown by what else could have been chosen.
@@ -123,8 +127,31 @@ def _delay(of: Measured, asked: Asked) -> Answer:
     if spent is not None:
         return Measures((spent,))
     if event is None and isinstance(of.thing, Vehicle):
-        return Measures((total_cost(asked, of.thing, _told_of(of, asked)),))
+        cost = total_cost(asked, of.thing, _told_of(of, asked))
+        costs_now = of.tense == "present" and (cost.value or 0.0) < LITTLE
+        held = _without(of.thing, asked) if costs_now else None
+        return Measures((cost,)) if held is None else held
     return Measures((cost_of(asked, event, window(asked, of.time)),))
+
+
+def _without(other: Vehicle, asked: Asked) -> Answer | None:
+    """Tell what we would gain without somebody who has not slowed us yet; None: nothing to tell.
+
+    Raises:
+        Unanswered: rollouts are needed.
+    """
+    supposed = WhatIf(Not(Exists(other)))
+    suppose = causal.explainer(supposed, asked)
+    try:
+        found = None if suppose is None else suppose(supposed, asked)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    if not isinstance(found, SupposedOfOther) or found.contrast is None:
+        return None
+    saved = [-e.delta for e in found.contrast.effects if e.component == "time"]
+    return found if any(gain >= LITTLE for gain in saved) else None
 
 
 def _told_of(of: Measured, asked: Asked) -> Window:
