@@ -75,3 +75,10 @@ def test_what_it_would_save_is_asked_of_the_option_spoken_of(text: str) -> None:
 def test_what_it_would_save_is_of_the_next_best_option_where_none_was_spoken_of() -> None:
     told = Talk("motorway-0", 8.0).hear("How much time would it save?")
     assert "the next best option was" in told
+
+
+@pytest.mark.parametrize("text", ["How close is that?", "How close was it?"])
+def test_how_close_it_was_after_why_not_is_of_the_decision(text: str) -> None:
+    talk = Talk("motorway-0", 8.0)
+    talk.hear("Why don't you move to the left lane?")
+    assert "the next best option was moving to the left lane" in talk.hear(text)

@@ -38,6 +38,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 from xavi_dialogue.nlu.grounding.context import Grounder
 
 TURNS: Final = ("turn", "exit-left", "exit-right", "exit-straight", "leave")
+_MOVES: Final = (*TURNS, "change-lane", "change-left", "change-right", "overtake")
 _STAYING: Final = ("wait", "keep-lane", "stand")
 _MISHAPS: Final = ("collide", "nearly-collide")
 _SPOKEN_OF: Final = ("it", "that", "them-all")
@@ -54,7 +55,7 @@ def followed(spoken: Question, g: Grounder) -> Question:
                 return replace(spoken, of=Not(Happens(replace(discourse.option, modal=None))))
         case (
             Whether(that=Is(state="close", thing=Pronoun(form=form), event=None))
-            | HowMuch(of=Measured(attribute="distance", thing=Pronoun(form=form)))
+            | HowMuch(of=Measured(attribute="distance", thing=Pronoun(form=form), to=None))
         ) if form in _SPOKEN_OF and _weighs(asked, pair=form == "them-all"):
             g.notes.leaned = True
             return Listing("rivals")
@@ -100,7 +101,8 @@ def _weighs(asked: Question | None, *, pair: bool) -> bool:
             return event is not None and event.actor == Ego() and event.action not in _MISHAPS
         case Why(of=of):
             event = first(of, Event)
-            return pair and event is not None and event.actor == Ego()
+            undone = isinstance(of, Not) and event is not None and event.action in _MOVES
+            return (pair or undone) and event is not None and event.actor == Ego()
     return pair and isinstance(asked, WhatIf)
 
 
