@@ -21,6 +21,7 @@ from xavi_dialogue.domain.terms import (
     Lane,
     Nobody,
     Not,
+    Now,
     Passenger,
     Vehicle,
     Vehicles,
@@ -144,6 +145,7 @@ def test_a_span_that_is_no_past_is_left_out_of_what_is_going_on() -> None:
         (replace(BRAKED, tense="present"), None, False),
         (replace(BRAKED, tense="future"), None, False),
         (replace(BRAKED, tense="present"), EARLIER, True),
+        (replace(BRAKED, tense="present", time=Now()), EARLIER, False),
     ],
 )
 def test_whether_a_question_is_about_the_past(event: Any, span: Any, past: bool) -> None:

@@ -15,7 +15,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.meaning import Compare, Doing, HowMuch, When, Whether
+from xavi_dialogue.domain.meaning import Compare, Doing, HowMuch, When, Whether, Which
 from xavi_dialogue.domain.terms import (
     Compares,
     Ego,
@@ -25,6 +25,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Quantity,
     Vehicle,
+    Wanted,
 )
 from xavi_dialogue.explain.answers.suppositions import own_suppositions as own
 from xavi_dialogue.explain.answers.suppositions import supposed_when
@@ -47,6 +48,7 @@ def whether(action: Any, actor: Any = None, **more: Any) -> Whether:
         (None, "what-if"),
         (Doing(), "what-if"),
         (whether("collide"), "crash"),
+        (Which(Wanted(), Happens(Event("collide", Wanted(), Ego()))), "chance"),
         (whether("go", manner=("first",)), "quicker"),
         (whether("arrive", manner=("early",)), "quicker"),
         (whether("enter", manner=("fast",)), "quicker"),

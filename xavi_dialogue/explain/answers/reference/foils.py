@@ -111,9 +111,9 @@ def at_turn(scene: Asked, names: tuple[ActionName, ...], *, past: bool) -> Premi
     if past:
         made = [deed for deed in scene.ride.deeds if deed.action in TURNS]
         deed = pick(scene.span, made, lambda deed: deed.span)
-        if deed is not None:
+        if deed is not None and not _open_since(scene, deed, names):
             return Premise(scene.ride.choice_of(deed), deed)
-        if scene.past is not None:
+        if deed is None and scene.past is not None:
             return None
     trace = scene.ride.latest
     plan = planned(trace)
@@ -124,6 +124,26 @@ def at_turn(scene: Asked, names: tuple[ActionName, ...], *, past: bool) -> Premi
     if plan[0] in STRAIGHT and any(is_open(scene.ride, trace, (name,)) for name in aside):
         return Premise(trace, None)  # the next junction, which the plan goes straight over
     return Premise(trace, None, _before_stop(scene, trace, names, plan[:at]))
+
+
+def _open_since(scene: Asked, deed: Deed, names: tuple[ActionName, ...]) -> bool:
+    """Tell whether something is asked of a decision after a deed, where no time is said.
+
+    So it is if it was open after that deed, and is what was done there, or could not be done there.
+    """
+    if scene.past is not None and scene.past.said:
+        return False
+    chosen = _chosen(scene, deed)
+    apart = all(not same(name, deed.action) for name in names)
+    if apart and chosen is not None and _is_open(scene, chosen.trace, names):
+        return False
+    over = deed.span[1]
+    later = (trace for trace in reversed(scene.ride.traces) if trace.sim_time > over)
+    return any(_is_open(scene, trace, names) for trace in later)
+
+
+def _is_open(scene: Asked, trace: PlanTrace, names: tuple[ActionName, ...]) -> bool:
+    return any(is_open(scene.ride, trace, (name,)) for name in names)
 
 
 def _before_stop(
@@ -177,7 +197,7 @@ def earlier_exit(event: Event, scene: Asked) -> tuple[Premise, tuple[MacroAction
 def settled(scene: Asked, event: Event) -> tuple[ActionName, ...]:
     """Name what is asked about, with the side that the record settles where none is said.
 
-    A foil is to the side that was possible; both where both were.
+    A turn is the one planned. A foil is to the side that was possible; both where both were.
     """
     names = names_of(event)
     if names == ("overtake",):
@@ -186,6 +206,10 @@ def settled(scene: Asked, event: Event) -> tuple[ActionName, ...]:
         return names
     macros = tuple(m for name in names for m in means(name))
     trace = scene.ride.at(scene.moment)
+    steps = () if trace is None else planned(trace)
+    coming = next((step for step in steps if step in macros), None)
+    if coming in TURNS:
+        return (coming,)
     here = [] if trace is None else [m for m in macros if is_open(scene.ride, trace, (m,))]
     return tuple(here) or options_known(scene.ride, macros) or names
 
@@ -202,6 +226,8 @@ def check_undone(scene: Asked, event: Event, names: tuple[ActionName, ...]) -> N
     past = is_past(scene, event)
     if past:
         deed = happened(scene.ride, names, scene.span)
+        if deed is not None and deed.action in TURNS and _open_since(scene, deed, names):
+            return  # a turn at another junction is another turn
     else:
         last = scene.ride.deeds[-1:]
         deed = next((d for d in last if d.action in names and d.ended is None), None)

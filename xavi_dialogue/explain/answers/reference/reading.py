@@ -15,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Nobody,
     Not,
+    Now,
     Passenger,
     Proposition,
     Thing,
@@ -120,6 +121,8 @@ def foil_subject(scene: Asked, event: Event | None) -> Subject:
 
 def is_past(scene: Asked, event: Event | None) -> bool:
     """Tell whether a question is about what lies behind."""
+    if event is not None and event.tense == "present" and isinstance(event.time, Now):
+        return False
     return scene.past is not None or event is None or event.tense in ("past", "perfect")
 
 

@@ -16,7 +16,7 @@ from xavi_dialogue.domain.answers import (
     Verdict,
 )
 from xavi_dialogue.domain.facts import Episode, Measure
-from xavi_dialogue.domain.meaning import Compare, HowMuch, HowSure, Question, When, Whether
+from xavi_dialogue.domain.meaning import Compare, HowMuch, HowSure, Question, When, Whether, Which
 from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
     Compares,
@@ -137,9 +137,12 @@ def struck_in(then: Question | None) -> int | None:
 
 
 def _collision_in(then: Question | None) -> Event | None:
-    """Read the collision that it is asked of whether it would happen, or how probably."""
-    of = then.that if isinstance(then, Whether) else then.of if isinstance(then, HowSure) else None
-    event = event_of(of)
+    """Read the collision that it is asked of whether it would happen, how probably, with whom."""
+    match then:
+        case Whether(that=of) | HowSure(of=of) | Which(such=of):
+            event = event_of(of)
+        case _:
+            return None
     return event if event is not None and event.action in reacting.COLLIDING else None
 
 

@@ -41,7 +41,8 @@ POSSIBLE = 0.02  # probability from which it is open whether somebody does somet
 
 def imagined(event: Event, then: Question | None, scene: Asked) -> tuple[Event, Asked]:
     """Read "if you turned left" as of now, unless a time is said or the past is spoken of."""
-    said = scene.past is not None and (scene.past.said or not _of_now(then))
+    over = scene.past is not None and scene.past.end < scene.ride.latest.sim_time
+    said = scene.past is not None and (scene.past.said or (over and not _of_now(then)))
     open_ = event.tense == "past" and event.modal is None and not said
     if not open_ or event.action in GOING or not choices.is_choice(event):
         return event, scene

@@ -52,6 +52,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import as_of
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.nominal import asked_of, event_in
+from xavi_dialogue.nlu.compose.clauses.risks import risk_asked
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.propositions.tally import counts, exits_passed, how_often, tallied
@@ -197,6 +198,8 @@ class Polar(Comparing):
         """Ask "is there a risk that he hits us", "is there any risk with the lorry"."""
         if clause.that is not None:
             return HowSure(self.propositions.plain(clause.that), clause.time)
+        if (risk := risk_asked(sem.of, cast(Any, clause.tense))) is not None:
+            return risk
         event = sem.of.event
         whom = next((t for p in clause.complements if (t := as_thing(p.sem)) is not None), None)
         if event is not None and event.action == "collide" and event.object is None:

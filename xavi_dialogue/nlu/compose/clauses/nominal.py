@@ -55,6 +55,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import as_of, of_numbers
+from xavi_dialogue.nlu.compose.clauses.risks import risk_asked
 from xavi_dialogue.nlu.compose.clauses.sem import (
     Group,
     Measure,
@@ -161,6 +162,8 @@ def _measure(sem: Measure, time: Time, tense: str) -> Question:
     of_other = not held and not open_ and not isinstance(measured.thing, Ego)
     if measured.attribute == "probability" and of_other:
         return Listing("beliefs", measured.thing, time)
+    if (risk := risk_asked(measured, cast(Any, tense))) is not None:
+        return risk
     if measured.attribute == "probability":
         return HowSure(
             measured.about or (Happens(measured.event) if measured.event else None), time

@@ -32,6 +32,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.clauses.extents import SLOWING, extent_of
 from xavi_dialogue.nlu.compose.clauses.peaks import deed_peak, done_most, quality_of
+from xavi_dialogue.nlu.compose.clauses.risks import risk_of
 from xavi_dialogue.nlu.compose.clauses.sem import (
     Group,
     Measure,
@@ -246,11 +247,12 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
         of = event = structs.replace(event, action=action, object=None)
     if traits.deed is not None and key in ("duration", "delay") and event is None:
         event = of = Event(cast(Any, traits.deed), tense="past")
+    if (risk := risk_of(key, of, event, beside)) is not None:
+        return risk
     if key == "risk":  # of a collision, where nothing else is said
         named = (to, None if isinstance(of, Event) else as_thing(thing))
         whom = next((t for t in named if isinstance(t, _MET)), None)
-        event = event or Event("collide")
-        if event.action == "collide" and event.object is None:
+        if event is None or (event.action == "collide" and event.object is None):
             event = Event("collide", object=whom)
         return Measure(Measured("probability", event=event))
     if key == "speed-difference":

@@ -38,6 +38,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.adoption import compared_times, with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.followers import relation_of
+from xavi_dialogue.nlu.compose.clauses.risks import moving_in
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, as_thing, between, is_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.states.existence import existing
@@ -253,6 +254,9 @@ def _is(clause: Clause, key: str, too: bool) -> Proposition:
         thing = _near_what(clause, thing)
     if state in ("dangerous", "safe") and isinstance(thing, Ego | Passenger | Pronoun):
         thing = _from_whom(clause) or thing
+    if state in ("dangerous", "safe") and inner is None and event is None:
+        inner = moving_in(clause, thing)  # "is it safe on the left?"
+        thing = thing if inner is None else None
     bearing = next((c for c in clause.complements if c.key.startswith("bearing-")), None)
     beside = None if bearing is None else as_thing(bearing.sem)
     if state in ("close", "far") and thing == Ego() and isinstance(beside, Described | Vehicle):

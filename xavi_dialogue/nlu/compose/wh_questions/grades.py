@@ -26,7 +26,6 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Junction,
-    Lane,
     Measured,
     Next,
     Not,
@@ -43,6 +42,7 @@ from xavi_dialogue.nlu.compose.alternatives.nearness import how_near
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.risks import crash_beside, moving_in
 from xavi_dialogue.nlu.compose.clauses.sem import (
     Measure,
     as_thing,
@@ -196,11 +196,8 @@ def _weighed(clause: Clause, actor: Thing | None) -> Event | None:
     """Find the deed that is called risky: "how risky is moving back?", "... is the left lane?"."""
     if isinstance(clause.subject, Event):
         return replace(clause.subject, tense=tense_of(clause))
-    match actor:
-        case Lane(which="left"):
-            return Event("change-left", tense=tense_of(clause))
-        case Lane(which="right"):
-            return Event("change-right", tense=tense_of(clause))
+    if (change := moving_in(clause, actor)) is not None:
+        return change
     deeds = (part.sem for part in clause.complements if isinstance(part.sem, Event))
     deed = next(deeds, None)  # "how risky would it be to move to the left lane?"
     return None if deed is None else replace(deed, tense=tense_of(clause))
@@ -214,6 +211,8 @@ def sure_of(clause: Clause, value: Any) -> Question:
     elif isinstance(value, Happens) and not isinstance(value.event.object, Wanted):
         content = value
     elif isinstance(clause.subject, Event):
+        if (risk := crash_beside(clause, clause.subject)) is not None:
+            return risk
         content = Happens(_met(clause, clause.subject))
     return HowSure(held_then(clause, content), clause.time)
 

@@ -60,6 +60,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     explained,
     hindrance,
     interval,
+    is_of_now,
     is_supposed,
     questioned,
     spoken_of,
@@ -103,7 +104,7 @@ def _what_if(spoken: WhatIf, g: Grounder) -> WhatIf:
     supposed = g.proposition(spoken.supposed, "supposed")
     then = None if spoken.then is None else _supposed_question(spoken.then, g)
     focus = g.context.discourse.episode
-    if g.notes.span is None and focus is not None:
+    if g.notes.span is None and focus is not None and not is_of_now(supposed):
         g.notes.spans(inferred(focus, g).span)
     return replace(spoken, supposed=supposed, then=then)
 
@@ -126,19 +127,18 @@ def _whether(spoken: Whether, g: Grounder) -> Whether:
 def _which(spoken: Which, g: Grounder) -> Which:
     thing = spoken.thing
     such = None if spoken.such is None else g.proposition(spoken.such, "asked")
-    event = first(such, Event)
     if isinstance(thing, Described) and such is not None:
         thing = replace(thing, plural=True)
-    during = _during(event, g)
+    during = _during(first(such, Event), g)
     among = tuple(g.thing(one, during) for one in spoken.among)
     return replace(spoken, thing=g.thing(thing, during), such=such, among=among)
 
 
 def _identify(spoken: Identify, g: Grounder) -> Identify:
-    thing = g.thing(spoken.thing, g.window(Unsaid(), "present"))
+    found = replace(spoken, thing=g.thing(spoken.thing, g.window(Unsaid(), "present")))
     if isinstance(spoken.thing, Described) and spoken.thing.doing is not None:
         g.notes.unclear.clear()  # "who is that walking there?": whoever is nearest
-    return replace(spoken, thing=thing)
+    return found
 
 
 def _how_much(spoken: HowMuch, g: Grounder) -> HowMuch:

@@ -120,6 +120,12 @@ def is_supposed(known: Proposition, context: Context) -> bool:
     return imagined or isinstance(context.discourse.question, WhatIf)
 
 
+def is_of_now(supposed: Proposition) -> bool:
+    """Tell whether a deed of ours is supposed of the present, whatever was spoken of before."""
+    event = first(supposed, Event)
+    return event is not None and event.actor == Ego() and isinstance(event.time, Now)
+
+
 def affirmed(proposition: Proposition) -> Proposition:
     """Strip a negation."""
     return proposition.content if isinstance(proposition, Not) else proposition

@@ -16,6 +16,7 @@ from xavi_dialogue.domain.meaning import (
     WhatWouldChange,
     When,
     Whether,
+    Which,
     Why,
 )
 from xavi_dialogue.domain.rewriting import first
@@ -132,8 +133,11 @@ def _of_nothing(spoken: HowMuch) -> Question:
 def _hypothetical(spoken: Question, earlier: Proposition) -> bool:
     """Tell whether a question is about a world that is only supposed."""
     match spoken:
-        case HowSure(of=Happens(event=Event(action="collide", modal="would"))):
-            return True  # "how sure are you that it would hit us?"
+        case (
+            HowSure(of=Happens(event=Event(action="collide", modal="would")))
+            | Which(such=Happens(event=Event(action="collide", modal="would")))
+        ):
+            return True  # "how sure are you that it would hit us?", "which car would hit us?"
         case (
             Whether(that=Happens(event=event) | Not(content=Happens(event=event)))
             | When(of=Happens(event=event))
@@ -158,5 +162,6 @@ def _supposed_before(g: Grounder) -> Proposition | None:
         return Happens(option)
     match g.context.discourse.question:
         case Why(of=Not(content=Happens(event=event))):
-            return Happens(replace(event, modal=None, tense="perfect"))
+            tense = "present" if event.tense == "present" else "perfect"
+            return Happens(replace(event, modal=None, tense=tense))
     return None
