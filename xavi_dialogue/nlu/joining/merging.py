@@ -23,6 +23,7 @@ from xavi_dialogue.domain.meaning import (
     Summarise,
     WhatIf,
     WhatWouldChange,
+    When,
     Where,
     Whether,
     Which,
@@ -62,6 +63,7 @@ def merged(before: Act, later: Act) -> Act | None:
         asked_with(before, later)
         or recalled(before, later)
         or _of_chance(before, later)
+        or _of_evidence(before, later)
         or _of_duty(before, later)
         or _of_choice(before, later)
         or _of_reason(before, later)
@@ -94,6 +96,16 @@ def _of_chance(before: Act, later: Act) -> Act | None:
             question=HowSure(of=None | That() | Exists(thing=Pronoun()), changed=True)
         ) if of is not None:  # "..., and when did that change?"
             return Ask(structs.replace(asked, changed=True))
+    return None
+
+
+def _of_evidence(before: Act, later: Act) -> Act | None:
+    """Ask how what follows is known: "how can you tell when the light changes?"."""
+    match before, later:
+        case Ask(question=HowKnow(of=None)), Ask(
+            question=Whether(that=of, tag=True) | When(of=Happens() as of)
+        ):
+            return Ask(HowKnow(of))
     return None
 
 

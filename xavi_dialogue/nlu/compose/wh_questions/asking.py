@@ -8,6 +8,7 @@ from xavi_dialogue.domain.meaning import (
     HowAvoid,
     HowDecide,
     HowKnow,
+    HowLong,
     HowMuch,
     HowSure,
     Listing,
@@ -16,6 +17,7 @@ from xavi_dialogue.domain.meaning import (
     WhatWouldChange,
     When,
     Where,
+    Whether,
     Whither,
     Why,
 )
@@ -64,6 +66,21 @@ _MOVING = frozenset({"go", "pull-out", "head", "move", "turn", "leave", "take-tu
 
 
 _PASSING = frozenset({"go", "move", "cross", "enter", "pass", "come", "pull-out", "merge"})
+
+
+def _answered(clause: Clause) -> Proposition | None:
+    """Find what is known of who knows an answer: "how do you know what he will do?"."""
+    readings = () if clause.question is None else clause.question[1]
+    match next(iter(readings), None):
+        case Whether(that=that):
+            return that
+        case When(of=of) | HowLong(of=of):
+            return propose(of) if isinstance(of, Event) else of
+        case Doing(actor=actor, tense=tense):
+            return Happens(Event("do", actor=actor, tense=tense))
+        case Whither(actor=actor):
+            return Happens(Event("go", actor=actor, tense="future"))
+    return None
 
 
 class Asking(What, WhichOne):
@@ -218,7 +235,7 @@ class Asking(What, WhichOne):
                 content = value.content
                 if content is None and value.object is not None and value.name == "see":
                     return HowKnow(fact(value))
-                return HowKnow(content)
+                return HowKnow(_answered(clause) if content is None else content)
             case "decide" | "choose" | "plan" | "consider":
                 return HowDecide(value.content or propose(value.object))
             case "prevent" | "improve":

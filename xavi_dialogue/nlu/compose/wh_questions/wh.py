@@ -15,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Proposition,
     Related,
+    Relative,
     Thing,
     Unknown,
     Unsaid,
@@ -60,8 +61,13 @@ def content_of(clause: Clause, value: Any) -> Proposition | None:
                 return Happens(done_by(event, value.match.second, value.object))
         found = proposition_of(value)
         return found if isinstance(found, Related) else None
-    if isinstance(value, Believed):
-        return value.content
+    match value:
+        case Believed(content=content):
+            return content
+        case Is(state="present", time=Relative(relation="during", anchor=Event(tense=tense) as event)):
+            # "how do you know when it turns green?" asks of its turning, not of that time.
+            foreseen = "future" if tense == "present" else tense
+            return Happens(with_fields(event, tense=foreseen))
     return value if isinstance(value, (Happens, Not, Related, Is, Exists)) else None
 
 
