@@ -106,6 +106,8 @@ def _of_evidence(before: Act, later: Act) -> Act | None:
             question=Whether(that=of, tag=True) | When(of=Happens() as of)
         ):
             return Ask(HowKnow(of))
+        case Ask(question=HowKnow(of=None)), Ask(question=Where(of=Event() as event)):
+            return Ask(HowKnow(Happens(event)))
     return None
 
 

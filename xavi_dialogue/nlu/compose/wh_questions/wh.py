@@ -64,7 +64,9 @@ def content_of(clause: Clause, value: Any) -> Proposition | None:
     match value:
         case Believed(content=content):
             return content
-        case Is(state="present", time=Relative(relation="during", anchor=Event(tense=tense) as event)):
+        case Is(
+            state="present", time=Relative(relation="during", anchor=Event(tense=tense) as event)
+        ):
             # "how do you know when it turns green?" asks of its turning, not of that time.
             foreseen = "future" if tense == "present" else tense
             return Happens(with_fields(event, tense=foreseen))
