@@ -11,6 +11,7 @@ from tests.nlg.causal_cases import (
     LEADER,
     MAY_BE_LATE,
     PRIORITY,
+    RISKS,
     RISKY,
     SLOW_BUS,
     SLOWED,
@@ -34,6 +35,7 @@ from xavi_dialogue.domain.answers import (
     Identified,
     Located,
     Measures,
+    Method,
     MotionCause,
     MotionReason,
     NobodyElse,
@@ -410,4 +412,10 @@ CASES: tuple[Answer, ...] = (
     ChoiceReason(
         "why", CHANGED, replace(LATER, causation=Causation("several", (1, 2, 3))), of_causes=True
     ),
+    *(
+        Method(10.0, (replace(RISKS[0], collision=0.2), *others, replace(RISKS[1], close=True)))
+        for others in ((), (RISKS[2],))
+    ),
+    SupposedOfUs(replace(LATER, fact_collision=0.3, verdict="close", told=())),
+    SupposedOfUs(replace(LATER, fact_collision=0.3)),
 )

@@ -120,6 +120,7 @@ class OptionValue(Value, frozen=True):
     collision: float = 0.0  # probability of one
     collided_with: int | None = None
     exceeds: float | None = None  # [s] by which it takes longer at least, where its end is not seen
+    close: bool = False  # all in all, as good as what was chosen, as far as can be told
 
 
 class Relating(Value, frozen=True):

@@ -29,6 +29,7 @@ def test_what_a_decision_could_choose_from() -> None:
     )
     assert (left.time, left.delta) == (approx(11.0), approx(-1.0))
     assert (left.collision, left.collided_with) == (trusted(0.0), None)
+    assert (left.close, stop.close) == (False, False)
     assert (stop.action, stop.outcome, stop.time, stop.delta) == ("stop", "termination", None, None)
 
 

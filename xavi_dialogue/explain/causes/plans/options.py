@@ -145,13 +145,15 @@ def _option(
     base: float,
 ) -> OptionValue:
     """Value what was not chosen, beside what was, where that is known, with its value [s]."""
-    value = plan.value if here is None else base - differences(model, plan, here).value
+    difference = None if here is None else differences(model, plan, here)
+    value = plan.value if difference is None else base - difference.value
     time = delta = None
     if plan.likeliest == "done":
         time = plan.expectation("time")
         known = () if here is None else effects(plan, here)
         delta = next((e.delta for e in known if e.component == "time"), None)
     found = _valued(action, plan, value, time=time, delta=delta, chosen=False)
+    found = replace(found, close=difference is not None and difference.verdict == "close")
     if here is None or plan.likeliest != "termination":
         return found
     return replace(found, exceeds=exceeds(model.trace.settings.horizon, plan, here))

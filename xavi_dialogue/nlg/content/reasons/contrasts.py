@@ -126,7 +126,12 @@ def _adds_risk(contrast: Contrast) -> bool:
 
 
 def risks(
-    contrast: Contrast, context: SpeechContext, *, past: bool, unsaid: bool = False
+    contrast: Contrast,
+    context: SpeechContext,
+    *,
+    past: bool,
+    unsaid: bool = False,
+    weighs: bool = False,
 ) -> Message | None:
     """Make a sentence of the risks, where they are not part of that of the reason.
 
@@ -135,6 +140,7 @@ def risks(
         context: the situation.
         past: the decision is past.
         unsaid: the sentence of the reason tells nothing of what the foil would come to.
+        weighs: no other sentence tells which of the two is better all in all.
     """
     if max(contrast.collision, contrast.fact_collision) < RISK:
         return None
@@ -155,6 +161,7 @@ def risks(
         struck=slots["struck"] if more else None,
         simple=slots["simple"],
         more=more,
+        close=weighs and contrast.verdict == "close" and not more,
     )
 
 

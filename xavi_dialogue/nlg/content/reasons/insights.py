@@ -213,6 +213,7 @@ def _risks(
             struck=None,
             simple=simple,
             more=(option.collision or 0.0) > own,
+            close=option.close and (option.collision or 0.0) < own,
         )
         for k, option in enumerate(risky)
     )

@@ -53,7 +53,8 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
     slots["gains"] = slots["delta"] is not None and not slots["later"]
     told_risk = slots["risk_too"] or slots["kind"] in ("risk", "collision")
     done = answer.done is not None
-    risk = None if told_risk and not done else risks(contrast, context, past=past)
+    weighs = answer.form == "what-if"
+    risk = risks(contrast, context, past=past, weighs=weighs) if done or not told_risk else None
     more = further(contrast, context, past=past)
     if answer.ahead is not None and answer.ahead.vehicle is not None and not done:
         who = Who(Vehicle(answer.ahead.vehicle), contrast.decided)

@@ -76,7 +76,7 @@ def _answered(clause: Clause) -> Proposition | None:
             return that
         case When(of=of) | HowLong(of=of):
             return propose(of) if isinstance(of, Event) else of
-        case Doing(actor=actor, tense=tense):
+        case Doing(actor=actor, tense=tense) if actor is not None:
             return Happens(Event("do", actor=actor, tense=tense))
         case Whither(actor=actor):
             return Happens(Event("go", actor=actor, tense="future"))
