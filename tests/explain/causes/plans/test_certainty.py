@@ -170,11 +170,14 @@ def test_options_are_weighed_as_the_planner_does() -> None:
     assert (stop.outcome, stop.collision, stop.collided_with) == ("done", trusted(0.0), None)
     assert weighed(ride(chosen), Premise(chosen, None, ("continue",))) == ()
     assert (left.close, stop.close) == (False, False)
-    even = {"continue": End(), "stop": End(time=12.1)}
-    row = next(
-        r for r in weighed(ride(decided(even)), Premise(decided(even), None)) if not r.chosen
-    )
-    assert row.close  # a tenth of a second tells nothing apart
+    ends = {"continue": End(time=12.0), "change-left": End(time=12.1), "stop": End(time=15.0)}
+    even = decided(ends)
+    rows = weighed(ride(even), Premise(even, None))
+    assert [(r.action, r.close) for r in rows] == [
+        ("continue", False),
+        ("change-left", True),  # a tenth of a second tells nothing apart
+        ("stop", False),
+    ]
     deep = weighed(ride(trace), Premise(plain(("change-left", "continue")), None, ("change-left",)))
     assert [r.action for r in deep] == ["continue"]
     assert deep[0].value == approx(-10.5)
