@@ -27,6 +27,7 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.vocabulary import MACRO_ACTIONS
 from xavi_dialogue.explain.causes.plans.terms import Difference, told
 from xavi_dialogue.nlg.content.causal_tables import CAUSES, REFUSALS
+from xavi_dialogue.nlg.content.reasons.contrasts import told_cause
 from xavi_dialogue.nlg.say import say
 from xavi_dialogue.nlg.surface.orthography import count_sentences
 
@@ -206,3 +207,23 @@ def test_suggestions_are_not_made_again():
         "What if vehicle 1 had not been there?"
         in say(ChoiceReason("why", CHANGED, LATER), CONTEXT).suggestions
     )
+
+
+@pytest.mark.parametrize(
+    ("share", "delay", "outcome", "named"),
+    [
+        (1.0, 4.0, "done", True),
+        (0.5, 4.0, "done", True),  # half of the 4 s
+        (0.3, 4.0, "done", False),
+        (0.3, None, "done", True),  # for how long is not known
+        (0.5, 1.0, "termination", True),
+        (0.4, 1.0, "termination", False),  # it is late in nine of ten
+    ],
+)
+def test_who_is_rarely_in_the_way_is_no_reason_for_what_comes_anyway(share, delay, outcome, named):
+    rare = msgspec.structs.replace(
+        causal_cases.TURNS_OFF, mechanism=Mechanism("leader", 9.0, 3.6, delay, share)
+    )
+    chance = 0.9 if outcome == "termination" else 1.0
+    contrast = causal_cases.ends(outcome, chance, causes=(rare,))
+    assert (told_cause(contrast) is not None) == named

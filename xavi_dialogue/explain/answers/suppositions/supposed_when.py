@@ -36,6 +36,7 @@ from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names, probabi
 from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import ROUNDING, planned, prediction
 
+LATELY = 10.0  # [s] within which a turn that was made is the one that is spoken of
 POSSIBLE = 0.02  # probability from which it is open whether somebody does something
 
 
@@ -135,9 +136,10 @@ def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bo
         return driven.begin  # once it is under way, planning again without its cause tells less
     left = None if then is None or then.action != "keep-lane" else _left_lane(scene)
     if then is not None and choices.is_choice(then):
-        turns = set(names_of(then)) <= set(EXITS) and then.tense == "present" and not past
+        turns = set(names_of(then)) <= set(EXITS) and scene.ride.latest.under_way is None
+        ahead = (then.tense == "present" and not past) or is_turn_ahead(scene, then)
         try:
-            if turns and scene.ride.latest.under_way is None:
+            if turns and ahead:
                 return scene.moment  # the next turn, not the last one
             if past and left is not None:
                 return scene.ride.choice_of(left).sim_time
@@ -160,6 +162,22 @@ def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bo
             except Unanswered:
                 return deed.time
     return scene.moment
+
+
+def is_turn_ahead(scene: Asked, then: Event | None) -> bool:
+    """Check whether "would you have turned?" is about a turn that the plan has yet to make.
+
+    So it is where no turn was made lately, and none of that kind before.
+    """
+    said = scene.past is not None and scene.past.said
+    if then is None or said or not set(names_of(then)) <= set(EXITS):
+        return False
+    made = [deed for deed in scene.ride.deeds if deed.action in EXITS]
+    ended = [scene.now if deed.ended is None else deed.ended for deed in made]
+    lately = any(time > scene.now - LATELY for time in ended)
+    done = any(deed.action in names_of(then) for deed in made)
+    turns = any(action in EXITS for action in planned(scene.ride.latest))
+    return turns and not lately and not done
 
 
 def _left_lane(scene: Asked) -> Deed | None:

@@ -52,6 +52,7 @@ from xavi_dialogue.explain.answers.suppositions.supposed_when import (
     imagined,
     is_new,
     is_over,
+    is_turn_ahead,
     moment,
     open_until,
     was_done,
@@ -215,6 +216,7 @@ def _of_several(question: WhatIf, scene: Asked, several: Joint) -> Answer:
 def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> SupposedOfOther:
     """Return what would have been planned, had vehicles done otherwise, or not been there."""
     then, event = _then(question.then), of.event
+    past = past and not is_turn_ahead(scene, then)
     drove = driven(scene, then)
     at = moment(scene, then, drove, past=past)
     numbers, left = of.numbers, of.left_out

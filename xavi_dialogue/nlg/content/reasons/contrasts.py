@@ -23,6 +23,7 @@ STANDING = 0.5  # [m/s]
 SLOWING = 0.6  # [m/s] a loss of speed worth calling so
 ASIDE = 2.0  # [m] sideways from which somebody is in another lane
 LANES = (("change-left",), ("change-right",))
+CARRIES = 0.5  # share of what a foil costs that a hold-up must account for to be its reason
 OTHERWISE = 2.0  # [m/s] by which a speed foreseen for later differs from the one that is seen
 
 #: How the foil turns out: its likeliest outcome; else what of it is told first, or that the record
@@ -188,7 +189,23 @@ def told_cause(contrast: Contrast) -> Cause | None:
         sure = [c for c in named if c.probability >= EVEN and telling(c.actions)]
         return sure[0] if sure else None
     slower = [c for c in contrast.causes if c.mechanism is None or c.mechanism.how != "collision"]
+    slower = [c for c in slower if _carries(c, contrast)]
     return slower[0] if slower else None
+
+
+def _carries(cause: Cause, contrast: Contrast) -> bool:
+    """Check whether a hold-up accounts for enough of what the foil would cost to be its reason.
+
+    A delay that comes in nearly every simulation is not due to what happens in a few of them.
+    """
+    held, effect = cause.mechanism, time_effect(contrast)
+    if held is None or held.how == "collision":
+        return True
+    if contrast.outcome is not None and contrast.outcome.name == "termination":
+        return held.share >= CARRIES * contrast.outcome.probability
+    if effect is None or held.delay is None:
+        return True
+    return held.share * held.delay >= CARRIES * effect.delta
 
 
 def cause_message(
