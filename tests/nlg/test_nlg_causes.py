@@ -213,9 +213,9 @@ def test_suggestions_are_not_made_again():
     ("share", "delay", "outcome", "named"),
     [
         (1.0, 4.0, "done", True),
-        (0.5, 4.0, "done", True),  # half of the 4 s
-        (0.3, 4.0, "done", False),
-        (0.3, None, "done", True),  # for how long is not known
+        (0.25, 4.0, "done", True),  # one of the 4 s
+        (0.2, 4.0, "done", False),
+        (0.2, None, "done", True),  # for how long is not known
         (0.5, 1.0, "termination", True),
         (0.4, 1.0, "termination", False),  # it is late in nine of ten
     ],

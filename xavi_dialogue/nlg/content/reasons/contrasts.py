@@ -23,7 +23,8 @@ STANDING = 0.5  # [m/s]
 SLOWING = 0.6  # [m/s] a loss of speed worth calling so
 ASIDE = 2.0  # [m] sideways from which somebody is in another lane
 LANES = (("change-left",), ("change-right",))
-CARRIES = 0.5  # share of what a foil costs that a hold-up must account for to be its reason
+CARRIES = 0.25  # share of a delay that a hold-up must account for to be its reason
+OFTEN = 0.5  # share of the simulations that are too late in which it must occur
 OTHERWISE = 2.0  # [m/s] by which a speed foreseen for later differs from the one that is seen
 
 #: How the foil turns out: its likeliest outcome; else what of it is told first, or that the record
@@ -202,7 +203,7 @@ def _carries(cause: Cause, contrast: Contrast) -> bool:
     if held is None or held.how == "collision":
         return True
     if contrast.outcome is not None and contrast.outcome.name == "termination":
-        return held.share >= CARRIES * contrast.outcome.probability
+        return held.share >= OFTEN * contrast.outcome.probability
     if effect is None or held.delay is None:
         return True
     return held.share * held.delay >= CARRIES * effect.delta
