@@ -23,7 +23,7 @@ STANDING = 0.5  # [m/s]
 SLOWING = 0.6  # [m/s] a loss of speed worth calling so
 ASIDE = 2.0  # [m] sideways from which somebody is in another lane
 LANES = (("change-left",), ("change-right",))
-CARRIES = 0.25  # share of a delay that a hold-up must account for to be its reason
+RARE = 0.1  # share of the simulations below which a hold-up is no reason for a mean delay
 OFTEN = 0.5  # share of the simulations that are too late in which it must occur
 OTHERWISE = 2.0  # [m/s] by which a speed foreseen for later differs from the one that is seen
 
@@ -195,18 +195,16 @@ def told_cause(contrast: Contrast) -> Cause | None:
 
 
 def _carries(cause: Cause, contrast: Contrast) -> bool:
-    """Check whether a hold-up accounts for enough of what the foil would cost to be its reason.
+    """Check whether a hold-up comes often enough to be the reason for what the foil would cost.
 
     A delay that comes in nearly every simulation is not due to what happens in a few of them.
     """
-    held, effect = cause.mechanism, time_effect(contrast)
+    held = cause.mechanism
     if held is None or held.how == "collision":
         return True
     if contrast.outcome is not None and contrast.outcome.name == "termination":
         return held.share >= OFTEN * contrast.outcome.probability
-    if effect is None or held.delay is None:
-        return True
-    return held.share * held.delay >= CARRIES * effect.delta
+    return held.share >= RARE
 
 
 def cause_message(
