@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import IO, TypeAlias
 
 from xavi_dialogue.errors import XaviError
+from xavi_dialogue.process import scratch
 
 SHOWN = 40  # characters of a line that is no order
 PATIENCE = 5.0  # [s] that a process may take to end before it is killed
@@ -123,8 +124,10 @@ def listen(stream: IO[str], orders: Orders, refuse: Callable[[str], None] | None
                     refuse(str(error))
         orders.put(Quit())
         threading.Event().wait(PATIENCE)
+        scratch.delete_own()
         os._exit(os.EX_TEMPFAIL)
 
+    scratch.delete_at_exit()
     threading.Thread(target=follow, name="orders", daemon=True).start()
 
 

@@ -6,6 +6,7 @@ parent, even when the parent is killed, and then the child ends (see control.lis
 
 import contextlib
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -18,6 +19,7 @@ from typing import Self
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.exit_status import RunFault
 from xavi_dialogue.process.log_setup import is_log
+from xavi_dialogue.process.scratch import ScratchFolder
 
 TOP = Path(__file__).parents[2]  # the root of the packages, in a checkout or installed
 REMEMBERED = 20  # lines of a child's standard error
@@ -48,16 +50,21 @@ class Child:
         # -P keeps the working directory off the path: it may hold packages of our names.
         command = [sys.executable, "-P", "-m", "xavi_dialogue", *arguments, "--control"]
         path = os.pathsep.join(filter(None, (str(TOP), os.environ.get("PYTHONPATH"))))
-        self._process = subprocess.Popen(
-            command,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            env={**_ours(), "PYTHONPATH": path},
-            text=True,
-            errors="replace",
-            start_new_session=True,  # the terminal's signals are for the parent
-        )
+        self._scratch = ScratchFolder()
+        try:
+            self._process = subprocess.Popen(
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                env={**_ours(), "PYTHONPATH": path, **self._scratch.environment},
+                text=True,
+                errors="replace",
+                start_new_session=True,  # the terminal's signals are for the parent
+            )
+        except OSError:
+            self._scratch.delete()
+            raise
         self._warn = warn
         self._said: deque[str] = deque(maxlen=REMEMBERED)
         self._ear = threading.Thread(target=self._listen, daemon=True)
@@ -101,11 +108,15 @@ class Child:
             raise ChildFailed(f"{ended}: {words.removeprefix('xavi: ')}" if words else ended)
 
     def stop(self) -> None:
-        """End the process: by closing its input, else by SIGTERM, else by SIGKILL."""
+        """End the process: by closing its input, else by SIGTERM, else by SIGKILL.
+
+        One that was stopped by a signal goes on first, so that it ends in order.
+        """
         process = self._process
         assert process.stdin is not None
         with contextlib.suppress(BrokenPipeError):
             process.stdin.close()
+        process.send_signal(signal.SIGCONT)
         for patience, end in ((ORDERLY, process.terminate), (FORCED, process.kill)):
             try:
                 process.wait(patience)
@@ -113,6 +124,7 @@ class Child:
             except subprocess.TimeoutExpired:
                 end()
         process.wait()
+        self._scratch.delete()
         self._ear.join(FORCED)
         assert process.stderr is not None
         process.stderr.close()
