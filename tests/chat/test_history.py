@@ -393,7 +393,7 @@ class FakeBackend:
 
     def __init__(self, service: FakeService, *, able: bool = True) -> None:
         self.service, self.able = service, able
-        self.over = threading.Event()
+        self.over, self.paced = threading.Event(), True
         self.halts_at: float | None = None  # [s]; None: it takes no orders
 
     def check(self) -> None:

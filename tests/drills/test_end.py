@@ -57,6 +57,19 @@ def test_a_chat_ends_in_every_state(crew: Crew, state: str, number: signal.Signa
     assert until(lambda: not crew.there(), ENDED), crew.there()
 
 
+@pytest.mark.parametrize(("number", "harm"), [(TERM, signal.SIGSTOP), (INT, signal.SIGKILL)])
+def test_a_dashboard_that_starts_ends_without_its_service(
+    crew: Crew, number: signal.Signals, harm: signal.Signals
+) -> None:
+    options = ("--listen", "127.0.0.1:0", "--no-open", "--keep-days", "0", "--scenario", "s1")
+    dashboard = crew.xavi("dashboard", *options)
+    assert dashboard.says("to talk at a terminal"), dashboard.said
+    [service] = crew.pids("xavi_dialogue serve")
+    os.kill(service, harm)
+    assert dashboard.end(number) == 0, dashboard.said
+    assert until(lambda: not crew.there(), ENDED), crew.there()
+
+
 def test_one_who_rides_along_ends_and_leaves_the_others_alone(crew: Crew) -> None:
     with staged(crew) as stage:
         chat = crew.xavi("chat", "--connect", stage.endpoint)

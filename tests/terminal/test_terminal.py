@@ -141,7 +141,7 @@ class Terminal:
 
 @asynccontextmanager
 async def terminal(
-    typed: History | None = None, *, colours: bool = False
+    typed: History | None = None, *, colours: bool = False, halts: bool = True
 ) -> AsyncIterator[Terminal]:
     paper = io.StringIO()
     with (
@@ -149,7 +149,7 @@ async def terminal(
         create_app_session(keyboard, screen := Screen(paper, keyboard)),
     ):
         controller = FakeCabin()
-        chat = TerminalChat(controller, typed, colours=colours)
+        chat = TerminalChat(controller, typed, colours=colours, halts=halts)
         task = asyncio.create_task(chat.run())
         await asyncio.sleep(0.05)
         try:
@@ -166,6 +166,26 @@ def test_a_question_is_answered_above_the_line() -> None:
             await t.type("why?", ENTER)
             await t.sees("answer to why?")
             assert "0:04 status" in t.shown
+
+    asyncio.run(scene())
+
+
+def test_the_first_lines_say_how_to_halt_the_ride_and_that_one_can_ask_after_it() -> None:
+    async def scene() -> None:
+        async with terminal() as t:
+            await t.sees("Ask about the ride. /pause halts it for questions; once it is over, ask")
+            await t.sees("/resume lets it go on")
+
+    asyncio.run(scene())
+
+
+def test_in_a_car_of_others_no_command_is_named_that_it_declines() -> None:
+    async def scene() -> None:
+        async with terminal(halts=False) as t:
+            await t.sees("Ask about the ride, also once it is over.")
+            await t.sees("/help")
+            assert "/pause" not in t.shown
+            assert "/resume" not in t.shown
 
     asyncio.run(scene())
 

@@ -15,6 +15,10 @@ class Backend(Protocol):
     def over(self) -> threading.Event:
         """An event that is set when the conversation is over."""
 
+    @property
+    def paced(self) -> bool:
+        """Whether it takes orders about the pace of the ride."""
+
     def check(self) -> None:
         """Make sure that the conversation can go on.
 

@@ -106,7 +106,8 @@ async def _talk(
             backend, client, replace(session_history, forget_typed=lines.forget)
         )
         with create_app_session(output=silent_screen(sys.stdout, os.environ.get("TERM"))):
-            chat = TerminalChat(controller, lines, keyboard=Keyboard(sys.stdin))
+            keyboard = Keyboard(sys.stdin)
+            chat = TerminalChat(controller, lines, keyboard=keyboard, halts=backend.paced)
             notices.show(chat.tell)
             loop = asyncio.get_running_loop()
             for number in (signal.SIGTERM, signal.SIGHUP):

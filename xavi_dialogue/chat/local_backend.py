@@ -27,6 +27,7 @@ START_PATIENCE = 90.0  # [s] for the service, and for the first scene: kernels m
 SPARE = 5  # times that a failed service is restarted
 BACK = 15.0  # [s] until it must answer then
 CLOSING = 1.5  # [s] to leave the bus
+OVER = "the chat is over"
 LIVE = "Only a recorded ride can be taken to any moment: xavi replay FILE."
 SILENCE = 20.0  # [s] without a scene after which the car counts as lost
 
@@ -44,6 +45,7 @@ class LocalBackend:
     over: threading.Event = field(default_factory=threading.Event)
     seeks: bool = False  # the car is a recording, which can go to any moment
     endpoint: str = ""  # of the hub: others may join
+    paced: bool = True  # see Backend
 
     def check(self) -> None:
         """Check the processes; restart the service if it has ended.
@@ -101,7 +103,7 @@ class LocalBackend:
             CommandError: the car has ended.
         """
         if self.over.is_set():
-            raise ChildFailed("the chat is over")
+            raise ChildFailed(OVER)
         self.check()
         self.car.hope()
 
@@ -122,6 +124,7 @@ class LocalOptions:
     overwrite: bool = False  # an existing file
     warn: Tell = lambda _: None  # gets the service's warnings, on a thread
     tell: Tell = lambda _: None  # gets notes for the passenger, on a thread
+    over: threading.Event = field(default_factory=threading.Event)  # set: nothing is waited for
 
 
 @contextmanager
@@ -207,17 +210,17 @@ def _start(
         drive = partial(Child, "the car", [*car, "--connect", endpoint], options.warn)
         driven = stack.enter_context(VehicleSupervisor(drive, speed, options.tell))
         try:
-            bus = stack.enter_context(_join(service, endpoint))
+            bus = stack.enter_context(_join(service, endpoint, options.over))
         except ChildFailed:
-            if attempt == ATTEMPTS:
+            if attempt == ATTEMPTS or options.over.is_set():
                 raise
             stack.close()
         else:
             service.spare = SPARE
             stack.callback(_let_go, bus, service)
             if recorder is not None:
-                _await(recorder.child, bus)
-            return LocalBackend(driven, service, bus, recorder, endpoint=endpoint)
+                _await(recorder.child, bus, options.over)
+            return LocalBackend(driven, service, bus, recorder, options.over, endpoint=endpoint)
     raise AssertionError("the last attempt returns or raises")
 
 
@@ -230,17 +233,19 @@ def _recorder(stack: ExitStack, options: LocalOptions, endpoint: str) -> Optiona
     return OptionalChild(child, options.tell)
 
 
-def _await(recorder: Child, bus: ZenohBus) -> None:
+def _await(recorder: Child, bus: ZenohBus, over: threading.Event) -> None:
     """Wait until the recorder is ready, so that it misses nothing of the ride.
 
     Raises:
-        ChildFailed: it did not start.
+        ChildFailed: it did not start; or the chat is over.
     """
     there = threading.Event()
     bus.watch(Keys().of("alive/recorder"), lambda _, alive: there.set() if alive else None)
     give_up = time.monotonic() + START_PATIENCE
     while not there.wait(RETRY):
         recorder.check()
+        if over.is_set():
+            raise ChildFailed(OVER)
         if time.monotonic() > give_up:
             raise ChildFailed("the recorder does not come up")
 
@@ -255,13 +260,20 @@ def _let_go(bus: ZenohBus, service: RestartedChild) -> None:
         closing.join(BACK)
 
 
-def _join(service: RestartedChild, endpoint: str) -> ZenohBus:
+def _join(service: RestartedChild, endpoint: str, over: threading.Event) -> ZenohBus:
+    """Connect to the service as soon as it is ready.
+
+    Raises:
+        ChildFailed: it did not start; or the chat is over.
+    """
     give_up = time.monotonic() + START_PATIENCE
     while True:
         try:
             return join(Link.to_hub(endpoint), patience=RETRY)
         except HubUnreachable:
             service.check()
+            if over.is_set():
+                raise ChildFailed(OVER) from None
             if time.monotonic() > give_up:
                 raise ChildFailed("the dialogue service does not come up") from None
 

@@ -69,6 +69,7 @@ class RemoteBackend:
     vehicle: str
     cars: NamesOnBus
     over: threading.Event = field(default_factory=threading.Event)
+    paced: bool = False  # see Backend
 
     def check(self) -> None:
         """Do nothing: what is missing may come back, so the conversation goes on."""

@@ -51,6 +51,11 @@ class DashboardOptions:
     speed: float = 1.0  # of a ride of one's own
     opens: bool = True  # a browser, if there is one
 
+    @property
+    def opens_browser(self) -> bool:
+        """Whether to open one: its command line, which all can see, would show a token."""
+        return self.opens and self.listen.token is None
+
 
 class BusThread:
     """A thread behind the page: joins the bus and checks the connection until the end."""
@@ -93,8 +98,9 @@ class BusThread:
             else:
                 self._be_alone(source)
         except (TransportError, ChildFailed) as error:
-            self.failure = error
-            self._failed()
+            if not self.over.is_set():  # else nothing more is waited for
+                self.failure = error
+                self._failed()
 
     def _be_with_others(self, link: Link) -> None:
         waiting = False
@@ -121,7 +127,9 @@ class BusThread:
         return client.now() if self._backend is None else self._backend.now(client)
 
     def _be_alone(self, ride: ChatOptions) -> None:
-        options = LocalOptions(ride.record, ride.overwrite, warner(self._note), self._note)
+        options = LocalOptions(
+            ride.record, ride.overwrite, warner(self._note), self._note, self.over
+        )
         first = self._task.speed if ride.resume is None else 0.0
         with start_backend(ride, first, options) as backend:
             session = ride.passenger.session
@@ -138,7 +146,6 @@ class BusThread:
             self._set_off(backend)
             while not self.over.wait(GLANCE):
                 backend.check()
-            backend.over.set()
 
     def _set_off(self, backend: LocalBackend) -> None:
         """Let the ride begin once a browser has connected."""
@@ -185,7 +192,7 @@ async def _run(task: DashboardOptions, note: Note, controller: Controller, serve
     controller.first_seen = background.seen.set
     controller.coming, controller.moment = background.coming, background.now
     note(f"dashboard at {server.link}")
-    if task.opens:
+    if task.opens_browser:
         _open(server.link)
     watching = loop.create_task(controller.watch())
     try:

@@ -31,7 +31,14 @@ KEPT = "(nothing is erased)"
 REFRESH = 0.25  # [s] of the status line
 WATCH = 0.5  # [s] between checks of the processes
 NOTICED = 0.2  # [s] after which a passenger who waits gets a note
-WELCOME = "Ask about the ride at any time; /pause halts it. /help lists all commands."
+WELCOME = (
+    "Ask about the ride. /pause halts it for questions; once it is over, ask on.",
+    "/resume lets it go on, /help lists all commands.",
+)
+ALONG = (  # in a car that others drive
+    "Ask about the ride, also once it is over.",
+    "/help lists all commands.",
+)
 HINT = "Ctrl-C cancels an answer; Ctrl-D or /quit ends the ride."
 HELP = "Ask anything about the ride, such as: Why did you change lanes?"
 KEYS = "Tab completes. Ctrl-C cancels the answer that you wait for, Ctrl-D ends the ride."
@@ -56,8 +63,18 @@ class TerminalChat:
         *,
         keyboard: Input | None = None,
         colours: bool | None = None,
+        halts: bool = True,
     ) -> None:
-        self._interface = controller
+        """Make a conversation.
+
+        Args:
+            controller: what it is about.
+            history: of typed lines; None: none is kept.
+            keyboard: what is typed at; None: that of the process.
+            colours: whether to use them; None: as the environment says.
+            halts: whether the passenger can halt the ride.
+        """
+        self._interface, self._welcome = controller, WELCOME if halts else ALONG
         self._screen = Screen(colours=has_colours(os.environ) if colours is None else colours)
         self._jobs: asyncio.Queue[_Job] = asyncio.Queue()  # one after another, as typed
         self._waiting: _Waiting | None = None
@@ -103,7 +120,8 @@ class TerminalChat:
         behind = [asyncio.create_task(self._ending(one())) for one in (self._work, self._watch)]
         try:
             with self._session.input.raw_mode(), patch_stdout():
-                self._screen.dim(WELCOME)
+                for line in self._welcome:
+                    self._screen.dim(line)
                 await self._talk()
                 for task in behind:
                     if task.done():

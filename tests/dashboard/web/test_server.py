@@ -23,6 +23,7 @@ from tests.dashboard.web.known_source import PATIENCE, STATUS, Known, Running, r
 from xavi_dialogue.dashboard.web import server
 from xavi_dialogue.dashboard.web.auth import SECURITY
 from xavi_dialogue.dashboard.web.client_session import MAX_IN_FLIGHT, MAX_WAITING
+from xavi_dialogue.dashboard.web.middleware import ENDING
 from xavi_dialogue.dashboard.web.server import ListenError, ListenOptions, Server
 from xavi_dialogue.dashboard.web.websocket_messages import MAX_INCOMING, Trouble
 
@@ -224,7 +225,7 @@ def test_it_ends_when_it_is_cancelled() -> None:
 
 
 def test_evidence_that_is_still_awaited_does_not_hold_up_the_end() -> None:
-    asked = threading.Event()
+    asked, answers = threading.Event(), list[httpx.Response]()
 
     class Slow(Known):
         async def evidence(self, number: int) -> bytes | None:
@@ -236,8 +237,7 @@ def test_evidence_that_is_still_awaited_does_not_hold_up_the_end() -> None:
         address = here.server.address + "api/turns/3/evidence"
 
         def fetch() -> None:
-            with pytest.raises(httpx.HTTPError):
-                httpx.get(address, timeout=PATIENCE).raise_for_status()
+            answers.append(httpx.get(address, timeout=PATIENCE))
 
         fetching = threading.Thread(target=fetch)
         fetching.start()
@@ -245,7 +245,9 @@ def test_evidence_that_is_still_awaited_does_not_hold_up_the_end() -> None:
         here.stop()
         here.end()
         fetching.join(PATIENCE)
-        assert not fetching.is_alive()
+    [answer] = answers
+    assert (answer.status_code, answer.json()) == (503, {"error": ENDING})
+    assert answer.headers["x-content-type-options"] == "nosniff"
 
 
 # --- strangers ------------------------------------------------------------------------------

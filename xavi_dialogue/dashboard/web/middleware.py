@@ -1,5 +1,6 @@
 """Middleware (ASGI): authentication, rate limits, headers and error pages."""
 
+import asyncio
 import logging
 import time
 from collections.abc import Awaitable, Callable, MutableMapping
@@ -30,6 +31,7 @@ TRIES = Rate(1.0, 20)  # of requests without a valid token, to prevent guessing
 TRIED_OFTEN = "That was tried too often. Wait a little."
 FETCHED_OFTEN = "Too much is asked for at once. Wait a second, then try again."
 VISITED_OFTEN = "Too many connections at once. Wait a little."
+ENDING = "The dashboard is being stopped."
 FAULT = "Something went wrong in the dashboard. It has been written to its log."
 
 _LOG = logging.getLogger(__name__)
@@ -77,6 +79,10 @@ class GuardMiddleware:
                 await _enter(verdict, out)
             else:
                 await self._app(scope, receive, out)
+        except asyncio.CancelledError:  # what it waited for does not come before the end
+            if not started and asked.kind == "http":
+                await _say(out, 503, ENDING)
+            raise
         except Exception:
             _LOG.exception("the dashboard's server failed", extra={"path": asked.path})
             if not started and asked.kind == "http":

@@ -33,7 +33,7 @@ from xavi_dialogue.dashboard.web.client_session import (
     pack,
 )
 from xavi_dialogue.dashboard.web.interfaces import DashboardSource
-from xavi_dialogue.dashboard.web.middleware import FAULT, App, GuardMiddleware
+from xavi_dialogue.dashboard.web.middleware import ENDING, FAULT, App, GuardMiddleware
 from xavi_dialogue.dashboard.web.responses import JSON, Body
 from xavi_dialogue.dashboard.web.websocket_messages import Ask, Cancel, Outgoing, Suggest, Trouble
 
@@ -43,7 +43,6 @@ CLOSING = 1.0  # [s] to tell a browser why it is disconnected
 ASIDE = 64 * 1024  # bytes, from which on a body is packed on another thread
 
 FULL = "There are too many browsers already. Close one of them, then try again."
-ENDING = "The dashboard is being stopped."
 TEXT_ALONE = "Only text is read here."
 UNKNOWN = "There is nothing here."
 NO_DECISION = "The record of this decision is not here any more."
