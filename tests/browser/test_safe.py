@@ -21,8 +21,8 @@ def nobody() -> str:
 
 @pytest.fixture(scope="module")
 def open_to_all(crew: Crew, nobody: str) -> Dashboard:
-    arguments = ("--connect", nobody, "--token", TOKEN)
-    return dashboard(crew, *arguments, listen="0.0.0.0:0")
+    extra = {"XAVI_DASHBOARD_TOKEN": TOKEN}
+    return dashboard(crew, "--connect", nobody, listen="0.0.0.0:0", extra=extra)
 
 
 def test_listening_elsewhere_it_wants_a_token(open_to_all: Dashboard, visit: Visits) -> None:

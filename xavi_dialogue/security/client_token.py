@@ -59,7 +59,7 @@ def own_secret(file: Path, *, make: bool = True) -> bytes:
     """
     try:
         if make and not file.exists():
-            _make(file)
+            write_secret(file, secrets.token_bytes(SECRET_BYTES))
         elif not file.exists():
             return secrets.token_bytes(SECRET_BYTES)
         secret = file.read_bytes()
@@ -73,13 +73,16 @@ def own_secret(file: Path, *, make: bool = True) -> bytes:
     return secret
 
 
-def _make(file: Path) -> None:
-    """Write a new secret, whole or not at all; of several that do so at once, one wins."""
+def write_secret(file: Path, content: bytes) -> None:
+    """Write a file that only its owner can read, whole or not at all.
+
+    Of several that do so at once, one wins; a file that is there already stays.
+    """
     file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     draft = file.with_name(f"{file.name}.{os.getpid()}.{secrets.token_hex(4)}")
     try:
         with os.fdopen(os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as new:
-            new.write(secrets.token_bytes(SECRET_BYTES))
+            new.write(content)
         with suppress(FileExistsError):
             os.link(draft, file)
     finally:

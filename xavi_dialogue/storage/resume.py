@@ -37,8 +37,12 @@ class ResumePoint:
 
     def moment(self, scenario: Scenario, seed: int) -> float | None:
         """Return the time [s] of the last question; None if it was about another ride."""
+        return self.moment_in(place_of(scenario), seed)
+
+    def moment_in(self, place: str | None, seed: int | None) -> float | None:
+        """Return the same of a ride by its place, see `place_of`, and seed."""
         before = self.before
-        same = before is not None and (before.scenario, before.seed) == (place_of(scenario), seed)
+        same = before is not None and (before.scenario, before.seed) == (place, seed)
         return before.sim_time if before is not None and same else None
 
     def note(self, at: float | None, keeping: Retention | None) -> str:

@@ -32,6 +32,7 @@ from xavi_dialogue.cli.commands.sessions import keeping_in
 if TYPE_CHECKING:
     from xavi_dialogue.chat.main import ChatOptions
     from xavi_dialogue.security.client_token import Passenger
+    from xavi_dialogue.storage.resume import ResumePoint
     from xavi_dialogue.storage.turn_log import Retention
 
 ListenAt = Annotated[
@@ -47,7 +48,17 @@ Token = Annotated[
     str | None,
     typer.Option(
         envvar="XAVI_DASHBOARD_TOKEN",
-        help="Token for browsers. Default: none on this machine only, else a random one.",
+        help="Token for browsers; every user of this machine can see it here, so better give"
+        " --token-file or the variable. Default: none on this machine only, else a random one.",
+    ),
+]
+TokenFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--token-file",
+        dir_okay=False,
+        metavar="FILE",
+        help="File with the token for browsers. A missing one is written, with a random token.",
     ),
 ]
 HostNames = Annotated[
@@ -60,7 +71,16 @@ Played = Annotated[
         "--replay", exists=True, dir_okay=False, metavar="FILE", help="Show a recording (MCAP)."
     ),
 ]
-Opens = Annotated[bool, typer.Option("--open/--no-open", help="Open the page in a browser.")]
+Opens = Annotated[
+    bool,
+    typer.Option("--open/--no-open", help="Open the page in a browser, unless it has a token."),
+]
+
+SOURCES = ("COMMANDLINE", "ENVIRONMENT", "DEFAULT_MAP")  # of an option, in the order they count
+SEEN = (
+    "warning: every user of this machine can see --token in the list of processes; move the token"
+    " to a file for --token-file, or to XAVI_DASHBOARD_TOKEN, and browsers stay signed in"
+)
 
 
 def add(app: typer.Typer, shell: Streams) -> None:
@@ -70,6 +90,7 @@ def add(app: typer.Typer, shell: Streams) -> None:
 
 def _dashboard(shell: Streams) -> Callable[..., None]:
     def dashboard(
+        context: typer.Context,
         scenario: AnyScenario = None,
         seed: Seed = None,
         speed: SpeedFactor = None,
@@ -80,6 +101,7 @@ def _dashboard(shell: Streams) -> Callable[..., None]:
         session: SessionName = None,
         listen: ListenAt = None,
         token: Token = None,
+        token_file: TokenFile = None,
         host_name: HostNames = None,
         opens: Opens = True,
         store: StoreFile = None,
@@ -101,7 +123,8 @@ def _dashboard(shell: Streams) -> Callable[..., None]:
 
         with shell.errors():
             scenario = place(scenario, ego, ego_from, ego_to, begin)
-            where = ListenOptions.read(listen, token=token, names=tuple(host_name or ()))
+            shown = _token(shell, context, token, token_file)
+            where = ListenOptions.read(listen, token=shown, names=tuple(host_name or ()))
             going = resume.fresh(datetime.now().astimezone(), token_hex(2))
             passenger = passenger_of(session or going.session, share=False)
             if connect is not None or zenoh is not None:
@@ -116,6 +139,32 @@ def _dashboard(shell: Streams) -> Callable[..., None]:
             run(task, shell.note)
 
     return dashboard
+
+
+def _token(
+    shell: Streams, context: typer.Context, token: str | None, file: Path | None
+) -> str | None:
+    """Return the token as given, or as in the file; warn of one that others can see.
+
+    Of both, the one counts that was set nearer to the command.
+    """
+    from xavi_dialogue.security.browser_token import token_in
+
+    spoken, named = _source(context, "token"), _source(context, "token_file")
+    if token is not None and file is not None and spoken == named:
+        raise typer.BadParameter("give either --token or --token-file")
+    if file is not None and (token is None or named < spoken):
+        return token_in(file, shell.note)
+    if token is not None and spoken == 0:
+        shell.note(SEEN)
+    return token
+
+
+def _source(context: typer.Context, name: str) -> int:
+    """Return where an option comes from, as the index in SOURCES; beyond them: nowhere."""
+    source = context.get_parameter_source(name)
+    said = "" if source is None else source.name
+    return SOURCES.index(said) if said in SOURCES else len(SOURCES)
 
 
 def _own(
@@ -142,5 +191,19 @@ def _own(
     if scenario is not None or seed is not None:
         raise typer.BadParameter("a recording has its own scenario and seed; leave out --replay")
     next(read(replay), None)  # raises at once if it is no recording
+    going = find(keeping, passenger.session)
+    at = _reached(replay, going)
+    if going.before is not None:
+        shell.note(going.note(at, keeping))
     played = ("replay", str(replay.absolute()), "--vehicle", "car")
-    return ChatOptions(replay.name, replay.name, 0, passenger, keeping, played=played)
+    return ChatOptions(replay.name, replay.name, 0, passenger, keeping, at, played=played)
+
+
+def _reached(replay: Path, going: "ResumePoint") -> float | None:
+    """Return the time [s] of the last question; None if it was not about the recorded ride."""
+    from xavi_dialogue.recording.player import load
+
+    if going.before is None:
+        return None
+    begun = load(replay, None, lambda _: None).scene(0)
+    return None if begun.scenario is None else going.moment_in(begun.scenario, begun.seed)

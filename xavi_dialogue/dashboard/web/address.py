@@ -2,11 +2,11 @@
 
 import ipaddress
 import re
-import secrets
 from dataclasses import dataclass, field
 from typing import Self
 
 from xavi_dialogue.process.exit_status import UsageFault
+from xavi_dialogue.security.browser_token import FORM, is_token, new_token
 
 DEFAULT_HOST = "127.0.0.1"
 DEFAULT_PORT = 8480
@@ -14,7 +14,6 @@ LOCAL_NAMES = ("localhost", "127.0.0.1", "[::1]")
 MEND = "write it as 127.0.0.1:8480, :8480 or [::1]:8480; port 0 is any that is free"
 
 _NAME = re.compile(r"(?=.{1,253}$)[a-z0-9_]([a-z0-9_-]{0,62})(\.[a-z0-9_]([a-z0-9_-]{0,62}))*")
-_TOKEN = re.compile(r"[A-Za-z0-9_-]{16,128}")
 
 
 class ListenError(UsageFault):
@@ -47,13 +46,13 @@ class ListenOptions:
             ListenError: one of them makes no sense.
         """
         host, port = _place(text or "")
-        if token is not None and not _TOKEN.fullmatch(token):
-            raise ListenError("a token has 16 to 128 letters, digits, _ or -; leave it out for one")
+        if token is not None and not is_token(token):
+            raise ListenError(f"a token has {FORM}; leave it out for one")
         for name in names:
             if name_of(name) != name.lower().rstrip("."):
                 raise ListenError(f"{name[:64]!r} is no name of a host; write it without a port")
         if token is None and not is_loopback(host):
-            token = secrets.token_urlsafe(24)
+            token = new_token()
         return cls(host, port, token, tuple(name.lower().rstrip(".") for name in names))
 
     @property
