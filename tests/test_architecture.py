@@ -44,7 +44,7 @@ ROOMS = (
     ("xavi_dialogue.service",),
     ("xavi_dialogue.terminal", "xavi_dialogue.transcripts"),
     ("xavi_dialogue.chat", "xavi_dialogue.recording", "xavi_dialogue.inspection"),
-    ("xavi_dialogue.dashboard",),
+    ("xavi_dialogue.dashboard", "xavi_dialogue.library"),
     ("xavi_dialogue.cli",),
     ("benchmarks", "xavi_dialogue.__main__"),
 )
@@ -74,6 +74,8 @@ IMPURE = {
 MAX_MODULE_LINES = 350
 MAX_FUNCTION_LINES = 60
 
+LAZY = "xavi_dialogue.library.names"  # what the root package loads, when a name is used
+
 SHELL = ROOMS.index(("xavi_dialogue.bus",))  # the first room that may know the world of SUMO
 
 every_module = pytest.mark.parametrize("module", modules().values(), ids=lambda m: m.path)
@@ -97,14 +99,22 @@ def test_imports_point_towards_the_world(module: Module) -> None:
     here = room(module.name)
     for target in ours(module):
         there = room(target)
-        if module.name.split(".")[0] == "grammars" or module.name == "xavi_dialogue":
+        if module.name.split(".")[0] == "grammars":
             pytest.fail(f"{module.path} imports {target}; it may import nothing of ours")
+        elif module.name == "xavi_dialogue":
+            assert target == LAZY, f"{module.path} imports {target}"
         elif here is None:  # the adapters around SUMO
             assert within(target, "sim"), f"{module.path} imports {target}"
         elif there is None:
             assert here >= SHELL, f"{module.path} imports {target}, an adapter around SUMO"
         else:
             assert there <= here, f"{module.path} imports {target}, a later room"
+
+
+def test_the_root_package_loads_nothing_of_ours_at_once() -> None:
+    found = imports(modules()["xavi_dialogue"])
+    assert {i.target for i in found if i.target.split(".")[0] in PACKAGES} == {LAZY}
+    assert all(i.deferred for i in found if i.target == LAZY)
 
 
 @pytest.mark.parametrize(("one", "other"), APART.items())

@@ -273,7 +273,7 @@ def test_replayed_the_answers_are_those_of_the_ride_byte_for_byte(
     recorded = recorded_in(tmp_path / "ride.mcap", ride_moments(ride), network)
     assert [gzip.decompress(one) for one in recorded.networks] == [network.read_bytes()]
     roads = tmp_path / "roads.net.xml"
-    assert player._find_network(recorded, roads)
+    assert player.find_network(recorded, roads)
     again = Talk()
     planning = Replanner(Inline(read_network(roads)))
     bus = again.hub.connect()
@@ -307,7 +307,7 @@ def test_roads_of_another_ride_are_not_planned_on(
     other = load_scenario("s2").network.read_bytes()
     for text in (roads, other):
         foreign = replace(recorded, networks=(gzip.compress(text, mtime=0),))
-        assert not player._find_network(foreign, tmp_path / "roads.net.xml")
+        assert not player.find_network(foreign, tmp_path / "roads.net.xml")
 
 
 def test_a_file_that_is_cut_off_is_played_with_a_warning(tmp_path: Path) -> None:

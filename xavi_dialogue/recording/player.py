@@ -290,7 +290,7 @@ def planning_for(
     """Start planning again from recorded decisions; yield it with the recorder of moments."""
     with tempfile.TemporaryDirectory(prefix="xavi-") as folder:
         path = Path(folder) / "network.net.xml"
-        if not _find_network(recorded, path):
+        if not find_network(recorded, path):
             note(f"warning: {NO_ROADS}; what would have been cannot be asked")
             yield _refuse, lambda _: None
             return
@@ -300,7 +300,7 @@ def planning_for(
             yield planning, planning.record
 
 
-def _find_network(recorded: RecordedMessages, path: Path) -> bool:
+def find_network(recorded: RecordedMessages, path: Path) -> bool:
     """Write the road network of the decisions to a file; return whether there is one."""
     wanted = recorded.trace(0).network if recorded.traces else None
     for packed in recorded.networks:

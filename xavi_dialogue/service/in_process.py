@@ -65,6 +65,15 @@ def planner_for(network: Network) -> Replan:
     return again
 
 
+def inputs_of_moment(moment: Moment) -> tuple[Input, ...]:
+    """Convert one moment of a ride to inputs of the dialogue."""
+    time = clock(moment)
+    trace = () if moment.trace is None else (TraceRecorded(moment.trace),)
+    seen = SceneSeen(replace(moment.scene, time=time))
+    over = () if moment.ending is None else (RideEnded(time),)
+    return (*trace, *map(EventRecorded, moment.events), seen, *over)
+
+
 @dataclass
 class Conversation:
     """One passenger's conversation about a ride that is recorded as far as is asked about."""
@@ -76,14 +85,8 @@ class Conversation:
 
     def record(self, moment: Moment) -> None:
         """Take down one moment of the ride."""
-        if moment.trace is not None:
-            self._tell(TraceRecorded(moment.trace))
-        for event in moment.events:
-            self._tell(EventRecorded(event))
-        seen = replace(moment.scene, time=clock(moment))
-        self._tell(SceneSeen(seen))
-        if moment.ending is not None:
-            self._tell(RideEnded(clock(moment)))
+        for event in inputs_of_moment(moment):
+            self._tell(event)
 
     def ask(self, text: str, at: float, style: Style = "passenger") -> Reply:
         """Return the reply to a question asked at a moment [s] of the ride."""

@@ -122,15 +122,10 @@ def replay_recorded(transcript: Transcript, ride: RecordedRide, pipeline: Pipeli
         RideFileError: a plan is wanted that the recording does not hold.
     """
 
-    def again(_: PlanTrace, need: NeedRollout) -> PlanTrace:
-        name = key(need)
-        if name in ride.failures:
-            raise WhatIfError(ride.failures[name])
-        if name not in ride.whatifs:
-            raise RideFileError(_missing(need))
-        return ride.whatifs[name]
+    def missing(_: PlanTrace, need: NeedRollout) -> PlanTrace:
+        raise RideFileError(_missing(need))
 
-    return play(transcript, pipeline, inputs_of(ride), ride.halt, again)
+    return play(transcript, pipeline, inputs_of(ride), ride.halt, keeping(missing, ride))
 
 
 def replay_driven(written: Sequence[Written]) -> Replayed:
@@ -154,7 +149,7 @@ def replay_driven(written: Sequence[Written]) -> Replayed:
         events=list(known.dialogue.events),
         ended=known.dialogue.ended_at,
     )
-    again = _keeping(known.again, recorded)
+    again = keeping(known.again, recorded)
     inputs = inputs_of(recorded)
     played = (play(one.transcript, pipeline, inputs, halt, again) for one in written)
     return Replayed(tuple(write(one.transcript) for one in played), recorded)
@@ -190,6 +185,24 @@ def inputs_of(ride: RecordedRide) -> tuple[Input, ...]:
     """Convert a recorded ride to inputs of the dialogue."""
     over = () if ride.ended is None else (RideEnded(ride.ended),)
     return (*map(TraceRecorded, ride.traces), *map(EventRecorded, ride.events), *over)
+
+
+def keeping(again: Replan, ride: RecordedRide) -> Replan:
+    """Return what is planned again from a recorded ride, and store in it what it lacks."""
+
+    def planned(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
+        name = key(need)
+        if name in ride.failures:
+            raise WhatIfError(ride.failures[name])
+        if name not in ride.whatifs:
+            try:
+                ride.whatifs[name] = again(trace, need)
+            except WhatIfError as error:
+                ride.failures[name] = str(error)
+                raise
+        return ride.whatifs[name]
+
+    return planned
 
 
 def _as_recorded(path: Path, ride: RecordedRide) -> bool:
@@ -240,22 +253,6 @@ def _open(path: Path) -> Written:
         return Written(path, text, read(text))
     except TranscriptError as error:
         raise TranscriptError(f"{path}: {error}") from error
-
-
-def _keeping(again: Replan, ride: RecordedRide) -> Replan:
-    """Plan again, and store the result in the ride."""
-
-    def planned(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
-        name = key(need)
-        if name not in ride.whatifs:
-            try:
-                ride.whatifs[name] = again(trace, need)
-            except WhatIfError as error:
-                ride.failures[name] = str(error)
-                raise
-        return ride.whatifs[name]
-
-    return planned
 
 
 def _header(written: Written, name: str) -> str:

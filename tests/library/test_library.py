@@ -1,0 +1,254 @@
+"""The library: rides as values that answer as `xavi ask` and the golden conversations do."""
+
+import dataclasses
+import gzip
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import xavi_dialogue as xavi
+from sim.roads.netfile import read_network
+from sim.setup.scenario import load as load_scenario
+from tests.recording.test_player import recorded_in, ride_moments
+from xavi_dialogue.cli.ask import ask_once
+from xavi_dialogue.library import names
+from xavi_dialogue.service.in_process import Conversation, make_pipeline, planner_for
+from xavi_dialogue.storage import ride_file
+from xavi_dialogue.transcripts.transcript import At, Exchange, read
+from xavi_dialogue.vehicle.episode import clock
+
+TRANSCRIPTS = Path(__file__).parents[2] / "transcripts"
+S1 = TRANSCRIPTS / "rides" / "s1-0.ride.jsonl.gz"
+WHY = "Why did you change left?"
+WHAT_IF = "What if vehicle 1 had not been there?"
+
+
+@cache
+def s1() -> xavi.Ride:
+    """The recorded ride through s1."""
+    return xavi.open(S1)
+
+
+def test_to_import_it_loads_nothing_heavy() -> None:
+    code = (
+        "import sys, xavi_dialogue as xavi\n"
+        "assert set(xavi.__all__) <= set(dir(xavi))\n"
+        "heavy = {'numba', 'numpy', 'msgspec', 'libsumo', 'planner', 'xavi_dialogue.library'}\n"
+        "sys.exit(', '.join(heavy & sys.modules.keys()))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_every_public_name_is_there_and_no_other() -> None:
+    assert set(names.__all__) | {"__version__"} == set(xavi.__all__)
+    assert all(getattr(xavi, name) is not None for name in xavi.__all__)
+    with pytest.raises(AttributeError, match="'recall'"):
+        xavi.recall  # noqa: B018
+
+
+@pytest.mark.parametrize("name", ["s1", "s1-alternatives", "s2", "s4-gap"])
+def test_a_conversation_is_the_golden_one(name: str) -> None:
+    transcript = read((TRANSCRIPTS / f"{name}.txt").read_text(encoding="utf-8"))
+    ride = f"{transcript.get('scenario')}-{transcript.get('seed')}.ride.jsonl.gz"
+    conversation = xavi.open(TRANSCRIPTS / "rides" / ride).conversation()
+    at, asked = None, 0
+    for step in transcript.steps:
+        match step:
+            case At(time):
+                at = time
+            case Exchange(question, reply):
+                found = conversation.ask(question, at)
+                assert (question, found.text) == (question, reply)
+                asked += 1
+    assert asked == len(conversation.answers) > 3
+
+
+def test_an_answer_is_a_frozen_value() -> None:
+    found = s1().ask(WHY)
+    assert found == s1().ask(WHY)
+    assert str(found) == found.text
+    assert found.text.startswith("I moved to the left lane, because I expected the blue car")
+    assert (found.question, found.at, found.kind, found.reason) == (WHY, 6.0, "answer", None)
+    assert [one["is"] for one in found.content] == ["ChoiceReason"]
+    assert [one["is"] for one in found.meaning] == ["GroundedAct"]
+    assert found.explanation is not None
+    assert found.explanation["causes"][0]["vehicle"] == 1
+    assert found.evidence.method == "tree"
+    assert found.evidence.rollouts > 0
+    assert found.suggestions
+    assert found.decision in s1().decisions
+    assert found.decision is not None
+    assert found.evidence.traces == (found.decision.trace_id,)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        found.text = "otherwise"  # type: ignore[misc]
+
+
+def test_a_refusal_is_a_value_with_its_reason() -> None:
+    for question, reason in (
+        ("Why did you stop?", "did-not-happen"),
+        ("asdf qwer", "not-understood"),
+    ):
+        found = s1().ask(question)
+        assert (found.kind, found.reason) == ("refusal", reason), found.text
+        assert found.text
+
+
+def test_each_question_of_a_ride_stands_alone_and_those_of_a_conversation_do_not() -> None:
+    conversation = s1().conversation()
+    first = conversation.ask(WHY, at=8.0)
+    follow_up = conversation.ask("and if it had not been there?")
+    assert follow_up.at == 8.0
+    assert follow_up.text == "Without the blue car, I would have stayed in my lane instead."
+    assert conversation.answers == (first, follow_up)
+    assert s1().ask("and if it had not been there?", at=8.0).text != follow_up.text
+
+
+def test_a_moment_knows_nothing_of_later_ones() -> None:
+    early = s1().ask(WHY, at=1.0)
+    assert (early.kind, early.reason) == ("refusal", "did-not-happen")
+    assert s1().ask("What are you doing?", at=1e9).at == s1().end
+    conversation = s1().conversation()
+    conversation.ask(WHY, at=8.0)
+    assert conversation.ask(WHY, at=1.0).reason == "did-not-happen"
+
+
+def test_decisions_tell_what_was_weighed_and_believed() -> None:
+    decision = next(one for one in s1().decisions if one.plan[0] == "change-left")
+    assert decision.time == decision.trace.sim_time == 3.0
+    assert decision == s1().decisions[decision.number]
+    values = [one.value for one in decision.options]
+    assert values == sorted(values, reverse=True)
+    assert [one.action for one in decision.options if one.chosen] == ["change-left"]
+    assert sum(decision.options[0].chances.values()) == pytest.approx(1.0, abs=1e-5)
+    assert decision.ruled_out["change-right"] == "there is no lane to the right"
+    by_vehicle: dict[int, float] = {}
+    for one in decision.beliefs:
+        by_vehicle[one.vehicle] = by_vehicle.get(one.vehicle, 0.0) + one.probability
+    assert by_vehicle.keys() == {one.vehicle for one in decision.trace.predictions}
+    assert all(total == pytest.approx(1.0, abs=1e-3) for total in by_vehicle.values())
+    assert decision.beliefs[0].place == "the road to the right"
+
+
+def test_a_saved_ride_has_its_events_and_a_scene_for_each_decision() -> None:
+    assert [one.time for one in s1().scenes] == [one.time for one in s1().decisions]
+    assert s1().scenes[0].ego.speed > 0.0
+    assert [e.sim_time for e in s1().events if e.kind == "arrived"] == [s1().end]
+    assert repr(s1()) == "<Ride s1, seed 0: 20 decisions, 19.1 s>"
+
+
+def test_html_escapes_what_was_typed_and_what_was_said() -> None:
+    evil = "<script>alert(1)</script>"
+    found = s1().ask(f"{WHY} {evil}")
+    shown = dataclasses.replace(found, text=evil, suggestions=(evil,))._repr_html_()
+    assert shown.count("&lt;script&gt;") == 3
+    assert "<script" not in shown
+    decision = s1().decisions[0]
+    belief = dataclasses.replace(decision.beliefs[0], place=evil)
+    altered = dataclasses.replace(decision)
+    altered.__dict__["beliefs"] = (belief,)
+    assert "<script" not in altered._repr_html_()
+    assert "&lt;script&gt;" in altered._repr_html_()
+
+
+def test_what_is_saved_is_the_ride_with_what_was_planned_again(tmp_path: Path) -> None:
+    ride = xavi.open(S1)
+    ride.record.whatifs.clear()
+    found = ride.ask(WHAT_IF)
+    planned = dict(ride.record.whatifs)
+    assert planned
+    file = ride.save(tmp_path / "mine")
+    assert file == tmp_path / "mine.ride.jsonl.gz"
+    again = xavi.open(tmp_path / "mine")
+    assert again.record == ride.record
+    assert again.ask(WHAT_IF) == found == s1().ask(WHAT_IF)
+
+
+def test_without_its_roads_a_ride_answers_from_its_record_alone(tmp_path: Path) -> None:
+    ride = ride_file.load(S1.read_bytes())
+    ride.scenario, ride.whatifs = "elsewhere", {}
+    ride_file.save(ride, tmp_path / "mine.ride.jsonl.gz")
+    alone = xavi.open(tmp_path / "mine.ride.jsonl.gz")
+    assert alone.ask("What are you doing?").kind == "answer"
+    found = alone.ask("What if vehicle 2 had not been there?")
+    assert (found.kind, found.reason) == ("refusal", "planner-unavailable")
+    named = xavi.open(tmp_path / "mine.ride.jsonl.gz", scenario="s1")
+    assert named.ask("What if vehicle 2 had not been there?").kind == "answer"
+    with pytest.raises(xavi.XaviError, match=r"s2 has other roads .* name its own scenario"):
+        xavi.open(tmp_path / "mine.ride.jsonl.gz", scenario="s2")
+
+
+def test_a_recording_answers_as_its_ride_did(tmp_path: Path) -> None:
+    moments = tuple(ride_moments(ride_file.load(S1.read_bytes())))
+    network = load_scenario("s1").network
+    recorded_in(tmp_path / "ride.mcap", iter(moments), network)
+    ride = xavi.open(tmp_path / "ride.mcap")
+    assert (ride.scenario, ride.seed) == ("s1", 4)  # as the car reported
+    assert [one.time for one in ride.scenes] == [clock(moment) for moment in moments]
+    assert [one.trace for one in ride.decisions] == [m.trace for m in moments if m.trace]
+    assert list(ride.events) == [event for moment in moments for event in moment.events]
+    for question, at in ((WHY, 6.0), (WHAT_IF, 6.0), ("What are you doing?", 2.0)):
+        driven = Conversation(make_pipeline(), planner_for(read_network(network)))
+        for moment in moments:
+            if clock(moment) <= at:
+                driven.record(moment)
+        assert ride.ask(question, at).text == driven.ask(question, at).text
+
+
+def test_of_a_recording_that_is_cut_off_the_rest_is_opened_with_a_warning(tmp_path: Path) -> None:
+    path = tmp_path / "ride.mcap"
+    recorded_in(path, ride_moments(ride_file.load(S1.read_bytes())))
+    path.write_bytes(path.read_bytes()[:-30])
+    with pytest.warns(UserWarning, match=r"ride\.mcap: it was cut off"):
+        ride = xavi.open(path)
+    assert ride.decisions
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "told"),
+    [
+        ("gone", None, r"cannot read .*gone\.ride\.jsonl\.gz: No such file .*; give a file that"),
+        ("text.ride.jsonl.gz", b"hello", r"text\.ride\.jsonl\.gz: not a recorded ride.* give a"),
+        ("other.gz", gzip.compress(b"{}\n", mtime=0), r"names no scenario; give a file that"),
+        ("ride.mcap", b"hello", r"ride\.mcap is not an MCAP file"),
+        ("gone.mcap", None, r"cannot read .*gone\.mcap"),
+    ],
+)
+def test_what_cannot_be_opened_is_told_with_its_name(
+    tmp_path: Path, name: str, data: bytes | None, told: str
+) -> None:
+    if data is not None:
+        (tmp_path / name).write_bytes(data)
+    with pytest.raises(xavi.XaviError, match=told):
+        xavi.open(tmp_path / name)
+
+
+def test_wrong_arguments_are_told_with_what_is_right() -> None:
+    with pytest.raises(
+        xavi.XaviError, match=r"at is -1; give a time \[s\] of the ride, 0 to 19\.1"
+    ):
+        s1().ask(WHY, at=-1)
+    with pytest.raises(xavi.XaviError, match="at is nan"):
+        s1().ask(WHY, at=float("nan"))
+    with pytest.raises(xavi.XaviError, match=r"no style 'rude'; use one of .*'paper'"):
+        s1().conversation(style="rude")  # type: ignore[arg-type]
+    with pytest.raises(xavi.XaviError, match="seed is -1; give one from 0"):
+        xavi.drive("s1", seed=-1)
+    with pytest.raises(xavi.XaviError, match="there is no scenario 'nowhere'; those that exist"):
+        xavi.drive("nowhere")
+
+
+@pytest.mark.slow
+def test_a_ride_that_is_driven_answers_as_xavi_ask_does() -> None:
+    ride = xavi.drive("s1", seed=3)
+    scenario = load_scenario("s1")
+    for question, at in ((WHY, None), ("What are you doing?", 2.5), (WHAT_IF, 5.0)):
+        said = ask_once(scenario, 3, question, at)
+        found = ride.ask(question, at)
+        assert (found.text, found.at) == (said.text, said.sim_time)
+        assert (found.content, found.explanation) == (said.answers, said.explanation)
+    assert ride.scenes[1].time - ride.scenes[0].time == pytest.approx(scenario.step)
+    assert ride.end == ride.record.ended

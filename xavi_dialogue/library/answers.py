@@ -1,0 +1,77 @@
+"""Answers: what the car replies to a question, as a value."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import msgspec
+
+from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.dialogue.standing import Kind
+from xavi_dialogue.domain.answers import Reason
+from xavi_dialogue.domain.evidence import Evidence
+from xavi_dialogue.library.decisions import Decision
+from xavi_dialogue.library.html import element, listed
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """The reply to one question; a refusal is one too, with its reason."""
+
+    question: str
+    at: float  # [s] when it was asked
+    text: str
+    kind: Kind  # answer, refusal or clarification
+    reason: Reason | None  # why it was not answered; None of an answer
+    meaning: tuple[dict[str, Any], ...]  # what the question was understood to ask, act by act
+    content: tuple[dict[str, Any], ...]  # what each was answered; told apart by `is`
+    explanation: dict[str, Any] | None  # as in `xavi ask --json`
+    evidence: Evidence  # what it rests on
+    choices: tuple[str, ...]  # of a clarification: ask with "1" for the first
+    suggestions: tuple[str, ...]  # what could be asked next
+    decision: Decision | None = field(repr=False)  # that it explains
+
+    def __str__(self) -> str:
+        return self.text
+
+    def _repr_html_(self) -> str:
+        rests = f"At {self.at:g} s. {_evidence(self.evidence)}"
+        if self.reason is not None:
+            rests = f"{self.kind.capitalize()}: {self.reason}. {rests}"
+        more = self.choices or self.suggestions
+        return (
+            f"<blockquote>{element('p', self.question)}</blockquote>"
+            + "".join(element("p", line) for line in self.text.splitlines())
+            + f"<p>{element('small', rests)}</p>"
+            + (listed(more) if more else "")
+        )
+
+
+def answer(question: str, reply: Reply, decision: Decision | None) -> Answer:
+    """Return a reply as an answer."""
+    return Answer(
+        question=question,
+        at=reply.sim_time,
+        text=reply.text,
+        kind=reply.kind,
+        reason=reply.reason,
+        meaning=reply.acts,
+        content=reply.answers,
+        explanation=reply.explanation,
+        evidence=_evidence_of(reply),
+        choices=reply.choices,
+        suggestions=reply.suggestions,
+        decision=decision,
+    )
+
+
+def _evidence_of(reply: Reply) -> Evidence:
+    told = (reply.explanation or {}).get("evidence")
+    if told is not None:
+        return msgspec.convert(told, Evidence)
+    return Evidence(traces=() if reply.trace_id is None else (reply.trace_id,))
+
+
+def _evidence(known: Evidence) -> str:
+    if known.rollouts:
+        return f"Rests on {known.rollouts} rollouts of {known.distinct_samples} distinct samples."
+    return "Rests on the record."

@@ -1,0 +1,103 @@
+"""Decisions of a ride: what was planned, weighed and believed."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from planner.record.trace import Action, Outcome, PlanTrace
+from xavi_dialogue.inspection.comparison import comparison
+from xavi_dialogue.library.html import element, table
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """A first action that a decision weighed."""
+
+    action: Action
+    value: float  # [s] expected reward, by which the decision chose; higher is better
+    chances: Mapping[Outcome, float]  # of each outcome that occurred among the rollouts
+    time: float | None  # [s] to the goal, of the rollouts that reach it
+    collision: float | None  # its probability as answers tell it; None: too little evidence
+    chosen: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Belief:
+    """A goal that another road user may have."""
+
+    vehicle: int
+    goal: Action  # the action that ends at it
+    place: str  # in words
+    probability: float
+
+
+@dataclass(frozen=True)
+class Decision:
+    """One decision."""
+
+    trace: PlanTrace = field(repr=False)  # its whole record
+
+    @property
+    def time(self) -> float:
+        """When [s] it was taken."""
+        return self.trace.sim_time
+
+    @property
+    def number(self) -> int:
+        """Its running number in the ride."""
+        return self.trace.decision
+
+    @property
+    def trace_id(self) -> str:
+        """The id that answers name."""
+        return self.trace.trace_id
+
+    @property
+    def plan(self) -> tuple[Action, ...]:
+        """The actions that it came to, the present one first."""
+        return tuple(step.action for step in self.trace.plan)
+
+    @cached_property
+    def options(self) -> tuple[Option, ...]:
+        """The first actions that were compared, best first; none of older records."""
+        return tuple(
+            Option(one.action, one.reward, one.outcomes, one.time, one.collision, one.chosen)
+            for one in comparison(self.trace)
+        )
+
+    @property
+    def ruled_out(self) -> Mapping[Action, str]:
+        """The first actions that could not be taken, and why."""
+        barred = self.trace.not_applicable
+        return {one.action: one.reason for one in barred if not one.node}
+
+    @cached_property
+    def beliefs(self) -> tuple[Belief, ...]:
+        """The goals of the other road users; the likeliest of each first."""
+        return tuple(
+            Belief(known.vehicle, goal.kind, goal.place, goal.probability)
+            for known in self.trace.predictions
+            for goal in sorted(known.goals, key=lambda one: -one.probability)
+        )
+
+    def __repr__(self) -> str:
+        return f"<Decision {self.number} at {self.time:g} s: {', '.join(self.plan) or 'stop'}>"
+
+    def _repr_html_(self) -> str:
+        options = (
+            (
+                f"{one.action}{' (chosen)' if one.chosen else ''}",
+                f"{one.value:.1f}",
+                ", ".join(f"{name} {chance:.1%}" for name, chance in one.chances.items()),
+            )
+            for one in self.options
+        )
+        beliefs = (
+            (str(one.vehicle), one.goal, one.place, f"{one.probability:.1%}")
+            for one in self.beliefs
+        )
+        return (
+            element("p", repr(self)[1:-1])
+            + table(("option", "value [s]", "chances"), options)
+            + table(("vehicle", "goal", "place", "probability"), beliefs)
+        )

@@ -1,0 +1,165 @@
+"""A ride that can be asked about, and conversations about it."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TypeAlias, get_args
+
+from planner.record.events import Event
+from sim.scene import Scene
+from xavi_dialogue.bus.messages import MAX_TEXT
+from xavi_dialogue.bus.sanitize import one_line
+from xavi_dialogue.dialogue.manager import fold
+from xavi_dialogue.dialogue.manoeuvres import carried_out
+from xavi_dialogue.dialogue.state.events import Input
+from xavi_dialogue.dialogue.state.state import EPSILON
+from xavi_dialogue.library.answers import Answer, answer
+from xavi_dialogue.library.decisions import Decision
+from xavi_dialogue.library.errors import LibraryError, translated
+from xavi_dialogue.nlg.context import Style
+from xavi_dialogue.service import in_process
+from xavi_dialogue.service.in_process import Replan, make_pipeline
+from xavi_dialogue.storage import ride_file
+from xavi_dialogue.storage.ride_file import RecordedRide
+from xavi_dialogue.transcripts.replay import keeping
+
+#: An input of the dialogue, and the time [s] from which on it is known.
+Known: TypeAlias = tuple[float, Input]
+
+
+@dataclass(frozen=True, eq=False)
+class Ride:
+    """One ride: its decisions, events and scenes, and answers about it."""
+
+    record: RecordedRide
+    scenes: tuple[Scene, ...]  # in order of time
+    known: tuple[Known, ...]  # what answers rest on, in order of time
+    again: Replan  # plans again what the record does not hold
+
+    @property
+    def scenario(self) -> str:
+        """The name of the scenario, or its folder."""
+        return self.record.scenario
+
+    @property
+    def seed(self) -> int:
+        """The seed of the ride."""
+        return self.record.seed
+
+    @property
+    def end(self) -> float:
+        """The time [s] up to which it is recorded."""
+        return max(self.known[-1][0], self.record.halt)
+
+    @cached_property
+    def decisions(self) -> tuple[Decision, ...]:
+        """Every decision, oldest first."""
+        return tuple(map(Decision, self.record.traces))
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """What the car did, oldest first."""
+        return tuple(self.record.events)
+
+    def ask(self, question: str, at: float | None = None, style: Style = "passenger") -> Answer:
+        """Return the answer to a question by itself; it knows of no question before.
+
+        Args:
+            question: in plain English.
+            at: [s] when it is asked. Default: the end of the first lane change or turn that was
+                carried out, else the end of the ride.
+            style: `passenger`, or `paper` for the wording of the paper.
+
+        Raises:
+            XaviError: there is no such time or style.
+        """
+        return self.conversation(style).ask(question, at)
+
+    def conversation(self, style: Style = "passenger") -> "Conversation":
+        """Begin a conversation, in which questions may follow up on those before.
+
+        Raises:
+            XaviError: there is no such style.
+        """
+        return Conversation(self, style)
+
+    def save(self, path: str | Path) -> Path:
+        """Save decisions, events and what was planned again, as `xavi drive --save` does.
+
+        Returns:
+            The file; it gets the ending `.ride.jsonl.gz` where the path has none.
+
+        Raises:
+            XaviError: it cannot be written.
+        """
+        file = ride_file.named(Path(path))
+        ride_file.save(self.record, file)
+        return file
+
+    @cached_property
+    def default_time(self) -> float:
+        """When [s] a question is asked that names no time."""
+        ends = carried_out(self.events)
+        times = (time for time, _ in self.known if ends and time >= ends[0].sim_time - EPSILON)
+        return next(times, self.end)
+
+    def decision(self, trace_id: str | None) -> Decision | None:
+        """Return the decision with an id; None if there is none."""
+        return next((one for one in self.decisions if one.trace_id == trace_id), None)
+
+    def __repr__(self) -> str:
+        count = len(self.record.traces)
+        return f"<Ride {self.scenario}, seed {self.seed}: {count} decisions, {self.end:g} s>"
+
+
+class Conversation:
+    """A conversation about a ride."""
+
+    def __init__(self, ride: Ride, style: Style = "passenger") -> None:
+        """Begin one.
+
+        Raises:
+            LibraryError: there is no such style.
+        """
+        if style not in get_args(Style):
+            raise LibraryError(f"there is no style {style!r}; use one of {get_args(Style)}")
+        self.ride = ride
+        self.style = style
+        self.answers: tuple[Answer, ...] = ()
+        self._inner = in_process.Conversation(make_pipeline(), keeping(ride.again, ride.record))
+        self._told = 0  # inputs so far
+
+    def ask(self, question: str, at: float | None = None) -> Answer:
+        """Return the answer to a question, which may refer to those before.
+
+        Args:
+            question: in plain English.
+            at: [s] when it is asked. Default: when the question before was, of the first as
+                `Ride.ask` says.
+
+        Raises:
+            XaviError: there is no such time.
+        """
+        time = self._time(at)
+        text = one_line(question)[:MAX_TEXT]
+        with translated():
+            self._know(time)
+            reply = self._inner.ask(text, time, self.style)
+        found = answer(text, reply, self.ride.decision(reply.trace_id))
+        self.answers = (*self.answers, found)
+        return found
+
+    def _time(self, at: float | None) -> float:
+        if at is None:
+            return self.answers[-1].at if self.answers else self.ride.default_time
+        if math.isnan(at) or at < 0.0:
+            raise LibraryError(f"at is {at}; give a time [s] of the ride, 0 to {self.ride.end:g}")
+        return min(float(at), self.ride.end)
+
+    def _know(self, time: float) -> None:
+        """Record the ride up to a time [s]; what was known before stays known."""
+        rest = self.ride.known[self._told :]
+        news = [one for known, one in rest if known <= time + EPSILON]
+        self._told += len(news)
+        self._inner.dialogue = fold(self._inner.pipeline, news, self._inner.dialogue)

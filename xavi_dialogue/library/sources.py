@@ -1,0 +1,199 @@
+"""Where rides come from: driven here, saved by `xavi drive --save`, recorded by `xavi record`."""
+
+import tempfile
+import warnings
+from collections.abc import Iterator
+from pathlib import Path
+
+import msgspec
+
+from planner.record.trace import PlanTrace
+from sim.errors import SimError
+from sim.roads.netfile import read_network
+from sim.scene import Scene
+from sim.setup.scenario import load as load_scenario
+from xavi_dialogue.bus.messages import EventReport, SceneReport, TraceReport, unpack
+from xavi_dialogue.dialogue.state.events import (
+    EventRecorded,
+    Input,
+    RideEnded,
+    SceneSeen,
+    TraceRecorded,
+)
+from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.library.errors import LibraryError, translated
+from xavi_dialogue.library.ride import Known, Ride
+from xavi_dialogue.recording import player
+from xavi_dialogue.service.in_process import NoPlan, Replan, inputs_of_moment, planner_for
+from xavi_dialogue.service.reorder_buffer import PATIENCE, RideReports
+from xavi_dialogue.storage import ride_file
+from xavi_dialogue.storage.recording_format import RecordedMessages
+from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError
+from xavi_dialogue.transcripts.replay import inputs_of
+from xavi_dialogue.vehicle.episode import clock, network_of, start
+
+MAX_SEED = 2**31 - 1
+RECORDING = ".mcap"
+OPENED = "give a file that `xavi drive --save`, `Ride.save` or `xavi record` wrote"
+
+
+def drive(
+    scenario: str | Path = "s1", seed: int | None = None, duration: float | None = None
+) -> Ride:
+    """Drive a scenario to its end in SUMO, in this process, and return the ride.
+
+    Args:
+        scenario: a name, a folder, or a SUMO configuration.
+        seed: of the ride. Default: the scenario's.
+        duration: [s] after which the ride ends at the latest.
+
+    Raises:
+        XaviError: the scenario cannot be used, or SUMO or the car fails.
+    """
+    if seed is not None and not 0 <= seed <= MAX_SEED:
+        raise LibraryError(f"seed is {seed}; give one from 0 to {MAX_SEED}")
+    with translated():
+        loaded = load_scenario(str(scenario))
+        for warning in loaded.warnings:
+            warnings.warn(warning, stacklevel=2)
+        network = network_of(loaded)
+        number = loaded.seed if seed is None else seed
+        with start(loaded, number, network, duration=duration) as moments:
+            known = [(clock(m), one) for m in moments for one in inputs_of_moment(m)]
+    return _ride(str(scenario), number, known, planner_for(network))
+
+
+def open_ride(path: str | Path, scenario: str | Path | None = None, car: str | None = None) -> Ride:
+    """Open a ride that was saved by `xavi drive --save`, or recorded by `xavi record`.
+
+    Args:
+        path: of the file; a saved ride needs no ending, a recording ends in `.mcap`.
+        scenario: of a saved ride, where it lies elsewhere: without its roads nothing can be
+            planned again. Default: as the file says.
+        car: of a recording with several cars, which one.
+
+    Raises:
+        XaviError: the file cannot be read, or the scenario is not that of the ride.
+    """
+    file = ride_file.named(Path(path))
+    with translated():
+        if file.suffix == RECORDING:
+            return _recorded(file, player.load(file, car, _warn))
+        return _saved(file, scenario)
+
+
+def _ride(scenario: str, seed: int, known: list[Known], again: Replan) -> Ride:
+    """Return the ride that is told by inputs of the dialogue."""
+    inputs = [one for _, one in known]
+    record = RecordedRide(
+        scenario=scenario,
+        seed=seed,
+        halt=known[-1][0],
+        traces=[one.trace for one in inputs if isinstance(one, TraceRecorded)],
+        events=[one.event for one in inputs if isinstance(one, EventRecorded)],
+        ended=next((one.at for one in inputs if isinstance(one, RideEnded)), None),
+    )
+    scenes = tuple(one.scene for one in inputs if isinstance(one, SceneSeen))
+    return Ride(record, scenes, tuple(known), again)
+
+
+def _saved(file: Path, scenario: str | Path | None) -> Ride:
+    record = _read(file)
+    if not record.traces:
+        raise LibraryError(f"{file} holds no decision; drive the ride again, and longer")
+    known = sorted(((_time(one), one) for one in inputs_of(record)), key=lambda pair: pair[0])
+    scenes = tuple(Scene(trace.sim_time, trace.scene) for trace in record.traces)
+    return Ride(record, scenes, tuple(known), _planner(record, scenario))
+
+
+def _read(file: Path) -> RecordedRide:
+    try:
+        return ride_file.load(file.read_bytes())
+    except OSError as error:
+        raise LibraryError(f"cannot read {file}: {error.strerror}; {OPENED}") from error
+    except RideFileError as error:
+        raise LibraryError(f"{file}: {error}; {OPENED}") from error
+
+
+def _time(known: Input) -> float:
+    match known:
+        case TraceRecorded(trace):
+            return trace.sim_time
+        case EventRecorded(event):
+            return event.sim_time
+        case RideEnded(at):
+            return at
+    raise AssertionError(known)
+
+
+def _planner(record: RecordedRide, scenario: str | Path | None) -> Replan:
+    """Return what plans on the roads of a saved ride, if they can be found.
+
+    Raises:
+        LibraryError: the scenario that is named has other roads.
+    """
+    try:
+        network = network_of(load_scenario(str(scenario or record.scenario)))
+    except SimError:
+        if scenario is not None:
+            raise
+        return _plans_nothing
+    if network.hash == record.traces[0].network:
+        return planner_for(network)
+    if scenario is not None:
+        raise LibraryError(f"{scenario} has other roads than the ride; name its own scenario")
+    return _plans_nothing
+
+
+def _plans_nothing(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
+    """Plan nothing, for want of roads."""
+    raise NoPlan("planner-unavailable")
+
+
+def _recorded(file: Path, recorded: RecordedMessages) -> Ride:
+    first = recorded.scene(0)
+    known = list(_inputs(recorded))
+    return _ride(first.scenario or str(file), first.seed or 0, known, _planner_in(recorded))
+
+
+def _inputs(recorded: RecordedMessages) -> Iterator[Known]:
+    """Yield what the dialogue service is told where the recording is played, with its time [s]."""
+    reports = RideReports(recorded.ride)
+    told = (0, 0)
+    for index, packed in enumerate(recorded.scenes):
+        scene = unpack(packed, SceneReport)
+        until = recorded.known(scene)
+        news: list[Input] = []
+        for number in range(told[0], until[0]):
+            news += reports.trace(unpack(recorded.traces[number], TraceReport))
+        for number in range(told[1], until[1]):
+            news += reports.event(_report(recorded, scene, number))
+        news += reports.see(msgspec.structs.replace(scene, seq=index))
+        for moment in (0.0, PATIENCE):  # what has not come by now is missing for good
+            news += reports.wait(2.0 * PATIENCE * index + moment)
+        told = max(told[0], until[0]), max(told[1], until[1])
+        yield from ((scene.sim_time, one) for one in news)
+
+
+def _report(recorded: RecordedMessages, scene: SceneReport, number: int) -> EventReport:
+    event = recorded.events[number]
+    return EventReport(
+        ride=recorded.ride,
+        seq=recorded.event_numbers[number],
+        sim_time=event.sim_time,
+        wall_time=scene.wall_time,
+        event=event,
+    )
+
+
+def _planner_in(recorded: RecordedMessages) -> Replan:
+    """Return what plans on the roads that a recording holds, if it holds any."""
+    with tempfile.TemporaryDirectory(prefix="xavi-") as folder:
+        path = Path(folder) / "network.net.xml"
+        if not player.find_network(recorded, path):
+            return _plans_nothing
+        return planner_for(read_network(path))
+
+
+def _warn(text: str) -> None:
+    warnings.warn(text.removeprefix("warning: "), stacklevel=2)
