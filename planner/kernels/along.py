@@ -1,4 +1,4 @@
-"""Along a path: how fast one may be, and where one then is."""
+"""Along a path: the highest speed at each place, and the states of a vehicle on it."""
 
 import math
 
@@ -15,11 +15,11 @@ _jit = njit(cache=True, error_model="numpy")
 
 @_jit
 def braking_caps(cap: Floats, arc: Floats, braking: float) -> Floats:
-    """The speed [m/s] at every metre from which all of a path's caps ahead can be braked for.
+    """Return at every metre the highest speed [m/s] that allows braking for all caps ahead.
 
     Args:
-        cap, arc: [N] of the path: highest speed [m/s] and arc [m].
-        braking: [m/s2]
+        cap, arc: [N] highest speed [m/s] and arc [m] of each point of the path.
+        braking: [m/s2] deceleration.
     """
     caps = cap.copy()
     for k in range(len(caps) - 2, -1, -1):
@@ -32,13 +32,13 @@ def braking_caps(cap: Floats, arc: Floats, braking: float) -> Floats:
 def place(
     points: Floats, arc: Floats, heading: Floats, curvature: Floats, motion: Floats, length: float
 ) -> tuple[Floats, Floats]:
-    """Where a vehicle is along a path.
+    """Return the states of a vehicle at given places on a path.
 
     Args:
         points, arc, heading, curvature: of the path.
         motion: [S, 3] arc [m], speed [m/s] and acceleration.
-        length: [m] of the vehicle; its rear follows its front: it points as the path does at
-            its middle.
+        length: [m] of the vehicle; it points as the path does at its middle, because its
+            rear follows its front.
 
     Returns:
         States [S, 4], and the curvature [1/m] [S] at the front.
@@ -56,13 +56,13 @@ def place(
 def within(
     total: Floats, heading: Floats, arc: Floats, low: Ints, high: Ints, most: float
 ) -> Bools:
-    """Whether stretches of a line lead no more than `most` [m] aside.
+    """Check for each stretch of a line that it strays at most `most` [m] to the side.
 
     Args:
         total: [N] integral of the heading along the line.
         heading, arc: [N] [rad], [m].
         low, high: [K] first and last index of each stretch.
-        most: [m] aside of the direction in which it begins.
+        most: [m] from the straight line in the direction in which the stretch begins.
     """
     found = np.ones(len(low), np.bool_)
     for i in range(len(low)):

@@ -10,7 +10,7 @@ from planner.kernels.stretches import Stretches, stay_behind
 
 STEP = 0.2  # [s] of the common time base
 COMFORT = 2.0  # [m/s2] braking for bends, waiting lines and stops
-ACCELERATION = 2.0  # [m/s2] most when speeding up
+ACCELERATION = 2.0  # [m/s2] the greatest when speeding up
 FOLLOWING = 3.0  # [m/s2] braking assumed of leaders and applied behind them
 FIRM = 4.4  # [m/s2] the hardest braking for a waiting line
 EMERGENCY = 7.0  # [m/s2] the hardest braking
@@ -19,19 +19,19 @@ REACTION = 0.9  # [s] of Krauss' model
 RELAXATION = 0.5  # [s] in which a wanted speed is approached
 MIN_GAP = 2.0  # [m] to a standing leader
 GAP_HORIZON = 40  # steps that a gap at a waiting line must stay clear
-INTRUSION = 1.0  # [m] by which one may stand in a stretch that is shared: boxes are generous
-HINDERED = 0.5  # [m/s] below the free speed from which a vehicle counts as held up
-STANDING_TIME = 3.0  # [s] that a stop stays at a standstill
-ALIGNED = 0.9  # cosine of the angle to the path from which a vehicle drives along it
+INTRUSION = 1.0  # [m] that a vehicle may stand inside another's stretch: boxes are generous
+HINDERED = 0.5  # [m/s] a vehicle that is slower by this than its free speed counts as held up
+STANDING_TIME = 3.0  # [s] that a vehicle stands at the end of a stop
+ALIGNED = 0.9  # least cosine of the angle to the path of a vehicle that drives along it
 CUT_IN_MEMORY = 15  # steps after entering the path during which a leader counts as cutting in
-READY = 4.0  # [m/s] at a waiting line, while somebody with priority stands
+READY = 4.0  # [m/s] at a waiting line while somebody with priority stands there
 JAM = 2.0  # [m/s] below which a vehicle beyond a junction may not make room in time
-FORESIGHT = 10  # steps ahead in which a vehicle that moves in is made room for
+FORESIGHT = 10  # steps ahead in which to look for vehicles that move in
 CRAWL = 0.5  # [m/s] up to which a leader blocks the way rather than leads
-LEAST = 0.2  # [m] gap reckoned with at least
-BEYOND = 0.5  # [m] beyond where one stops for a light, up to which it still counts
+LEAST = 0.2  # [m] the smallest gap in calculations
+BEYOND = 0.5  # [m] past the stopping place of a light, up to which the light still counts
 AT_LINE = 1.0  # [m] before a line within which a full stop counts
-STANDING = 0.1  # [m/s] below which one stands
+STANDING = 0.1  # [m/s] below which a vehicle stands
 
 # What a light shows: go first; go by the rules; stop if that is comfortable; stop; stop, then go.
 FIRST, OPEN, AMBER, SHUT, HALT = -1, 0, 1, 2, 3
@@ -40,12 +40,12 @@ FIRST, OPEN, AMBER, SHUT, HALT = -1, 0, 1, 2, 3
 LEADER, RIGHT_OF_WAY, CUT_IN, BLOCKED, NEWCOMER = 0, 1, 2, 3, 4
 
 _jit = njit(cache=True, error_model="numpy")
-_inline = njit(cache=True, error_model="numpy", inline="always")  # spares counting references
+_inline = njit(cache=True, error_model="numpy", inline="always")  # avoids reference counting
 
 
 @_jit
 def safe_speed(gap: float, leader: float, braking: float) -> float:
-    """Krauss' safe speed [m/s] at a gap [m] behind a leader of a speed [m/s]."""
+    """Return Krauss' safe speed [m/s] at a gap [m] behind a leader that drives at a speed [m/s]."""
     reach = braking * REACTION
     squared = reach * reach + leader * leader + 2.0 * braking * max(gap, 0.0)
     return max(0.0, -reach + math.sqrt(squared))
@@ -53,7 +53,7 @@ def safe_speed(gap: float, leader: float, braking: float) -> float:
 
 @_jit
 def towards(speed: float, acceleration: float, wanted: float, hardest: float, dt: float) -> float:
-    """The acceleration [m/s2] that leads to a wanted speed [m/s], within all limits."""
+    """Return the acceleration [m/s2] towards a wanted speed [m/s], within all limits."""
     wished = min(max((wanted - speed) / RELAXATION, -hardest), ACCELERATION)
     if wished < acceleration:
         return max(wished, acceleration - JERK_DOWN * dt)
@@ -62,7 +62,7 @@ def towards(speed: float, acceleration: float, wanted: float, hardest: float, dt
 
 @_jit
 def _cap(caps: Floats, arc: float) -> float:
-    """The highest speed [m/s] at an arc [m]; caps are given for every metre."""
+    """Return the highest speed [m/s] at an arc [m]; caps are given for every metre."""
     k = int(arc)
     return float(caps[k] if k < len(caps) else caps[-1])
 
@@ -80,19 +80,19 @@ def accelerate(
     length: float,
     dt: float,
 ) -> tuple[float, int, int, int]:
-    """What to do in the coming step, and who is in the way.
+    """Return how to accelerate in the coming step, and who is in the way.
 
     Args:
         course, motion, length: of the vehicle; its length [m].
         step, dt: now, and how long [s] the coming step is.
-        others, ignored: the vehicles to keep behind of; [M] those that are behind themselves.
+        others, ignored: the vehicles to stay behind; [M] which of them are behind this one.
         crossing: [C] the vehicles that may have the right of way.
-        firsts: [L, C, T] who goes first at which line and step; the last one stays.
+        firsts: [L, C, T] who goes first at which line and step; later on, as at the last step.
         foreseen: motions to make room for where they lead onto the path.
 
     Returns:
-        Acceleration [m/s2], the index of the one in the way (-1: nobody), how it is, and the
-        index of the light that holds it up, itself or by a queue before it (-1: none).
+        Acceleration [m/s2], the index of who is in the way (-1: nobody), in what manner, and the
+        index of the light that holds the vehicle up, directly or by a queue (-1: none).
     """
     caps, lines = course.caps, course.lines
     arc, speed, acceleration = motion
@@ -132,7 +132,7 @@ def accelerate(
 
 @_inline
 def _shut(course: Course, motion: Motion, step: int) -> tuple[int, float]:
-    """The next light at which one can stop (at amber, gently; -1: none), and how far [m] it is."""
+    """Return the next light to stop at (amber: only if gently; -1: none), and its distance [m]."""
     arc, speed, acceleration = motion
     found, nearest = -1, math.inf
     for k in range(len(course.lights)):
@@ -149,7 +149,7 @@ def _shut(course: Course, motion: Motion, step: int) -> tuple[int, float]:
 
 @_jit
 def _queues(others: Stretches, who: int, how: int, step: int, stop: float) -> bool:
-    """Whether somebody in the way stands or crawls before a line [m] at which it must stop."""
+    """Check whether somebody in the way stands or crawls before the place [m] of a light."""
     if who < 0 or how in (RIGHT_OF_WAY, NEWCOMER):
         return False
     t = min(step, others.low.shape[1] - 1)
@@ -160,7 +160,7 @@ def _queues(others: Stretches, who: int, how: int, step: int, stop: float) -> bo
 def _follow(
     motion: Motion, step: int, others: Stretches, ignored: Bools, length: float, wanted: float
 ) -> tuple[float, float, int]:
-    """The wanted speed [m/s] and hardest braking [m/s2] behind others, and whom that is for."""
+    """Return the wanted speed [m/s] and hardest braking [m/s2] behind others, and which one."""
     arc, speed, _ = motion
     who, hardest = -1, FOLLOWING
     t = min(step, others.low.shape[1] - 1)
@@ -180,7 +180,7 @@ def _follow(
 def _make_room(
     motion: Motion, step: int, others: Stretches, length: float, wanted: float
 ) -> tuple[float, int]:
-    """The wanted speed [m/s] behind those about to move in, as if they had led, and for whom."""
+    """Return the wanted speed [m/s] behind those about to move in, as if they led, and which."""
     arc, who, last = motion[0], -1, others.low.shape[1] - 1
     for m in range(len(others.low)):
         if others.last[m] < step or not math.isnan(others.low[m, min(step, last)]):
@@ -199,7 +199,7 @@ def _make_room(
 
 @_jit
 def _near(speed: float) -> float:
-    """How far [m] before a line it begins to matter."""
+    """Return the distance [m] before a line at which the line begins to matter."""
     return speed * speed / (2.0 * COMFORT) + speed * REACTION + 3.0
 
 
@@ -207,7 +207,7 @@ def _near(speed: float) -> float:
 def _keep_clear(
     motion: Motion, step: int, others: Stretches, ignored: Bools, rooms: Floats, wanted: float
 ) -> tuple[float, int]:
-    """The wanted speed [m/s] before junctions with no room beyond, and who takes the room."""
+    """Return the wanted speed [m/s] before junctions with no room beyond, and who takes it up."""
     arc, speed, _ = motion
     who = -1
     for k in range(len(rooms)):
@@ -222,7 +222,7 @@ def _keep_clear(
 
 @_jit
 def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float) -> int:
-    """Who takes the room from `enter` to `room` [m], at a crawl: the nearest ahead, if it does."""
+    """Return the nearest vehicle from `enter` to `room` [m] if it crawls there; -1: nobody does."""
     t = min(step, others.low.shape[1] - 1)
     found, nearest = -1, room + MIN_GAP
     for m in range(len(others.low)):
@@ -234,7 +234,7 @@ def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float
 
 @_inline
 def _ready(arc: float, lines: Floats, crossing: Stretches, firsts: Bools, step: int) -> float:
-    """The speed [m/s] at which to come to a line while somebody with priority stands there."""
+    """Return the speed [m/s] at which to near a line while somebody with priority stands there."""
     speed, found = crossing.speed, math.inf
     now, t = min(step, speed.shape[1] - 1), min(step, firsts.shape[2] - 1)
     for line in range(len(lines)):
@@ -248,7 +248,7 @@ def _ready(arc: float, lines: Floats, crossing: Stretches, firsts: Bools, step: 
 
 @_jit
 def _manner(others: Stretches, m: int, step: int) -> int:
-    """How a vehicle ahead holds up who comes behind."""
+    """Return how a vehicle ahead holds up the one behind it."""
     t = min(step, others.low.shape[1] - 1)
     entered, speed = others.entered[m, t], others.speed[m, t]
     if entered > 0 and t - entered <= CUT_IN_MEMORY and speed > CRAWL:
@@ -266,9 +266,9 @@ def _blocker(
     firsts: Bools,
     length: float,
 ) -> int:
-    """Who must be waited for, which would be in the way of who drives freely and go first.
+    """Return whom to wait for: who has priority and is in the way of driving on freely; else -1.
 
-    Beyond the line, that is asked only of those before whom one can still stop.
+    Beyond the line, only those count before whom the vehicle can still stop.
     """
     arc, speed, acceleration = motion
     last = others.low.shape[1] - 1
@@ -315,7 +315,7 @@ def drive(
 
     Args:
         course, firsts, others, length: as for `accelerate`.
-        end, goal: [m] arcs at which the action is over, unless it stops; of the goal, or infinite.
+        end, goal: [m] arcs where the action ends (ignored for a stop) and of the goal, or infinite.
         start: motion at step `first`.
         first, horizon: the first and the last step.
 

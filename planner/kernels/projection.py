@@ -13,10 +13,10 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 SIDE_MARGIN = 0.3  # [m] kept free beside the body
-BEFORE, AFTER = 4, 5  # steps by which a gap must precede and outlast a vehicle with priority
+BEFORE, AFTER = 4, 5  # steps that a stretch is blocked after, and before, a vehicle with priority
 FOREVER = 1 << 30  # a step that never comes
-SLACK = 1e-3  # [m] of error in distances, at most
-PATIENCE = 5  # steps after which it is measured again how far from the path a vehicle is
+SLACK = 1e-3  # [m] greatest error of distances
+PATIENCE = 5  # steps between two measurements of how far a vehicle is from the path
 
 Box = tuple[float, float, float, float]
 
@@ -24,7 +24,7 @@ _jit = njit(cache=True, error_model="numpy")
 
 
 class Line(NamedTuple):
-    """A path, with what is needed of it again and again."""
+    """A path, with values that are needed repeatedly."""
 
     points: Floats  # [m] [N, 2]
     arc: Floats  # [m] [N]
@@ -47,18 +47,18 @@ def project(
     last: int,
     which: Ints,
 ) -> tuple[Ints, Stretches]:
-    """The stretch of a path that some vehicles occupy at each step; who stays away costs little.
+    """Return the stretches of a path that vehicles occupy at each step; distant ones cost little.
 
     Args:
         points, arc, heading: of the path, [N, 2] [m], [N] [m], [N] [rad].
         states, sizes: of all vehicles.
         width: [m] of the vehicle that drives along the path.
         first, last: steps from and up to which this is needed.
-        which: [K] indices of those that are looked at.
+        which: [K] indices of the vehicles to look at.
 
     Returns:
-        The stretches of those that come onto the path, and the row of each there [K]; -1 for one
-        that never does.
+        The stretches of the vehicles that come onto the path; and [K] the row of each in them, or
+        -1 for one that never comes onto it.
     """
     total, rows = states.shape[1], np.full(len(which), -1, np.int64)
     line = _line(points, arc, heading)
@@ -88,7 +88,7 @@ def project(
 
 @_jit
 def _may_come(line: Line, states: Floats, size: Floats, corridor: float) -> bool:
-    """Whether a vehicle may be on a path, by the box that its front stays in."""
+    """Check whether a vehicle may come onto a path, by the box that contains its front."""
     low_x, low_y, high_x, high_y = math.inf, math.inf, -math.inf, -math.inf
     for t in range(len(states)):
         x, y = states[t, 0], states[t, 1]
@@ -115,16 +115,16 @@ def _may_come(line: Line, states: Floats, size: Floats, corridor: float) -> bool
             ahead = min(ahead, dx * line.cos[0] + dy * line.sin[0])
             left, right = max(left, aside), min(right, aside)
     most = widest + behind + SLACK
-    return bool(ahead < behind + SLACK and left > -most and right < most)  # follows
+    return bool(ahead < behind + SLACK and left > -most and right < most)  # in line, behind
 
 
 @_jit
 def _reaches(size: Floats, corridor: float) -> tuple[float, float, float]:
-    """How far [m] from the path a body may be that is on it.
+    """Return the greatest distances [m] between a path and a vehicle that is on it.
 
     Returns:
-        How far aside its middle may be; how far ahead of the path's beginning the front of one
-        that follows may be; and how far from the front the path may be.
+        How far aside its middle may be; how far beyond the path's beginning its front may be while
+        its middle is before it; and how far from the path its front may be.
     """
     length, width = size[0], size[1]
     widest = corridor + 0.5 * (length + width)
@@ -156,7 +156,8 @@ def _occupied(
 ) -> None:
     """Fill in the steps of one vehicle, from step `start` on.
 
-    How far it is from the path is measured now and then; until it has come so far it is not on it.
+    Its distance from the path is measured now and then; until it has moved as far, it cannot be on
+    the path.
     """
     low, high = found.low[m, start:], found.high[m, start:]
     along, cosine = found.along[m, start:], found.cosine[m, start:]
@@ -177,7 +178,7 @@ def _occupied(
         dx, dy = x - points[0, 0], y - points[0, 1]
         ahead = dx * line.cos[0] + dy * line.sin[0]
         aside = dy * line.cos[0] - dx * line.sin[0]
-        if ahead >= behind or abs(aside) >= widest + behind:  # does not follow
+        if ahead >= behind or abs(aside) >= widest + behind:  # not in line behind the path
             if not room > 0.0 and t >= again:
                 room = _clearance(points, line.box, x, y, line.spacing, reach) - reach
                 again = t + PATIENCE
@@ -189,7 +190,7 @@ def _occupied(
 
 @_jit
 def _clearance(points: Floats, box: Box, x: float, y: float, spacing: float, reach: float) -> float:
-    """A distance [m] that (x, y) keeps to a path at least; one beyond `reach` where that holds."""
+    """Return a distance [m] that exceeds `reach` only if (x, y) is at least as far from a path."""
     off = max(box[0] - x, x - box[2], box[1] - y, y - box[3])
     if off > reach:
         return off
@@ -204,7 +205,7 @@ def _clearance(points: Floats, box: Box, x: float, y: float, spacing: float, rea
 
 @_jit
 def _alike(state: Floats, before: Floats) -> bool:
-    """Whether a vehicle stands."""
+    """Check whether a vehicle stands still."""
     same = state[0] == before[0] and state[1] == before[1] and state[2] == before[2]
     return bool(same)
 
@@ -213,7 +214,7 @@ def _alike(state: Floats, before: Floats) -> bool:
 def _stretch(
     line: Line, state: Floats, size: Floats, corridor: float, near: int
 ) -> tuple[int, float, float, float]:
-    """Where a body lies on a path.
+    """Return where a body lies on a path.
 
     Args:
         line: the path.
@@ -232,7 +233,7 @@ def _stretch(
     y = state[1] - 0.5 * length * math.sin(state[2])
     dx, dy = x - points[0, 0], y - points[0, 1]
     ahead, aside = dx * line_cos[0] + dy * line_sin[0], dy * line_cos[0] - dx * line_sin[0]
-    follows = ahead < 0.0 and abs(aside) < widest  # however far behind
+    follows = ahead < 0.0 and abs(aside) < widest  # in line behind the path, however far
     within = math.inf if follows else widest + length
     off = max(box[0] - x, x - box[2], box[1] - y, y - box[3])
     k = _nearest(points, x, y, spacing, near, within) if follows or off < within else -1
@@ -252,10 +253,10 @@ def _stretch(
 
 @_jit
 def _nearest(points: Floats, x: float, y: float, spacing: float, hint: int, within: float) -> int:
-    """Index of the path point nearest to (x, y), or -1 where none is as near as `within` [m].
+    """Return the index of the path point nearest to (x, y), or -1 if none is within `within` [m].
 
-    Exact: neighbours lie at most `spacing` apart, so a point at a distance d rules out all those
-    that come before the distance could have shrunk to the best one known.
+    Exact: neighbours lie at most `spacing` apart, so after a point at a distance d, as many points
+    can be skipped as the distance needs to shrink to the best one known.
     """
     best, found = within, -1
     d = _distance(points[hint, 0], points[hint, 1], x, y)
@@ -280,13 +281,13 @@ def _distance(px: float, py: float, x: float, y: float) -> float:
 def _extent(
     length: float, width: float, aside: float, cos: float, sin: float, corridor: float
 ) -> tuple[float, float]:
-    """From where to where [m] along the path, from its centre, a body lies in a corridor.
+    """Return where [m] along the path, from its centre, the part of a body in a corridor lies.
 
     Args:
         length, width: [m] of the body.
         aside: [m] of its centre to the left of the path.
         cos, sin: of its heading against that of the path.
-        corridor: [m] to either side of the path; the body reaches into it.
+        corridor: [m] to either side of the path; the body must reach into it.
     """
     low, high = math.inf, -math.inf
     for corner in range(4):
@@ -324,7 +325,7 @@ def _note_entries(low: Floats, entered: Floats) -> None:
 
 @_jit
 def _widen(found: Stretches, m: int) -> None:
-    """The union of the occupied stretches within the safety time around each step."""
+    """Fill in the union of the stretches within the safety time around each step."""
     low, high = found.low[m], found.high[m]
     wide_low, wide_high = found.wide_low[m], found.wide_high[m]
     last, top = -1, -math.inf

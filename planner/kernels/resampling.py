@@ -1,4 +1,4 @@
-"""A line sampled anew at other places along it."""
+"""A line resampled at other places along it."""
 
 import numpy as np
 from numba import njit
@@ -23,7 +23,7 @@ def resampled(
         at: [N] arcs [m] wanted, increasing.
         arc: [K] of the line.
         columns: its points [K, 2], headings [K] and curvatures [K].
-        cap: [K] of its points; that of the next point counts.
+        cap: [K] highest speeds at its points; between two points, that of the next one counts.
         direction: cosine and sine of the heading at its end.
 
     Returns:
@@ -59,7 +59,7 @@ def resampled(
 
 @_jit
 def nearest(points: Floats, count: int, x: float, y: float) -> int:
-    """The index of the nearest of the first `count` points [N, 2] to (x, y)."""
+    """Return the index of the point [N, 2] nearest to (x, y) among the first `count`."""
     best, found = np.inf, 0
     for k in range(min(count, len(points))):
         dx, dy = points[k, 0] - x, points[k, 1] - y

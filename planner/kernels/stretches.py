@@ -15,23 +15,23 @@ _jit = njit(cache=True, error_model="numpy")
 
 
 class Stretches(NamedTuple):
-    """What other vehicles occupy of a path; NaN where the path is free of them."""
+    """The stretches of a path that other vehicles occupy; NaN where they are not on it."""
 
     low: Floats  # [m] [M, T] arcs between which the body lies
     high: Floats  # [m] [M, T]
-    wide_low: Floats  # [m] [M, T] the same over the safety time around the step
+    wide_low: Floats  # [m] [M, T] the same, joined over a safety time before and after the step
     wide_high: Floats  # [m] [M, T]
     along: Floats  # [m/s] [M, T] speed along the path
     cosine: Floats  # [M, T] of the angle to the path
     speed: Floats  # [m/s] [M, T]
     entered: Floats  # [M, T] step at which it last came onto the path
-    last: Floats  # [M] last step at which it is on the path; -1 never, FOREVER if at the end
+    last: Floats  # [M] last step at which it is on the path; -1: never; FOREVER: still at the end
     top: Floats  # [m] [M] highest arc that it reaches
 
 
 @_jit
 def empty(count: int, total: int) -> Stretches:
-    """Stretches of so many vehicles over so many steps, none of which is on the path."""
+    """Return stretches of `count` vehicles over `total` steps, none of which is on the path."""
     shape = (count, total)
     return Stretches(
         np.full(shape, np.nan),
@@ -49,11 +49,11 @@ def empty(count: int, total: int) -> Stretches:
 
 @_jit
 def select(found: Stretches, rows: Ints, states: Floats) -> Stretches:
-    """Some rows of what was found, in order; -1 for a vehicle that is never on the path.
+    """Return some rows of the stretches found, in order.
 
     Args:
         found: the stretches of several vehicles.
-        rows: [M] of these.
+        rows: [M] those to take; -1 for a vehicle that is never on the path.
         states: [M, T, 4] of the vehicles wanted.
     """
     count, total = states.shape[0], states.shape[1]
@@ -75,7 +75,7 @@ def select(found: Stretches, rows: Ints, states: Floats) -> Stretches:
 
 @_jit
 def stay_behind(behind: Bools, found: Stretches, step: int, rear: float) -> None:
-    """Note who is behind a place [m] on the path: it stays there, even if it would drive on."""
+    """Mark the vehicles behind a place [m] on the path; those marked before stay marked."""
     t = min(step, found.low.shape[1] - 1)
     for m in range(len(behind)):
         behind[m] = behind[m] or 0.5 * (found.low[m, t] + found.high[m, t]) < rear
