@@ -2,8 +2,8 @@
 
 The trace tells which manoeuvre it was, but not from where it was planned. So it is planned from
 every place in the ego's history, and the plan that fits best is taken: the ego has driven along
-it, and the rollouts drive on along it. That is exact but for the rounding of the record, and
-where the manoeuvre began between two samples of the history.
+it, and the rollouts drive on along it. That is exact, except for the rounding of the record, and
+except where the manoeuvre began between two samples of the history.
 """
 
 from collections.abc import Iterator, Sequence
@@ -18,7 +18,7 @@ from planner.roads.trajectory import Array, Path, Roads, relative
 from planner.search.decide import root_at
 from sim.scene import EGO, Point, VehicleState
 
-ASIDE = 0.3  # [m] by which a line may miss the path at most; recorded lines are rounded
+ASIDE = 0.3  # [m] greatest distance of a line from the path; recorded lines are rounded
 CLEARLY = 0.01  # [m] by which a plan must fit better than one made later
 
 
@@ -41,7 +41,7 @@ def resume(roads: Roads, trace: PlanTrace) -> tuple[ActionPlan, Motion] | Refusa
 
 
 def _plans(roads: Roads, trace: PlanTrace) -> Iterator[tuple[ActionPlan, tuple[Point, ...]]]:
-    """The manoeuvre as planned from each sample of the ego's history, and the way [m] from there.
+    """Yield the manoeuvre as planned from each sample of the history, and the positions since.
 
     The latest one comes first.
     """
@@ -55,7 +55,7 @@ def _plans(roads: Roads, trace: PlanTrace) -> Iterator[tuple[ActionPlan, tuple[P
 
 
 def _situation(roads: Roads, trace: PlanTrace, sample: int) -> Situation | None:
-    """Return where the ego was at a sample of its history; None off the road."""
+    """Return where the ego was at a sample of its history; None where it was off the road."""
     track, now = trace.history[EGO], trace.scene[EGO]
     state = VehicleState(
         track.position[sample],
@@ -69,7 +69,7 @@ def _situation(roads: Roads, trace: PlanTrace, sample: int) -> Situation | None:
 
 
 def _ahead(trace: PlanTrace) -> tuple[Point, ...]:
-    """The line [m] that rollouts drive to the end of the manoeuvre; () if none is recorded."""
+    """Return the line [m] that rollouts drive to the manoeuvre's end; () if none is recorded."""
     for rollout in trace.rollouts:
         if rollout.path and len(rollout.actions) > 1:
             samples = round((rollout.actions[1].start - trace.sim_time) / SAMPLE_PERIOD)
@@ -78,7 +78,7 @@ def _ahead(trace: PlanTrace) -> tuple[Point, ...]:
 
 
 def _beside(path: Path, points: Sequence[Point]) -> tuple[Array, Array]:
-    """Return how far [m] to the left of a path points lie, and at which of its arcs [m]."""
+    """Return how far [m] to the left of a path points lie, and at which arcs [m] of it."""
     xy = np.array(points)
     offsets = path.points[None, :, :] - xy[:, None, :]
     nearest = np.argmin(np.einsum("ijk,ijk->ij", offsets, offsets), axis=1)

@@ -29,7 +29,7 @@ from planner.roads.routes import (
 from planner.roads.trajectory import Roads
 from sim.roads.network import Link
 
-MERGING_TIME = 4.0  # [s] at the limit before the end of a lane in which to move over
+MERGING_TIME = 4.0  # [s] at the speed limit before the end of a lane, in which to move over
 MERGING = 35.0  # [m] before the end of a lane at which to look for a gap beside it
 SETTLING = 0.5  # [s] in which braking sets in and eases off
 MARGIN = 5.0  # [m] of path beyond where a vehicle comes to rest
@@ -90,7 +90,7 @@ def follow_on(
 
 
 def _room_to_choose(roads: Roads, lane: str, goal: EgoGoal | None, view: float) -> float:
-    """Give how far [m] before the end of a lane to choose.
+    """Return how far [m] before the end of a lane the next action is to be chosen.
 
     Where the lane merges, or another lane leads to the goal, there must be room to change.
     """
@@ -102,7 +102,7 @@ def _room_to_choose(roads: Roads, lane: str, goal: EgoGoal | None, view: float) 
 
 
 def stop(roads: Roads, here: Situation, goal: EgoGoal | None) -> ActionPlan | Refusal:
-    """Brake to a standstill on the road ahead; a front that sticks out over a line is no harm."""
+    """Brake to a standstill on the road ahead; the front may stick out over a waiting line."""
     network, lane = roads.network, here.location.lane
     if network.lanes[lane].internal:
         return Refusal("it must not stop inside a junction")
@@ -126,7 +126,7 @@ def _rest(speed: float, braking: float) -> float:
 
 
 def _refused_inside(roads: Roads, lane: str) -> Refusal | None:
-    """Return why one cannot just go on from inside a junction."""
+    """Return why a vehicle cannot simply go on from inside a junction; None if it can."""
     link = _crossing(roads, lane)
     if link is None:
         return None
@@ -138,7 +138,7 @@ def _refused_inside(roads: Roads, lane: str) -> Refusal | None:
 
 
 def _crossing(roads: Roads, lane: str) -> Link | None:
-    """Return the link by which one is just crossing a junction."""
+    """Return the link on which a vehicle is crossing a junction; None elsewhere."""
     link = roads.network.link_via(lane)
     return None if link is None or lane_end(roads, link.from_lane).joint == link else link
 
@@ -157,7 +157,7 @@ def _leads_on(roads: Roads, lane: str) -> bool:
 
 
 def _off(roads: Roads, link: Link, goal: EgoGoal | None) -> bool:
-    """Check whether another way than a link is the shorter one to the goal, or none leads there."""
+    """Check whether another way than over a link is shorter to the goal, or no way leads there."""
     if goal is None:
         return False
     network = roads.network

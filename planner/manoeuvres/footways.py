@@ -11,10 +11,10 @@ from planner.manoeuvres.plans import LetCross
 from planner.roads.trajectory import Roads
 from sim.roads.network import Crossing, Link, cumulative, point_at, project
 
-BEFORE = 1.0  # [m] before a crossing at which to wait for people on it
-ROOM = 5.5  # [m] between two crossings that a car needs to wait there
-PASSED = BEFORE + 0.5  # [m] beyond a line from which on one has set out over the crossing
-SAMPLING = 0.25  # [m] at which places along a way are tried
+BEFORE = 1.0  # [m] before a crossing, where to wait for people on it
+ROOM = 5.5  # [m] that a car needs between two crossings to wait there
+PASSED = BEFORE + 0.5  # [m] beyond a line; farther on, a car has set out over the crossing
+SAMPLING = 0.25  # [m] between the places along a way that are tested
 BEYOND = 1.0  # [m] beyond the ends of a crossing's line that still belongs to it
 
 
@@ -23,8 +23,8 @@ class Over:
     """A crossing that a link leads over."""
 
     crossing: Crossing
-    begin: float  # [m] from the link's beginning to where its middle comes onto the crossing
-    end: float  # [m] to where it leaves it
+    begin: float  # [m] along the link to where its centreline comes onto the crossing
+    end: float  # [m] along the link to where its centreline leaves the crossing
 
 
 def over(roads: Roads, link: Link) -> tuple[Over, ...]:
@@ -39,11 +39,11 @@ def over(roads: Roads, link: Link) -> tuple[Over, ...]:
 
 
 def lines_over(roads: Roads, link: Link, begin: float) -> Iterator[LetCross]:
-    """Yield where to let people cross on a path that follows a link from an arc [m] on.
+    """Yield where to let people cross on a path, given the arc [m] at which a link begins on it.
 
     The arc is negative where the path begins inside the junction. Crossings passed are left out.
-    Where there is no room to wait between two crossings, one waits for people on both before the
-    first.
+    Where there is no room to wait between two crossings, the car waits before the first one for
+    people on both.
     """
     before: Over | None = None
     for one in over(roads, link):
@@ -68,8 +68,8 @@ def crossings_along(
     Args:
         roads: the road network.
         lane: where the way begins.
-        edges: that it leads along.
-        reach: [m] how far along them is looked.
+        edges: that the way leads along, in order.
+        reach: [m] how far along them to look.
     """
     network = roads.network
     inside = network.link_via(lane)
@@ -87,7 +87,7 @@ def crossings_along(
 
 
 def _over(roads: Roads, link: Link, crossing: Crossing) -> Over | None:
-    """Return where a link leads over a crossing; None where it does not come onto it."""
+    """Return where a link leads over a crossing; None where it does not."""
     length, half = cumulative(crossing.line)[-1], 0.5 * crossing.width
     inside: list[float] = []
     passed = 0.0

@@ -25,14 +25,14 @@ from planner.roads.trajectory import Path, Roads
 from sim.roads.network import Direction, Lane, Link, Network, point_at
 from sim.scene import Signal
 
-STRAIGHTEN = 12.0  # [m] in which a vehicle off its centreline gets back to it
-AHEAD = 80.0  # [m] of path at least beyond the end of an action, to see leaders and bends
+STRAIGHTEN = 12.0  # [m] over which a vehicle beside its centreline returns to it
+AHEAD = 80.0  # [m] least length of path beyond the end of an action, to see leaders and bends
 FAR = 400.0  # [m] beyond which no action reaches
-CLEAR = 5.0  # [m] beyond a junction at which crossing it is over
-BEFORE_LINE = 0.5  # [m] at which a vehicle waits
-INSIDE = 1.0  # [m] beyond its line from which a vehicle is in the way of those who may go first
-WAITS = GiveWay | KeepClear | LetCross | ObeyLight  # where one may have to wait
-SHORT = 10.0  # [m] before the goal at which no action ends: the next would begin beyond it
+CLEAR = 5.0  # [m] beyond a junction, where crossing it counts as over
+BEFORE_LINE = 0.5  # [m] before a line at which a vehicle waits
+INSIDE = 1.0  # [m] beyond its line; farther on, a vehicle blocks those with priority
+WAITS = GiveWay | KeepClear | LetCross | ObeyLight  # manoeuvres in which a vehicle may have to wait
+SHORT = 10.0  # [m] no action ends this close before the goal: the next would begin beyond it
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,14 +40,14 @@ class Crossing:
     """A junction on the way, or a light."""
 
     link: Link
-    enter: float  # [m] arc; 0 from inside
-    out: float  # [m] arc
-    line: float | None  # [m] arc of the waiting line ahead, where it may have to give way
+    enter: float  # [m] arc at which the crossing begins; 0 if the path begins inside it
+    out: float  # [m] arc at which the crossing ends
+    line: float | None  # [m] arc of the waiting line ahead; None: no need to give way there
     inside: bool
-    turns: bool  # whether it is more than following the road
+    turns: bool  # whether it leaves the road that the vehicle follows
     direction: Direction
-    firsts: tuple[int, ...]  # the links of its junction that go first
-    foes: tuple[Foe, ...]  # where a light controls it
+    firsts: tuple[int, ...]  # indices of the links of its junction that have priority
+    foes: tuple[Foe, ...]  # the links that cross its way; () unless a light controls it
     on_foot: tuple[LetCross, ...]  # the crossings for people on it
 
 
@@ -94,11 +94,11 @@ class Layout:
 
 
 def waits_along(roads: Roads, path: Path, row: tuple[str, ...]) -> tuple[Manoeuvre, ...]:
-    """Return where to wait along the lanes of a path, should what comes after it lead straight on.
+    """Return where to wait along the lanes of a path, assuming that it goes straight on after them.
 
     Args:
         roads: the road network.
-        path: along the lanes, from somewhere in them on.
+        path: along the lanes; it may begin anywhere on them.
         row: the lanes.
     """
     way = Layout(path, path.length, tuple(_crossings(roads, row, _begins(path, row))))
@@ -106,7 +106,7 @@ def waits_along(roads: Roads, path: Path, row: tuple[str, ...]) -> tuple[Manoeuv
 
 
 def lookahead(roads: Roads, here: Situation) -> float:
-    """Length [m] of path to see beyond the end of an action, enough to brake to a standstill."""
+    """Return how much path [m] to see beyond an action: enough to brake to a standstill."""
     fastest = max(here.speed, roads.network.lanes[here.location.lane].speed_limit)
     return max(AHEAD, fastest**2 / (2.0 * COMFORT))
 
@@ -120,7 +120,7 @@ def finish(
     commit: float,
     goal: EgoGoal | None,
 ) -> ActionPlan:
-    """Return the plan of an action, which ends at the goal where it comes past it, or near it."""
+    """Return the plan of an action; if it reaches the goal, or nearly so, it ends there."""
     reached = None if goal is None else _goal_arc(roads, path, goal, end)
     return ActionPlan(
         action, path, manoeuvres, end if reached is None else reached, commit, reached
@@ -137,7 +137,7 @@ def _goal_arc(roads: Roads, path: Path, goal: EgoGoal, end: float) -> float | No
 
 
 def _begins(path: Path, row: tuple[str, ...]) -> list[float]:
-    """The arc [m] at which each lane of a row begins; those passed begin where the first does."""
+    """Return the arc [m] at which each lane of a row begins; passed lanes get the first one's."""
     passed = len(row) - len(path.lanes)
     return [path.lanes[max(k - passed, 0)][1] for k in range(len(row))]
 
@@ -149,7 +149,7 @@ def _crossings(roads: Roads, lanes: tuple[str, ...], begins: list[float]) -> Ite
         link = inside or _link_between(roads, lanes, k)
         if link is None:
             return
-        gone = link.via.index(lanes[k]) if inside else -1  # lanes of the link passed already
+        gone = link.via.index(lanes[k]) if inside else -1  # index of the lane in the link
         ahead = len(link.via) - gone
         out = begins[min(k + ahead, len(lanes) - 1)]
         enter = 0.0 if inside else begins[k] + network.lanes[lanes[k]].length
@@ -175,19 +175,27 @@ def _crossings(roads: Roads, lanes: tuple[str, ...], begins: list[float]) -> Ite
 
 
 def _beginning(roads: Roads, link: Link, here: float, gone: int, enter: float) -> float:
-    """The arc [m] at which a link begins: before that of its lane `gone`, where one is on it."""
+    """Return the arc [m] at which a link begins.
+
+    Args:
+        roads: the road network.
+        link: the link.
+        here: [m] arc at which its lane number `gone` begins.
+        gone: index of that lane in the link; -1 before the link.
+        enter: [m] the arc to return before the link.
+    """
     passed = sum(roads.network.lanes[lane].length for lane in link.via[: max(gone, 0)])
     return here - passed if gone >= 0 else enter
 
 
 def _firsts(roads: Roads, link: Link) -> tuple[int, ...]:
-    """Return the links of a junction that go first, those for others than cars among them."""
+    """Return the links that have priority over a link, including those that are not for cars."""
     beside = links_beside(roads.network, link, link.other_yields_to)
     return (*link.yields_to, *(other.index for other in beside))
 
 
 def _foes(roads: Roads, link: Link) -> tuple[Foe, ...]:
-    """Return the links whose ways cross that of a link at a light."""
+    """Return the links that cross the way of a link; () unless a light controls it."""
     if not isinstance(link.control, Signal):
         return ()
     found = roads.foes.get((link.junction, link.index))
@@ -216,7 +224,7 @@ def _foe(roads: Roads, link: Link, first: bool) -> Foe:
 
 
 def _any_lane(network: Network, name: str) -> Lane:
-    """Return a lane, also one that is not for cars."""
+    """Return a lane, whether it is for cars or not."""
     return network.lanes[name] if name in network.lanes else network.other_lanes[name]
 
 
@@ -229,7 +237,7 @@ def _link_between(roads: Roads, lanes: tuple[str, ...], k: int) -> Link | None:
 
 
 def _turns(roads: Roads, link: Link) -> bool:
-    """Check whether a link is more than following the road, or the ring of a roundabout."""
+    """Check whether a link leaves the road; going on around a roundabout does not count."""
     network = roads.network
     start, end = network.lanes[link.from_lane].edge, network.lanes[link.to_lane].edge
     ring = network.roundabout(start)

@@ -1,6 +1,6 @@
 """Forward simulation: one vehicle drives an action plan among vehicles whose motion is known.
 
-The heart of recognition, search and driving. Time runs in steps of DT; all motions of one
+Recognition, search and driving all use it. Time runs in steps of DT; all motions of one
 simulation share their time base. Car-following is Krauss' safe speed (Krauss 1998, Eq. 4.18),
 which never collides with a leader that brakes no harder than assumed. What is computed step by
 step is compiled: see `planner.kernels`.
@@ -28,7 +28,7 @@ assert DT == driving.STEP
 
 @dataclass(frozen=True, slots=True)
 class Hindrance:
-    """What keeps a vehicle below its free speed."""
+    """Another vehicle that keeps a vehicle below its free speed."""
 
     vehicle: int
     how: HoldUp
@@ -37,9 +37,9 @@ class Hindrance:
 
 @dataclass(frozen=True, slots=True)
 class Keeping:
-    """What keeps a vehicle below its free speed."""
+    """What keeps a vehicle below its free speed: another vehicle, a light, both or neither."""
 
-    hindrance: Hindrance | None  # who
+    hindrance: Hindrance | None  # the other vehicle
     light: Signal | None  # which light, alone or with a queue before it
 
 
@@ -52,7 +52,7 @@ class Stops:
     signals: tuple[Signal, ...]
 
     def before(self, step: int) -> "Stops":
-        """Return those before a step."""
+        """Return the stops before a step."""
         if len(self.step) == 0 or self.step[-1] < step:
             return self
         n = int(np.searchsorted(self.step, step))
@@ -69,7 +69,7 @@ class Hindrances:
     speed: Array  # [m/s] [H] of the hindering vehicle
 
     def before(self, step: int) -> "Hindrances":
-        """Return those before a step."""
+        """Return the hindrances before a step."""
         if len(self.step) == 0 or self.step[-1] < step:
             return self
         n = int(np.searchsorted(self.step, step))
@@ -92,21 +92,21 @@ class Motion:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Drive:
-    """What came of driving an action plan."""
+    """The result of driving an action plan."""
 
     first: int  # step of the first sample
     motion: Array  # [S >= 1, 3] arc [m], speed [m/s], acceleration [m/s2] from `first` on
     finished: bool  # the action's end was reached (else the horizon came first)
-    goal_time: float | None  # [s] since the time base, where the goal was passed
+    goal_time: float | None  # [s] of the common time base at which the goal was passed
     hindrances: Hindrances
     stops: Stops
 
 
 class Lane:
-    """A path prepared for driving: the speed from which every bend ahead can be braked for."""
+    """A path prepared for driving: the highest speeds that allow braking for every bend ahead."""
 
     def __init__(self, path: Path, end: float = math.inf) -> None:
-        """Prepare a path; where it leads to nowhere, a vehicle stops before `end` [m]."""
+        """Prepare a path; where the road ends, a vehicle stops before `end` [m]."""
         self.end = end  # [m]
         self.caps = braking_caps(path.cap, path.arc, driving.COMFORT)  # [m/s] at every metre
         if math.isfinite(end):
@@ -120,7 +120,7 @@ class Lane:
 
 @lru_cache(maxsize=KEPT)
 def lane_of(path: Path) -> Lane:
-    """Return a path prepared for driving, kept."""
+    """Return a path prepared for driving; results are cached."""
     return Lane(path)
 
 
@@ -142,7 +142,7 @@ def drive(
         traffic: the other vehicles, in the common time base.
         size: length and width [m] of the vehicle.
         horizon: the last step.
-        pace: [m/s] faster than which it does not want to drive, or [N] at every metre of the path.
+        pace: [m/s] the highest speed that the vehicle wants; [N]: at every metre of the path.
     """
     last = horizon + driving.GAP_HORIZON
     others = meeting(plan.path, plan.met, traffic, size[1], first, last)
@@ -183,15 +183,15 @@ def accelerate(
     length: float,
     dt: float,
 ) -> tuple[float, Keeping]:
-    """Return what to do in the coming step, and what is in the way.
+    """Return how to accelerate in the coming step, and what is in the way.
 
     Args:
         plan: what is being driven.
         lane: its path, prepared.
         motion: where on the path the vehicle is.
-        seen: the vehicles to keep behind of, from now on, and the lights.
+        seen: the vehicles to stay behind, from now on, and the lights.
         crossing: motions to give way to, from now on.
-        foreseen: motions to make room for where they lead onto the path, from now on.
+        foreseen: motions that will come onto the path, to make room for, from now on.
         length: [m] of the vehicle.
         dt: [s] length of the coming step.
 
@@ -221,14 +221,14 @@ def accelerate(
 
 
 def _course(plan: ActionPlan, caps: Array, lights: Lights, length: float) -> Course:
-    """Return a plan as the kernels know it, with the highest speed [m/s] at every metre."""
+    """Return a plan in the form that kernels take, with the highest speed [m/s] at every metre."""
     rooms = np.add(plan.room_arcs, (0.0, length))
     shown = lights.table(plan.signals)
     return Course(caps, plan.halting, plan.line_arcs, rooms, plan.light_arcs, shown)
 
 
 def _stops(held: Ints, first: int, plan: ActionPlan) -> Stops:
-    """From which light held up at every step [S - 1, 3]."""
+    """Return the stops, from what held the vehicle up at every step [S - 1, 3]."""
     if not plan.signals:
         return NO_STOPS
     at = np.flatnonzero(held[:, 2] >= 0)
@@ -236,7 +236,7 @@ def _stops(held: Ints, first: int, plan: ActionPlan) -> Stops:
 
 
 def _hindrances(held: Ints, first: int, others: Occupancy) -> Hindrances:
-    """From who held up at every step, and how [S - 1, 3]."""
+    """Return the hindrances, from what held the vehicle up at every step [S - 1, 3]."""
     at = np.flatnonzero(held[:, 0] >= 0)
     if len(at) == 0:
         return NO_HINDRANCES

@@ -20,21 +20,21 @@ from sim.roads.network import Crossing, Network, cumulative, point_at, project
 from sim.scene import Point, Signal
 
 MEAN, DEVIATION = 1.34, 0.26  # [m/s]
-#: Three speeds that stand for all, in deviations from the mean, and how probable each is.
+#: Three speeds that represent all, in standard deviations from the mean, with probabilities.
 SPREAD = ((-1.04, 0.3), (0.0, 0.4), (1.04, 0.3))
-WALKING = 0.3  # [m/s] from which one walks
-BESIDE = 0.3  # [m] from the edge of a crossing at which people walk on it at least
-AWAY = 2.0  # [m] beyond a crossing at which one is out of the way
+WALKING = 0.3  # [m/s] from which somebody counts as walking
+BESIDE = 0.3  # [m] that people on a crossing keep from its edge, at the least
+AWAY = 2.0  # [m] beyond a crossing, where somebody is out of the way
 SAFE = 1.5  # [s] by which a gap must be longer than crossing takes
-LEAVES = 0.5  # [m] of walking after which it is looked whether that leads onto a road
-SEEN = 15.0  # [m] as far as that is done
+LEAVES = 0.5  # [m] between the places ahead at which to look for a road
+SEEN = 15.0  # [m] how far ahead to look for it
 HALF_LANE = 1.6  # [m]
-KERB = 0.2  # [m] to either side of the beginning of a crossing within which one waits there
+KERB = 0.2  # [m] to either side of the beginning of a crossing within which somebody waits there
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Route:
-    """Where somebody walks, from where he is."""
+    """The way that somebody walks, from where he is."""
 
     points: tuple[Point, ...]  # [m]
     kerb: float | None  # [m] along it, where he may have to wait; None where that is behind him
@@ -42,7 +42,7 @@ class Route:
 
     @property
     def links(self) -> frozenset[tuple[str, int]]:
-        """The crossing as (junction, index) by which others give way to him."""
+        """The crossing, as (junction, index), at which others give way to him."""
         one = self.crossing
         return frozenset() if one is None else frozenset(((one.junction, one.index),))
 
@@ -70,9 +70,9 @@ def across(person: Observed, crossing: Crossing, *, back: bool, on: bool) -> Rou
 
 
 def onward(network: Network, person: Observed, reach: float, *, waits: bool = False) -> Route:
-    """Return the route straight on, up to a road for cars, unless it is on one already.
+    """Return the route straight on; it ends before a road for cars unless the person is on one.
 
-    Who waits at a kerb may stand right where the road begins, and is not on it.
+    Somebody who waits at a kerb may stand right where the road begins: he is not on it.
     """
     (x, y), heading = place_of(person), direction_of(person)
     cos, sin = math.cos(heading), math.sin(heading)
@@ -86,7 +86,7 @@ def onward(network: Network, person: Observed, reach: float, *, waits: bool = Fa
 
 
 def on_road(network: Network, position: Point, half: float = HALF_LANE) -> bool:
-    """Check whether a place is on a lane for cars, which reaches so far [m] to each side."""
+    """Check whether a place is within `half` [m] of the middle of a lane for cars."""
     return bool(network.locate(position, 0.0, half, math.pi))
 
 
@@ -101,7 +101,7 @@ def direction_of(person: Observed) -> float:
 
 
 def paces(person: Observed) -> tuple[tuple[float, float], ...]:
-    """Return how fast [m/s] somebody may walk, with probabilities: who walks goes on as he does."""
+    """Return how fast [m/s] somebody may walk, with probabilities; if he walks already, as now."""
     walked = person.speed[person.speed >= WALKING]
     if float(person.speed[-1]) >= WALKING:
         return ((float(np.mean(walked)), 1.0),)
@@ -111,15 +111,15 @@ def paces(person: Observed) -> tuple[tuple[float, float], ...]:
 def may_go(
     route: Route, pace: float, lights: Lights, busy: Bools, steps: int, *, gaps: bool
 ) -> Bools:
-    """At which steps somebody would set out over a crossing [steps].
+    """Return at which steps somebody would set out over a crossing [steps].
 
     Args:
-        route: that leads over it.
+        route: the way over it.
         pace: [m/s]
         lights: from now on.
         busy: [steps] when vehicles are on it.
         steps: how many.
-        gaps: whether he waits for a gap, as who has no priority does.
+        gaps: whether he has no priority, so that he waits for a gap.
     """
     one = route.crossing
     free: Bools = np.ones(steps, np.bool_)
@@ -136,7 +136,7 @@ def may_go(
 
 
 def walk(person: Observed, route: Route, pace: float, free: Bools) -> Obstacle:
-    """Somebody who walks along a route, and is gone at its end.
+    """Return the motion of somebody who walks along a route, and is gone at its end.
 
     Args:
         person: who walks.
@@ -155,7 +155,7 @@ def walk(person: Observed, route: Route, pace: float, free: Bools) -> Obstacle:
 
 
 def stand(person: Observed, steps: int) -> Obstacle:
-    """Somebody who stays where he is."""
+    """Return the motion of somebody who stays where he is."""
     return Obstacle(
         person.vehicle,
         person.length,
@@ -169,7 +169,7 @@ def stand(person: Observed, steps: int) -> Obstacle:
 
 
 def straight(person: Observed, steps: int) -> Obstacle:
-    """Somebody who goes on as he does, wherever that leads."""
+    """Return the motion of somebody who goes on as he does now, wherever that leads."""
     pace, heading = float(person.speed[-1]), direction_of(person)
     arcs = pace * STEP * np.arange(steps, dtype=np.float64)
     ahead = np.array([math.cos(heading), math.sin(heading)])
@@ -186,7 +186,7 @@ def straight(person: Observed, steps: int) -> Obstacle:
 
 
 def _along(person: Observed, route: Route, arcs: Array) -> Obstacle:
-    """Somebody at arcs [m] [T] along a route; NaN beyond its end."""
+    """Return the motion of somebody at given arcs [m] [T] of a route; NaN beyond its end."""
     points = np.array(route.points)
     sides = np.diff(points, axis=0)
     lengths = np.hypot(sides[:, 0], sides[:, 1])
@@ -211,6 +211,6 @@ def _along(person: Observed, route: Route, arcs: Array) -> Obstacle:
 
 
 def _beside(line: Sequence[Point], arc: float, aside: float) -> Point:
-    """Return the place at an arc [m] of a line, so far [m] to its left."""
+    """Return the place at an arc [m] of a line, `aside` [m] to its left."""
     (x, y), heading = point_at(tuple(line), arc)
     return x - aside * math.sin(heading), y + aside * math.cos(heading)

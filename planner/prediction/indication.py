@@ -1,8 +1,9 @@
-"""What the indicators of a vehicle say of where it wants to go.
+"""What the indicators of a vehicle tell about where it wants to go.
 
-Who turns mostly indicates it, more surely the nearer the turn is; who does not turn hardly ever
-indicates, but before a lane change. Turn signals are used in about three of four turns on the
-road (Ponziani 2012, SAE 2012-01-0261), and nearly always in SUMO; the shares here lie between.
+Drivers who turn usually indicate it, the more surely the nearer the turn is. Those who do not turn
+hardly ever indicate, except before a lane change. Turn signals are used in about three of four
+turns on the road (Ponziani 2012, SAE 2012-01-0261), and nearly always in SUMO; the shares here lie
+between.
 On roundabouts habits differ too much: there the lights say nothing.
 """
 
@@ -14,12 +15,12 @@ from planner.prediction.goals import BACK, BRANCHES, Goal
 from planner.roads.routes import approach
 from planner.roads.trajectory import Roads
 
-SOON = 4.0  # [s] at the limit to the turn, from which nearly everybody indicates
+SOON = 4.0  # [s] to the turn, at the speed limit, from which on nearly everybody indicates
 RAMP = 1.0  # [s] before that, over which their share grows
 SHOWN = (0.9, 0.6)  # share of those who indicate a turn: soon, and early
-BRANCHING = 0.4  # ... a road that branches off, which some take without indicating
+BRANCHING = 0.4  # ... and a turn into a road that branches off, which some take without it
 WRONG = 0.02  # share of those who indicate the other side
-MEANT = {False: 0.03, True: 0.2}  # ... and to a side to which they do not turn: with a lane there
+MEANT = {False: 0.03, True: 0.2}  # ... and who do not turn; True: to a side with a lane
 
 
 def indicated(
@@ -47,7 +48,7 @@ def indicated(
 def _share(
     side: tuple[Side, bool] | None, shown: Side | None, *, soon: float, beside: bool
 ) -> float:
-    """Return the share of those with such a goal who show this.
+    """Return the share of the drivers with a goal on one side who indicate as observed.
 
     Args:
         side: to which the goal turns, and whether it only branches off there; None: neither.
@@ -67,7 +68,7 @@ def _share(
 
 
 def _between(early: float, late: float, soon: float) -> float:
-    """Return the share of those who show something when a turn is so near."""
+    """Return a share between those early and late before a turn, by how near the turn is."""
     return early + soon * (late - early)
 
 

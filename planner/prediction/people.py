@@ -1,9 +1,9 @@
-"""What people on foot may be up to: to cross here, to walk on, or to stay.
+"""Goals of people on foot: crossing here, walking on, or staying.
 
-As with vehicles, a goal is the more probable, the less the observed track costs in excess of the
-best way to it (see `planner.prediction.likelihood`). Waiting at a red light, or for vehicles that
-do not make way, is never held against a goal. Somebody who stands though he might go has probably
-no mind to.
+As with vehicles, a goal is more probable the less the observed track costs in excess of the best
+way to it (see `planner.prediction.likelihood`). Waiting at a red light, or for vehicles that do
+not make way, does not make a goal less probable. Somebody who stands although nothing keeps him
+from going probably does not intend to go.
 """
 
 import math
@@ -50,19 +50,19 @@ from planner.roads.trajectory import Array, Roads
 from sim.roads.network import Crossing, angle_between, cumulative, project
 from sim.scene import EGO, Signal, VehicleState
 
-MOST = 8  # people of whom goals are recognised at most
-BEHIND = 10.0  # [m] behind the ego from which on people do not matter to it
-LOOK = 25  # samples of a track that are looked at
+MOST = 8  # greatest number of people whose goals are recognised
+BEHIND = 10.0  # [m] behind the ego; people farther behind do not matter to it
+LOOK = 25  # samples of a track that are used, the latest ones
 STAY = 0.1  # prior of staying; the other goals share the rest equally
-UNEXPLAINED = 0.01  # share of people whose track says nothing of their goal
-ROADSIDE = 50.0  # [m] within which people on a road count, wherever they go
-TURNING = 0.5  # [s] that heading square to the way to a goal counts as
-BEFORE_IT = 0.5  # [m] to the side up to which one is right before where one would cross
-AT_KERB = 3.0  # [m] from a crossing within which one waits for it
-FARTHER = 20.0  # [m] ahead that who walks on is on the way to
-COMING = 6.0  # [s] within which a vehicle comes to a crossing that people wait at
-CREEPING = 1.0  # [m/s] up to which a vehicle makes way
-ASLANT = math.pi / 4  # [rad] against the road from which who walks on it crosses it
+UNEXPLAINED = 0.01  # share of people whose track says nothing about their goal
+ROADSIDE = 50.0  # [m] from the ego within which people on a road count, wherever they go
+TURNING = 0.5  # [s] of excess for heading at a right angle to the way to a goal
+BEFORE_IT = 0.5  # [m] beside the line of a crossing within which somebody is right in front of it
+AT_KERB = 3.0  # [m] from a crossing within which somebody waits for it
+FARTHER = 20.0  # [m] ahead of somebody who walks on, where his goal is assumed to be
+COMING = 6.0  # [s] before a vehicle reaches a crossing, during which people wait for it
+CREEPING = 1.0  # [m/s] up to which a vehicle counts as making way
+ASLANT = math.pi / 4  # [rad] to the road; somebody who walks on it at a greater angle crosses it
 
 PLACES = {
     "cross": "the other side of the road",
@@ -83,13 +83,13 @@ class _Aim:
 def concerned(
     roads: Roads, scene: Mapping[int, VehicleState], crossings: Sequence[Crossing], view: float
 ) -> list[int]:
-    """Return the people who may get in the ego's way, nearest first, by name.
+    """Return the numbers of the people who may get in the ego's way, nearest first.
 
     Args:
         roads: the road network.
-        scene: everybody, by name.
-        crossings: on its way.
-        view: [m]
+        scene: everybody, by number.
+        crossings: on the ego's way.
+        view: [m] how far away people matter.
     """
     ego, found = scene[EGO], []
     cos, sin = math.cos(ego.heading), math.sin(ego.heading)
@@ -113,13 +113,13 @@ def recognise_people(
     coasting: Sequence[Obstacle],
     settings: Settings,
 ) -> dict[int, tuple[Belief, ...]]:
-    """Return what people may be up to.
+    """Return the goals that people may have, with probabilities.
 
     Args:
         scenery: the roads and lights.
         people: whose goals are recognised; their tracks end now.
         vehicles: all in view, the ego among them.
-        coasting: the same as they go on from now.
+        coasting: the same vehicles, each going on as it does now.
         settings: rationality [1/s].
     """
     busy: dict[str, Bools] = {}
@@ -137,7 +137,7 @@ def ways_of(
     coasting: Sequence[Obstacle],
     settings: Settings,
 ) -> tuple[Belief, ...]:
-    """Return all that somebody may do, however improbable; each as if it were certain."""
+    """Return every goal that somebody may have, however improbable, each as if it were certain."""
     aims = _aims(scenery, person, vehicles, settings)
     busy: dict[str, Bools] = {}
     return tuple(
@@ -231,7 +231,7 @@ def _trajectories(
 def _crossing_excess(
     scenery: Scenery, person: Observed, route: Route, vehicles: Sequence[Observed]
 ) -> float:
-    """By how much [s] the track and the way on to a crossing cost more than the best way."""
+    """Return the excess cost [s] of the track and the rest of the way to a crossing."""
     first = max(person.elapsed - LOOK, 0)
     speed, position = person.speed[first:], person.position[first:]
     pace = _pace(speed)
@@ -256,7 +256,7 @@ def _turned(person: Observed, route: Route) -> float:
 
 
 def _onward_excess(person: Observed) -> float:
-    """Return the same for going straight on as somebody did at first."""
+    """Return the excess cost [s] of the track over going straight on in its first direction."""
     first = max(person.elapsed - LOOK, 0)
     position, speed = person.position[first:], person.speed[first:]
     pace, start = _pace(speed), position[0]
@@ -278,7 +278,7 @@ def _pace(speed: Array) -> float:
 def _excused(
     scenery: Scenery, crossing: Crossing, vehicles: Sequence[Observed], samples: int
 ) -> Bools:
-    """In which of the last samples one had to wait at a crossing [samples]."""
+    """Return in which of the last samples somebody had to wait at a crossing [samples]."""
     if isinstance(crossing.control, Signal):
         before = scenery.outlook.before(samples, scenery.steps + GAP_HORIZON)
         held: Bools = before.shows(crossing.control, samples)[:samples] > OPEN
@@ -299,7 +299,7 @@ def _excused(
 
 
 def _busy(crossing: Crossing, coasting: Sequence[Obstacle], steps: int) -> Bools:
-    """At which steps vehicles that go on as they do are on a crossing [steps]."""
+    """Return at which steps vehicles that go on as they do now are on a crossing [steps]."""
     start, end = np.array(crossing.line[0]), np.array(crossing.line[-1])
     length = float(np.hypot(*(end - start)))
     cos, sin = (end - start) / max(length, 1e-6)
@@ -315,7 +315,7 @@ def _busy(crossing: Crossing, coasting: Sequence[Obstacle], steps: int) -> Bools
 
 
 def _aslant(roads: Roads, person: Observed) -> bool:
-    """Check whether somebody on a road walks rather across than along it."""
+    """Check whether somebody on a road walks across it rather than along it."""
     found = roads.network.locate(place_of(person), 0.0, HALF_LANE, math.pi)
     if not found or person.speed[-1] < WALKING:
         return False
@@ -324,7 +324,7 @@ def _aslant(roads: Roads, person: Observed) -> bool:
 
 
 def past_of(person: Observed, motion: Obstacle) -> Obstacle:
-    """Return a motion that begins with the first sample of somebody's track."""
+    """Return a motion with somebody's track, from its first sample on, put before it."""
     return replace(
         motion,
         position=np.vstack((person.position[:-1], motion.position)),
