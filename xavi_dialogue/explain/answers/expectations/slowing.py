@@ -1,4 +1,4 @@
-"""Slowing: whether we stop or slow down for somebody, by the drives that our plan foresees."""
+"""Slowing: whether we stop or slow down for somebody, in the rollouts of our plan."""
 
 from planner.record.trace import PlanTrace, Rollout
 from xavi_dialogue.domain.answers import Slowing
@@ -16,16 +16,16 @@ from xavi_dialogue.explain.history.ride import prediction
 from xavi_dialogue.explain.history.thresholds import STANDING
 
 SLOWS: frozenset[ActionName] = HALTS | {"brake", "slow-down", "give-way", "let-go"}
-POSSIBLE = 0.1  # share of the drives from which somebody may hold us up
-SURE = 0.8  # probability from which it is stated who comes first
-NEXT = 150.0  # [m] within which the next junction is meant
-SLOWER = 1.5  # [m/s] by which one is slower to passengers
+POSSIBLE = 0.1  # least share of the rollouts for saying that somebody may hold us up
+SURE = 0.8  # probability that is enough to state who comes first
+NEXT = 150.0  # [m] ahead, within which a junction is meant by "the next one"
+SLOWER = 1.5  # [m/s] by which we must slow down for passengers to call it slower
 
 
 def slowing(asked: Asked, event: Event) -> Slowing | None:
-    """Tell whether we stop or slow down, and whether for whom is asked about; None: not asked.
+    """Tell whether we stop or slow down, and whether for those asked about; None: not asked.
 
-    None also where no drive is foreseen, or nobody is named and we stop.
+    Also None if no rollout is known, or if nobody is named and we stop or slowing is asked about.
     """
     if event.action not in SLOWS or not asked.ride.traces:
         return None
@@ -55,7 +55,7 @@ def slowing(asked: Asked, event: Event) -> Slowing | None:
 
 
 def _yields(asked: Asked) -> bool:
-    """Tell whether we have to give way to some at the next junction, or where roads merge."""
+    """Tell whether we have to give way to somebody at the next junction, or where roads merge."""
     road = asked.world.road(asked.now)
     if road is None:
         return False
@@ -73,7 +73,7 @@ def _others(asked: Asked, thing: Thing | None) -> tuple[int, ...]:
 
 
 def _held(asked: Asked, vehicle: int) -> float:
-    """Tell in what share of the drives foreseen a vehicle or person holds us up."""
+    """Tell in what share of the rollouts foreseen a vehicle or person holds us up."""
     known = current_plan(asked)
     if known is None:
         return 0.0
@@ -86,11 +86,11 @@ def _held(asked: Asked, vehicle: int) -> float:
 
 
 def _order(asked: Asked, others: tuple[int, ...]) -> First | None:
-    """Tell who comes first where our ways meet, by what is likeliest of each; None: it differs."""
+    """Tell who comes first where our ways meet, by the likeliest of each; None: they differ."""
     trace = asked.ride.latest
     found = {_likeliest_order(trace, vehicle) for vehicle in others}
     if len(found) > 1:
-        found -= {"nobody"}  # who does not come into our way is out of it, too
+        found -= {"nobody"}  # those who do not come into our way do not count
     return found.pop() if len(found) == 1 else None
 
 

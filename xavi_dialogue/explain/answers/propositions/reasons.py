@@ -1,4 +1,4 @@
-"""Reasons: answers to why: of our choices, of how we drive, of states, and of others."""
+"""Reasons: answers to "why?" about our choices, how we drive, states, and others."""
 
 from msgspec import structs
 
@@ -63,23 +63,23 @@ from xavi_dialogue.explain.answers.suppositions import deciding
 from xavi_dialogue.explain.causes.plans.terms import RISK
 
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "pass", "come", "approach"))
-#: Names for coming in among others: a change of lanes, or a turn into a road.
+#: Names for moving in among others: by a lane change, or by a turn into a road.
 JOINING = frozenset[ActionName](("cut-in", "pull-out", "merge", "enter"))
 CHANGING = frozenset[ActionName](("change-left", "change-right", "change-lane"))
 CROSSINGS = frozenset[ActionName](
     ("turn", "exit-left", "exit-right", "exit-straight", "continue-next-exit", "leave")
 )
 SLOW = frozenset[State](("slow", "late", "stuck", "stationary"))
-#: What one does who does not leave his lane.
+#: What somebody does who stays in his lane.
 KEEPING = frozenset[ActionName](
     ("follow", "keep-distance", "approach", "keep-lane", "wait", "stand", "move", "slow-down")
 )
-#: What one does not do who goes first.
+#: What somebody with priority does not do.
 YIELDING = frozenset[ActionName](
     ("stop", "wait", "give-way", "let-go", "slow-down", "brake", "stand")
 )
 HOLDING = frozenset[ActionName](("follow", "keep-distance", "approach"))
-#: How long something of ours takes, which waiting explains.
+#: Durations of ours that waiting explains.
 LASTING = frozenset[Attribute](("duration", "delay", "waiting-time"))
 
 
@@ -87,7 +87,7 @@ def why(question: Why, scene: Asked) -> Answer:
     """Tell why something is or was so.
 
     Raises:
-        Unanswered: it was not; or the record lacks it; or rollouts are needed.
+        Unanswered: it was not so; or the record lacks it; or rollouts are needed.
     """
     if question.suspect == SOMEBODY_ELSE:
         return nobody_else.mattered(scene, why(structs.replace(question, suspect=None), scene))
@@ -145,13 +145,13 @@ def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) 
 
 
 def _goes_first(event: Event) -> bool:
-    """Check whether another vehicle is said to go first: its right of way tells why."""
+    """Check whether another vehicle is said to go first: its right of way is the reason."""
     going = event.action in GOING and manner_of(event, "first") is not None
     return going and vehicle_in(event.actor) is not None
 
 
 def _need_not(event: Event, scene: Asked) -> Answer | None:
-    """Tell that another vehicle goes first, where it is asked why it does not stop or give way."""
+    """Answer why another vehicle does not stop or give way: it has priority; None if not."""
     vehicle = None if is_own(event.actor) else vehicle_in(event.actor)
     if vehicle is None or event.action not in YIELDING:
         return None
@@ -164,7 +164,7 @@ def _need_not(event: Event, scene: Asked) -> Answer | None:
 
 
 def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
-    """Tell why we did something, or drove so.
+    """Tell why we did something, or drove in some way.
 
     Raises:
         Unanswered: we did not; or the record lacks it; or rollouts are needed.
@@ -220,7 +220,7 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
 
 
 def _joined(event: Event, scene: Asked, instead: Proposition | None) -> Answer:
-    """Why we moved in, pulled out or entered: the lane change, or the junction that it was."""
+    """Tell why we moved in, pulled out or entered a road: by a lane change, or at a junction."""
     other = event.object if event.where is None else event.where.to
     if vehicle_in(other) is not None and going.crossed(scene) is not None:
         return going.went(structs.replace(event, action="go", object=other, where=None), scene)
@@ -234,12 +234,12 @@ def _joined(event: Event, scene: Asked, instead: Proposition | None) -> Answer:
     deed = found.deed if isinstance(found, ChoiceReason) else None
     if event.action == "cut-in" or deed is None or crossed is None:
         return found
-    later = deed.begin < crossed.time <= scene.moment  # the last one is meant
+    later = deed.begin < crossed.time <= scene.moment  # the later one is meant
     return going.went(structs.replace(event, action="go"), scene) if later else found
 
 
 def _by_latest(found: Answer, scene: Asked) -> Answer:
-    """Rest a reason for what goes on now on the decision in force, which weighed the foil."""
+    """Take the decision in force as evidence of a reason for what goes on: it weighed the foil."""
     if not isinstance(found, MotionReason):
         return found
     return structs.replace(found, evidence=Evidence(traces=(scene.ride.latest.trace_id,)))

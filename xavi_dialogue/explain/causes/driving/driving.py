@@ -1,8 +1,8 @@
-"""Driving: why the ego slowed down, stood, waited or gave way: who held it up under its own plan.
+"""Driving: why the ego slowed down, stood, waited or gave way, and who held it up.
 
-Whose way was given, and who stood or drove in the way, is shown by the rollouts of the decision
-that was in force, and by the events; each vehicle is tried by planning without it. Where nobody
-was in the way, the road tells: a turn, a line to give way at, the end of the trip.
+Who was given way to, and who stood or drove in the way, is shown by the rollouts of the decision
+that was in force, and by the events; each vehicle is tested by planning without it. If nobody was
+in the way, the road gives the reason: a turn, a line to give way at, the end of the trip.
 """
 
 import math
@@ -35,24 +35,24 @@ from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.nearing import speed_at, with_lowest, with_speeds
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 
-BEFORE = 3.0  # [s] by which way may be given before the ego stands or slows for it
-JUST_OVER = 1.0  # [s] within which an ended deed counts as going on
+BEFORE = 3.0  # [s] by which giving way may precede the standing or slowing that it explains
+JUST_OVER = 1.0  # [s] after its end for which a deed counts as still going on
 FASTER = 2.0  # [m/s] by which the one in front may be faster and still be in the way
-MUCH = 0.8  # of the longest hold-up; of decisions held up so long the last knows most
+MUCH = 0.8  # share of the longest hold-up; the last decision that reaches it is taken
 AHEAD = 0.5  # [s] by which a decision may come before the braking that it explains
-LEEWAY = 1.0  # [s] by which a hold-up may lie beside the change of speed that it explains
+LEEWAY = 1.0  # [s] by which a hold-up may precede or follow the change of speed that it explains
 STOPPING = 0.5  # [s] by which braking may go on after a stop was given up
-LATELY = 2.5  # [s] since when a stop that was given up is what is asked about
+LATELY = 2.5  # [s] after which a stop that was given up is no longer what is asked about
 SLOWING = frozenset[ActionName](("slow-down", "brake"))
 ROAD = frozenset(
     ("turn", "bend", "roundabout", "limit")
-)  # what one slows for beside somebody in the way
+)  # what one slows for even if somebody is in the way
 SINCE: tuple[ActionName, ...] = (*EXITS, *CHANGES, "stop")
 
 
 @dataclass(frozen=True, slots=True)
 class Reasons:
-    """Why the ego drove so in one episode."""
+    """Why the ego drove as it did in one episode."""
 
     causes: tuple[MotionCause, ...]
     causation: Causation | None  # None: nobody was suspected
@@ -66,7 +66,7 @@ class Reasons:
 
     @property
     def counted(self) -> tuple[int, ...]:
-        """The vehicles that it hangs on."""
+        """The vehicles that it depends on."""
         return () if self.causation is None else self.causation.vehicles
 
 
@@ -95,7 +95,7 @@ def reasons_for(ride: Ride, world: World, deed: Episode, at: float | None = None
     except Unanswered:
         road = road_causes(ride, trace, deed)
         return Reasons(road, None, Evidence(traces=(trace.trace_id,)), trace)
-    braked = deed.action != "speed-up"  # what freed the way is not recorded
+    braked = deed.action != "speed-up"  # what cleared the way is not recorded
     window = (deed.begin - LEEWAY, end + LEEWAY)
     plan = in_hindsight(ride, model, plan)
     found = holding_up(model, plan, window) if braked else ()
@@ -133,10 +133,10 @@ def of_road(
     plan: Intervention,
     cleared: Collection[int],
 ) -> tuple[MotionCause, ...]:
-    """Tell what of the road explains an episode, with whom one has to be ready to let go first.
+    """Return what on the road explains an episode, and to whom the ego must be ready to give way.
 
-    At a line that is reached already, with nobody to let go, the way behind it is the reason.
-    Vehicles that make no difference are not spoken of.
+    A waiting line that is already reached, with nobody to give way to, comes last: what lies
+    beyond it is the reason. Vehicles that make no difference are not mentioned.
     """
     found = [_to_whom(trace, plan, one, cleared) for one in road_causes(ride, trace, deed)]
     if all(one.kind == "plan" for one in found):
@@ -152,7 +152,7 @@ def of_road(
 def _to_whom(
     trace: PlanTrace, plan: Intervention, cause: MotionCause, cleared: Collection[int]
 ) -> MotionCause:
-    """Add who may have to be let go first where one has to be ready to give way."""
+    """Add who may have to be given way to, where the ego must be ready for that."""
     if cause.kind != "give-way-line":
         return cause
     shares = {
@@ -166,9 +166,9 @@ def _to_whom(
 
 
 def beside(found: tuple[MotionCause, ...], cleared: tuple[int, ...]) -> tuple[MotionCause, ...]:
-    """Leave out that the plan calls for it where somebody is in the way who makes no difference.
+    """Drop "the plan calls for it" as the only reason if vehicles in the way make no difference.
 
-    Without the one another would be in the way, so that none is known to be the reason.
+    Without any one of them another would be in the way, so none is known to be the reason.
     """
     return () if cleared and all(cause.kind == "plan" for cause in found) else found
 
@@ -176,7 +176,7 @@ def beside(found: tuple[MotionCause, ...], cleared: tuple[int, ...]) -> tuple[Mo
 def motion_cause(
     ride: Ride, world: World, cause: Cause, trace: PlanTrace, time: float
 ) -> MotionCause:
-    """Tell a vehicle that held us up as a reason for how we drove."""
+    """Turn a vehicle that held us up into a reason for how we drove."""
     how = cause.mechanism.how if cause.mechanism is not None else "leader"
     joins = how in ("leader", "cut-in") and goes_first(trace, cause.vehicle)
     if joins and not leads(world, cause.vehicle, time):
@@ -196,7 +196,7 @@ def motion_cause(
 
 
 def as_of(ride: Ride, causes: tuple[MotionCause, ...], time: float) -> tuple[MotionCause, ...]:
-    """Tell who held us up with their speeds at a time [s], without leaders who drew away then."""
+    """Add the speeds at a time [s] to causes, and drop the leaders that were drawing away then."""
     ours, found = speed_at(ride, time), []
     for told in with_speeds(ride, causes, time):
         theirs = told.speed if told.kind == "leader" else None
@@ -206,7 +206,7 @@ def as_of(ride: Ride, causes: tuple[MotionCause, ...], time: float) -> tuple[Mot
 
 
 def _waited(ride: Ride, world: World, deed: Episode, end: float) -> RideEvent | None:
-    """Return the giving way within an episode, or shortly before it."""
+    """Return the event of giving way within an episode, or shortly before it."""
     if deed.action == "speed-up":
         return None
     waits = [event for event in ride.events if event.kind == "gave-way"]
@@ -221,11 +221,11 @@ def _waited(ride: Ride, world: World, deed: Episode, end: float) -> RideEvent | 
 def _decision(
     ride: Ride, deed: Episode, end: float, wait: RideEvent | None, at: float
 ) -> PlanTrace:
-    """Return the decision under which it happened.
+    """Return the decision that explains an episode.
 
-    That is the one for a stop that was begun with it, or the last one before way was given; else,
-    of those taken meanwhile, the one whose plan is held up most, or the last one before the middle
-    of what was seen.
+    A decision to stop that explains it comes first. Otherwise it is, of those around the episode,
+    the latest whose plan is held up nearly the longest; if there are none, the last one before the
+    ego gave way, or before the middle of the episode.
     """
     halt = _stop_of(ride, deed, end, at)
     if halt is not None:
@@ -248,7 +248,7 @@ def _decision(
 
 
 def _stop_of(ride: Ride, deed: Episode, end: float, at: float) -> PlanTrace | None:
-    """Find the decision for a stop because of which one braked at a time [s], or stood."""
+    """Find the decision to stop that made the ego brake, or stand, at a time [s]."""
     if deed.action not in (*SLOWING, "stop", "stand"):
         return None
     known = [d for d in ride.begun if d.action == "stop"]
@@ -259,7 +259,7 @@ def _stop_of(ride: Ride, deed: Episode, end: float, at: float) -> PlanTrace | No
 
 
 def _held(ride: Ride, trace: PlanTrace, window: tuple[float, float]) -> float:
-    """How long [s] the plan of a decision is held up by others, of each that probably does so."""
+    """Return how long [s] others hold up the plan of a decision: the sum over probable ones."""
     try:
         model = ride.model(trace)
         plan = in_hindsight(ride, model, factual(model, trace))
@@ -272,10 +272,10 @@ def _held(ride: Ride, trace: PlanTrace, window: tuple[float, float]) -> float:
 def _first(
     model: CausalModel, causes: tuple[Cause, ...], waited_for: int | None
 ) -> tuple[Cause, ...]:
-    """Return the vehicle that was given way to goes first."""
+    """Put the vehicle that was given way to first."""
     if waited_for is None:
         return causes
-    mechanism = Mechanism("right-of-way", None, None, None, 1.0)  # as the events tell
+    mechanism = Mechanism("right-of-way", None, None, None, 1.0)  # as the events show
     known = [
         c if c.mechanism and c.mechanism.how == "right-of-way" else replace(c, mechanism=mechanism)
         for c in causes

@@ -14,13 +14,13 @@ from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.ride import Ride
 from xavi_dialogue.explain.history.traffic_lights import shown
 
-LATELY = 4.0  # [s] since when what held us explains that we go now
-FASTER = 1.0  # [m/s] by which somebody is faster who has moved on
+LATELY = 4.0  # [s] for which what held us up before still explains why we drive on
+FASTER = 1.0  # [m/s] by which somebody must have sped up to count as moved on
 HELD: tuple[ActionName, ...] = ("stop", "stand", "wait", "give-way", "slow-down", "brake")
 
 
 def driven_for(ride: Ride, world: World, deed: Episode, at: float | None = None) -> Reasons:
-    """Find why the ego drove so; where it sped up, what held it up until then goes first.
+    """Find why the ego drove as it did; if it sped up, what held it up until then comes first.
 
     Raises:
         Unanswered: the record lacks the decision; or rollouts are needed.
@@ -34,7 +34,7 @@ def driven_for(ride: Ride, world: World, deed: Episode, at: float | None = None)
 
 
 def freed(ride: Ride, world: World, time: float) -> MotionCause | None:
-    """Find what held us up until shortly before a time [s], and does not any more.
+    """Find what held us up until shortly before a time [s], and no longer does.
 
     Raises:
         Unanswered: rollouts are needed.

@@ -1,9 +1,9 @@
-"""Ranges of times and chances of outcomes that hold: calibrated on foils driven in SUMO.
+"""Calibrated ranges of times and probabilities of outcomes, learnt from foils driven in SUMO.
 
 `xavi bench fidelity --learn` makes the table, ranges.json, which says what it was made of. Cases
 are distinguished by the kind of foil and of road (Mondrian conformal prediction, Vovk et al. 2005).
-Where a kind of road had too few rides, those of all roads stand for it; where there are too few
-of these, or nothing like it was tried, no range is given.
+If a kind of road had too few rides, the range for all roads is used; if those are too few as well,
+or nothing similar was tried, no range is given.
 """
 
 from collections.abc import Sequence
@@ -24,17 +24,17 @@ from xavi_dialogue.explain.causes.vehicles.actions import EXITS
 FoilKind: TypeAlias = Literal["stop", "exit", "manoeuvre"]
 RoadKind: TypeAlias = Literal["junction", "lanes", "road"]
 
-NEAR = 80.0  # [m] before a junction from which on the road is one towards it
-LEAST = 20  # rides from which on a kind has a range of its own
+NEAR = 80.0  # [m] before a junction within which a road counts as one towards it
+LEAST = 20  # rides that a kind needs at least for a range of its own
 
 
 class Error(NamedTuple):
-    """By how much one foil came later than foreseen."""
+    """By how much later than foreseen one foil arrived."""
 
     foil: FoilKind
     road: RoadKind
     ride: str
-    error: float  # [s] infinite where it never came
+    error: float  # [s] infinite if it never arrived
 
 
 class Group(msgspec.Struct, frozen=True):
@@ -44,7 +44,7 @@ class Group(msgspec.Struct, frozen=True):
     road: RoadKind | None  # None: all roads
     rides: int
     cases: int
-    reach: float  # [s] of happened minus foreseen, to either side
+    reach: float  # [s] half the width of the range around the time foreseen
 
 
 class Source(msgspec.Struct, frozen=True):
@@ -55,7 +55,7 @@ class Source(msgspec.Struct, frozen=True):
     rides: int
     cases: int
     missed: int  # of these, foils that never came to the destination
-    foils: int = 0  # of which outcomes were foreseen
+    foils: int = 0  # foils whose outcomes were foreseen
     model_error: float | None = None  # as fitted, without the margin of the bound
 
 
@@ -66,11 +66,11 @@ class Ranges(msgspec.Struct, frozen=True):
     constant: float  # [s] half the width of one range for all, a rival in the bench
     groups: tuple[Group, ...]
     source: Source
-    model_error: float = 0.0  # probability that rollouts tell nothing of the outcome, at most
-    unforeseen: dict[Outcome, float] = {}  # how probable each is then; without any, all alike
+    model_error: float = 0.0  # highest probability that rollouts tell nothing about the outcome
+    unforeseen: dict[Outcome, float] = {}  # probability of each in that case; empty: all are alike
 
     def trusted(self, outcome: Outcome, probability: float) -> float:
-        """Give the probability of an outcome, of that among the rollouts, as far as they go."""
+        """Return the probability of an outcome, calibrated from that among the rollouts."""
         if not self.unforeseen:
             return calibrated(probability, self.model_error)
         return calibrated(probability, self.model_error, self.unforeseen.get(outcome, 0.0))
@@ -123,7 +123,7 @@ def table() -> Ranges:
     """Return the table that comes with the program.
 
     Raises:
-        ValueError: it is not one.
+        ValueError: the file is not such a table.
     """
     text = (files("xavi_dialogue.explain.causes") / "ranges.json").read_bytes()
     return msgspec.json.decode(text, type=Ranges)
@@ -138,8 +138,9 @@ def likely(
 ) -> TimeRange | None:
     """Give the range of how much later [s] a foil comes to the destination.
 
-    None where the calibration does not reach: the foil does not probably arrive, it is not the
-    first action that differs, something is supposed of others, or its kind was on too few rides.
+    None where the calibration does not apply: arrival is not the likeliest outcome of the foil, its
+    first action is also that of the fact, others are supposed to differ, or too few rides had its
+    kind.
 
     Args:
         model: of the decision.

@@ -9,7 +9,7 @@ from xavi_dialogue.explain.history.thresholds import SMOOTHED
 
 
 def speed(asked: Asked) -> Measure:
-    """Return the speed, beside the limit."""
+    """Return the speed, with the limit as `reference`."""
     state = asked.states.state(asked.vehicle, asked.at)
     if state is None:
         return asked.none("out-of-view")
@@ -17,7 +17,7 @@ def speed(asked: Asked) -> Measure:
 
 
 def limit(asked: Asked) -> Measure:
-    """Return the speed limit where the thing is."""
+    """Return the speed limit where the vehicle is."""
     value = limit_at(asked)
     return asked.none("not-recorded") if value is None else asked.found(value)
 
@@ -29,7 +29,7 @@ def limit_at(asked: Asked) -> float | None:
 
 
 def excess(asked: Asked) -> Measure:
-    """By how much the speed is over the limit; negative: under it."""
+    """Return by how much the speed is over the limit; negative: under it."""
     state, allowed = asked.states.state(asked.vehicle, asked.at), limit_at(asked)
     if state is None or allowed is None:
         return asked.none("not-recorded")
@@ -56,7 +56,7 @@ def jerk(asked: Asked) -> Measure:
 
 
 def jerk_at(states: States, vehicle: int, time: float) -> float | None:
-    """Return the jerk [m/s3] over SMOOTHED seconds around a time, its sign that of the change."""
+    """Return the jerk [m/s3] over SMOOTHED seconds around a time; positive: it accelerates more."""
     motion = states.motion(vehicle)
     last = motion.time[-1] if motion.time else time
     end = min(time + SMOOTHED / 2.0, last)

@@ -12,7 +12,7 @@ from xavi_dialogue.explain.history.nearing import still_to
 
 
 def lane(asked: Asked) -> Measure:
-    """Return the lane from the right, 1 the rightmost; `count`: how many there are."""
+    """Return the number of the lane, 1 the rightmost; `count`: how many lanes there are."""
     place = asked.states.place(asked.vehicle, asked.time)
     if place is None:
         return asked.none("not-recorded")
@@ -27,7 +27,7 @@ def lane(asked: Asked) -> Measure:
 
 
 def lane_count(asked: Asked) -> Measure:
-    """Return how many lanes there are in that direction."""
+    """Return how many lanes there are in the direction of the vehicle."""
     place = asked.states.place(asked.vehicle, asked.time)
     return asked.none("not-recorded") if place is None else asked.found(float(place.lanes))
 
@@ -58,7 +58,7 @@ def _ruled(asked: Asked, step: RouteStep) -> Measure:
 
 
 def _next(asked: Asked) -> RouteStep | None:
-    """Return the step of the route that is asked about; the next one unless said."""
+    """Return the step of the route that is asked about; the next one unless another is named."""
     road = asked.states.road(asked.at)
     places = [p for p in (asked.thing, asked.to) if isinstance(p, Junction)]
     steps = [] if road is None else list(road.route)
@@ -69,9 +69,9 @@ def _next(asked: Asked) -> RouteStep | None:
 
 
 def exit_number(asked: Asked) -> Measure:
-    """Which exit of the roundabout is taken: the next one's, else of the last one that was left.
+    """Return the exit that is taken of the roundabout ahead, or that was taken of the last one.
 
-    `count`: how many exits there are; `value` without it: it was in the past.
+    `count`: how many exits there are; None if the roundabout is behind the ego.
     """
     road = asked.states.road(asked.at)
     if road is None:
@@ -90,7 +90,7 @@ def exit_number(asked: Asked) -> Measure:
 
 
 def _rings(asked: Asked) -> list[Episode]:
-    """Return the roundabouts that the ego entered and left, in order."""
+    """Return the episodes of entering and of leaving roundabouts, in order."""
     return [e for e in ways(asked.states, EGO) if e.action in ("enter", "leave")]
 
 
