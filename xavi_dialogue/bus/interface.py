@@ -7,7 +7,7 @@ the bus and must return at once.
     ├── HubUnreachable   there is no hub at the endpoint
     ├── EndpointTaken    the hub's endpoint is in use
     ├── BadLink          the configuration of the link cannot be used
-    ├── BusFailed        the carrier failed otherwise
+    ├── BusFailed        the transport failed in another way
     └── NoAnswer
         ├── NobodyThere  no process serves the key, or the client has no permission
         ├── TooLate      no reply within the time given
@@ -46,7 +46,7 @@ class BadLink(TransportError):
 
 
 class BusFailed(TransportError):
-    """The carrier failed."""
+    """The transport failed."""
 
 
 class NoAnswer(TransportError):
@@ -92,7 +92,7 @@ def vehicle_in(key: str) -> str | None:
 
 
 def matches(pattern: str, key: str) -> bool:
-    """Check whether a key matches a pattern; `*` is any one part of it."""
+    """Check whether a key matches a pattern; `*` is any one part that does not begin with `@`."""
     parts, given = pattern.split("/"), key.split("/")
     return len(parts) == len(given) and all(
         want == have or (want == "*" and not have.startswith("@"))
@@ -104,7 +104,7 @@ class Publisher(Protocol):
     """Sends messages under one key."""
 
     def put(self, payload: bytes) -> None:
-        """Send one.
+        """Send a message.
 
         Raises:
             BusFailed: the bus is closed.
@@ -116,7 +116,7 @@ class Call(Protocol):
 
     @property
     def key(self) -> str:
-        """That was asked; never a pattern."""
+        """The key that was asked; never a pattern."""
 
     @property
     def payload(self) -> bytes: ...
@@ -155,7 +155,7 @@ Outcome: TypeAlias = bytes | NoAnswer
 class Bus(Protocol):
     """One process's connection to the others; `close` ends all that was declared on it.
 
-    What is heard, served and watched may be a pattern, in which `*` stands for any one part.
+    The keys that it receives, serves and watches may be patterns: `*` stands for any one part.
     """
 
     @property
@@ -163,11 +163,11 @@ class Bus(Protocol):
         """Check whether there is a connection."""
 
     def publisher(self, key: str, keep: int = 0) -> Publisher:
-        """Send under a key.
+        """Return a publisher that sends under a key.
 
         Args:
             key: of the messages.
-            keep: 0 allows messages to be dropped; else none is lost, and late joiners get so many.
+            keep: 0 allows messages to be dropped; else none is, and late joiners get that many.
         """
 
     def send(self, key: str, payload: bytes) -> None:
@@ -192,7 +192,7 @@ class Bus(Protocol):
         """
 
     def appear(self, key: str) -> Presence:
-        """Show under a key that this process is alive, until it is not, or withdraws."""
+        """Show under a key that this process is alive, until it ends, or withdraws."""
 
     def watch(self, key: str, watcher: Watcher) -> None:
         """Watch which components are alive under a key, now and from now on."""

@@ -1,4 +1,4 @@
-"""Tables: the planner of each type of causal answer, and of refusals."""
+"""Tables: which function plans the messages of each type of causal answer and of refusal."""
 
 from xavi_dialogue.domain import answers, hidden_areas, traffic_lights
 from xavi_dialogue.nlg.content.clauses.plan import Planner

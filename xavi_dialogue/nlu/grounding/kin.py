@@ -1,4 +1,4 @@
-"""Kin: actions that one may stand for when people speak of what happened."""
+"""Kin: actions that people may mean when they name another one."""
 
 from typing import Final
 
@@ -17,7 +17,7 @@ _PASSING: Final = frozenset[ActionName](("overtake", "pass"))
 _LETTING: Final = frozenset[ActionName](("let-go",))
 _HELD: Final[tuple[ActionName, ...]] = ("stop", "brake")
 
-#: What somebody may have done who is said to have done the first, nearest first.
+#: By action that people name: what may have happened instead, closest in meaning first.
 KIN: Final[dict[ActionName, tuple[ActionName, ...]]] = {
     "stop": ("stand", "wait", "give-way", *_SLOWING),
     "stand": ("stop", "wait", *_SLOWING),
@@ -47,13 +47,13 @@ KIN: Final[dict[ActionName, tuple[ActionName, ...]]] = {
 
 
 def like(context: Context, event: Event, begin: float, end: float) -> tuple[Episode, ...]:
-    """Find the episodes that people may call so, though they are another action.
+    """Find the episodes that people may mean by an event, though they are of another action.
 
-    Those of the nearest action that there is; its object is left out where there is none with it.
+    They are of the closest action that has any. Else the event is looked for without its object.
     """
     for action in KIN.get(event.action, ()):
         if action in _SHIFTING and event.object is not None and event.action in _PASSING:
-            continue  # a change of lane is no passing of anybody
+            continue  # a change of lane does not mean that somebody was passed
         kin = replace(event, action=action)
         found = context.holds(kin, begin, end)
         if found:

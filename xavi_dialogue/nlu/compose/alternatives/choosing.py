@@ -1,7 +1,7 @@
-"""Choosing: "is the red or the blue one faster": yes or no questions about one of several.
+"""Choosing: questions that name alternatives, such as "is the red or the blue one faster".
 
-"Or" between things that are pointed at asks which of them it is; between things of a sort ("a man
-or a lady") it asks whether there is any.
+"Or" between definite things ("the bus or the van") asks which of them it is; between indefinite
+ones ("a man or a lady") it asks whether there is any.
 """
 
 import dataclasses
@@ -42,23 +42,23 @@ _EXTREMES = {"fastest": ("speed", False), "quickest": ("speed", False), "slowest
 _FIRST = frozenset({"before", "bearing-ahead"})
 _LATER = frozenset({"behind", "bearing-behind", "after"})
 _IN_LINE = {"ahead": False, "behind": True}
-#: What of a word for a comparison is held against each other of road users.
+#: By word of comparison: the attribute of road users that it compares.
 _OF_THINGS = {"fast": "speed", "slow": "speed", "high": "speed", "low": "speed", "long": "size"}
 
 
 def least_of(clause: Clause) -> bool:
-    """Say whether it is asked who is slower, smaller or farther, not faster, bigger or nearer."""
+    """Check whether a clause asks who is slower, smaller or farther, not faster and so on."""
     return bool(clause.comparisons) and clause.comparisons[0][0] in _REVERSED
 
 
 def by_of(clause: Clause) -> str:
-    """Tell by what things are compared."""
+    """Return the attribute by which a clause compares things."""
     key = clause.comparisons[0][0]
     return _OF_THINGS.get(key) or BY.get(key, "best")
 
 
 def in_line(clause: Clause) -> bool | None:
-    """Say whether it is asked who is ahead (False) or behind (True) of the other; None: neither."""
+    """Check whether a clause asks who is ahead (False) or who is behind (True); None: neither."""
     bare = clause.verb is None and not (clause.comparisons or clause.adjectives)
     if not bare or len(clause.bearings) != 1 or clause.complements:
         return None
@@ -66,7 +66,7 @@ def in_line(clause: Clause) -> bool | None:
 
 
 def options_of(sem: Sem | None) -> tuple[Thing, ...] | None:
-    """Give the things of which one is meant; None where none is pointed at."""
+    """Return the alternatives that are joined by "or"; None unless all of them are definite."""
     if not isinstance(sem, Group) or sem.join != "or":
         return None
     numbered = any(isinstance(member, Vehicle) for member in sem.members)
@@ -76,18 +76,18 @@ def options_of(sem: Sem | None) -> tuple[Thing, ...] | None:
 
 
 def is_pointed_at(thing: object) -> bool:
-    """Say whether a certain road user is meant: "the bus", "vehicle 7", "we"."""
+    """Check whether a thing is one specific road user: "the bus", "vehicle 7", "we"."""
     return isinstance(thing, Ego | Vehicle) or (isinstance(thing, Described) and thing.definite)
 
 
 def superlative_of(clause: Clause) -> tuple[str, bool] | None:
-    """Tell by what one is picked out, and whether it is the least: "the slowest"."""
+    """Return the attribute of a superlative, and whether it is the least: "the slowest"."""
     named = [*(getattr(sem, "extreme", None) for sem, _ in clause.objects), *sorted(clause.focus)]
     return next((_EXTREMES[one] for one in named if one in _EXTREMES), None)
 
 
 def chosen(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
-    """Ask which of the things that are joined by "or" it is; empty where none are."""
+    """Return the question which of the things joined by "or" is meant; empty if there are none."""
     if clause.negated or clause.because is not None or clause.contrast is not None:
         return []
     if (turn := _cleft(clause) or _before_or_after(clause, propositions)) is not None:
@@ -107,7 +107,7 @@ def chosen(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
 
 
 def _any_of(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
-    """Ask "is a bus or a lorry coming": whether it is so of any of them."""
+    """Read "is a bus or a lorry coming" as whether it holds for any of them."""
     sem = clause.subject
     if not isinstance(sem, Group) or sem.join != "or":
         return []
@@ -131,7 +131,7 @@ def _cleft(clause: Clause) -> Question | None:
 
 
 def _before_or_after(clause: Clause, propositions: Any) -> Question | None:
-    """Read "will you merge in front of him or behind" as who goes first, we or he."""
+    """Read "will you merge in front of him or behind" as a question who goes first, we or he."""
     whom = next((p.sem for p in clause.complements if p.key in _FIRST), None)
     thing = as_thing(whom)
     behind = [
@@ -150,7 +150,7 @@ def _before_or_after(clause: Clause, propositions: Any) -> Question | None:
 
 
 def _done_to(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
-    """Ask "did you wait for the bus or the van": to whom of them it was done."""
+    """Read "did you wait for the bus or the van" as for which of them we did it."""
     for options, members in _objects(clause):
         readings = [propositions.readings(member)[:1] for member in members]
         said = [(fact(one.value), one.cost) for found in readings for one in found]
@@ -161,7 +161,7 @@ def _done_to(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
 
 
 def _objects(clause: Clause) -> Iterator[tuple[tuple[Thing, ...], list[Clause]]]:
-    """Find things joined by "or" behind the verb, with the clause for each of them."""
+    """Yield things joined by "or" after the verb, with a clause for each of them."""
     for index, (sem, part) in enumerate(clause.objects):
         if (options := options_of(sem)) is not None:
             yield options, [_copy(clause, objects=_put(clause.objects, index, (one, part)))
@@ -178,7 +178,7 @@ def _put(row: list[T], index: int, one: T) -> list[T]:
 
 
 def _copy(clause: Clause, **fields: Any) -> Clause:
-    """Copy a clause, so that reading it does not change the other one."""
+    """Copy a clause, so that reading the copy does not change the original."""
     lists = {
         name: list(value)
         for name in ("objects", "complements", "bearings", "particles", "chained")
@@ -192,7 +192,7 @@ def _is_open(of: Proposition) -> bool:
 
 
 def compared_by(such: Proposition | None, options: tuple[Thing, ...]) -> Compare | None:
-    """Compare things by what one of them is said to be more of: "which is faster"."""
+    """Return a comparison of things by the attribute that is asked about: "which is faster"."""
     match such:
         case Compares(left=Measured(attribute=attribute), comparator=comparator, right=None) if (
             attribute in _MOST
@@ -208,7 +208,7 @@ _MOST = {"speed": "more", "size": "more", "distance": "less"}
 
 
 def differing(of: Proposition) -> Which | None:
-    """Read "did you wait for the bus or wait for the van" as which of them it was."""
+    """Read "did you wait for the bus or wait for the van" as a question which of them it was."""
     if not isinstance(of, Both) or of.join != "or":
         return None
     one, other = of.contents[0], of.contents[-1]
@@ -230,7 +230,7 @@ def _things(of: object) -> list[Any]:
 
 
 def asks_which(question: Question) -> Question:
-    """Ask for the one of two where it is asked whether either is so."""
+    """Turn a question whether either of two is so into a question which one, where possible."""
     if not isinstance(question, Whether):
         return question
     question = replace(question, that=of_the_same(question.that))
@@ -238,7 +238,7 @@ def asks_which(question: Question) -> Question:
 
 
 def of_the_same(of: Proposition) -> Proposition:
-    """Read "do you overtake him or stay behind" as of one and the same vehicle."""
+    """Read "do you overtake him or stay behind" as about one and the same vehicle."""
     match of:
         case Both(
             contents=(
@@ -252,7 +252,7 @@ def of_the_same(of: Proposition) -> Proposition:
 
 
 def _before_or_behind(of: Proposition) -> Compare | None:
-    """Read "is it ahead of the van or behind it" as who of the two is ahead."""
+    """Read "is it ahead of the van or behind it" as a question which of the two is ahead."""
     match of:
         case Both(
             contents=(

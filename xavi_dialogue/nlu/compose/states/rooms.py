@@ -24,7 +24,7 @@ _OTHERS = (Vehicle, Described, Pronoun, Lane)
 
 
 def roomy(clause: Clause, time: Time) -> Proposition:
-    """Read of which vehicle or lane it is said that there is room."""
+    """Read a clause that says that there is room, with the vehicle or lane that it is about."""
     named = [as_thing(sem) for phrase in clause.complements for sem in _members(phrase.sem)]
     named += [sem.of.to for sem, _ in clause.objects if isinstance(sem, Measure)]
     inner = clause.inner

@@ -97,7 +97,7 @@ def questioned(context: Context) -> Proposition | None:
 
 
 def explained(context: Context) -> Proposition | None:
-    """Give what it was asked the reason of, where that is under discussion: "because of him?"."""
+    """Return what the question under discussion asks the reason of, for "because of him?"."""
     match context.discourse.question:
         case Why(of=of) | Which(such=Caused(effect=of)):
             return rewrite(of, lambda part: Unsaid() if isinstance(part, Now) else part)
@@ -114,28 +114,28 @@ def spoken_of(context: Context) -> Proposition | None:
 
 
 def is_supposed(known: Proposition, context: Context) -> bool:
-    """Tell whether it is of a supposition, or of what would come of it."""
+    """Check whether a proposition is about a supposition, or about what would follow from it."""
     event = first(known, Event)
     imagined = event is not None and event.modal == "would"
     return imagined or isinstance(context.discourse.question, WhatIf)
 
 
 def is_of_now(supposed: Proposition) -> bool:
-    """Tell whether a deed of ours is supposed of the present, whatever was spoken of before."""
+    """Check whether a supposition is about what we do now, whatever was discussed before."""
     event = first(supposed, Event)
     return event is not None and event.actor == Ego() and isinstance(event.time, Now)
 
 
 def affirmed(proposition: Proposition) -> Proposition:
-    """Strip a negation."""
+    """Return a proposition without its negation, if it has one."""
     return proposition.content if isinstance(proposition, Not) else proposition
 
 
 def events(discourse: Discourse, *, real: bool = False) -> Iterator[Event]:
     """Yield the events spoken of, those of the question under discussion first.
 
-    Those of the real world alone leave out what was supposed, what would come of it, and what
-    somebody could do.
+    With `real`, what was supposed, what would follow from it, and what somebody could do are left
+    out.
     """
     acts = (act for act in discourse.last_acts if isinstance(act, Ask | Claim | Request))
     for source in (discourse.question, *discourse.propositions, *acts):
@@ -145,7 +145,7 @@ def events(discourse: Discourse, *, real: bool = False) -> Iterator[Event]:
 
 
 def discussed(context: Context, actor: Thing | None = None, *, real: bool = False) -> Event | None:
-    """Give the event under discussion, of an actor where one is given; `real`: none supposed."""
+    """Return the event under discussion, of an actor if one is given; `real`: none supposed."""
     for event in events(context.discourse, real=real):
         if actor is None or event.actor == actor:
             return event
@@ -157,7 +157,7 @@ def discussed(context: Context, actor: Thing | None = None, *, real: bool = Fals
 
 
 def last_deed(context: Context) -> Event | None:
-    """Give what we did last that people would speak of."""
+    """Return the last thing we did that people would mention."""
     return _last_of(context, Ego())
 
 
@@ -169,7 +169,10 @@ _HINDERED: Final = frozenset(
 
 
 def hindrance(context: Context) -> Event | None:
-    """Give what we did, or do, because we were hindered: spoken of, else in focus or the last."""
+    """Return what we did or do because we were hindered.
+
+    What was spoken of comes first, then what is in focus, then the last such action.
+    """
     for event in events(context.discourse):
         if event.action in _HINDERED and event.actor == Ego() and event.time != Unsaid():
             return event
@@ -183,7 +186,7 @@ def hindrance(context: Context) -> Event | None:
 
 
 def beside_road(context: Context) -> Event | None:
-    """Give what we did last, where all that was told before "what was that for?" is the setting."""
+    """Return what we did last, if "what was that for?" follows answers about surroundings only."""
     known = next((p for p in context.discourse.propositions if not isinstance(p, That)), None)
     free = isinstance(known, Is) and known.state == "free"
     if not (free or isinstance(known, Exists | Related)):
