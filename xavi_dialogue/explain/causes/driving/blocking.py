@@ -1,4 +1,4 @@
-"""Blocking: who stood or crept in our lane when we left it, or is in one that we left alone."""
+"""Blocking: slow vehicles in the lane that we leave, and vehicles in a lane beside it."""
 
 from planner.record.trace import Action
 from sim.scene import EGO
@@ -10,17 +10,17 @@ from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.ride import Ride
 
-HORIZON = 8.0  # [s] of driving within which somebody slow is a reason to leave the lane
-SLOWER = 2.0  # [m/s] by which somebody is slower than we could be
-LEAST = 8.0  # [m/s] at which we would drive at least
-OURS, MARGIN = 5.0, 2.0  # [m] our length, and the room between vehicles that are beside each other
-AFTER = 1.5  # [s] after the decision within which one may come into view whom it reckoned with
+HORIZON = 8.0  # [s] of driving within which a slow vehicle is a reason to leave the lane
+SLOWER = 2.0  # [m/s] by which a slow vehicle is slower than we could drive
+LEAST = 8.0  # [m/s] minimum speed that we would drive in the lane beside ours
+OURS, MARGIN = 5.0, 2.0  # [m] our length, and the gap up to which vehicles are beside each other
+AFTER = 1.5  # [s] after the decision in which a vehicle that it reckoned with may come into view
 
 
 def blocking(ride: Ride, world: World, time: float, change: Action) -> MotionCause | None:
-    """Find the nearest in our lane who is slower than we could drive, when we decide to leave it.
+    """Find the vehicle next in our lane, if it is so slow that we decide to leave the lane.
 
-    None where somebody in the lane that we change to is no faster.
+    None if a vehicle in the lane that we change to is no faster.
     """
     for moment in (time, min(time + AFTER, ride.now)):
         found = _slower(ride, world, time, moment)
@@ -38,7 +38,7 @@ def _slower(ride: Ride, world: World, time: float, moment: float) -> Look | None
 
 
 def in_lane_beside(ride: Ride, world: World, time: float, change: Action) -> MotionCause | None:
-    """Find who is in the lane to one side: beside us, else ahead and slower than we drive."""
+    """Find a vehicle in the lane to one side: beside us, else ahead and slower than we drive."""
     looks = _beside(ride, world, time, change)
     for look in looks:
         if abs(look.ahead) <= (look.length + OURS) / 2.0 + MARGIN:
@@ -59,7 +59,7 @@ def _slow_beside(ride: Ride, world: World, time: float, change: Action, speed: f
 
 
 def _beside(ride: Ride, world: World, time: float, change: Action) -> list[Look]:
-    """List who is in the lane to one side of ours on our road, the nearest first."""
+    """List the vehicles in the lane to one side of ours on our road, the nearest first."""
     trace = ride.at(time)
     places = {} if trace is None or trace.road is None else trace.road.places
     ours = places.get(EGO)

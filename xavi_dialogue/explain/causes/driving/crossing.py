@@ -1,8 +1,8 @@
 """Crossing: when we would have been where our way meets another's, had we not waited or slowed.
 
-No simulation: our way, as recorded and then as planned, is driven on at the speed before we
-slowed, or set off on from the speed there was, and put beside the motion of the other, as recorded
-and then as foreseen.
+Nothing is simulated. Our way, as recorded and then as planned, is driven at the speed that we had
+before we slowed, or by setting off from a speed. This is compared with the motion of the other
+vehicle, as recorded and then as predicted.
 """
 
 import math
@@ -17,19 +17,19 @@ from xavi_dialogue.explain.causes.vehicles.course import lines
 from xavi_dialogue.explain.history.ride import Ride, planned, prediction
 from xavi_dialogue.explain.history.thresholds import STANDING
 
-PASSED = 1.5  # [s] before a moment within which a vehicle that crossed our way counts
-POSSIBLE = 0.2  # probability from which where a vehicle may be going counts
+PASSED = 1.5  # [s] before the beginning in which a vehicle that crossed our way counts
+POSSIBLE = 0.2  # minimum probability of a predicted way that counts
 MEETING = 2.5  # [m] within which two lines meet
-JUMP = 8.0  # [m] farther than which one way does not go on where another ends
-MOVING = 0.5  # [m/s] from which a vehicle drives along its line
-LIMIT = 13.9  # [m/s] up to which we would set off where no limit is known
+JUMP = 8.0  # [m] maximum gap between our driven way and the planned one that continues it
+MOVING = 0.5  # [m/s] above which a vehicle moves along its way
+LIMIT = 13.9  # [m/s] speed limit to assume if none is known
 
 Passing: TypeAlias = tuple[float, Point, float]  # time [s], place [m], speed [m/s]
 
 
 @dataclass(frozen=True, slots=True)
 class Crossing:
-    """When two would have been where their ways meet."""
+    """When we and a vehicle would have been where our ways meet."""
 
     vehicle: int
     ours: float  # [s] had we not waited
@@ -37,21 +37,21 @@ class Crossing:
 
     @property
     def ahead(self) -> float:
-        """By how much [s] we would have been there first; negative: the other."""
+        """The lead [s] with which we would have been there first; negative: the other would."""
         return self.theirs - self.ours
 
 
 def crossing(
     ride: Ride, vehicle: int, begin: float, speed: float, *, setting_off: bool = False
 ) -> Crossing | None:
-    """Tell when we and a vehicle would have been where our ways meet; None where they do not.
+    """Return when we and a vehicle would have been where our ways meet; None if they do not.
 
     Args:
         ride: the record.
         vehicle: the other one.
-        begin: [s] from when on we would have driven on.
-        speed: [m/s] ours then.
-        setting_off: whether we would have sped up from there; else we would have kept it.
+        begin: [s] the time from which we would have driven on.
+        speed: [m/s] our speed then.
+        setting_off: whether we would have sped up from that speed; else we would have kept it.
     """
     if speed < MOVING and not setting_off:
         return None
@@ -73,7 +73,7 @@ def crossing(
 def _meeting(
     ours: list[Point], along: list[float], theirs: list[Passing]
 ) -> tuple[float, float] | None:
-    """Return how far [m] along our way a vehicle first comes to it, and when [s]."""
+    """Return how far [m] along our way the ways first meet, and when [s] the vehicle is there."""
     met = [
         (far, math.dist(here, place), time)
         for here, far in zip(ours, along, strict=True)
@@ -96,7 +96,7 @@ def _our_way(ride: Ride, begin: float) -> list[Point]:
 
 
 def _planned_way(trace: PlanTrace, now: float) -> tuple[Point, ...]:
-    """What is still to come of the line that goes farthest of those that drive as planned."""
+    """Return the rest of the longest line among the rollouts that begin as planned."""
     plan, known = planned(trace)[:1], lines(trace)
     fitting = [
         known[r.index]
@@ -110,7 +110,7 @@ def _planned_way(trace: PlanTrace, now: float) -> tuple[Point, ...]:
 
 
 def _their_ways(ride: Ride, vehicle: int, begin: float) -> list[list[Passing]]:
-    """Return the ways of a vehicle that are possible: as driven, and then as each may go on."""
+    """Return the possible ways of a vehicle: as driven, then as each prediction continues."""
     motion = ride.motion(vehicle)
     driven = [
         (motion.time[k], motion.position[k], motion.speed[k])
@@ -143,7 +143,7 @@ def _limit(ride: Ride, time: float) -> float:
 
 
 def _setting_off(speed: float, far: float, limit: float) -> float:
-    """Return the time [s] that so many metres take, speeding up to the limit on the way."""
+    """Return the time [s] that a distance [m] takes, speeding up to the limit on the way."""
     run_up = max(limit * limit - speed * speed, 0.0) / (2.0 * ACCELERATION)
     if far <= run_up:
         return (math.sqrt(speed * speed + 2.0 * ACCELERATION * far) - speed) / ACCELERATION

@@ -1,8 +1,8 @@
 """Driving: why the ego slowed down, stood, waited or gave way, and who held it up.
 
-Who was given way to, and who stood or drove in the way, is shown by the rollouts of the decision
-that was in force, and by the events; each vehicle is tested by planning without it. If nobody was
-in the way, the road gives the reason: a turn, a line to give way at, the end of the trip.
+The rollouts of the decision that was in force, and the events, show to whom the ego gave way and
+who stood or drove in its way. Each of these vehicles is tested by planning without it. If nobody
+was in the way, the road gives the reason: a turn, a line to give way at, the end of the trip.
 """
 
 import math
@@ -36,8 +36,8 @@ from xavi_dialogue.explain.history.nearing import speed_at, with_lowest, with_sp
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 
 BEFORE = 3.0  # [s] by which giving way may precede the standing or slowing that it explains
-JUST_OVER = 1.0  # [s] after its end for which a deed counts as still going on
-FASTER = 2.0  # [m/s] by which the one in front may be faster and still be in the way
+JUST_OVER = 1.0  # [s] after its end for which an episode counts as still going on
+FASTER = 2.0  # [m/s] by which a leader may be faster and still be in the way
 MUCH = 0.8  # share of the longest hold-up; the last decision that reaches it is taken
 AHEAD = 0.5  # [s] by which a decision may come before the braking that it explains
 LEEWAY = 1.0  # [s] by which a hold-up may precede or follow the change of speed that it explains
@@ -46,7 +46,7 @@ LATELY = 2.5  # [s] after which a stop that was given up is no longer what is as
 SLOWING = frozenset[ActionName](("slow-down", "brake"))
 ROAD = frozenset(
     ("turn", "bend", "roundabout", "limit")
-)  # what one slows for even if somebody is in the way
+)  # kinds of reasons that explain slowing even if somebody is in the way
 SINCE: tuple[ActionName, ...] = (*EXITS, *CHANGES, "stop")
 
 
@@ -66,7 +66,7 @@ class Reasons:
 
     @property
     def counted(self) -> tuple[int, ...]:
-        """The vehicles that it depends on."""
+        """The vehicles that the ego's driving depends on."""
         return () if self.causation is None else self.causation.vehicles
 
 
@@ -152,7 +152,7 @@ def of_road(
 def _to_whom(
     trace: PlanTrace, plan: Intervention, cause: MotionCause, cleared: Collection[int]
 ) -> MotionCause:
-    """Add who may have to be given way to, where the ego must be ready for that."""
+    """Add to a give-way line the vehicle that the ego may have to give way to, if one is known."""
     if cause.kind != "give-way-line":
         return cause
     shares = {
@@ -168,7 +168,7 @@ def _to_whom(
 def beside(found: tuple[MotionCause, ...], cleared: tuple[int, ...]) -> tuple[MotionCause, ...]:
     """Drop "the plan calls for it" as the only reason if vehicles in the way make no difference.
 
-    Without any one of them another would be in the way, so none is known to be the reason.
+    Without one of them, another would be in the way, so none is known to be the reason.
     """
     return () if cleared and all(cause.kind == "plan" for cause in found) else found
 
@@ -272,7 +272,7 @@ def _held(ride: Ride, trace: PlanTrace, window: tuple[float, float]) -> float:
 def _first(
     model: CausalModel, causes: tuple[Cause, ...], waited_for: int | None
 ) -> tuple[Cause, ...]:
-    """Put the vehicle that was given way to first."""
+    """Return the causes, headed by the vehicle that the ego gave way to."""
     if waited_for is None:
         return causes
     mechanism = Mechanism("right-of-way", None, None, None, 1.0)  # as the events show

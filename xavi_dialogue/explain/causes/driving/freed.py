@@ -1,4 +1,4 @@
-"""Freed: what held the ego up before it set off or sped up, and does so no longer."""
+"""Freed: what held the ego up before it set off or sped up, and no longer does."""
 
 import dataclasses
 
@@ -14,7 +14,7 @@ from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.ride import Ride
 from xavi_dialogue.explain.history.traffic_lights import shown
 
-LATELY = 4.0  # [s] for which what held us up before still explains why we drive on
+LATELY = 4.0  # [s] after a hold-up in which its end still explains why we drive on
 FASTER = 1.0  # [m/s] by which somebody must have sped up to count as moved on
 HELD: tuple[ActionName, ...] = ("stop", "stand", "wait", "give-way", "slow-down", "brake")
 

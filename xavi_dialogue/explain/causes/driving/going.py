@@ -1,4 +1,4 @@
-"""Going: why the ego went when it did: who had right of way at that moment, and what they did."""
+"""Going: the vehicles whose way crossed ours when the ego went, and what they did then."""
 
 from planner.record.events import Event as RideEvent
 from planner.record.trace import PlanTrace
@@ -6,15 +6,18 @@ from xavi_dialogue.domain.answers import CrossingVehicle
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.ride import Ride, planned
 
-NEXT = 18.0  # [m] within which one who was given way to is just passing
-APART = 3.0  # [m] by which one who goes away is farther
+NEXT = 18.0  # [m] within which a vehicle that we gave way to is just passing
+APART = 3.0  # [m] by which the distance of a vehicle that goes away has grown
 MOVING = 0.5  # [m/s] from which a vehicle is on its way
-PASSED = 6.0  # [s] before a deed within which way was given for it
-LATELY = 4.0  # [s] before a deed within which it may have been decided
+PASSED = 6.0  # [s] before an action in which we gave way for its sake
+LATELY = 4.0  # [s] before an action in which it may have been decided
 
 
 def bystanders(ride: Ride, world: World, time: float) -> tuple[CrossingVehicle, ...]:
-    """Tell of those whose way crossed ours at a moment who goes first, and what they did."""
+    """Return the vehicles whose way crossed ours at a time [s], with who goes first.
+
+    Those that we have just let go come first.
+    """
     trace = ride.at(time)
     found = [] if trace is None else [_one(ride, world, trace, time, v) for v in _met(trace)]
     waits = [e for e in ride.events if e.kind == "gave-way" and e.vehicle is not None]
@@ -28,10 +31,10 @@ def bystanders(ride: Ride, world: World, time: float) -> tuple[CrossingVehicle, 
 
 
 def reckoned_with(ride: Ride, vehicle: int, time: float) -> bool:
-    """Tell whether a vehicle was in the way of going or of stopping, as imagined before a time.
+    """Check whether a vehicle was in our way in rollouts of going or stopping before a time [s].
 
-    Of whom that is not so, neither depended on what it did. Where nothing was imagined, it is not
-    known, and the rule of the road stands.
+    If not, neither depended on what the vehicle did. Without such rollouts, this is not known, and
+    the rule of the road stands: the result is True.
     """
     drives = [
         drive
@@ -45,7 +48,7 @@ def reckoned_with(ride: Ride, vehicle: int, time: float) -> bool:
 
 
 def _parts(world: World, wait: RideEvent, time: float) -> bool:
-    """Check whether one that was given way to is farther from us at a time [s] than it was then."""
+    """Check whether a vehicle that we gave way to is passing or going away at a time [s]."""
     assert wait.vehicle is not None
     first, last = world.look(wait.vehicle, wait.sim_time), world.look(wait.vehicle, time)
     if first is None or last is None:

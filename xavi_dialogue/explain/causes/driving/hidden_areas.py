@@ -1,7 +1,7 @@
-"""What cannot be seen, as a cause: the ego is slower since somebody might come out of there.
+"""Hidden areas as causes: the ego is slower since somebody might come out of them.
 
-That it is so is shown by the drives imagined at a decision. Whether it matters is tried by planning
-that decision again as if one could see past what hides it: it does where this saves time.
+The rollouts of a decision show where this is so. Whether it matters is tested by planning the
+decision again as if the ego could see past what hides the area. It matters if this saves time.
 """
 
 import math
@@ -17,20 +17,20 @@ from xavi_dialogue.explain.causes.plans.replanned import replanned, saves_time
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride
 
 SLOWED = frozenset[ActionName](("slow-down", "brake", "move"))
-HELD = 0.5  # share of the drives in which it makes us slower
-AHEAD = 0.6  # [rad] from our heading within which somebody comes from ahead
-BEFORE = 1.0  # [s] before a slowing at which it may have been decided
+HELD = 0.5  # minimum share of the rollouts in which a phantom makes us slower
+AHEAD = 0.6  # [rad] maximum angle to our heading at which a phantom comes from ahead
+BEFORE = 1.0  # [s] before a slowing in which it may have been decided
 
 Side = Literal["left", "right", "ahead"]
 
 
 def hidden_causes(ride: Ride, deed: Episode) -> tuple[tuple[MotionCause, ...], PlanTrace] | None:
-    """Tell what hides from where somebody might come, for whom the ego slowed down.
+    """Find what hides the areas for which the ego slowed down.
 
     Returns:
-        The first that matters by itself, with who hides it (None: a building), or else all that
-        matter together, and the decision; None where nothing hidden made it slower, or that does
-        not matter.
+        The causes, each with the vehicle that hides an area (None: a building), and the decision.
+        It is the first that matters by itself, or may; else all that matter together. None if no
+        hidden area made the ego slower, or that does not matter.
 
     Raises:
         Unanswered: the decision must be planned again first.
@@ -57,7 +57,7 @@ def hidden_causes(ride: Ride, deed: Episode) -> tuple[tuple[MotionCause, ...], P
 
 
 def holding(trace: PlanTrace) -> tuple[Phantom, ...]:
-    """List who is imagined and makes us slower at a decision, the nearest first."""
+    """List the phantoms that make us slower at a decision, the nearest first."""
     way = next((step.action for step in trace.plan if step.action != "stop"), None)
     drives = [r for r in trace.rollouts if r.actions and r.actions[0].action == way]
     shares = [0] * len(trace.phantoms)
@@ -69,7 +69,7 @@ def holding(trace: PlanTrace) -> tuple[Phantom, ...]:
 
 
 def side_of(trace: PlanTrace, one: Phantom) -> Side:
-    """Tell from which side of us somebody who is imagined would come."""
+    """Return the side of us from which a phantom would come."""
     angle = math.remainder(one.heading + math.pi - trace.scene[EGO].heading, math.tau)
     if abs(angle) < AHEAD:
         return "ahead"
@@ -77,9 +77,10 @@ def side_of(trace: PlanTrace, one: Phantom) -> Side:
 
 
 def opened(trace: PlanTrace, hider: int | None, side: Side | None = None) -> tuple[int, ...]:
-    """List whom one would see if a vehicle, or the buildings (None), on a side hid nobody.
+    """List the phantoms that we would see if a vehicle, or the buildings (None), hid nobody.
 
-    Those whom something else hides, too, stay out of sight.
+    Only phantoms on the side, if one is given, count. Those that something else hides, too, stay
+    out of sight.
     """
     return tuple(
         k
@@ -90,9 +91,9 @@ def opened(trace: PlanTrace, hider: int | None, side: Side | None = None) -> tup
 
 
 def matters(ride: Ride, trace: PlanTrace, seen: tuple[int, ...]) -> bool | None:
-    """Tell whether a decision would save time were some seen not to be there.
+    """Check whether a decision would save time if some phantoms were seen not to be there.
 
-    None where it is not known.
+    None if that is not known.
 
     Raises:
         Unanswered: the decision must be planned again first.
@@ -101,14 +102,14 @@ def matters(ride: Ride, trace: PlanTrace, seen: tuple[int, ...]) -> bool | None:
 
 
 def seeing_past(ride: Ride, trace: PlanTrace, seen: tuple[int, ...]) -> PlanTrace | None:
-    """Find the plan made again from a decision as if some who might come were not there.
+    """Find the plan made again from a decision as if some phantoms were not there.
 
-    None where the planner could not make it.
+    None if the planner could not make it.
 
     Args:
         ride: the ride.
         trace: the decision.
-        seen: indices of those who are imagined, and are not there.
+        seen: indices of the phantoms that are seen not to be there.
 
     Raises:
         Unanswered: it must be made first.

@@ -1,8 +1,8 @@
-"""Hindrance: whom another vehicle gives way to, or has in its way: read off its predicted ways.
+"""Hindrance: who holds up another vehicle, as its predicted ways show.
 
-A predicted way carries who holds the vehicle up on it. How probable it is that somebody does is
-the sum over the goals and ways on which that happens. It is claimed only of a vehicle that was
-seen to brake or stand: what is foreseen and not seen explains nothing. We are vehicle 0.
+A predicted way records who holds the vehicle up on it. The probability that somebody does is the
+sum over the goals and ways on which that happens. It is stated only of a vehicle that was seen to
+brake or stand: what is predicted but not seen explains nothing. We are vehicle 0.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -16,21 +16,21 @@ from xavi_dialogue.explain.causes.driving.traffic_lights import light_of_other
 from xavi_dialogue.explain.causes.vehicles.involved import LIKELY, expected_actions
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, planned, prediction
 
-LEEWAY = 1.0  # [s] by which a hold-up may lie beside the braking that it explains
+LEEWAY = 1.0  # [s] by which a hold-up may precede or follow the braking that it explains
 SHORTEST = 0.5  # [s] of being held up that can make somebody brake
-FRESH = 1.5  # [s] how old a decision may be that tells what is going on now
+FRESH = 1.5  # [s] maximum age of a decision that shows what is going on now
 
 
 @dataclass(frozen=True, slots=True)
 class Hindrance:
-    """Who is in the way of another vehicle, longest first."""
+    """The road users in the way of another vehicle, the longest hold-up first."""
 
     causes: tuple[MotionCause, ...] = ()
     traces: tuple[str, ...] = ()
 
     @property
     def evidence(self) -> Evidence:
-        """What it rests on."""
+        """The decisions that this rests on."""
         return Evidence("tree", 0, 0, self.traces)
 
 
@@ -38,23 +38,23 @@ class Hindrance:
 class _Meeting:
     """One way of the vehicle on which somebody holds it up, in one decision."""
 
-    weight: float  # probability of the way, over the number of decisions
-    start: float  # [s] of the decision
+    weight: float  # probability of the way, divided by the number of decisions
+    start: float  # [s] time of the decision
     choice: Choice  # the way
     stretches: tuple[HeldUp, ...]
 
     @property
     def duration(self) -> float:
-        """[s] over all stretches."""
+        """The total length of all stretches [s]."""
         return sum(stretch.until - stretch.since for stretch in self.stretches)
 
 
 def slowed(ride: Ride, vehicle: int, begin: float, end: float) -> Hindrance:
     """Find who made a vehicle slow down from `begin` to `end` [s].
 
-    All decisions taken meanwhile tell, each with the same weight, so that what came up last
-    explains no more than its part. Where several took turns, of whom none is probable alone, it
-    is the most probable.
+    All decisions taken meanwhile count, each with the same weight, so that what came up last
+    explains no more than its part. If several took turns, and none of them alone is probable
+    enough, the most probable one is named.
     """
     known = [trace for trace in ride.traces if prediction(trace, vehicle) is not None]
     if not known:
@@ -65,7 +65,7 @@ def slowed(ride: Ride, vehicle: int, begin: float, end: float) -> Hindrance:
 
 
 def stood(ride: Ride, vehicle: int, begin: float, least: float = LIKELY) -> Hindrance:
-    """Find who made a vehicle stand from a time [s] on: the decision nearest to it tells."""
+    """Find who made a vehicle stand from a time [s] on, by the decision nearest to that time."""
     known = [trace for trace in ride.traces if prediction(trace, vehicle) is not None]
     nearest = min(known, key=lambda trace: abs(trace.sim_time - begin), default=None)
     if nearest is None or abs(nearest.sim_time - begin) > FRESH:
@@ -78,9 +78,9 @@ def at_present(ride: Ride, vehicle: int, time: float, least: float = LIKELY) -> 
 
     Args:
         ride: the record.
-        vehicle: that brakes or stands.
+        vehicle: the vehicle that brakes or stands.
         time: [s] the moment.
-        least: how probable it must be that somebody is in its way.
+        least: the minimum probability that somebody is in its way.
     """
     trace = ride.at(time, vehicle)
     if trace is None or time - trace.sim_time > FRESH or prediction(trace, vehicle) is None:
@@ -93,13 +93,13 @@ def at_present(ride: Ride, vehicle: int, time: float, least: float = LIKELY) -> 
 def lit_too(
     ride: Ride, vehicle: int, found: Hindrance, when: tuple[float, float, float]
 ) -> Hindrance:
-    """Add the traffic light that holds a vehicle, where one does, before who is in its way.
+    """Put the traffic light that holds a vehicle, if one does, before who is in its way.
 
     Args:
         ride: the record.
-        vehicle: that slows or stands.
+        vehicle: the vehicle that slows or stands.
         found: who is in its way.
-        when: [s] it began to, is asked about, and has been seen to.
+        when: [s] when it began to, when is asked about, and until when it was seen to.
     """
     begin, moment, end = when
     lit = light_of_other(ride, vehicle, max(begin, moment - FRESH), end)
@@ -107,7 +107,7 @@ def lit_too(
 
 
 def _within(start: float, end: float) -> Callable[[HeldUp], bool]:
-    """Return whether a stretch lies between two times [s], at least in part."""
+    """Return a check whether a stretch lies between two times [s], give or take, or overlaps."""
     low, high = start - LEEWAY, end + LEEWAY
     return lambda stretch: stretch.since <= high and stretch.until >= low
 
@@ -175,13 +175,13 @@ def _cause(ride: Ride, trace: PlanTrace, other: int, met: Sequence[_Meeting]) ->
 
 
 def _share(met: Iterable[_Meeting]) -> float:
-    """Return the probability of all ways met with, each counted once."""
+    """Return the probability of the ways that meetings are on, each counted once."""
     ways = {(one.start, one.choice): one.weight for one in met}
     return min(sum(ways.values()), 1.0)
 
 
 def _kind(met: Iterable[_Meeting]) -> HoldUp:
-    """Return the way of holding up that lasts longest, in the mean."""
+    """Return the kind of hold-up that lasts longest, in the mean."""
     lasted: dict[HoldUp, float] = {}
     for one in met:
         for s in one.stretches:

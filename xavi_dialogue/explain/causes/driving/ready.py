@@ -1,7 +1,7 @@
-"""Ready: what the ego slowed down for though it did not come to it.
+"""Ready: what the ego slowed down for although it then did not happen.
 
-It was ready to let somebody go first who might have come, or to stay behind somebody who would be
-in the way of what it put off; it was about to change lanes; or it had decided to turn.
+The ego was ready to let somebody go first who might have come, or to stay behind somebody who would
+be in the way of what it put off. Or it was about to change lanes, or had decided to turn.
 """
 
 from collections.abc import Collection
@@ -18,11 +18,11 @@ from xavi_dialogue.explain.causes.vehicles.involved import LIKELY
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.ride import Ride, Unanswered, chose, planned
 
-AHEAD = 1.0  # [s] before an episode, in which the decision for it may lie
+AHEAD = 1.0  # [s] before an episode in which it may have been decided
 TURNS = frozenset(("exit-left", "exit-right"))
 SOON = 2.5  # [s] after an episode in which a change of lanes belongs to it
 LEAST = 0.05  # share of the rollouts of a plan in which somebody must have held it up ...
-MIGHT = 0.2  # ... who is on foot, and may not want to cross
+MIGHT = 0.2  # ... if it is on foot, and may not want to cross
 
 
 def ready_for(
@@ -30,8 +30,8 @@ def ready_for(
 ) -> MotionCause | None:
     """Find who might have come first, or been in our way, in the decisions of an episode.
 
-    Who holds the plan up longest in the mean, or what a stop puts off; vehicles that make no
-    difference are left out.
+    It is who holds up the plan, or what a stop puts off, longest in the mean. Vehicles that make
+    no difference (`cleared`) are left out.
     """
     end = ride.now if deed.end is None else deed.end
     found: dict[MotionCause, float] = {}
@@ -55,12 +55,12 @@ def ready_for(
 
 
 def _on_foot(trace: PlanTrace, name: int) -> bool:
-    """Check whether somebody is no vehicle, and so is in no rule of a junction."""
+    """Check whether a road user is on foot, and so in none of the rules of right of way."""
     return name in trace.scene and trace.scene[name].kind in ON_FOOT
 
 
 def _held(ride: Ride, trace: PlanTrace, deed: Episode, end: float) -> list[VehicleHoldUp]:
-    """Return who holds up the plan of a decision meanwhile, or at any time what a stop puts off."""
+    """Return who holds up a plan during an episode, or, at any time, what a stop puts off."""
     model = ride.model(trace)
     try:
         found = [*hold_ups(factual(model, trace), (deed.begin - AHEAD, end)).values()]
@@ -71,7 +71,7 @@ def _held(ride: Ride, trace: PlanTrace, deed: Episode, end: float) -> list[Vehic
 
 
 def next_move(ride: Ride, trace: PlanTrace, deed: Episode) -> MotionCause | None:
-    """Find the change of lanes that a plan has next, where it came, or still may, soon after."""
+    """Find the lane change that comes second in a plan, if it began soon after, or still may."""
     end = ride.now if deed.end is None else deed.end
     moves = [action for action in planned(trace)[1:2] if action in CHANGES]
     begun = [d.action for d in ride.begun if deed.begin <= d.started <= end + SOON]

@@ -1,4 +1,4 @@
-"""Roadside: what about the road makes one drive slowly: turns, lines, limits, the trip's end."""
+"""Roadside: reasons for slow driving that lie in the road: turns, lines, limits, the trip's end."""
 
 import math
 
@@ -14,25 +14,25 @@ from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.nearing import junctions_ahead, to_destination
 from xavi_dialogue.explain.history.ride import Ride, planned
 
-BRAKING = 1.5  # [m/s2] at which one slows down early and gently
-CLOSE = 5.0  # [m] below which a place is here
-MARGIN = 12.0  # [m] before a place at which one has slowed down for it
-AGAIN = 6.0  # [s] after a standstill in which one is still setting off
-STANDING = 0.3  # [m/s]
+BRAKING = 1.5  # [m/s2] deceleration of slowing down early and gently
+CLOSE = 5.0  # [m] below which a place counts as reached
+MARGIN = 12.0  # [m] before a place at which slowing down for it is complete
+AGAIN = 6.0  # [s] after a standstill in which a vehicle is still setting off
+STANDING = 0.3  # [m/s] below which a vehicle stands
 SLACK = 0.5  # [m/s] by which a speed may exceed the limit
 
-PICKED_UP = 2.0  # [m/s] by which one is faster again beyond what one slowed down for
-BENDING = 2.5  # [s] after slowing down in which the bend lies for which it was done
-BEND = math.radians(10.0)  # angle from which the road bends
+PICKED_UP = 2.0  # [m/s] above the lowest speed, from which a motion is faster again
+BENDING = 2.5  # [s] after slowing down in which a bend explains it
+BEND = math.radians(10.0)  # [rad] minimum turn of our heading in a bend
 
-#: What one comes to a standstill for is never a speed to be driven at.
+#: Actions that end in a standstill: reasons for a lower speed (`PACES`) do not explain them.
 HALTS = frozenset(("stop", "stand", "wait", "give-way"))
 PACES = frozenset(("turn", "bend", "roundabout", "limit"))
 TURNS = ("exit-left", "exit-right", "continue-next-exit")
 
 
 def road_causes(ride: Ride, trace: PlanTrace, deed: Episode) -> tuple[MotionCause, ...]:
-    """Tell what of the road explains an episode of braking or standing; "plan" where nothing."""
+    """Return what in the road explains an episode; the cause "plan" if nothing does."""
     if deed.action == "speed-up":
         return speeding_up(ride, deed)
     junction = [_from_here(ride, deed, cause) for cause in _junction(trace, deed)]
@@ -45,7 +45,7 @@ def road_causes(ride: Ride, trace: PlanTrace, deed: Episode) -> tuple[MotionCaus
 
 
 def speeding_up(ride: Ride, deed: Episode) -> tuple[MotionCause, ...]:
-    """Tell why the ego sped up: it had stood or slowed, and the limit lies higher."""
+    """Return why the ego sped up: it set off, or was below the limit; else the cause "plan"."""
     found = []
     motion = ride.motion(EGO)
     stood = [t for t, v in zip(motion.time, motion.speed, strict=True) if v < STANDING]
@@ -59,7 +59,7 @@ def speeding_up(ride: Ride, deed: Episode) -> tuple[MotionCause, ...]:
 
 
 def limit_at(ride: Ride, time: float) -> float | None:
-    """Tell the limit [m/s] where the ego was at a time; None where no record has it."""
+    """Return the limit [m/s] where the ego was at a time; None if no record has it."""
     trace = ride.at(time)
     if trace is None or trace.road is None:
         return None
@@ -68,7 +68,7 @@ def limit_at(ride: Ride, time: float) -> float | None:
 
 
 def setting_off(ride: Ride, time: float, vehicle: int = EGO) -> bool:
-    """Tell whether a vehicle had stood shortly before a time [s] and was speeding up at it."""
+    """Check whether a vehicle stood shortly before a time [s] and is speeding up then."""
     motion = ride.motion(vehicle).until(time)
     if motion.trend != "speeding-up":
         return False
@@ -89,7 +89,7 @@ def _destination(ride: Ride, trace: PlanTrace, deed: Episode) -> list[MotionCaus
 
 
 def _drawn(ride: Ride, trace: PlanTrace, deed: Episode) -> tuple[PlanTrace, Motion] | None:
-    """The decision of a deed, or the last one of it before, that has recorded a drive; and that."""
+    """Return the last decision in an episode that recorded the line of a rollout, and that line."""
     known = [t for t in ride.traces if deed.begin - 1.0 <= t.sim_time < trace.sim_time]
     for decided in (trace, *reversed(known)):
         motion = next(iter(lines(decided).values()), None)
@@ -99,7 +99,7 @@ def _drawn(ride: Ride, trace: PlanTrace, deed: Episode) -> tuple[PlanTrace, Moti
 
 
 def _beyond_slowest(ride: Ride, trace: PlanTrace, deed: Episode) -> bool:
-    """Whether the drive planned is slowest well before the next junction, then faster again."""
+    """Check whether the planned motion is slowest well before the next junction, then faster."""
     found = _drawn(ride, trace, deed)
     if trace.under_way is not None and trace.under_way.action in TURNS:
         return False
@@ -111,7 +111,10 @@ def _beyond_slowest(ride: Ride, trace: PlanTrace, deed: Episode) -> bool:
 
 
 def _slowest(motion: Motion, distance: float) -> float | None:
-    """How far off [m] one is slowest before one is faster again; None: not within a distance."""
+    """Return how far on [m] a motion is slowest before it is faster again.
+
+    None: that is not within a distance [m].
+    """
     way, lowest, at = 0.0, math.inf, 0.0
     for k, speed in enumerate(motion.speed):
         way += math.dist(motion.position[max(k - 1, 0)], motion.position[k])
@@ -171,7 +174,7 @@ def _junction(trace: PlanTrace, deed: Episode) -> list[MotionCause]:
 
 
 def _from_here(ride: Ride, deed: Episode, cause: MotionCause) -> MotionCause:
-    """A reason that lies at a junction ahead, with how far that is now; without once it is past."""
+    """Return a reason at a junction ahead, with its distance now; with none once it is reached."""
     route = junctions_ahead(ride, ride.now)
     if deed.end is not None or not route or route[0].distance < CLOSE:
         return replace(cause, value=None)
@@ -182,7 +185,7 @@ def _from_here(ride: Ride, deed: Episode, cause: MotionCause) -> MotionCause:
 
 
 def is_turning(trace: PlanTrace) -> bool:
-    """Tell whether a turn is under way or comes next."""
+    """Check whether a turn is under way or comes next."""
     first = (
         trace.under_way.action if trace.under_way is not None else next(iter(planned(trace)), "")
     )
@@ -190,6 +193,6 @@ def is_turning(trace: PlanTrace) -> bool:
 
 
 def _reach(deed: Episode) -> float:
-    """Return how far [m] ahead lies what one slows down for."""
+    """Return how far [m] ahead the reason for slowing down in an episode may lie."""
     speed = deed.speed_from if deed.speed_from is not None else 10.0
     return speed * speed / (2.0 * BRAKING) + MARGIN

@@ -1,7 +1,7 @@
-"""Slowness: why the ego drives slowly, or stays behind another: the state, not its coming about.
+"""Slowness: why the ego drives slowly or stays behind another, not why it slowed down.
 
-Driving slowly is judged against the limit. Who drives in front of us within some seconds is the
-reason where it is no faster than we are and planning without it is faster.
+Driving slowly is judged against the limit. A vehicle that drives in front of us within some seconds
+is the reason if it is no faster than we are and planning without it is faster.
 """
 
 from collections.abc import Collection
@@ -33,11 +33,11 @@ from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 
-SLOW = 0.85  # of the limit, below which driving is slow
-AT_LIMIT = 0.93  # of the limit, from which one drives at it
+SLOW = 0.85  # share of the limit below which driving is slow
+AT_LIMIT = 0.93  # share of the limit from which the ego drives at it
 HEADWAY = 5.0  # [s] within which somebody in front sets the pace
 NEAR = 12.0  # [m] likewise, however slow we are
-ASIDE = 2.0  # [m] sideways up to which somebody is in front of us
+ASIDE = 2.0  # [m] maximum offset sideways of somebody in front of us
 AROUND = 3.0  # [s] of the plan that count as now
 
 
@@ -52,7 +52,7 @@ class Slowness:
 
 
 def slowness(ride: Ride, world: World, time: float) -> Slowness:
-    """Tell why the ego drove no faster at a time [s].
+    """Find why the ego drove no faster at a time [s].
 
     Raises:
         Unanswered: the record lacks it; or rollouts are needed.
@@ -84,7 +84,7 @@ def slowness(ride: Ride, world: World, time: float) -> Slowness:
 
 
 def leader(ride: Ride, world: World, time: float) -> Look | None:
-    """Find who drives or stands in front of the ego at a time, within some seconds; the nearest."""
+    """Find the nearest vehicle in front of the ego at a time [s], within seconds of driving."""
     reach = max(NEAR, HEADWAY * (speed_at(ride, time) or 0.0))
     return next(iter(in_lane_ahead(ride, world, time, reach)), None)
 
@@ -92,10 +92,10 @@ def leader(ride: Ride, world: World, time: float) -> Look | None:
 def with_nearest(
     ride: Ride, world: World, reasons: Reasons, time: float
 ) -> tuple[MotionCause, ...]:
-    """Name with a leader that is the reason who drives in between, nearer to us, at a time [s].
+    """Add to a leader that is the reason the vehicle that drives between it and us at a time [s].
 
-    Who sits in the car sees the nearer one first. Where the reason is the nearest itself, and who
-    is right before it counts as well, that one holds both up.
+    Passengers see the nearer vehicle first. If the reason is the nearest vehicle itself, and the
+    one right before it counts as well, the latter holds up both, and becomes the reason.
     """
     causes = [_farther(ride, world, cause, time, reasons.counted) for cause in reasons.causes]
     named = {cause.vehicle for cause in causes}
@@ -116,7 +116,7 @@ def with_nearest(
 def _farther(
     ride: Ride, world: World, cause: MotionCause, time: float, counted: Collection[int]
 ) -> MotionCause:
-    """Take for the nearest leader who is right before it, counts as well, and is no faster."""
+    """Replace the nearest leader by the one before it, if that counts too and is not faster."""
     reach = max(NEAR, HEADWAY * (speed_at(ride, time) or 0.0))
     ahead = in_lane_ahead(ride, world, time, reach)[:2]
     if cause.kind != "leader" or len(ahead) < 2 or cause.vehicle != ahead[0].vehicle:
@@ -130,14 +130,14 @@ def _farther(
 def in_lane_ahead(
     ride: Ride, world: World, time: float, reach: float, at: float | None = None
 ) -> list[Look]:
-    """List who is in front of the ego at a time within a distance [m], the nearest first.
+    """List the vehicles in front of the ego at a time within a distance [m], the nearest first.
 
     Args:
         ride: the record.
         world: its facts.
         time: [s] the moment.
         reach: [m] how far.
-        at: [s] the moment whose lane of ours counts, where it is another.
+        at: [s] the moment of which our lane counts; None: the same moment.
     """
     lane_at = time if at is None else at
     looks = [look for v in world.in_view(time) if (look := world.look(v, time)) is not None]
@@ -149,7 +149,7 @@ def in_lane_ahead(
 
 
 def _was_lane(ride: Ride, look: Look, before: float, time: float, reach: float) -> bool:
-    """Whether a vehicle is ahead in the lane that was ours before, as the road is recorded."""
+    """Check whether a vehicle is ahead in the lane that was ours before, by the recorded road."""
     first, then = ride.at(before), ride.at(time)
     ours = None if first is None or first.road is None else first.road.places.get(EGO)
     theirs = None if then is None or then.road is None else then.road.places.get(look.vehicle)

@@ -10,16 +10,16 @@ from xavi_dialogue.explain.facts.bearings import Offset
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.thresholds import SAME_LANE, STANDING
 
-HALF_LANE = 1.8  # [m] sideways from the middle of our way that we need ourselves
-SLOWEST = 3.0  # [m/s] from which whoever moves in ahead drives on
-SETTING_OFF = 2.6  # [m/s2] with which another vehicle sets off briskly
+HALF_LANE = 1.8  # [m] to each side of the middle of our way that we need ourselves
+SLOWEST = 3.0  # [m/s] above which a vehicle that moves in ahead of us drives on
+SETTING_OFF = 2.6  # [m/s2] acceleration of another vehicle that sets off briskly
 
 Kind = Literal["room", "short", "first", "behind", "beside", "apart", "joins", "standing"]
 
 
 @dataclass(frozen=True, slots=True)
 class Stopping:
-    """How a sudden act of another vehicle would come out for us."""
+    """What a sudden action of another vehicle would lead to for us."""
 
     kind: Kind
     speed: float  # [m/s] ours
@@ -29,18 +29,18 @@ class Stopping:
 
 
 def stopping_distance(speed: float) -> float:
-    """Tell in how many metres we come to a standstill, the time to react included."""
+    """Return the distance [m] in which we come to a standstill, the time to react included."""
     return speed * REACTION + speed * speed / (2.0 * EMERGENCY)
 
 
 def stopping(states: States, vehicle: int, time: float, *, in_lane: bool) -> Stopping | None:
-    """Tell whether we could stop in time; None where it is not known where both are.
+    """Estimate whether we could stop in time; None if it is not known where both are.
 
     Args:
         states: where everybody was.
         vehicle: the one that does something suddenly.
         time: when [s].
-        in_lane: it is supposed to do so in its own lane: stop, brake, drive on.
+        in_lane: whether it does so in its own lane: it stops, brakes, or drives on.
     """
     ours, other = states.state(EGO, time), states.state(vehicle, time)
     seen = states.offset(EGO, vehicle, time)
@@ -64,7 +64,7 @@ def stopping(states: States, vehicle: int, time: float, *, in_lane: bool) -> Sto
 
 
 def _joining(seen: Offset, speed: float, pace: float) -> Stopping:
-    """Tell of somebody who moves in ahead of us and drives on: we need to be no faster."""
+    """Estimate for a vehicle that moves in ahead of us and drives on: we need to be no faster."""
     closing = max(speed - pace, 0.0)
     gap = seen.ahead - seen.clear
     kind: Kind = "joins" if stopping_distance(closing) <= gap else "short"
@@ -72,15 +72,15 @@ def _joining(seen: Offset, speed: float, pace: float) -> Stopping:
 
 
 def _behind(speed: float, leader: float, gap: float) -> Stopping:
-    """Tell of braking behind a leader that brakes as hard as anybody can."""
+    """Estimate for braking behind a leader that brakes as hard as anybody can."""
     needed = stopping_distance(speed)
     left = gap + leader * leader / (2.0 * EMERGENCY) - needed
     return Stopping("room" if left > 0.0 else "short", speed, needed, gap, left)
 
 
 def _across(seen: Offset, ours: VehicleState, other: VehicleState) -> Stopping:
-    """Tell of somebody beside our way that comes into it where it is now."""
-    across = (ours.length + other.width) / 2.0  # whoever comes from the side turns its front to us
+    """Estimate for a vehicle that comes into our way straight from where it is now."""
+    across = (ours.length + other.width) / 2.0  # from the side, it takes up its width of our way
     room = max(seen.ahead - across, 0.0)
     needed = stopping_distance(ours.speed)
     if needed <= room:

@@ -35,9 +35,9 @@ from xavi_dialogue.explain.history.ride import (
     thin,
 )
 
-QUICKER = 1.0  # [m/s] from which the ego drives faster than it did
-FASTER = 5.0  # [m/s] by which another drives faster where it is supposed to
-#: What is planned again where a way of driving is supposed, and no sample has it.
+QUICKER = 1.0  # [m/s] minimum gain in speed with which the ego drives faster
+FASTER = 5.0  # [m/s] by which another vehicle drives faster if that is supposed
+#: By action that is supposed and in no sample: the action with which it is planned again.
 STANDS_FOR: dict[ActionName, ActionName] = {
     "slow-down": "stop",
     "give-way": "stop",
@@ -47,7 +47,7 @@ STANDS_FOR: dict[ActionName, ActionName] = {
 
 @dataclass(frozen=True, slots=True)
 class Supposed:
-    """What was decided, and what would have been under a supposition."""
+    """What was decided, and what would have been decided under a supposition."""
 
     trace: PlanTrace  # the decision
     again: PlanTrace  # the same, or planned again
@@ -65,7 +65,7 @@ class Supposed:
 
 
 def is_faster(found: Supposed) -> bool:
-    """Tell whether the ego would drive faster somewhere on the next stretch of road."""
+    """Check whether the ego would drive faster somewhere on the next stretch of road."""
     here, there = speeds(found.trace, found.here), speeds(found.again, found.there)
     return here is not None and there is not None and float(np.max(there - here)) >= QUICKER
 
@@ -98,7 +98,7 @@ def decision_for(ride: Ride, vehicle: int, moment: float) -> PlanTrace:
 def without(ride: Ride, vehicles: tuple[int, ...], moment: float) -> Supposed:
     """Compare a decision with the same made again without some vehicles.
 
-    The decision is the one for the first of them that a decision up to a time [s] reckons with.
+    The decision is taken for the first of them that any decision up to a time [s] reckons with.
 
     Raises:
         Unanswered: no decision reckons with them; or it must be planned again first.
@@ -115,22 +115,22 @@ def planned_without(ride: Ride, trace: PlanTrace, vehicles: tuple[int, ...]) -> 
     """
     gone = tuple(vehicle for vehicle in vehicles if vehicle in trace.scene)
     again = ride.without(trace, *gone)
-    if again is None:  # the planner could not make it: whoever asked it knows why
+    if again is None:  # the planner could not make it; the caller finds out why
         removed = gone[0] if len(gone) == 1 else tuple(sorted(gone))
         raise Unanswered(NeedRollout(trace_id=trace.trace_id, removed=removed))
     return compared(ride, trace, again, None)
 
 
 def happens_without(ride: Ride, reasons: Reasons, vehicles: tuple[int, ...]) -> bool | None:
-    """Tell whether the ego drives so without vehicles, by the trial by which they are causes.
+    """Check whether the ego drives so without vehicles, by the trial that makes them causes.
 
     Args:
         ride: the record.
-        reasons: why it does.
-        vehicles: those of the decision that are not there.
+        reasons: why it drives so.
+        vehicles: vehicles of the decision that are supposed not to be there.
 
     Returns:
-        Whether it does; None where that cannot be planned.
+        Whether it does; None if that cannot be planned.
 
     Raises:
         Unanswered: it does, but one of them is stated as a reason that could not be tried; or the
@@ -155,8 +155,8 @@ def together(
 ) -> Supposed | None:
     """Compare a decision with what it would be if several vehicles did, or did not do, something.
 
-    That is read off the samples of the decision in which all of them do; None where there are
-    too few, since it can be planned again with the conduct of one vehicle alone.
+    That is read off the samples of the decision in which all of them do. None if there are too
+    few, since the planner can change the conduct of only one vehicle.
     """
     trace = decision_for(ride, vehicles[0], moment)
     model = ride.model(trace)
@@ -179,8 +179,8 @@ def otherwise(
 ) -> Supposed:
     """Compare a decision with what it would be if a vehicle did, or did not do, something.
 
-    That is read off the samples of the decision itself; where they are too few, it is planned
-    again with the vehicle acting so.
+    That is read off the samples of the decision itself. If they are too few, the decision is
+    planned again with the vehicle acting so.
 
     Raises:
         Unanswered: it must be planned again first; or there is too little evidence.
@@ -220,7 +220,7 @@ def otherwise(
 def _acting(
     ride: Ride, trace: PlanTrace, vehicle: int, steps: Actions, refused: Unanswered
 ) -> Supposed:
-    """The plan made again with a vehicle that does what nothing in the record provides for."""
+    """Compare a decision with the same made again with a vehicle that does what no sample has."""
     need = NeedRollout(trace_id=trace.trace_id, vehicle=vehicle, vehicle_actions=steps)
     if len(steps) == 1 and steps[0] not in (
         *CHANGES,
@@ -234,7 +234,7 @@ def _acting(
 
 
 def _given(ride: Ride, model: CausalModel, supposed: dict[int, frozenset[Choice]]) -> Supposed:
-    """Return the ego's best plan given what is supposed of others, against what was decided."""
+    """Compare what was decided with the ego's best plan given what is supposed of others."""
     trace, chance = model.trace, 1.0
     for vehicle, choices in supposed.items():  # each chooses by itself
         chances = model.choices(vehicle)
@@ -246,10 +246,10 @@ def _given(ride: Ride, model: CausalModel, supposed: dict[int, frozenset[Choice]
 
 
 def _best(given: CausalModel, plan: Actions) -> Intervention:
-    """Return the best of the plans that there is evidence for; of equals, what is planned anyway.
+    """Return the best plan that there is evidence for; of equals, what is planned anyway.
 
     Raises:
-        Unanswered: there is too little evidence, if only of what is planned.
+        Unanswered: there is too little evidence of what is planned anyway.
     """
     found = [i for a in given.options() if (i := given.intervene((a,))) is not None]
     options = [intervention for intervention in found if enough(intervention)]
@@ -275,7 +275,7 @@ def compared(ride: Ride, trace: PlanTrace, again: PlanTrace, prior: float | None
 
 
 def within(ride: Ride, found: Supposed) -> Contrast:
-    """Compare what would be planned with what was, or with the next best, in the supposed world.
+    """Compare, in the supposed world, what would be planned with what was, or the next best.
 
     Raises:
         Unanswered: there is too little evidence.
@@ -292,7 +292,7 @@ def within(ride: Ride, found: Supposed) -> Contrast:
 
 
 def share_of(trace: PlanTrace, plan: Intervention, name: ActionName) -> float | None:
-    """Tell how probable it is under a plan that the ego drives as described; None: not recorded."""
+    """Return how probable it is that the ego drives so under a plan; None: not recorded."""
     if name not in ("slow-down", "speed-up", "stop", "give-way"):
         wanted = means(name)
         pairs = zip(plan.results, plan.weights, strict=True)

@@ -1,7 +1,7 @@
-"""Traffic lights as causes: that one holds us is shown by the drives imagined at a decision.
+"""Traffic lights as causes: one holds us, as the rollouts of a decision show.
 
-Whether it matters is tried by planning that decision again with the light green for good: it does
-where this saves time. Who stands before us in the queue is stated beside it.
+Whether it matters is tested by planning that decision again with the light green for good. It
+matters if this saves time. Who stands before us in the queue is stated as well.
 """
 
 from collections.abc import Iterable
@@ -30,7 +30,7 @@ GREEN = LightState.GREEN.value
 def light_causes(
     ride: Ride, world: World, deed: Episode, at: float
 ) -> tuple[tuple[MotionCause, ...], PlanTrace] | None:
-    """Tell that a traffic light is why the ego slowed down or stood, and by which decision.
+    """Find the traffic light for which the ego slowed down or stood, and the decision.
 
     Args:
         ride: the record.
@@ -39,8 +39,8 @@ def light_causes(
         at: [s] the moment of it that is asked about.
 
     Returns:
-        The light, and who stands before us at it; None where no light holds us, or it does not
-        matter.
+        The light and who stands before us at it; the latter alone once the light lets us go. None
+        if no light holds us, or it does not matter.
 
     Raises:
         Unanswered: the decision must be planned again first.
@@ -77,9 +77,9 @@ def _signal(light: object) -> Signal:
 
 
 def _decision(ride: Ride, hold: Hold, deed: Episode, at: float) -> PlanTrace | None:
-    """The decision at which the light held us: of standing the one at the moment, else the first.
+    """Return a decision at which a light held us: for standing, the last one, else the first.
 
-    One that had a choice goes first.
+    Those that had a choice are preferred.
     """
     known = [
         t
@@ -93,9 +93,9 @@ def _decision(ride: Ride, hold: Hold, deed: Episode, at: float) -> PlanTrace | N
 
 
 def matters(ride: Ride, trace: PlanTrace, signal: Signal) -> bool | None:
-    """Tell whether a decision would save time were a light green; None where it is not known.
+    """Check whether a decision would save time if a light were green; None if that is not known.
 
-    It would also where the ego gets further until a light beyond holds it.
+    It also counts if the ego gets further until a light beyond holds it.
 
     Raises:
         Unanswered: the decision must be planned again first.
@@ -108,10 +108,10 @@ def matters(ride: Ride, trace: PlanTrace, signal: Signal) -> bool | None:
 
 
 def with_light(ride: Ride, trace: PlanTrace, signal: Signal, state: str) -> PlanTrace | None:
-    """Find the plan made again from a decision with what a light is supposed to show for good.
+    """Find the plan made again from a decision with a light that shows a state for good.
 
-    One that is green lets us through its junction: so are those behind it on our way there. None
-    where the planner could not make it.
+    A green light lets us through its junction, so the later ones on our way there are green, too.
+    None if the planner could not make it.
 
     Raises:
         Unanswered: it must be made first.
@@ -133,7 +133,7 @@ def _queue(world: World, trace: PlanTrace) -> Iterable[MotionCause]:
 
 
 def light_of_other(ride: Ride, vehicle: int, begin: float, end: float) -> MotionCause | None:
-    """Tell that a traffic light is why another vehicle slowed or stood, as was predicted of it."""
+    """Find the traffic light for which another vehicle slowed or stood, as predicted."""
     hold = holding(ride, vehicle, begin, end)
     one = None if hold is None else shown(ride, hold.signal, min(max(begin, hold.begin), end))
     if hold is None or one is None:

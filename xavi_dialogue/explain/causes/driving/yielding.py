@@ -1,8 +1,8 @@
-"""Yielding: whom we let go first, and who is close ahead, whatever planning again shows.
+"""Yielding: vehicles that stay reasons although planning without them makes no difference.
 
-Planning without one vehicle tells nothing of a duty: who has right of way is let go first, even
-where another would take its place. So it is with whoever is in our way, where without it others
-would be. A vehicle without which nobody holds us up and all is the same is no reason.
+Planning without one vehicle shows nothing of a duty: we let a vehicle with right of way go first
+even if another would take its place. Likewise, a vehicle in our way stays a reason if without it
+others would be in our way. If nobody would be, and nothing changes, it is no reason.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ from xavi_dialogue.explain.causes.vehicles.involved import LIKELY, held_by
 from xavi_dialogue.explain.causes.vehicles.necessity import Proven
 from xavi_dialogue.explain.facts.world import World
 
-ASIDE = 2.0  # [m] sideways up to which somebody is in front of us
+ASIDE = 2.0  # [m] maximum offset sideways of somebody in front of us
 HEADWAY, NEAR = 3.0, 12.0  # [s] and [m] within which somebody in front is close
 
 
@@ -30,14 +30,14 @@ def kept(
     *,
     alone: bool = False,
 ) -> Proven:
-    """Keep whom we owe way to, and where nobody is left, who is in our way before others.
+    """Keep the vehicles that we must let go; if no cause is left, the first that is in our way.
 
     Args:
         tried: what planning without the suspects shows.
         suspects: most important first.
         trace: the decision.
-        waited: who was given way to, as the events tell; it leads.
-        alone: nothing of the road explains it, so that who is yet to be in our way does.
+        waited: the vehicle that we gave way to, as the events show; it comes first.
+        alone: nothing in the road is a reason, so a vehicle that will be in our way may be one.
     """
     due = [c for c in suspects if c.vehicle == waited or _owed(trace, c)]
     if not due and not tried.causes:
@@ -51,7 +51,7 @@ def kept(
 
 
 def _consistent(causation: Causation | None, found: Sequence[Cause]) -> Causation | None:
-    """Leave the causes that are stated out of those that make no difference."""
+    """Remove the vehicles that are stated as causes from those that make no difference."""
     told = {cause.vehicle for cause in found}
     if causation is None or not told & set(causation.cleared):
         return causation
@@ -61,7 +61,7 @@ def _consistent(causation: Causation | None, found: Sequence[Cause]) -> Causatio
 
 
 def _owed(trace: PlanTrace, cause: Cause) -> bool:
-    """Check whether we have to let a vehicle go first, that holds us up by that."""
+    """Check whether a vehicle holds us up because we have to let it go first."""
     how = None if cause.mechanism is None else cause.mechanism.how
     return how == "right-of-way" and goes_first(trace, cause.vehicle)
 
@@ -73,10 +73,10 @@ def close_leader(
 
     Args:
         world: the facts of the record.
-        model: the network of the decision.
+        model: the causal model of the decision.
         plan: what the ego does.
         time: [s] the moment.
-        speed: [m/s] the ego's then.
+        speed: [m/s] the ego's speed then.
     """
     reach = max(NEAR, HEADWAY * (speed or 0.0))
     for vehicle, held in sorted(hold_ups(plan).items(), key=lambda item: -item[1].expected):
@@ -88,12 +88,12 @@ def close_leader(
 
 
 def goes_first(trace: PlanTrace, vehicle: int) -> bool:
-    """Tell whether a vehicle whose way crosses ours has right of way."""
+    """Check whether a vehicle whose way crosses ours has right of way."""
     facts = () if trace.road is None else trace.road.priority
     return any(fact.vehicle == vehicle and fact.who == "vehicle" for fact in facts)
 
 
 def leads(world: World, vehicle: int | None, time: float) -> bool:
-    """Tell whether a vehicle drives ahead of us in our lane at a time [s]."""
+    """Check whether a vehicle drives ahead of us in our lane at a time [s]."""
     look = None if vehicle is None else world.look(vehicle, time)
     return look is not None and look.ahead > 0.0 and abs(look.left) <= ASIDE and not look.oncoming
