@@ -7,7 +7,7 @@ from sim.scene import Point
 
 
 class Box(Protocol):
-    """Whatever has a place, a heading and a size; see `VehicleState` for the fields."""
+    """Anything with a position, a heading and a size; see `VehicleState` for the fields."""
 
     @property
     def position(self) -> Point: ...
@@ -23,7 +23,7 @@ class Box(Protocol):
 
 
 def corners(state: Box) -> tuple[Point, Point, Point, Point]:
-    """Front left, front right, rear right and rear left corner [m] of a box."""
+    """Return the front left, front right, rear right and rear left corner [m] of a box."""
     x, y = state.position
     ahead_x, ahead_y = math.cos(state.heading), math.sin(state.heading)
     side_x, side_y = -ahead_y * state.width / 2.0, ahead_x * state.width / 2.0
@@ -39,8 +39,8 @@ def corners(state: Box) -> tuple[Point, Point, Point, Point]:
 def overlap(a: Box, b: Box) -> bool:
     """Check whether two boxes share ground; touching is not overlapping.
 
-    Two convex shapes are apart exactly if the normal of one of their edges separates them
-    (separating axis theorem; Gottschalk, Lin and Manocha, "OBBTree", SIGGRAPH 1996).
+    Two boxes are apart exactly if they do not overlap when projected onto the normal of one of
+    their sides (separating axis theorem; Gottschalk, Lin and Manocha, "OBBTree", SIGGRAPH 1996).
     """
     corners_a, corners_b = corners(a), corners(b)
     for heading in (a.heading, b.heading):

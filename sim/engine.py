@@ -1,4 +1,4 @@
-"""libsumo behind one door: the only module that imports it.
+"""Access to SUMO: the only module that imports libsumo.
 
 SimulationError
 ├── SumoMissing          libsumo, or a system library that it needs, is not installed
@@ -52,7 +52,7 @@ class Engine:
     """SUMO in this process; close it, or use it in a `with` statement."""
 
     def __init__(self) -> None:
-        """Load libsumo, and keep others from starting it.
+        """Load libsumo, and claim it for this object.
 
         Raises:
             SumoMissing: libsumo or a system library is not installed.
@@ -63,10 +63,10 @@ class Engine:
             raise SimulationRunning
         self.api = _libsumo()
         self._scratch = tempfile.TemporaryDirectory(prefix="xavi-")
-        self.scratch = Path(self._scratch.name)  # gone when it is closed
-        self.log = self.scratch / "errors.txt"  # of what SUMO writes while it reads its input
+        self.scratch = Path(self._scratch.name)  # removed on close
+        self.log = self.scratch / "errors.txt"  # what SUMO writes while it reads its input
         self.log.touch()
-        self.now = 0.0  # [s] as errors tell it
+        self.now = 0.0  # [s] that errors state as the time
         _running = self._open = True
 
     def __enter__(self) -> Self:
@@ -89,10 +89,10 @@ class Engine:
             self.api.close()
 
     def start(self, arguments: Sequence[str], file: Path) -> None:
-        """Start SUMO; what it would write to files goes to the scratch folder.
+        """Start SUMO; its output files go to the scratch folder.
 
         Args:
-            arguments: of its command line, without its name.
+            arguments: of its command line, without the program's name.
             file: what errors call the input.
 
         Raises:
@@ -103,7 +103,7 @@ class Engine:
         self.guarded(file, lambda: self.call(self.api.start, ["sumo", *arguments, *apart]))
 
     def guarded(self, file: Path, act: Callable[[], Value]) -> Value:
-        """Do what makes SUMO read its input; its errors name the vehicle and the attribute.
+        """Call a function that makes SUMO read its input, and raise SUMO's own first error.
 
         Raises:
             SumoFailed: SUMO does not accept the input.
@@ -112,12 +112,12 @@ class Engine:
             with errors_to(self.log):
                 return act()
         except SumoFailed as error:
-            # SUMO writes more than it raises.
+            # What SUMO writes is more exact than what it raises.
             reason = first_error(self.log) or str(error)
             raise SumoFailed(f"{file}: SUMO refuses it: {reason}") from error
 
     def call(self, function: Callable[..., Value], *arguments: Any) -> Value:
-        """Call libsumo; its errors become ours.
+        """Call a function of libsumo, and turn its errors into SumoFailed.
 
         Raises:
             SumoFailed: SUMO cannot do it.
@@ -130,19 +130,19 @@ class Engine:
 
 
 def version() -> str:
-    """Return which SUMO there is.
+    """Return the version of SUMO that is installed.
 
     Raises:
-        SumoMissing: none, or a system library is not installed.
+        SumoMissing: SUMO, or a system library that it needs, is not installed.
     """
     return str(_libsumo().getVersion()[1])
 
 
 def _libsumo() -> Any:
-    """Return the libsumo module, untyped by its makers.
+    """Return the libsumo module, which has no type annotations.
 
     Raises:
-        SumoMissing: it, or a system library that it needs, is not installed.
+        SumoMissing: libsumo, or a system library that it needs, is not installed.
     """
     try:
         return importlib.import_module("libsumo")

@@ -8,10 +8,11 @@ LONGEST = 4  # digits of an id that is a name
 
 
 class VehicleNames:
-    """Gives every vehicle a number and keeps it.
+    """A number for every vehicle and person, kept for the whole ride.
 
-    The ego is 0; another id that is a positive integer of at most four digits stands; the rest
-    get the lowest free number as they come into view.
+    The ego is 0. An id that is a positive integer of up to four digits is kept as the number,
+    unless it was given away before the id was known. All others get the lowest free number when
+    they come into view.
     """
 
     def __init__(self, ego: str, known: Iterable[str]) -> None:
@@ -20,7 +21,7 @@ class VehicleNames:
         Args:
             ego: the ego's id.
             known: ids of the ride in the order of the route file. Vehicles that come into view
-                together are named in this order, and numbers that are ids are never given away.
+                together are named in this order. Numbers that are such ids stay reserved.
         """
         ids = tuple(known)
         self._names = {ego: EGO}
@@ -28,7 +29,7 @@ class VehicleNames:
         self._taken = {EGO, *(int(vehicle) for vehicle in ids if _is_name(vehicle))}
 
     def of(self, vehicle: str) -> int:
-        """Return the name of a vehicle, given now if it has none."""
+        """Return the name of a vehicle; it gets one now if it has none."""
         if vehicle not in self._names:
             name = int(vehicle) if self._stands(vehicle) else self._lowest_free()
             self._names[vehicle] = name
@@ -36,11 +37,11 @@ class VehicleNames:
         return self._names[vehicle]
 
     def _stands(self, vehicle: str) -> bool:
-        """Check whether an id is its own name: nobody got that number before it was known."""
+        """Check whether an id is kept as the name: its number is reserved for it, or still free."""
         return _is_name(vehicle) and (vehicle in self._order or int(vehicle) not in self._taken)
 
     def in_order(self, vehicles: Iterable[str]) -> list[str]:
-        """Vehicles in the order in which they are to be named."""
+        """Return vehicles in the order in which they are to be named."""
         last = len(self._order)
         return sorted(vehicles, key=lambda vehicle: (self._order.get(vehicle, last), vehicle))
 
@@ -52,6 +53,6 @@ class VehicleNames:
 
 
 def _is_name(vehicle: str) -> bool:
-    """Check whether an id is short enough to be said."""
+    """Check whether an id is a positive integer that is short enough to be said."""
     plain = vehicle.isascii() and vehicle.isdigit() and vehicle[0] != "0"
     return plain and len(vehicle) <= LONGEST

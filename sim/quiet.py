@@ -1,4 +1,4 @@
-"""Keeps what a library writes to standard error from the user's terminal."""
+"""Redirection of standard error, to keep a library's messages off the user's terminal."""
 
 import os
 import sys
@@ -9,9 +9,9 @@ from pathlib import Path
 
 @contextmanager
 def errors_to(file: Path) -> Iterator[None]:
-    """Let standard error of this process go to the end of a file meanwhile.
+    """Append the standard error of this process to a file while the context lasts.
 
-    Libraries write past `sys.stderr`, so its file descriptor is what is replaced.
+    Libraries in C do not use `sys.stderr`, so the file descriptor is replaced.
     """
     sys.stderr.flush()
     before = os.dup(2)
@@ -26,7 +26,7 @@ def errors_to(file: Path) -> Iterator[None]:
 
 
 def first_error(file: Path) -> str | None:
-    """Return the first line of a file of messages that tells of an error."""
+    """Return the first error in a file of messages, without its prefix; None if there is none."""
     for line in file.read_text(encoding="utf-8", errors="replace").splitlines():
         if line.startswith("Error: "):
             return line.removeprefix("Error: ").strip()

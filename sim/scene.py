@@ -1,4 +1,4 @@
-"""What can be seen of the world at one instant, and what the car is told to do.
+"""Scenes, which hold what the ego can see at one instant, and commands to the ego.
 
 SI units; angles in radians anticlockwise from east; simulation time in seconds.
 """
@@ -22,8 +22,8 @@ class VehicleState:
     acceleration: float  # [m/s2] along heading
     length: float  # [m] from front to rear bumper
     width: float  # [m]
-    kind: str = "car"  # look: car, van, truck, bus, motorcycle, bicycle, tram, vehicle
-    colour: str | None = None  # in words, None where it cannot be known
+    kind: str = "car"  # by its look: car, van, truck, bus, motorcycle, bicycle, tram, vehicle
+    colour: str | None = None  # a word; None if unknown
     signals: tuple[str, ...] = ()  # lights shown: left, right, brake
 
 
@@ -36,11 +36,11 @@ class PersonState:
     speed: float  # [m/s] along heading, never negative
     length: float  # [m] from front to back
     width: float  # [m]
-    kind: str = "pedestrian"  # what it looks like: pedestrian, wheelchair, scooter
+    kind: str = "pedestrian"  # by its look: pedestrian, wheelchair, scooter
 
 
 class LightState(Enum):
-    """What a traffic light shows to one link; the values are SUMO's letters."""
+    """The state that a traffic light shows to one link; the values are SUMO's letters."""
 
     RED = "r"
     RED_AMBER = "u"  # about to turn green
@@ -54,7 +54,7 @@ class LightState(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Signal:
-    """One place in a traffic light: every link that has it is shown the same."""
+    """One position in the state of a traffic light; its links all see the same state."""
 
     controller: str  # id of the traffic light in SUMO
     index: int  # in the controller's state
@@ -62,27 +62,27 @@ class Signal:
 
 @dataclass(frozen=True, slots=True)
 class Light:
-    """What one signal in view shows."""
+    """The state of one signal in view."""
 
     signal: Signal
     state: LightState
-    since: float  # [s] when it was first seen to be so without a break
-    change_seen: bool  # whether it changed to this state then, or only came into view
+    since: float  # [s] start of the time for which it has been seen in this state
+    change_seen: bool  # True: seen to change to this state then; False: only came into view
 
 
 @dataclass(frozen=True, slots=True)
 class Unseen:
-    """A stretch of a lane within reach of the eye that something tall stands before."""
+    """A stretch of a lane within the view radius that something tall hides from the ego."""
 
     lane: str
     begin: float  # [m] along its centreline
     end: float  # [m]
-    walled: bool = False  # a building hides its end, whatever vehicles stand there
+    walled: bool = False  # a building hides its far end, no matter which vehicles are around
 
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """Everything in view at one instant, the ego among it.
+    """Everything in view at one instant, including the ego.
 
     Keys are names (0 is the ego), in increasing order; no vehicle and person share one.
     """
@@ -99,7 +99,7 @@ class Scene:
         return self.vehicles[EGO]
 
     def light(self, signal: Signal) -> Light | None:
-        """Return what a signal shows; None where it is out of view."""
+        """Return what a signal shows; None if it is out of view."""
         return next((light for light in self.lights if light.signal == signal), None)
 
 
@@ -110,5 +110,5 @@ class Command:
     position: Point  # [m] centre of the front bumper
     heading: float  # [rad]
     speed: float  # [m/s]
-    edges: tuple[str, ...] = ()  # that it will drive along; () unknown
-    lights: tuple[str, ...] | None = None  # to show, of left, right, brake; None leaves it to SUMO
+    edges: tuple[str, ...] = ()  # that it will drive along; () if unknown
+    lights: tuple[str, ...] | None = None  # to show: left, right, brake; None leaves it to SUMO

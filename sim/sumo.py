@@ -1,8 +1,8 @@
-"""SUMO as the world.
+"""The simulated world, run by SUMO.
 
-SUMO moves the other vehicles; the ego is placed where it is told to be. Collisions are judged
-by oriented boxes, since SUMO overlooks bodies that overlap across a lane boundary. Errors are
-those of `sim.engine`.
+SUMO moves the other vehicles; commands place the ego. Collisions are judged by oriented boxes,
+since SUMO overlooks bodies that overlap across a lane boundary. Errors are those of
+`sim.engine`.
 """
 
 import math
@@ -39,9 +39,9 @@ KEEP_EXACT_PLACE = 2  # keepRoute of moveToXY: no snapping to lane centres
 FREE_SPEED, FREE_LANES = 0, 0  # modes in which SUMO does not touch the ego
 SUMO_SPEED, SUMO_LANES = 31, 1621  # SUMO's default modes
 
-SUMO_LIGHTS = -1  # of setSignals: as SUMO sees fit
-THIN = 0.01  # [m]
-BESIDE = 0.5  # [m] from the edge of its lane at which the ego may cross it in the coming step
+SUMO_LIGHTS = -1  # value of setSignals that leaves the lights to SUMO
+THIN = 0.01  # [m] width of the ego for SUMO while it may overlap two lanes
+BESIDE = 0.5  # [m] from the edge of its lane, within which the ego may cross it in one step
 
 
 class Simulation:
@@ -52,7 +52,7 @@ class Simulation:
     """
 
     def __init__(self, scenario: Scenario, seed: int) -> None:
-        """Start SUMO with the starts that the seed gives.
+        """Start SUMO, with vehicles where the seed puts them.
 
         Raises:
             SumoMissing: libsumo or a system library is not installed.
@@ -129,9 +129,9 @@ class Simulation:
         return self._view.scene
 
     def collisions(self) -> tuple[int, ...]:
-        """Return the vehicles and people, seen or not, whose box overlaps the ego's now, by name.
+        """Return the names of vehicles and people, seen or not, whose box overlaps the ego's now.
 
-        Those on a bridge over the ego's road, or under it, do not count.
+        Those on a bridge over the ego's road, or on a road below it, do not count.
         """
         ego = self._view.scene.ego
         near = (x for x, state in self._view.near.items() if overlap(ego, state))
@@ -139,7 +139,7 @@ class Simulation:
         return tuple(sorted(self._names.of(x) for x in self._names.in_order(hit)))
 
     def sumo_collisions(self) -> tuple[int, ...]:
-        """Return the vehicles that SUMO itself finds in collision with the ego: a cross-check."""
+        """Return the vehicles that collide with the ego according to SUMO, as a cross-check."""
         pairs = [
             (hit.collider, hit.victim)
             for hit in self._call(self._api.simulation.getCollisions)
@@ -152,7 +152,7 @@ class Simulation:
         """Start SUMO and put the ego on the road.
 
         Returns:
-            The names to give, and whose colours are stated.
+            The names to give, and the vehicles and types whose colours are stated.
         """
         scenario, source = self._scenario, self._scenario.source
         sublane = isinstance(source, FromConfiguration) and source.sublane
@@ -205,10 +205,11 @@ class Simulation:
         self._call(vehicle.setSignals, ego, shown)
 
     def _announce(self, edges: tuple[str, ...]) -> None:
-        """Let the others know where the ego goes: in SUMO, right of way goes by routes.
+        """Set the ego's route in SUMO: the others grant right of way by it.
 
-        Where SUMO finds no lane for the ego, such as in the gap of a corner, it takes it to be at
-        the beginning of its route, and accepts none that leads on from elsewhere: that waits.
+        If SUMO finds no lane for the ego, such as in the gap at a corner, it assumes the ego to be
+        at the beginning of its route, and accepts no route that begins elsewhere. Then the new
+        route is set in a later step.
         """
         vehicle, ego = self._api.vehicle, self._ego
         road: str = self._call(vehicle.getRoadID, ego)
@@ -219,10 +220,10 @@ class Simulation:
                 self._announced = edges
 
     def _width_to_show(self) -> float:
-        """Return the ego's width [m] as SUMO is to know it in the coming step.
+        """Return the width [m] that SUMO is given for the ego in the coming step.
 
-        Where the ego crosses into a lane, SUMO would note that it overlaps the one it comes
-        from, and never strike that out: whoever it passes there would brake hard.
+        When the ego crosses into another lane, SUMO notes that it overlaps the lane it comes
+        from, and never removes that note. Vehicles that it passes there would brake hard.
         """
         vehicle, ego = self._api.vehicle, self._ego
         lane: str = self._call(vehicle.getLaneID, ego)

@@ -1,1 +1,1 @@
-"""What the ego can see, and how it looks."""
+"""The perception of the ego: which road users, traffic lights and lanes it can see."""

@@ -1,4 +1,4 @@
-"""What a vehicle looks like, in words: from SUMO's classes, colours and light bits."""
+"""Words for the look of vehicles and people, from SUMO's classes, colours and light bits."""
 
 _KINDS = {
     "truck": "truck",
@@ -47,24 +47,24 @@ def colour_name(red: int, green: int, blue: int) -> str:
 
 
 def kind_of(vehicle_class: str, shape: str = "") -> str:
-    """Return what a vehicle of a SUMO class (vClass) is called: "car" unless it is plainly another.
+    """Return the word for a vehicle of a SUMO class (vClass); "car" for all classes not listed.
 
-    Trains and ships are a "vehicle", vans of class "delivery" a "truck" of less width.
+    Trains and ships are called "vehicle". Class "delivery" is always called "truck".
 
     Args:
         vehicle_class: its class.
-        shape: its guiShape, which tells vans among those of other classes.
+        shape: its guiShape, by which vans are recognised among the classes not listed.
     """
     return _KINDS.get(vehicle_class, "van" if shape in _VANS else "car")
 
 
 def walker_of(person_class: str) -> str:
-    """Return what a person of a SUMO class (vClass) outside of vehicles is called."""
+    """Return the word for a person outside of vehicles, by its SUMO class (vClass)."""
     return _WALKERS.get(person_class, "pedestrian")
 
 
 def lights(signals: int) -> tuple[str, ...]:
-    """Return the lights shown, of left, right, brake; hazard lights are both left and right.
+    """Return which lights are on: left, right, brake; hazard lights are both left and right.
 
     Args:
         signals: SUMO's bit field.
@@ -78,10 +78,10 @@ def lights(signals: int) -> tuple[str, ...]:
 
 
 def bits(shown: tuple[str, ...]) -> int:
-    """SUMO's bit field for lights, of left, right, brake.
+    """Return SUMO's bit field for lights.
 
     Args:
-        shown: the lights that are on.
+        shown: the lights that are on: left, right, brake.
     """
     known = {"left": _LEFT, "right": _RIGHT, "brake": _BRAKE}
     return sum(known[light] for light in set(shown))

@@ -6,15 +6,15 @@ from sim.perception.buildings import NO_WALLS, Walls
 from sim.roads.network import Network, point_at
 from sim.scene import Point, Unseen
 
-SPACING = 5.0  # [m] between the places that are looked at
+SPACING = 5.0  # [m] between the points that are tested
 ON_FOOT = frozenset({"pedestrian"})
 
 
 class Blind:
-    """The lanes for vehicles as places in a row, of which some are out of sight."""
+    """The lanes for vehicles as rows of points that are tested for being out of sight."""
 
     def __init__(self, network: Network) -> None:
-        """Lay places along all lanes but those that only people on foot may use."""
+        """Put points along all lanes except those for people on foot only."""
         every = (*network.lanes.values(), *network.other_lanes.values())
         points: list[Point] = []
         owners: list[int] = []
@@ -36,10 +36,10 @@ class Blind:
         """Return the stretches of lanes within a radius [m] of the eye that are behind walls.
 
         Args:
-            eye: from where one looks.
-            radius: within which one could see.
-            walls: of buildings and tall vehicles.
-            buildings: those of these walls that stay.
+            eye: [m] the place from which the ego looks.
+            radius: [m] how far the ego sees.
+            walls: the sides of buildings and tall vehicles.
+            buildings: the sides of buildings alone.
         """
         if not len(walls.starts):
             return ()
@@ -54,7 +54,7 @@ class Blind:
     def _stretch(
         self, places: "np.ndarray[tuple[int], np.dtype[np.int64]]", walled: bool
     ) -> Unseen:
-        """From half a spacing before the first place to half a spacing behind the last."""
+        """Return a stretch that reaches half a spacing beyond its first and last point."""
         lane = self._lanes[int(self._owners[places[0]])]
         half = lane.length / max(1, round(lane.length / SPACING)) / 2.0
         begin, end = self._offsets[places[0]] - half, self._offsets[places[-1]] + half

@@ -1,4 +1,4 @@
-"""Buildings that hide what is behind them: outlines on the ground, higher than all on the road."""
+"""Buildings that hide what is behind them: outlines, taken as higher than all road users."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from sim.boxes import Box, corners
 from sim.scene import Point, VehicleState
 
-KIND = "building"  # how the types of their polygons begin, in SUMO's imports of OpenStreetMap
-OPEN = ("building.roof", "building.carport", "building.bridge")  # one drives and sees below them
+KIND = "building"  # prefix of the types of their polygons in SUMO's imports of OpenStreetMap
+OPEN = ("building.roof", "building.carport", "building.bridge")  # a car drives and sees below them
 Rows = NDArray[np.float64]
 
 
@@ -24,8 +24,8 @@ class Walls:
     def between(self, a: Point, b: Point) -> bool:
         """Check whether the straight line from a to b passes through a wall.
 
-        Two segments cross where the ends of each lie on both sides of the other (de Berg et al.,
-        "Computational Geometry", 2008, section 2.1); touching is not crossing.
+        Two segments cross if the ends of each lie on different sides of the other (de Berg et
+        al., "Computational Geometry", 2008, section 2.1); touching is not crossing.
         """
         if not len(self.starts):
             return False
@@ -45,14 +45,14 @@ class Walls:
         starts, ends, ways = self.starts - eye, self.ends - eye, points - eye
         walls = ends - starts
         one, other = ways @ _turned(starts).T, ways @ _turned(ends).T  # [M, N]: sides of the way
-        before = _side(walls, -starts)  # [N] on which side of the wall the eye is
-        after = before - ways @ _turned(walls).T  # [M, N] on which side of it the point is
+        before = _side(walls, -starts)  # [N] side of the wall on which the eye is
+        after = before - ways @ _turned(walls).T  # [M, N] side of it on which the point is
         crossed: NDArray[np.bool_] = (one * other < 0.0) & (before * after < 0.0)
         hidden: NDArray[np.bool_] = np.logical_or.reduce(crossed, axis=1)
         return hidden
 
     def beside(self, boxes: Iterable[Box]) -> "Walls":
-        """Return these walls, and the sides of boxes."""
+        """Return these walls together with the sides of boxes."""
         starts, ends = [self.starts], [self.ends]
         for box in boxes:
             around = np.array(corners(box))
@@ -68,7 +68,7 @@ class Buildings:
     """The buildings of a world."""
 
     def __init__(self, polygons: Iterable[tuple[str, tuple[Point, ...]]]) -> None:
-        """Keep those that hide something.
+        """Keep the polygons that hide something.
 
         Args:
             polygons: the type and outline [m] of each.
@@ -86,9 +86,9 @@ class Buildings:
         self._owners = np.array(owners, dtype=np.int64)
 
     def around(self, ego: VehicleState, radius: float) -> Walls:
-        """Return the walls of which a part may be within a radius [m] of the ego.
+        """Return the walls that may be partly within a radius [m] of the ego.
 
-        A building that the ego is in hides nothing: the road leads through it.
+        A building that contains the ego hides nothing: the road leads through it.
         """
         if not len(self._starts):
             return NO_WALLS
@@ -99,7 +99,7 @@ class Buildings:
         return Walls(self._starts[near], self._ends[near])
 
     def _around(self, point: Point) -> NDArray[np.int64]:
-        """Return the buildings that a point is in: a ray crosses an odd number of their walls."""
+        """Return the buildings that contain a point: a ray crosses an odd number of their walls."""
         x, y = point
         (ax, ay), (bx, by) = self._starts.T, self._ends.T
         level = (ay > y) != (by > y)
@@ -111,11 +111,11 @@ class Buildings:
 
 
 def _turned(ways: Rows) -> Rows:
-    """Ways turned so that the scalar product with another is the cross product with it."""
+    """Return vectors turned so that a scalar product with them is a cross product."""
     return np.stack([ways[:, 1], -ways[:, 0]], axis=1)
 
 
 def _side(way: Rows, points: Rows) -> Rows:
-    """On which side of a way points lie: positive on its left (cross product)."""
+    """Return the side of a way on which points lie: positive on its left (cross product)."""
     side: Rows = way[..., 0] * points[..., 1] - way[..., 1] * points[..., 0]
     return side

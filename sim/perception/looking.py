@@ -1,4 +1,4 @@
-"""What SUMO's world shows to the ego: vehicles, people and traffic lights in view."""
+"""The ego's view of SUMO's world: vehicles, people, traffic lights and unseen stretches."""
 
 import math
 from collections.abc import Mapping
@@ -17,12 +17,12 @@ from sim.roads.network import Network
 from sim.scene import PersonState, Point, Scene, Signal, VehicleState
 
 State = TypeVar("State")
-PAINT = (255, 255, 0)  # SUMO's colour of what nobody painted
+PAINT = (255, 255, 0)  # SUMO's colour of vehicles and types for which no colour is stated
 
 
 @dataclass(frozen=True, slots=True)
 class Painted:
-    """Whose colours a file states."""
+    """The vehicles and types whose colours a file states."""
 
     vehicles: frozenset[str] = frozenset()
     types: frozenset[str] = frozenset()
@@ -30,14 +30,14 @@ class Painted:
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """What there is at one instant."""
+    """The scene at one instant, and everybody near the ego."""
 
     scene: Scene
-    near: Mapping[str, VehicleState | PersonState]  # by name's key: seen or not, the ego not
+    near: Mapping[str, VehicleState | PersonState]  # by the key for naming; seen or not, no ego
 
 
 class Perception:
-    """Looks at a running simulation for its ego, step by step."""
+    """The ego's view of a running simulation, step by step."""
 
     def __init__(
         self,
@@ -48,18 +48,18 @@ class Perception:
         painted: Painted,
         network: Network,
     ) -> None:
-        """Get to know what does not change: stop lines, buildings and lanes.
+        """Read what does not change: stop lines, buildings and lanes.
 
         Args:
             engine: of a simulation that has started.
-            ego: its id.
+            ego: the ego's id.
             radius: [m] how far the ego sees.
-            names: given to whoever comes into view.
-            painted: whose colours are stated, beside those that differ from SUMO's own.
+            names: the names for road users that come into view.
+            painted: those whose colours are stated, even if they equal SUMO's default.
             network: the roads.
 
         Raises:
-            SumoFailed: SUMO cannot tell.
+            SumoFailed: SUMO cannot answer.
         """
         self._call, self._api = engine.call, engine.api
         self._ego, self._radius, self._names, self._painted = ego, radius, names, painted
@@ -70,16 +70,16 @@ class Perception:
         self._blind = Blind(network)
 
     def look(self, time: float, commanded: VehicleState | None) -> View:
-        """Return what there is now; every step needs a look, which tells who came and went.
+        """Return the view now; must be called in every step, to know who departed and arrived.
 
         Args:
             time: [s] of the scene.
-            commanded: the ego with the width and acceleration that were commanded; None where
-                SUMO drives it.
+            commanded: the ego with its true width and the acceleration that was commanded; None
+                if SUMO drives it.
 
         Raises:
             EgoGone: the ego is not on the road.
-            SumoFailed: SUMO cannot tell.
+            SumoFailed: SUMO cannot answer.
         """
         api = self._api.vehicle
         ids = self._on_the_road()
@@ -113,7 +113,7 @@ class Perception:
 
     def _on_the_road(self) -> set[str]:
         """Return the ids of the vehicles that have departed and not arrived."""
-        # SUMO's own list takes the longer the more vehicles are still to depart.
+        # SUMO's own list is slow if many vehicles have yet to depart.
         news = self._api.simulation
         self._driving.update(self._call(news.getDepartedIDList))
         self._driving.difference_update(self._call(news.getArrivedIDList))
@@ -160,11 +160,11 @@ class Perception:
         return Body(state, self._call(kinds.getHeight, kind))
 
     def _heading(self, api: Any, name: str) -> float:
-        """Anticlockwise from east; SUMO's angles are clockwise from north, in degrees."""
+        """Return a heading [rad]; SUMO's angles are clockwise from north, in degrees."""
         return angle_between(math.radians(90.0 - self._call(api.getAngle, name)), 0.0)
 
     def _colour(self, vehicle: str) -> str | None:
-        """Return the word for a colour; None where nobody said how to paint the vehicle."""
+        """Return the word for a vehicle's colour; None if no colour is stated for it."""
         # A vehicle whose width was set has a type of its own, named after both.
         kind = self._call(self._api.vehicle.getTypeID, vehicle).removesuffix(f"@{vehicle}")
         own = self._call(self._api.vehicle.getColor, vehicle)[:3]
@@ -176,7 +176,7 @@ class Perception:
         return None
 
     def _stop_lines(self) -> dict[Signal, tuple[Point, ...]]:
-        """Return where the links of each signal begin [m]."""
+        """Return the points [m] where the links of each signal begin."""
         api = self._api.trafficlight
         found: dict[Signal, tuple[Point, ...]] = {}
         for controller in self._call(api.getIDList):
@@ -197,7 +197,7 @@ class Perception:
 
 
 def _key(person: str) -> str:
-    """Return what a person is named by: a vehicle may have the same id."""
+    """Return the key by which a person is named, as a vehicle may have the same id."""
     return f"person {person}"
 
 

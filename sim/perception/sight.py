@@ -1,4 +1,4 @@
-"""What the ego can see: tall vehicles and buildings hide what is wholly behind them."""
+"""Visibility for the ego: tall vehicles and buildings hide what is wholly behind them."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -29,14 +29,14 @@ def hidden(
 ) -> bool:
     """Check whether a vehicle or person cannot be seen from the middle of the ego's roof.
 
-    It cannot where its middle and its four corners are all behind buildings, or behind tall
-    vehicles of which none is lower than itself.
+    It is hidden if its middle and each of its four corners are behind a building, or behind a
+    tall vehicle that is not lower than itself.
 
     Args:
-        ego: whose view it is.
-        target: who is to be seen.
+        ego: the vehicle that looks.
+        target: the vehicle or person to see.
         others: those that may stand between; the target may be among them.
-        buildings: that may stand between.
+        buildings: the walls that may stand between.
     """
     walls = [
         body.state
@@ -73,7 +73,7 @@ def crosses(a: Point, b: Point, box: Box) -> bool:
 
 
 def eye_of(ego: VehicleState) -> Point:
-    """From where [m] the ego looks around: the middle of its roof."""
+    """Return the place [m] from which the ego looks: the middle of its roof."""
     return _middle(ego)
 
 

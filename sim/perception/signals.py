@@ -1,7 +1,7 @@
-"""Which traffic lights a passenger sees, and since when they show what they show.
+"""The traffic lights in view of a passenger, with the time since which they show their state.
 
-All lights of a junction count whose stop line is near and not behind: what the other arms are
-shown can be seen from how the junction is worked, and from who goes.
+A light is in view if its stop line is near and not far behind the ego. Lights of the other arms of
+a junction count too: what they show can be seen from how the traffic there moves.
 """
 
 import math
@@ -12,7 +12,7 @@ from sim.scene import Light, LightState, Point, Signal, VehicleState
 BEHIND = 15.0  # [m] how far behind the ego's front a stop line may be
 _STATES = {
     **{state.value: state for state in LightState},
-    # SUMO reads these as well, of old files.
+    # SUMO also accepts these letters, from old files.
     "R": LightState.RED,
     "Y": LightState.AMBER,
 }
@@ -27,8 +27,8 @@ class Signals:
         """Begin with no light seen.
 
         Args:
-            stop_lines: where the links of each signal begin [m].
-            state: the letters of SUMO for a controller, as they are at the time of the call.
+            stop_lines: the points [m] where the links of each signal begin.
+            state: returns SUMO's current letters for a controller.
         """
         self._state = state
         self._lines: dict[str, dict[int, tuple[Point, ...]]] = {}
@@ -42,11 +42,11 @@ class Signals:
 
         Args:
             time: [s] of this look, later than that of the last one.
-            ego: whose view it is.
+            ego: the vehicle that looks.
             radius: [m] how far it sees.
 
         Raises:
-            ValueError: SUMO shows a letter that stands for no state of a light.
+            ValueError: SUMO returns a letter that stands for no state of a light.
         """
         now = {light.signal: light for light in self._lights(time, ego, radius)}
         self._seen = dict(sorted(now.items(), key=lambda x: (x[0].controller, x[0].index)))
@@ -86,7 +86,7 @@ def _named(letter: str) -> LightState:
 
 
 def _in_view(points: tuple[Point, ...], ego: VehicleState, radius: float) -> bool:
-    """Check whether one of several points is within a radius of the ego and not far behind it."""
+    """Check whether one of several points is within a radius [m] of the ego and not far behind."""
     ahead_x, ahead_y = math.cos(ego.heading), math.sin(ego.heading)
     for x, y in points:
         dx, dy = x - ego.position[0], y - ego.position[1]

@@ -1,6 +1,6 @@
-"""Roads that cross at different levels: a bridge over a road, of which a map need not tell heights.
+"""Roads that cross at different levels, such as a bridge over a road; maps may lack heights.
 
-Where roads cross at one level, a map has a junction, at which their lanes end.
+If roads cross at one level, the map has a junction, at which their lanes end.
 """
 
 import math
@@ -13,7 +13,7 @@ from sim.scene import Point
 
 
 def apart(network: Network, one: Box, other: Box) -> bool:
-    """Whether two boxes that overlap on the map are on roads of which one crosses the other."""
+    """Check whether two boxes that overlap on the map are on roads at different levels."""
     first, second = _lane(network, one), _lane(network, other)
     if first is None or second is None or first.edge == second.edge:
         return False
@@ -25,7 +25,10 @@ def apart(network: Network, one: Box, other: Box) -> bool:
 
 
 def _lane(network: Network, box: Box) -> Lane | None:
-    """The lane outside of junctions that a box is on; on pavements, people walk both ways."""
+    """Return the lane that a box is on; None if it is on none or inside a junction.
+
+    Lanes that cars may not use match any heading, since people walk both ways on pavements.
+    """
     every = {**network.other_lanes, **network.lanes}
     beside = network.locate_aside(box.position, box.heading, turn=math.pi)
     found = min((*network.locate(box.position, box.heading), *beside), key=_away, default=None)
@@ -39,7 +42,7 @@ def _away(place: Location) -> float:
 
 
 def _around(network: Network, lane: Lane) -> list[Sequence[Point]]:
-    """A lane with those that lead to it and from it: a body may reach back, or ahead, to them."""
+    """Return the centrelines of a lane and of those before and after it, which a box may reach."""
     before = [link for link in network.links_to(lane.id) if link.to_lane == lane.id]
     names = [name for link in before for name in (link.from_lane, *link.via)]
     names += [name for link in network.links_from(lane.id) for name in (*link.via, link.to_lane)]

@@ -1,4 +1,4 @@
-"""What a road network consists of: lanes, links through junctions, crossings, places."""
+"""The parts of a road network: lanes, links through junctions, crossings, places."""
 
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
@@ -10,7 +10,7 @@ Direction = Literal["left", "straight", "right", "turnaround"]
 
 @dataclass(frozen=True, slots=True)
 class Unsignalled:
-    """No traffic light controls the link."""
+    """The absence of a traffic light that controls a link."""
 
 
 Control: TypeAlias = Signal | Unsignalled
@@ -29,12 +29,12 @@ class Lane:
     centreline: tuple[Point, ...]  # [m] [N >= 2] in driving direction
     internal: bool
     length: float  # [m] along the centreline
-    stated_length: float  # [m] by the file: what the offsets of departs and stops refer to
+    stated_length: float  # [m] by the file; offsets of departures and stops refer to it
     permits: frozenset[str]  # classes of vehicles that may use it, in SUMO's words
-    limits: tuple[tuple[str, float], ...] = ()  # [m/s] by class, where not the speed limit of cars
+    limits: tuple[tuple[str, float], ...] = ()  # [m/s] by class, if not the speed limit of cars
 
     def offset(self, stated: float) -> float:
-        """Return the offset [m] along the centreline of a place at an offset [m] by the file."""
+        """Return the offset [m] along the centreline for an offset [m] by the stated length."""
         return stated * self.length / self.stated_length
 
     def limit_for(self, kind: str) -> float:
@@ -50,7 +50,7 @@ class Link:
     index: int  # of this link in the junction's right-of-way matrix
     from_lane: str
     to_lane: str
-    via: tuple[str, ...]  # internal lanes in driving order; () where the lanes touch
+    via: tuple[str, ...]  # internal lanes in driving order; () if the lanes touch
     direction: Direction
     yields_to: tuple[int, ...]  # links for cars of the same junction that go first
     foes: tuple[int, ...]  # links for cars of the same junction whose paths cross or merge

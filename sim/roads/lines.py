@@ -9,26 +9,26 @@ from typing import NamedTuple
 
 from sim.scene import Point
 
-ON_LANE = 2.0  # [m] from the middle of a lane up to which a vehicle is on it
-CLEARLY = 1.0 + 1e-9  # times a squared distance: more than rounding errors
-STEEP = math.radians(15.0)  # least angle at which roads cross
+ON_LANE = 2.0  # [m] greatest distance from the middle of a lane for a vehicle to be on it
+CLEARLY = 1.0 + 1e-9  # factor on a squared distance that exceeds rounding errors
+STEEP = math.radians(15.0)  # least angle between lines that cross
 
 
 class Segment(NamedTuple):
     """One straight part of a polyline."""
 
     start: Point  # [m]
-    side: Point  # [m] from its start to its end
+    side: Point  # [m] vector from its start to its end
     length: float  # [m]
-    low: float  # [m] along it from where it counts: the first one is extended backwards,
-    high: float  # [m] and up to where: the last one is extended forwards
-    before: float  # [m] of the line before it
+    low: float  # [m] along it where it begins to count; the first segment extends backwards
+    high: float  # [m] along it where it ceases to count; the last segment extends forwards
+    before: float  # [m] length of the line before it
     heading: float  # [rad]
 
 
 @lru_cache(maxsize=4096)
 def segments(line: tuple[Point, ...]) -> tuple[Segment, ...]:
-    """Return the parts of a polyline that have a length."""
+    """Return the segments of a polyline whose length is not zero."""
     found = []
     travelled = 0.0
     last = len(line) - 2
@@ -46,11 +46,11 @@ def segments(line: tuple[Point, ...]) -> tuple[Segment, ...]:
 
 
 def project(line: tuple[Point, ...], position: Point) -> tuple[float, float, float]:
-    """Nearest place on a polyline.
+    """Find the nearest place on a polyline.
 
     Returns:
         Offset along the line [m], distance to its left [m], heading of the line there [rad].
-        The offset is negative or beyond the length where the end segments' extensions are
+        The offset is negative or greater than the length if the extension of an end segment is
         nearest.
     """
     nearest, found, at, limit = math.inf, None, 0.0, math.inf
@@ -87,7 +87,7 @@ def angle_between(a: float, b: float) -> float:
 
 
 def cumulative(line: tuple[Point, ...]) -> list[float]:
-    """Arc length [m] at each point of a polyline, from 0."""
+    """Return the arc length [m] at each point of a polyline, from 0."""
     total = [0.0]
     for (ax, ay), (bx, by) in pairwise(line):
         total.append(total[-1] + math.hypot(bx - ax, by - ay))
@@ -107,13 +107,14 @@ def point_at(line: tuple[Point, ...], offset: float) -> tuple[Point, float]:
 def crossings(
     own: Sequence[Point], other: Sequence[Point]
 ) -> Iterator[tuple[Point, float, float, float, float]]:
-    """Yield where two lines cross steeply between their ends.
+    """Yield the places where two lines cross at a steep angle.
 
-    Roads that cross so without a junction are on different levels: a bridge and a road below.
+    Roads that cross in this way without a junction are on different levels: a bridge and a road
+    below.
 
     Yields:
-        The place [m], how far [m] it is along each, the heading [rad] of the other one there, and
-        the angle [rad] between them.
+        The place [m], its offsets [m] along the own and the other line, the heading [rad] of the
+        other line there, and the angle [rad] between the two.
     """
     at = 0.0
     for a, b in pairwise(own):

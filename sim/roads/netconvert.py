@@ -1,10 +1,9 @@
 """Compiled road networks: SUMO's netconvert, from the extra `maps`.
 
-Our own networks are written as plain XML (nodes, edges, connections, programmes of traffic
-lights) and shipped compiled;
-`compile_plain` compiles them, and so does `python -m sim.roads.netconvert FOLDER...`.
-`convert_opendrive` reads a map in OpenDRIVE. `generate` has netgenerate, which comes with the same
-extra, make up a network.
+The networks of the package are written as plain XML (nodes, edges, connections, programmes of
+traffic lights) and shipped compiled. `compile_plain` compiles them, as does
+`python -m sim.roads.netconvert FOLDER...`. `convert_opendrive` converts a map in OpenDRIVE.
+`generate` makes up a network with netgenerate, which is part of the same extra.
 
     NetconvertError
     ├── NetconvertMissing    netconvert is not installed
@@ -27,7 +26,7 @@ from platformdirs import user_cache_path
 
 from sim.errors import SimError
 
-PATIENCE = 60.0  # [s]
+PATIENCE = 60.0  # [s] greatest duration of one run of a program
 GEOMETRY = (
     "--no-turnarounds",
     "--offset.disable-normalization",
@@ -37,7 +36,7 @@ GEOMETRY = (
 
 
 class NetconvertError(SimError):
-    """A network could not be compiled."""
+    """A network could not be compiled, converted or made up."""
 
 
 class NetconvertMissing(NetconvertError):
@@ -56,7 +55,7 @@ class ConversionFailed(NetconvertError):
 def compile_plain(folder: Path, name: str, target: Path) -> None:
     """Compile `<name>.nod.xml`, `.edg.xml` and `.con.xml` of a folder into a SUMO net.
 
-    Traffic lights follow the programmes in `<name>.tll.xml` where that is there.
+    Traffic lights follow the programmes in `<name>.tll.xml` if that file exists.
 
     Raises:
         NetconvertMissing: netconvert is not installed.
@@ -67,7 +66,7 @@ def compile_plain(folder: Path, name: str, target: Path) -> None:
         sources["-i"] = ".tll.xml"
     arguments = [part for key, end in sources.items() for part in (key, str(folder / (name + end)))]
     _run(*arguments, *GEOMETRY, "--junctions.corner-detail", "10", "-o", str(target))
-    # netconvert heads the file with the time and its own paths.
+    # netconvert writes the time and its own paths in a comment at the top of the file.
     net = re.sub(r"<!--.*?-->\n*", "", target.read_text(encoding="utf-8"), flags=re.DOTALL)
     target.write_text(net, encoding="utf-8")
 
@@ -83,7 +82,7 @@ def opendrive_net(source: Path, priority: Mapping[str, int]) -> Path:
     name = hashlib.sha256(content).hexdigest()[:16] + ".net.xml"
     target = user_cache_path("xavi-dialogue", ensure_exists=True) / name
     if not target.exists():
-        # Renamed into place, so that nobody reads half a net.
+        # Renamed into place, so that no process reads an incomplete net.
         part = target.with_name(f"{os.getpid()}.{name}")
         convert_opendrive(source, part, priority)
         part.replace(target)
@@ -96,8 +95,8 @@ def convert_opendrive(source: Path, target: Path, priority: Mapping[str, int]) -
     Args:
         source: the .xodr file.
         target: the .net.xml file to write.
-        priority: edge priorities by the edge's id in the converted net; netconvert ignores
-            those of the map's junctions, and with them goes the right of way.
+        priority: edge priorities by the edge's id in the converted net; they replace the right of
+            way of the map's junctions, which netconvert ignores.
 
     Raises:
         NetconvertMissing: netconvert is not installed.
@@ -122,10 +121,10 @@ def _priorities(priority: Mapping[str, int]) -> str:
 
 
 def generate(arguments: Sequence[str], target: Path) -> None:
-    """Make up a network without signals and turns back.
+    """Make up a network without turnarounds.
 
     Args:
-        arguments: of netgenerate: the kind of network, its sizes, its seed.
+        arguments: of netgenerate, such as the kind of network, its sizes, its seed.
         target: the .net.xml file to write.
 
     Raises:
@@ -136,10 +135,10 @@ def generate(arguments: Sequence[str], target: Path) -> None:
 
 
 def program(tool: str = "netconvert") -> str:
-    """Return where a program of the extra is.
+    """Return the path of a program of the extra.
 
     Raises:
-        NetconvertMissing: nowhere.
+        NetconvertMissing: it is not installed.
     """
     beside = Path(sys.executable).parent / tool
     found = str(beside) if beside.exists() else shutil.which(tool)
@@ -149,7 +148,7 @@ def program(tool: str = "netconvert") -> str:
 
 
 def package_folder() -> Path:
-    """Return where the extra has SUMO's scripts and networks.
+    """Return the folder of the extra's package, with SUMO's scripts and networks.
 
     Raises:
         NetconvertMissing: it is not installed.
@@ -161,12 +160,12 @@ def package_folder() -> Path:
 
 
 def random_trips(net: Path, target: Path, *arguments: str) -> None:
-    """Have SUMO's script randomTrips.py make up trips on a network.
+    """Make up trips on a network with SUMO's script randomTrips.py.
 
     Args:
         net: the .net.xml file.
         target: the route file to write.
-        arguments: of the script, beside these.
+        arguments: further ones of the script.
 
     Raises:
         NetconvertMissing: the extra is not installed.
@@ -195,7 +194,7 @@ def _done(tool: str, command: list[str]) -> None:
 
 
 def main(folders: list[str]) -> None:
-    """Compile the plain-XML files of folders, each named as its folder is."""
+    """Compile the plain-XML files of folders; the files have the names of their folders."""
     for folder in (Path(name).resolve() for name in folders):
         try:
             compile_plain(folder, folder.name, folder / f"{folder.name}.net.xml")

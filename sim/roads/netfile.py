@@ -1,10 +1,10 @@
-"""Reads a SUMO net file (.net.xml, also gzipped) into a `Network`, by sumolib.
+"""Reading of a SUMO net file (.net.xml, also gzipped) into a `Network`, with sumolib.
 
 The format is SUMO's: https://sumo.dlr.de/docs/Networks/SUMO_Road_Networks.html
 
     NetworkError
     ├── NetworkUnreadable    the file is missing, damaged, not XML, or not a SUMO net
-    ├── NetworkInvalid       an element of the net is incomplete or refers to nothing
+    ├── NetworkInvalid       an element is incomplete or refers to a thing that does not exist
     └── DrivesOnTheLeft      the net is one of left-hand traffic
 """
 
@@ -23,8 +23,8 @@ from sim.roads.netreader import Broken, Read, read_sumo_net
 from sim.roads.network import Network
 from sim.scene import Point
 
-GZIP = b"\x1f\x8b"  # how a gzipped file begins (RFC 1952)
-KEPT = 4  # networks in memory
+GZIP = b"\x1f\x8b"  # first bytes of a gzipped file (RFC 1952)
+KEPT = 4  # greatest number of networks in memory
 
 
 class NetworkError(SimError):
@@ -36,7 +36,7 @@ class NetworkUnreadable(NetworkError):
 
 
 class NetworkInvalid(NetworkError):
-    """An element of the net is incomplete or refers to nothing."""
+    """An element of the net is incomplete or refers to a thing that does not exist."""
 
 
 class DrivesOnTheLeft(NetworkError):
@@ -58,7 +58,7 @@ def read_network(path: Path) -> Network:
 
 @lru_cache(maxsize=KEPT)
 def parse_network(data: bytes, name: str) -> Network:
-    """Return the network in a SUMO net file; `name` is what errors call the file.
+    """Return the network in a SUMO net file; errors call the file `name`.
 
     Raises:
         NetworkError: it cannot be read; see the kinds above.
@@ -79,11 +79,13 @@ def parse_network(data: bytes, name: str) -> Network:
 
 
 def parse_outlines(data: bytes, name: str) -> tuple[tuple[Point, ...], ...]:
-    """The outlines [m] of the junctions in a SUMO net file, in file order; none of a line only.
+    """Return the outlines [m] of the junctions in a SUMO net file, in file order.
+
+    Outlines of fewer than three points are left out.
 
     Raises:
         NetworkUnreadable: it is not XML, or not a SUMO net.
-        NetworkInvalid: an outline holds what is no point.
+        NetworkInvalid: an element is incomplete or refers to a thing that does not exist.
     """
     _, read = _parsed(data, name)
     outlines = (tuple(node.getShape() or ()) for node in read.net.getNodes())
@@ -91,7 +93,7 @@ def parse_outlines(data: bytes, name: str) -> tuple[tuple[Point, ...], ...]:
 
 
 def _parsed(data: bytes, name: str) -> tuple[str, Read]:
-    """Return the text of a net file, and what sumolib reads in it."""
+    """Return the text of a net file, and the net that sumolib reads from it."""
     try:
         text = (gzip.decompress(data) if data.startswith(GZIP) else data).decode()
     except (OSError, EOFError, zlib.error) as error:

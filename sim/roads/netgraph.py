@@ -15,7 +15,7 @@ from sim.scene import Point, Signal
 CAR = "passenger"
 EQUAL = "right_before_left"
 RAIL = "rail_crossing"
-SHORTEST = 0.01  # [m] of a way through a junction; where it is shorter, the lanes touch
+SHORTEST = 0.01  # [m] of an internal lane; shorter ones are left out, and the lanes touch
 CROSSING, WALKING_AREA = "crossing", "walkingarea"
 
 _DIRECTIONS: dict[str, Direction] = {
@@ -31,7 +31,7 @@ _NOBODY = Request(frozenset(), frozenset(), False)
 
 
 def graph_of(read: Read) -> Network:
-    """Return the network in what was read, without its hash.
+    """Return the network of a net that was read, without its hash.
 
     Raises:
         Broken: a lane has no shape, or a junction does not know a lane that leads to it.
@@ -143,7 +143,7 @@ def _link(connection: Any, inside: dict[str, str], indices: dict[Any, int]) -> L
 
 
 def _control(connection: Any) -> Control:
-    """The place of a connection in a traffic light, if any; rails at a crossing have none."""
+    """Return the signal of a connection, if any; rails at a crossing have none."""
     controller, index = connection.getTLSID(), connection.getTLLinkIndex()
     return Signal(controller, index) if controller and index >= 0 else UNSIGNALLED
 
@@ -158,7 +158,7 @@ def _on_foot(connection: Any) -> bool:
 
 
 def _via_chain(first: str, inside: dict[str, str]) -> tuple[str, ...]:
-    """Internal lanes in driving order: a waiting place splits the way into two lanes."""
+    """Return internal lanes in driving order: a waiting place splits the way into two lanes."""
     chain: list[str] = []
     while first and first not in chain:
         chain.append(first)
@@ -167,10 +167,10 @@ def _via_chain(first: str, inside: dict[str, str]) -> tuple[str, ...]:
 
 
 def _link_indices(read: Read) -> dict[Any, int]:
-    """Index in the right-of-way matrix by connection.
+    """Return the index in the right-of-way matrix by connection.
 
-    SUMO numbers a junction's links by incoming lane as listed, then in file order. Ways of
-    pedestrians have a number where they go over a crossing, and no other.
+    SUMO numbers a junction's links by incoming lane as listed, then in file order. Of the ways of
+    pedestrians, only those onto a crossing have a number.
     """
     indices: dict[Any, int] = {}
     for node in read.net.getNodes():
@@ -215,7 +215,7 @@ def _crossings(read: Read, indices: dict[Any, int]) -> Iterator[Crossing]:
 def _with_right_of_way(
     read: Read, cars: list[Link], others: list[Link], crossings: Iterable[Crossing]
 ) -> tuple[tuple[Link, ...], tuple[Link, ...]]:
-    """Return the same links with the rows of the right-of-way matrices."""
+    """Return the same links with the right of way that the junctions' matrices give."""
     for_cars = {(link.junction, link.index) for link in cars}
     aside = {(link.junction, link.index) for link in others}
     aside |= {(crossing.junction, crossing.index) for crossing in crossings}

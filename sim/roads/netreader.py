@@ -1,6 +1,6 @@
-"""What sumolib reads in a SUMO net file, and what it leaves out of one: the only user of sumolib.
+"""The content of a SUMO net file: what sumolib reads, and what it leaves out.
 
-The one error is Broken.
+Only this module imports sumolib. Its only error is Broken.
 """
 
 import xml.sax
@@ -15,7 +15,7 @@ from sim.errors import SimError
 
 
 class Broken(SimError):
-    """An element of the net is incomplete or refers to nothing."""
+    """An element of the net is incomplete or refers to a thing that does not exist."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +29,7 @@ class Request:
 
 @dataclass
 class Read:
-    """A net as sumolib has it, with what sumolib does not keep."""
+    """A net as sumolib reads it, with what sumolib does not keep."""
 
     net: Any
     root: str = ""  # the name of the root element
@@ -37,7 +37,7 @@ class Read:
     connections: list[Any] = field(default_factory=list)  # in file order
     incoming: dict[str, tuple[str, ...]] = field(default_factory=dict)  # lanes by junction
     requests: dict[tuple[str, int], Request] = field(default_factory=dict)  # by junction and link
-    # The speed limit [m/s] by vehicle class that a type of edge states.
+    # Speed limits [m/s] by type of edge, then by vehicle class.
     restrictions: dict[str, dict[str, float]] = field(default_factory=dict)
 
 
@@ -46,7 +46,7 @@ def read_sumo_net(text: str) -> Read:
 
     Raises:
         SAXParseException: it is not XML.
-        Broken: an element of it is incomplete or refers to nothing.
+        Broken: an element of it is incomplete or refers to a thing that does not exist.
     """
     net = _Net()
     reader = _Reader(net)
@@ -56,13 +56,13 @@ def read_sumo_net(text: str) -> Read:
 
 
 def permissions(lane: Any) -> frozenset[str]:
-    """Return the vehicle classes that may use a lane of sumolib's."""
+    """Return the vehicle classes that may use a lane, given as an object of sumolib."""
     allowed = frozenset(lane.getPermissions())
     return frozenset(SUMO_VEHICLE_CLASSES) if "all" in allowed else allowed
 
 
 class _Net(sumolib.net.Net):  # type: ignore[misc]
-    """Remembers the order of connections in the file."""
+    """A net of sumolib that remembers the order of connections in the file."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -75,7 +75,7 @@ class _Net(sumolib.net.Net):  # type: ignore[misc]
 
 
 class _Reader(sumolib.net.NetReader):  # type: ignore[misc]
-    """Sees to what sumolib does not read, and names the element where it fails."""
+    """A reader that keeps what sumolib does not read, and names the element if reading fails."""
 
     def __init__(self, net: _Net) -> None:
         super().__init__(net=net, withInternal=True, withPedestrianConnections=True)
@@ -116,12 +116,12 @@ class _Reader(sumolib.net.NetReader):  # type: ignore[misc]
 
 
 def _bits(text: str) -> frozenset[int]:
-    """Indices of the ones; the rightmost character has index 0."""
+    """Return the indices of the ones; the rightmost character has index 0."""
     return frozenset(index for index, bit in enumerate(reversed(text)) if bit == "1")
 
 
 def _refuse(name: str, attrs: Mapping[str, str], error: Exception) -> NoReturn:
-    """Say what is wrong with an element that sumolib could not read.
+    """Raise an error that states what is wrong with an element that sumolib could not read.
 
     Raises:
         Broken: always.

@@ -1,10 +1,10 @@
-"""The road network as a lane graph with geometry and right of way: pure queries.
+"""The road network: a lane graph with geometry and right of way, for queries only.
 
 Coordinates are those of the SUMO net: metres, x east, y north; headings in radians
 anticlockwise from east. `sim.roads.netfile` reads a network from a SUMO net file.
 
-`lanes` and `links` are those that cars may use, our own among them. What is for others only
-(buses, trams, bicycles, pedestrians) stands beside them, in `other_lanes` and `other_links`.
+`lanes` and `links` are those that cars may use, such as the ego. Those for others only (buses,
+trams, bicycles, pedestrians) are in `other_lanes` and `other_links`.
 """
 
 import heapq
@@ -52,7 +52,7 @@ class Network:
     links: tuple[Link, ...]  # in file order
     hash: str  # of the network, independent of comments in its file
     roundabouts: tuple[frozenset[str], ...] = ()  # the edges of each ring
-    equal: frozenset[str] = frozenset()  # junctions where who comes from the right goes first
+    equal: frozenset[str] = frozenset()  # junctions where traffic from the right goes first
     rail_crossings: frozenset[str] = frozenset()  # junctions where roads cross rails
     other_lanes: Mapping[str, Lane] = field(default_factory=dict)  # that cars may not use
     other_links: tuple[Link, ...] = ()  # that cars may not use
@@ -67,11 +67,11 @@ class Network:
         return self._signalled.get(signal, ())
 
     def links_from(self, lane: str) -> tuple[Link, ...]:
-        """Return the links that begin at the end of a lane (not of an internal one)."""
+        """Return the links that begin at the end of a lane; none for an internal lane."""
         return self._links_from.get(lane, ())
 
     def links_to(self, lane: str) -> tuple[Link, ...]:
-        """Return the links that end at the beginning of a lane (not of an internal one)."""
+        """Return the links that end at the beginning of a lane; none for an internal lane."""
         return self._links_to.get(lane, ())
 
     def link_via(self, lane: str) -> Link | None:
@@ -83,7 +83,7 @@ class Network:
         return self._junction_links[junction]
 
     def junction_others(self, junction: str) -> Mapping[int, Link | Crossing]:
-        """Return the links for others only and the crossings of a junction by their index."""
+        """Return the crossings and the links for others only of a junction, by their index."""
         return self._junction_others.get(junction, {})
 
     def crossings_on(self, link: Link) -> tuple[Crossing, ...]:
@@ -109,10 +109,10 @@ class Network:
         return self._neighbour(lane, -1)
 
     def distance_to(self, edge: str) -> Mapping[str, float]:
-        """Driving distance [m] from the end of each edge to the start of `edge`.
+        """Return the driving distance [m] from the end of each edge to the start of `edge`.
 
         Edges from which `edge` cannot be reached are absent; `edge` itself has distance 0.
-        Lane changes are free.
+        Lane changes cost no distance.
         """
         found = self._distances.get(edge)
         if found is None:
@@ -135,7 +135,7 @@ class Network:
     def locate_aside(
         self, position: Point, heading: float, reach: float = 2.5, turn: float = math.pi / 4
     ) -> tuple[Location, ...]:
-        """Return the lanes that cars may not use on which a pose may lie; otherwise as `locate`."""
+        """Do the same as `locate` for the lanes that cars may not use."""
         return self._other_places.find(position, heading, reach, turn)
 
     @cached_property
@@ -211,7 +211,7 @@ class Network:
         return next((other for other in lanes if other.index == here.index + step), None)
 
     def _search_back(self, edge: str) -> dict[str, float]:
-        """Dijkstra against the driving direction over edges."""
+        """Search for distances [m] against the driving direction (Dijkstra's algorithm)."""
         distance: dict[str, float] = {}
         frontier = [(0.0, edge)]
         while frontier:
@@ -227,7 +227,7 @@ class Network:
 
     @cached_property
     def _before(self) -> dict[str, dict[str, float]]:
-        """The edges from which each edge is entered, and the length [m] of crossing over."""
+        """The edges from which each edge is entered, with the least length [m] in between."""
         before: dict[str, dict[str, float]] = {}
         for link in self.links:
             start, end = self.lanes[link.from_lane].edge, self.lanes[link.to_lane].edge

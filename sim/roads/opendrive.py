@@ -1,11 +1,11 @@
-"""What a conversion from OpenDRIVE may have lost: ways, lights, and who goes first.
+"""Checks of what a conversion from OpenDRIVE may have lost: ways, traffic lights, right of way.
 
 netconvert names the edges of road R `-R` along the road and `R` against it, each with a suffix
 where it splits the road. It ignores <priority> (OpenDRIVE 1.4, section 5.4.1), and joins roads
-by their <link> elements alone. A light beside a road makes all ways of the junction that the
-road leads to controlled, by a programme of netconvert's own: the map has none.
+by their <link> elements alone. If a road has a light, netconvert makes the whole junction that
+the road leads to a signalled one, with a programme of its own, since the map has none.
 
-`conversion_warnings` returns one sentence for each thing found, none where all is well.
+`conversion_warnings` returns one sentence for each thing that it finds.
 """
 
 import math
@@ -17,11 +17,11 @@ from sim.roads.network import Link, Network, angle_between
 from sim.scene import Signal
 
 DRIVING = "driving"  # the type of lanes for cars
-NEAR = 10.0  # [m] from the end of one road to the start of another that seems to continue it
-MOST_TURN = math.radians(60.0)  # between the two
-FIRST, BETWEEN, LAST = 10, 5, 1  # priorities to write
-LIGHT = "10000"  # how the types of traffic lights begin
-SHOWN = 6  # edges listed in one warning
+NEAR = 10.0  # [m] greatest gap from the end of a road to the start of one that may continue it
+MOST_TURN = math.radians(60.0)  # greatest angle between the two
+FIRST, BETWEEN, LAST = 10, 5, 1  # edge priorities that a warning advises
+LIGHT = "10000"  # prefix of the types of traffic lights
+SHOWN = 6  # greatest number of edges listed in one warning
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class _Turn:
 
 @dataclass(frozen=True, slots=True)
 class _Pair:
-    """Two ways through a junction, of which the map lets one go first."""
+    """Two ways through a junction; by the map, `first` goes first."""
 
     first: Link
     second: Link
@@ -45,11 +45,11 @@ class _Pair:
 def conversion_warnings(
     root: ET.Element, network: Network, start: str, priority: Mapping[str, int]
 ) -> tuple[str, ...]:
-    """Return what looks wrong in a network that was converted from a map.
+    """Return sentences about what looks wrong in a network that was converted from a map.
 
     Args:
         root: the map.
-        network: what it became.
+        network: the network that the map was converted to.
         start: the edge where the ego starts.
         priority: the edge priorities that the conversion was given.
     """
@@ -83,7 +83,7 @@ def _turns(root: ET.Element) -> Iterator[_Turn]:
 
 
 def _lost_ways(turns: tuple[_Turn, ...], network: Network) -> Iterator[str]:
-    """Connections of the map that no link stands for, though both roads are there."""
+    """Yield a warning for each connection of the map without a link, if both roads exist."""
     roads = {_road(lane.edge) for lane in network.lanes.values() if not lane.internal}
     links = _links_by_roads(network)
     for turn in turns:
@@ -97,7 +97,7 @@ def _lost_ways(turns: tuple[_Turn, ...], network: Network) -> Iterator[str]:
 
 
 def _gaps(network: Network) -> Iterator[str]:
-    """Edges from which no way leads on though another takes up their line close by."""
+    """Yield a warning for each edge that ends although another seems to continue it close by."""
     lead_on, reached = _ends(network)
     edges = sorted({lane.edge for lane in network.lanes.values() if not lane.internal})
     starts = [edge for edge in edges if edge not in reached]
@@ -113,7 +113,10 @@ def _gaps(network: Network) -> Iterator[str]:
 
 
 def _away(network: Network, edge: str, other: str) -> float | None:
-    """How far [m] one edge begins from the end of another; None where it does not follow it."""
+    """Return the gap [m] from the end of an edge to the start of another that may continue it.
+
+    None if the gap is too wide, or the angle too great.
+    """
     end = network.edge_lanes(edge)[0].centreline[-2:]
     begin = network.edge_lanes(other)[0].centreline[:2]
     headings = [math.atan2(b[1] - a[1], b[0] - a[0]) for a, b in (end, begin)]
@@ -122,7 +125,7 @@ def _away(network: Network, edge: str, other: str) -> float | None:
 
 
 def _dead_ends(network: Network) -> Iterator[str]:
-    """Lanes from which no way leads on, beside lanes from which one does."""
+    """Yield a warning for each lane that ends although another lane of its edge leads on."""
     lead_on, _ = _ends(network)
     for lane in network.lanes.values():
         if not lane.internal and lane.edge in lead_on and not network.links_from(lane.id):
@@ -133,7 +136,7 @@ def _dead_ends(network: Network) -> Iterator[str]:
 
 
 def _parts(network: Network, start: str) -> Iterator[str]:
-    """Groups of edges between which and the ego's no way leads."""
+    """Yield a warning for each group of edges that is not connected with the ego's roads."""
     joined: dict[str, set[str]] = {}
     for link in network.links:
         ends = _link_roads(network, link)
@@ -157,7 +160,7 @@ def _parts(network: Network, start: str) -> Iterator[str]:
 def _contradictions(
     root: ET.Element, turns: tuple[_Turn, ...], network: Network, priority: Mapping[str, int]
 ) -> Iterator[str]:
-    """Junctions where others go first than the map says, with what to write."""
+    """Yield a warning for each junction whose right of way differs from the map's, with advice."""
     for junction in root.iter("junction"):
         pairs = list(_pairs(junction, turns, network))
         wrong = [pair for pair in pairs if not _holds(pair)]
@@ -178,9 +181,9 @@ def _contradictions(
 
 
 def _pairs(junction: ET.Element, turns: tuple[_Turn, ...], network: Network) -> Iterator[_Pair]:
-    """Ways that meet, from different edges, and of which <priority> names one first.
+    """Yield pairs of ways that meet, from different lanes, and that a <priority> orders.
 
-    Where there are lights, they say who goes.
+    Ways with traffic lights are left out: the lights decide there.
     """
     links = _links_by_roads(network)
     here = [turn for turn in turns if turn.junction == junction.get("id")]
@@ -201,7 +204,7 @@ def _pairs(junction: ET.Element, turns: tuple[_Turn, ...], network: Network) -> 
 
 
 def _lost_lights(root: ET.Element, network: Network) -> Iterator[str]:
-    """Lights beside roads that control no way from there."""
+    """Yield a warning for each traffic light beside a road that controls no way from there."""
     held = {
         network.lanes[link.from_lane].edge.split(".")[0]
         for link in network.links
@@ -252,14 +255,14 @@ def _links_by_roads(network: Network) -> dict[tuple[str, str], list[Link]]:
 
 
 def _ends(network: Network) -> tuple[set[str], set[str]]:
-    """Return the edges from which a way leads on, and those to which one leads."""
+    """Return the edges at which links begin, and those at which links end."""
     lanes = network.lanes
     lead_on = {lanes[link.from_lane].edge for link in network.links}
     return lead_on, {lanes[link.to_lane].edge for link in network.links}
 
 
 def _reach(joined: Mapping[str, set[str]], road: str) -> set[str]:
-    """Return the roads joined with one, itself among them."""
+    """Return the roads connected with a road, including itself."""
     found, frontier = {road}, [road]
     while frontier:
         new = joined.get(frontier.pop(), set()) - found

@@ -1,4 +1,4 @@
-"""On which lanes a pose may lie."""
+"""Look-up of the lanes on which a pose may lie."""
 
 import math
 from collections.abc import Mapping
@@ -9,13 +9,13 @@ from sim.roads.lines import angle_between, cumulative, project
 from sim.scene import Point
 
 CELL = 20.0  # [m] side of a cell
-MARGIN = 10.0  # [m] around a centreline, within which cells know it
-SLACK = 0.01  # [m] of error in distances, at most
-END = 0.5  # [m] beyond the ends of a lane that still counts as on it
+MARGIN = 10.0  # [m] around a centreline; cells that reach into it list the lane
+SLACK = 0.01  # [m] greatest error in distances
+END = 0.5  # [m] beyond the ends of a lane that still count as on it
 
 
 class Places:
-    """Lanes by the cells of a grid that their centrelines pass near."""
+    """Lanes by the cells of a grid that are near their centrelines."""
 
     def __init__(self, lanes: Mapping[str, Lane]) -> None:
         """Enter lanes in the grid."""
@@ -59,7 +59,7 @@ class Places:
 
 
 def _box(lane: Lane) -> tuple[float, float, float, float]:
-    """Return the least and greatest x and y [m] of what counts as on a lane's centreline."""
+    """Return least x and y, greatest x and y [m] of the places that project onto a lane."""
     beyond = max(lane.length - cumulative(lane.centreline)[-1], 0.0) + END + SLACK
     xs, ys = zip(*lane.centreline, strict=True)
     return min(xs) - beyond, min(ys) - beyond, max(xs) + beyond, max(ys) + beyond

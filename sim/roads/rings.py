@@ -1,7 +1,7 @@
-"""Roundabouts of networks whose files do not name them, as converted maps do not.
+"""Roundabouts of networks whose files do not name them, such as converted maps.
 
-A ring is a cycle of one-way edges that turns the same way round once, is about as long as wide,
-and to which every road that joins it gives way.
+A ring is a cycle of one-way edges that turns in one sense, once around, and is about as long as
+wide. Every road that joins it gives way to it.
 """
 
 import math
@@ -11,10 +11,10 @@ from itertools import pairwise
 from sim.roads.network import Lane, Link, angle_between
 from sim.scene import Point
 
-LONGEST = 400.0  # [m] circumference
-LEAST_ROUND = 0.6  # 4 pi area / circumference^2: 1 for a circle, 0.79 for a square
-TURN_BACK = math.radians(45.0)  # against the ring's own sense, in total
-FULL_TURN = math.radians(20.0)  # tolerance of once round
+LONGEST = 400.0  # [m] greatest circumference
+LEAST_ROUND = 0.6  # least 4 pi area / circumference^2: 1 for a circle, 0.79 for a square
+TURN_BACK = math.radians(45.0)  # greatest total turn against the ring's own sense
+FULL_TURN = math.radians(20.0)  # greatest deviation of the total turn from a full one
 
 
 def find_rings(lanes: Mapping[str, Lane], links: Sequence[Link]) -> tuple[frozenset[str], ...]:
@@ -38,7 +38,7 @@ def find_rings(lanes: Mapping[str, Lane], links: Sequence[Link]) -> tuple[frozen
 
 
 class _Search:
-    """Cycles of edges, followed by always turning to the same side."""
+    """A search for cycles of edges, which always turns to the same side."""
 
     def __init__(self, lanes: Mapping[str, Lane], links: Sequence[Link]) -> None:
         self.lanes, self.links = lanes, links
@@ -68,7 +68,7 @@ class _Search:
         return []
 
     def is_ring(self, cycle: list[Link], side: float) -> bool:
-        """Check whether a cycle is a roundabout and no other loop."""
+        """Check whether a cycle is a roundabout, and not some other loop."""
         edges = {self.lanes[link.from_lane].edge for link in cycle}
         line = self._outline(cycle)
         turns = [side * turn for turn in _turns(line)]
@@ -79,7 +79,7 @@ class _Search:
         return round_once and steady and compact and self._one_way(edges) and self._first(edges)
 
     def _turn(self, link: Link) -> float:
-        """Return how far a way through a junction and the edge behind it turn left [rad]."""
+        """Return how far [rad] the road turns left from a link's lane to the lane after it."""
         start, end = self.lanes[link.from_lane].centreline, self.lanes[link.to_lane].centreline
         return angle_between(_heading(end[0], end[1]), _heading(start[-2], start[-1]))
 
@@ -104,7 +104,7 @@ class _Search:
         return bool(met) and all(along <= set(entry.yields_to) for entry, along in met)
 
     def _entries(self, edges: set[str]) -> Iterator[tuple[Link, set[int]]]:
-        """Links that join these edges, each with those along the edges that it meets."""
+        """Yield the links that join these edges, each with the ring's own links that it meets."""
         along = {
             (link.junction, link.index)
             for link in self.links

@@ -1,1 +1,1 @@
-"""Scenarios: read, checked, and brought into SUMO."""
+"""Scenarios: how they are read, checked, and started in SUMO."""

@@ -1,6 +1,6 @@
-"""Whether the route file of a scenario fits its network.
+"""Checks of whether the route file of a scenario fits its network.
 
-The one error is TableError, which names file, vehicle, problem and remedy.
+The only error is TableError, which names file, vehicle, problem and remedy.
 """
 
 import xml.etree.ElementTree as ET
@@ -14,17 +14,17 @@ from sim.setup import routes
 from sim.setup.routes import Departure
 from sim.setup.tables import TableError
 
-MANY = 40  # names in a message
-SUMOS_OWN = "DEFAULT_"  # how the names of the types begin that SUMO brings
+MANY = 40  # greatest number of names in a message if none is spelt alike
+SUMOS_OWN = "DEFAULT_"  # prefix of the names of SUMO's predefined types
 
 
 def check_routes(file: Path, root: ET.Element, network: Network, ego: str) -> None:
-    """Every edge and type exists, and the edges of each route follow one another.
+    """Check that every edge and type exists, and that the edges of each route are connected.
 
-    Others than the ego may use what is not for cars.
+    Only the ego must keep to edges for cars.
 
     Raises:
-        TableError: something does not.
+        TableError: one of this is not so.
     """
     cars = edges_of(network)
     edges = cars | {lane.edge for lane in network.other_lanes.values() if not lane.internal}
@@ -53,17 +53,17 @@ def check_routes(file: Path, root: ET.Element, network: Network, ego: str) -> No
 def check_starts(
     file: Path, departures: Sequence[Departure], network: Network, ego: str, spawn: bool
 ) -> None:
-    """The ego starts at 0 s, and every start lies on its first edge.
+    """Check that the ego starts at 0 s, and that every vehicle starts on its first edge.
 
     Args:
-        file: of the vehicles.
-        departures: of the vehicles.
-        network: for them.
+        file: the route file.
+        departures: the vehicles in it.
+        network: the roads.
         ego: the ego's id.
         spawn: whether starts at 0 s vary.
 
     Raises:
-        TableError: one does not.
+        TableError: one of this is not so.
     """
     for vehicle in departures:
         key = f"vehicle {vehicle.id!r}"
@@ -95,19 +95,19 @@ def edges_of(network: Network) -> set[str]:
 
 
 def one_of(names: Iterable[str]) -> str:
-    """Return a remedy: what there is to choose from."""
+    """Return a remedy that lists what can be chosen."""
     listed = ", ".join(sorted(names))
     return f"choose one of {listed}" if listed else "there is none to choose"
 
 
 def near(name: str, names: Iterable[str]) -> str:
-    """A remedy: what there is to choose from that is spelt alike, or else what comes first."""
+    """Return a remedy that lists the names spelt like a name, or else the first ones."""
     listed = sorted(names)
     return one_of(get_close_matches(name, listed, n=8, cutoff=0.4) or listed[:MANY])
 
 
 def _followers(network: Network) -> dict[str, set[str]]:
-    """Return the edges that can be driven to from each edge, lane changes being free."""
+    """Return the edges that follow each edge, from any of its lanes."""
     found: dict[str, set[str]] = {}
     every = {**network.other_lanes, **network.lanes}
     for link in (*network.links, *network.other_links):

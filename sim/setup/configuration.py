@@ -1,6 +1,6 @@
-"""A SUMO configuration (.sumocfg) as a scenario: SUMO loads it, and is asked what it holds.
+"""A SUMO configuration (.sumocfg) as a scenario: SUMO loads it, and is queried for its content.
 
-Places to load it from are texts such as `town.sumocfg?ego=car.3` and
+A place is a text that names the file and the ego, such as `town.sumocfg?ego=car.3` or
 `town.sumocfg?from=north&to=east&begin=60`.
 """
 
@@ -25,18 +25,18 @@ from sim.setup.source import Added, Departing, Rider
 from sim.setup.tables import TableError
 
 ENDINGS = (".sumocfg", ".sumocfg.xml", ".sumo.cfg")
-STEP = 0.1  # [s] the longest in which the car is driven
-SHOWN = 3  # warnings of SUMO
+STEP = 0.1  # [s] the longest simulation step in which the ego is driven
+SHOWN = 3  # greatest number of SUMO's warnings that are quoted
 CAR = "passenger"
 YES = ("true", "1", "yes", "on", "t", "x")  # as SUMO reads an option
-BEFORE_END = 5.0  # [m] of the last edge, where the goal lies
+BEFORE_END = 5.0  # [m] from the goal to the end of the last edge
 KEYS = ("ego", "from", "to", "begin")
 UNFORESEEN = {"rail": "trains", "ship": "ships"}
 
 
 @dataclass(frozen=True, slots=True)
 class Inspected:
-    """What a configuration holds when its ego departs."""
+    """The content of a configuration at the moment when its ego departs."""
 
     network: Path
     ego: str
@@ -56,10 +56,10 @@ def is_place(text: str) -> bool:
 
 
 def split_place(place: str) -> tuple[Path, dict[str, str]]:
-    """Return the file and the wishes of a place.
+    """Return the file and the wishes (ego, from, to, begin) of a place.
 
     Raises:
-        TableError: a wish is unknown, or not written as key=value.
+        TableError: there is no such file, or a wish is unknown or not written as key=value.
     """
     name, _, query = place.partition("?")
     file = _file(name)
@@ -86,7 +86,7 @@ def _file(name: str) -> Path:
 
 
 def place_of(file: Path, rider: Rider) -> str:
-    """Return the place that `split_place` and `rider_of` read."""
+    """Return the place from which `split_place` and `rider_of` read this file and rider."""
     match rider:
         case Departing(name):
             wishes = {"ego": name}
@@ -98,13 +98,13 @@ def place_of(file: Path, rider: Rider) -> str:
 
 
 def with_wishes(place: str, wishes: dict[str, str]) -> str:
-    """Return a place with more wishes, which count in the stead of those it has."""
+    """Return a place with more wishes, which replace those with the same key."""
     file, _, query = place.partition("?")
     return f"{file}?{urlencode({**dict(parse_qsl(query)), **wishes})}"
 
 
 def with_rider(place: str) -> str:
-    """Return a place with the first car that departs as the ego, unless it says who that is.
+    """Return a place with the first car that departs as the ego, unless the place has wishes.
 
     Raises:
         TableError: SUMO refuses the configuration, or no car departs.
@@ -119,10 +119,11 @@ def with_rider(place: str) -> str:
 
 
 def rider_of(file: Path, wishes: dict[str, str]) -> Rider:
-    """Return who is to be the ego.
+    """Return the ego that the wishes of a place state.
 
     Raises:
-        TableError: nobody is, or two are; the message lists who departs.
+        TableError: they state no ego, or contradict each other; without wishes, the message
+            lists the first cars that depart.
     """
     names = {"ego", "from", "to", "begin"} & set(wishes)
     if names == {"ego"}:
@@ -163,7 +164,7 @@ def inspect(file: Path, rider: Rider) -> Inspected:
 
 @contextmanager
 def _refused(file: Path) -> Iterator[None]:
-    """Yield what SUMO says of a configuration as an error of it.
+    """Turn SUMO's errors about a configuration into errors of its file.
 
     Raises:
         TableError: SUMO refuses the configuration.
@@ -182,7 +183,7 @@ def _refused(file: Path) -> Iterator[None]:
 def _started(file: Path) -> Engine:
     engine = Engine()
     try:
-        # With SUMO's own warnings, which tell what it leaves out.
+        # SUMO's warnings stay on: they state what SUMO leaves out.
         engine.start(listed({"--configuration-file": str(file), **ALWAYS}), file)
     except BaseException:
         engine.close()
@@ -191,18 +192,18 @@ def _started(file: Path) -> Engine:
 
 
 def _hushed(engine: Engine) -> AbstractContextManager[None]:
-    """Keep what SUMO says of others' driving, up to the ego's departure, off the terminal."""
+    """Keep SUMO's messages about the driving before the ego's departure off the terminal."""
     return errors_to(engine.scratch / "driving.txt")
 
 
 class _Inspection:
-    """Asks SUMO what a configuration holds."""
+    """Queries to SUMO about the content of a configuration."""
 
     def __init__(self, engine: Engine, file: Path, rider: Rider) -> None:
         self.engine, self.file, self.rider = engine, file, rider
 
     def result(self) -> Inspected:
-        """Run up to the ego's departure, and look."""
+        """Run the simulation up to the ego's departure, check it, and return its content."""
         if self._option("mesosim").lower() in YES:
             problem = "its vehicles have no places in SUMO's mesoscopic model"
             raise TableError(self.file, "mesosim", problem, "remove the option")
@@ -250,7 +251,7 @@ class _Inspection:
             raise TableError(self.file, None, problem, near(edge, edges))
 
     def _check_mentioned(self, name: str) -> None:
-        """Refuse a vehicle that no file names, rather than wait for it up to the end."""
+        """Raise an error for a vehicle that no file names, rather than wait for it to the end."""
         options = ("route-files", "additional-files")
         values = [self._option(option).split(",") for option in options]
         files = [Path(text.strip()) for value in values for text in value if text.strip()]
@@ -260,7 +261,7 @@ class _Inspection:
             raise NeverDeparts(self.file, f"no vehicle, trip or flow has the id {name!r}", remedy)
 
     def _check_ego(self, ego: str, network: Network) -> None:
-        """Whether a car as ours can drive in the ego's place."""
+        """Check that the ego is a car on a lane for cars."""
         api = self.engine.api.vehicle
         kind = self.engine.call(api.getVehicleClass, ego)
         lane = self.engine.call(api.getLaneID, ego)
@@ -280,14 +281,14 @@ class _Inspection:
             raise TableError(self.file, f"vehicle {ego!r}", problem, remedy)
 
     def _of_sumo(self) -> Iterator[str]:
-        """Yield what SUMO itself warns of."""
+        """Yield SUMO's own warnings."""
         found = warnings_in(self.engine.log)
         yield from (f"{self.file.name}: SUMO warns: {warning}" for warning in found[:SHOWN])
         if len(found) > SHOWN:
             yield f"{self.file.name}: SUMO warns of {len(found) - SHOWN} things more"
 
     def _unmodelled(self, ego: str, network: Network, step: float) -> Iterator[str]:
-        """Yield what of it the planner does not know."""
+        """Yield sentences on what in the configuration the planner does not take into account."""
         if step > STEP:
             yield f"its steps of {step:g} s are shortened to {STEP:g} s"
         if self.engine.call(self.engine.api.vehicle.getStops, ego):
@@ -309,7 +310,7 @@ class _Inspection:
         }
 
     def _changed(self, network: Network) -> tuple[list[str], list[str]]:
-        """The lanes whose limit, and those whose permission for cars, is not the net's now."""
+        """Return the lanes with another speed limit than in the net, and those closed to cars."""
         api, call = self.engine.api.lane, self.engine.call
         plain = [lane for lane in network.lanes.values() if not lane.limits]
         limits = [x.id for x in plain if abs(call(api.getMaxSpeed, x.id) - x.speed_limit) > 0.01]

@@ -1,6 +1,6 @@
-"""Bringing the ego of a SUMO configuration onto the road.
+"""The departure of the ego of a SUMO configuration.
 
-The one error beside those of the engine is NeverDeparts.
+The only error besides those of the engine is NeverDeparts.
 """
 
 from itertools import chain, count
@@ -9,13 +9,13 @@ from pathlib import Path
 from sim.engine import EgoGone, Engine
 from sim.setup.source import EGO_ID, Added, Departing, Rider
 
-PATIENCE = 300.0  # [s] for a gap in which a car that is added can depart
-LONGEST = 86400.0  # [s] of a configuration without an end
-LISTED = 8  # vehicles in a message
+PATIENCE = 300.0  # [s] greatest wait for a gap in which an added car can depart
+LONGEST = 86400.0  # [s] end of a configuration that states none
+LISTED = 8  # greatest number of vehicles in a message
 
 
 class NeverDeparts(EgoGone):
-    """The configuration ends without the ego on the road."""
+    """The ego does not get onto the road."""
 
     def __init__(self, file: Path, problem: str, remedy: str) -> None:
         self.problem, self.remedy = problem, remedy
@@ -26,16 +26,16 @@ def depart(engine: Engine, file: Path, rider: Rider) -> str:
     """Run a simulation that has started until the ego is on the road.
 
     Args:
-        engine: which runs it.
-        file: the configuration, as errors tell it.
-        rider: who the ego is.
+        engine: of the simulation.
+        file: the configuration, for errors.
+        rider: the vehicle that is the ego.
 
     Returns:
         The ego's id.
 
     Raises:
-        NeverDeparts: it does not get there.
-        SumoFailed: SUMO cannot go on, or finds no way for it.
+        NeverDeparts: the ego does not depart, or no way leads to its destination.
+        SumoFailed: SUMO cannot go on.
     """
     match rider:
         case Departing(name):
@@ -46,7 +46,7 @@ def depart(engine: Engine, file: Path, rider: Rider) -> str:
 
 
 def forget_stops(engine: Engine, name: str) -> None:
-    """Take a vehicle's stops away: else SUMO holds the ego there against every command.
+    """Remove a vehicle's stops: SUMO would hold the ego there in spite of commands.
 
     Raises:
         SumoFailed: SUMO cannot do it.
@@ -57,7 +57,7 @@ def forget_stops(engine: Engine, name: str) -> None:
 
 
 def first_departures(engine: Engine) -> list[str]:
-    """Return the ids of the cars that depart first; the simulation runs on up to then."""
+    """Return the ids of the cars that depart first; this advances the simulation."""
     found: list[str] = []
     while len(found) < LISTED and not _over(engine):
         step(engine)
@@ -78,7 +78,7 @@ def step(engine: Engine) -> None:
 
 
 def clock(engine: Engine) -> float:
-    """SUMO's time [s]."""
+    """Return SUMO's time [s]."""
     return float(engine.call(engine.api.simulation.getTime))
 
 
@@ -96,7 +96,7 @@ def _await(engine: Engine, file: Path, name: str) -> None:
 
 
 def _over(engine: Engine) -> bool:
-    """Check whether nobody departs any more."""
+    """Check whether the simulation is at its end, or has no vehicles left."""
     api = engine.api.simulation
     end = float(engine.call(api.getEndTime))
     late = clock(engine) >= (end if end >= 0.0 else LONGEST)
@@ -118,7 +118,7 @@ def _add(engine: Engine, file: Path, rider: Added) -> str:
         raise NeverDeparts(file, problem, "choose other edges")
     engine.call(api.route.add, f"route of {name}", way)
     engine.call(api.vehicle.add, name, f"route of {name}", kind, when, lane, place, speed)
-    engine.call(api.vehicle.setSpeedFactor, name, 1.0)  # SUMO would draw how it keeps limits
+    engine.call(api.vehicle.setSpeedFactor, name, 1.0)  # SUMO would draw a random one
     for _ in range(round(PATIENCE / engine.call(api.simulation.getDeltaT))):
         if name in engine.call(api.vehicle.getIDList):
             return name
@@ -128,5 +128,5 @@ def _add(engine: Engine, file: Path, rider: Added) -> str:
 
 
 def _free(taken: set[str]) -> str:
-    """Return an id that nobody has."""
+    """Return an id that is not taken."""
     return next(x for x in chain([EGO_ID], (f"{EGO_ID}_{k}" for k in count(1))) if x not in taken)

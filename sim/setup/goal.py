@@ -1,6 +1,6 @@
-"""Where the ego wants to go, and whether it can get there.
+"""The goal of the ego, and checks of whether the ego can reach it.
 
-The one error is TableError.
+The only error is TableError.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from sim.setup.tables import Table
 
 @dataclass(frozen=True, slots=True)
 class Goal:
-    """Where the ego wants to go."""
+    """The place to which the ego is to drive."""
 
     edge: str
     position: float  # [m] along the edge
@@ -21,10 +21,10 @@ class Goal:
 
 
 def check_goal(goal: Goal, top: Table, network: Network, ego: Departure) -> None:
-    """The goal lies on the roads, and can be reached from where the ego starts.
+    """Check that the goal lies on the roads, and that the ego can reach it from its start.
 
     Raises:
-        TableError: it does not, or cannot.
+        TableError: one of this is not so.
     """
     edges = _edges(goal, top, network)
     start = ego.edges[0]
@@ -39,7 +39,7 @@ def check_goal(goal: Goal, top: Table, network: Network, ego: Departure) -> None
 
 
 def check_place(goal: Goal, top: Table, network: Network) -> None:
-    """The goal lies on the roads.
+    """Check that the goal lies on the roads.
 
     Raises:
         TableError: it does not.
@@ -56,7 +56,7 @@ def check_place(goal: Goal, top: Table, network: Network) -> None:
 
 
 def _edges(goal: Goal, top: Table, network: Network) -> set[str]:
-    """Return the edges for cars, of which the goal's must be one."""
+    """Return the edges for cars, after checking that the goal's edge is one of them."""
     edges = edges_of(network)
     if goal.edge not in edges:
         raise top.wrong("goal.edge", f"there is no edge {goal.edge!r}", one_of(edges))
@@ -64,7 +64,7 @@ def _edges(goal: Goal, top: Table, network: Network) -> set[str]:
 
 
 def _leads_back(network: Network, edge: str) -> bool:
-    """Check whether one can come to an edge again after leaving it."""
+    """Check whether a car can come back to an edge after leaving it."""
     links = [link for lane in network.edge_lanes(edge) for link in network.links_from(lane.id)]
     return any(network.lanes[x.to_lane].edge in network.distance_to(edge) for x in links)
 

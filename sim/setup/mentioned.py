@@ -1,7 +1,7 @@
-"""Whether files of a SUMO configuration say anything of a vehicle, without running it.
+"""Check of whether files of a SUMO configuration mention a vehicle, without running it.
 
-A vehicle has the id that a file states, or one made of it: of a flow `flow.3`, of a person's trip
-`person_0`.
+A vehicle has an id that a file states, or one made from it: `flow.3` from the flow `flow`,
+`person_0` from the trip of `person`.
 """
 
 import gzip
@@ -11,12 +11,15 @@ from pathlib import Path
 from typing import Final
 from xml.sax.saxutils import escape
 
-MADE: Final = re.compile(r"(.+?)[._]\d+$")  # an id made of another
-INCLUDES: Final = "<include"  # a file that is part of another
+MADE: Final = re.compile(r"(.+?)[._]\d+$")  # an id made from another
+INCLUDES: Final = "<include"  # the element by which a file includes another
 
 
 def mentioned(name: str, files: Iterable[Path]) -> bool:
-    """Tell whether a vehicle may be in some files; so it is where one cannot be read."""
+    """Check whether some files may define a vehicle.
+
+    True also if a file cannot be read, or includes another file.
+    """
     stated = [name, *(found[1] for found in [MADE.match(name)] if found)]
     wanted = [INCLUDES, *(f"{q}{escape(x)}{q}" for x in stated for q in "\"'")]
     return any(_holds(file, wanted) for file in files)

@@ -2,9 +2,9 @@
 
 LANE_CHANGE = 3.0  # [s] SUMO's lane changes jump unless they are given a duration
 
-#: Whatever a configuration says.
+#: Options that override what a configuration says.
 ALWAYS = {
-    "--route-steps": "0",  # all at once: a vehicle out of order would be left out
+    "--route-steps": "0",  # load all routes at once: else SUMO drops vehicles that are out of order
     "--collision.action": "warn",
     "--collision.check-junctions": "true",
     "--collision.mingap-factor": "0",
@@ -19,13 +19,13 @@ ALWAYS = {
 
 
 def of_ride(step: float, seed: int, *, sublane: bool) -> dict[str, str]:
-    """Return the options of a ride beside its files.
+    """Return the options of a ride, except for its files.
 
     Args:
         step: [s] of the simulation.
         seed: of SUMO's random numbers.
-        sublane: whether SUMO's sublane model moves vehicles sideways, as lane changes that
-            take their time do otherwise.
+        sublane: whether SUMO's sublane model moves vehicles sideways; if not, lane changes are
+            given a duration.
     """
     lanes = {} if sublane else {"--lanechange.duration": repr(LANE_CHANGE)}
     own = {"--step-length": repr(step), "--seed": str(seed), "--random": "false"}
@@ -33,5 +33,5 @@ def of_ride(step: float, seed: int, *, sublane: bool) -> dict[str, str]:
 
 
 def listed(options: dict[str, str]) -> list[str]:
-    """Options as arguments of a command line."""
+    """Return options as arguments of a command line."""
     return [part for option in options.items() for part in option]

@@ -1,11 +1,11 @@
-"""Files of the package eclipse-sumo, which a scenario may name instead of bringing them."""
+"""Files of the package eclipse-sumo, which a scenario may name instead of having its own."""
 
 from pathlib import Path
 
 from sim.roads.netconvert import NetconvertMissing, package_folder
 from sim.setup.tables import Table
 
-PACKAGED = "sumo:"  # before the path of a file within the package
+PACKAGED = "sumo:"  # prefix of the path of a file within the package
 INSTALL = "pip install -U eclipse-sumo"
 
 
@@ -13,7 +13,7 @@ def packaged_file(table: Table, key: str, folder: Path) -> Path:
     """Find a file that a table names, in a folder or in the package.
 
     Raises:
-        TableError: there is no such file; from NetconvertMissing where there is no package.
+        TableError: there is no such file; its cause is NetconvertMissing if the package is missing.
     """
     name = table.text(key)
     if not name.startswith(PACKAGED):

@@ -1,6 +1,6 @@
-"""Route files, also gzipped: which vehicles there are, and where they start.
+"""Route files, also gzipped: their vehicles, and where these start.
 
-The one error is RoutesError.
+The only error is RoutesError.
 """
 
 import gzip
@@ -12,7 +12,7 @@ from pathlib import Path
 from sim.errors import SimError
 
 VEHICLES = ("vehicle", "trip")
-GZIP = b"\x1f\x8b"  # how a gzipped file begins (RFC 1952)
+GZIP = b"\x1f\x8b"  # first bytes of a gzipped file (RFC 1952)
 
 
 class RoutesError(SimError):
@@ -24,12 +24,12 @@ class Departure:
     """A vehicle or trip of a route file."""
 
     id: str
-    depart: float | None  # [s] None where not a number
-    edges: tuple[str, ...]  # of its route as written; a trip's are its ends
-    position: float | None  # [m] departPos along the first edge, None where not a number
-    coloured: bool  # has a colour of its own, beside that of its type
-    kind: str | None  # its vehicle type, None for SUMO's own
-    trip: bool  # SUMO finds the edges between its ends
+    depart: float | None  # [s] None if not a time
+    edges: tuple[str, ...]  # of its route as written; of a trip, its ends and the edges via
+    position: float | None  # [m] departPos along the first edge; None if not a number
+    coloured: bool  # whether it states a colour of its own, besides that of its type
+    kind: str | None  # its vehicle type; None for SUMO's default
+    trip: bool  # whether SUMO finds the edges between its ends
 
     @property
     def at_start(self) -> bool:
@@ -101,7 +101,7 @@ def types(root: ET.Element) -> frozenset[str]:
 
 
 def mentioned_edges(root: ET.Element) -> dict[str, str]:
-    """Return every edge that a route, trip or flow names, with the id of who names it first."""
+    """Return every edge that a route, trip or flow names, with the id of the first that does."""
     parents = {child: parent for parent in root.iter() for child in parent}
     found: dict[str, str] = {}
     for element in root.iter():
@@ -118,7 +118,7 @@ def vehicles(root: ET.Element) -> list[ET.Element]:
 
 
 def number(text: str | None) -> float | None:
-    """Return the number that an attribute holds; None where it is absent or a word."""
+    """Return the number in an attribute; None if it is absent or not a number."""
     try:
         return None if text is None else float(text)
     except ValueError:
@@ -126,7 +126,7 @@ def number(text: str | None) -> float | None:
 
 
 def seconds(text: str | None) -> float | None:
-    """Return the time [s] that an attribute holds, also written as hours:minutes:seconds."""
+    """Return the time [s] in an attribute: seconds, [days:]hours:minutes:seconds; None if none."""
     parts = [number(part) for part in (text or "").split(":")]
     if len(parts) not in (1, 3, 4):
         return None

@@ -1,10 +1,10 @@
-"""Scenarios: folders, ours and a user's alike, and SUMO configurations, read and checked.
+"""Scenarios, which are read from folders or SUMO configurations and checked.
 
 Errors:
     ScenarioError
-    ├── ScenarioNotFound    no scenario has this name, and no folder or configuration is there
+    ├── ScenarioNotFound    no scenario has this name, and no such folder or configuration exists
     └── ScenarioInvalid     a file of the folder is wrong: file, key, problem, remedy
-        └── NeedsMaps       it needs what the extra `maps` brings: netconvert, or SUMO's networks
+        └── NeedsMaps       it needs the extra `maps`: netconvert, or SUMO's networks
 """
 
 import xml.etree.ElementTree as ET
@@ -42,7 +42,7 @@ class ScenarioError(SimError):
 
 
 class ScenarioNotFound(ScenarioError):
-    """No scenario has this name, and no folder is there."""
+    """No scenario has this name, and no such folder exists."""
 
     def __init__(self, asked: str) -> None:
         known = ", ".join(available()) or "none"
@@ -65,15 +65,15 @@ class NeedsMaps(ScenarioInvalid):
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
-    """A world to drive in, checked: its files exist and agree with one another."""
+    """A world to drive in, whose files exist and agree with one another."""
 
     name: str
     description: str
     folder: Path
-    place: str  # what loads it again
-    network: Path  # SUMO net; converted where the folder holds OpenDRIVE
-    routes: Path  # who drives: a route file, or a SUMO configuration
-    ego: str  # its id there
+    place: str  # argument of `load` that loads it again
+    network: Path  # SUMO net; a converted one if the folder has OpenDRIVE
+    routes: Path  # a route file, or a SUMO configuration
+    ego: str  # the ego's id there
     step: float  # [s]
     duration: float  # [s]
     view_radius: float  # [m]
@@ -82,7 +82,7 @@ class Scenario:
     spawn: Spawn | None
     priority: Mapping[str, int]  # by edge
     source: Source = FROM_ROUTES
-    warnings: tuple[str, ...] = ()  # what looks wrong in it or is not modelled, in sentences
+    warnings: tuple[str, ...] = ()  # sentences on what looks wrong in it or is not modelled
 
 
 def available() -> tuple[str, ...]:
@@ -92,9 +92,9 @@ def available() -> tuple[str, ...]:
 
 
 def descriptions() -> dict[str, str]:
-    """Return what the scenarios that come with the package show, by name.
+    """Return the descriptions of the scenarios that come with the package, by name.
 
-    Unlike `load` it needs no netconvert, as it leaves their networks alone.
+    Unlike `load`, this needs no netconvert, as it does not read their networks.
 
     Raises:
         ScenarioInvalid: a scenario.toml lacks its description.
@@ -110,10 +110,10 @@ def load(name_or_path: str | Path) -> Scenario:
     """Read and check a scenario by its name, its folder, or a SUMO configuration.
 
     Args:
-        name_or_path: for a configuration as `sim.setup.configuration` says.
+        name_or_path: for a configuration, a place as described in `sim.setup.configuration`.
 
     Raises:
-        ScenarioNotFound: neither a name that exists, nor a folder with a scenario.toml, nor a
+        ScenarioNotFound: this is neither a known name, nor a folder with a scenario.toml, nor a
             configuration.
         ScenarioInvalid: the folder or the configuration is wrong.
         NeedsMaps: it needs netconvert or a network of SUMO's, and eclipse-sumo is not installed.
@@ -126,7 +126,7 @@ def load(name_or_path: str | Path) -> Scenario:
 
 
 def with_rider(place: str) -> str:
-    """The place of a configuration with the first car that departs as the ego, if it has none.
+    """Return the place of a configuration with an ego: the first car that departs, if none is set.
 
     Raises:
         ScenarioInvalid: the configuration is wrong, or no car departs.
@@ -138,7 +138,7 @@ def with_rider(place: str) -> str:
 
 @contextmanager
 def _invalid() -> Iterator[None]:
-    """Yield what is wrong with a file as an error of the scenario."""
+    """Turn errors in a file into errors of the scenario."""
     try:
         yield
     except TableError as error:
@@ -198,7 +198,7 @@ def _configured(place: str) -> Scenario:
 
 
 def _configured_folder(folder: Path, top: Table) -> Scenario:
-    """Return a scenario whose folder names a SUMO configuration, and may change what it says."""
+    """Return a scenario whose folder names a SUMO configuration and may override parts of it."""
     top.only((*_CONFIGURED, *_CHANGES))
     file = packaged_file(top, "configuration", folder).resolve()
     found = _configured(configuration.place_of(file, _rider(top)))
@@ -287,7 +287,11 @@ def _network_file(top: Table, folder: Path, priority: Mapping[str, int]) -> Path
 
 
 def _check(scenario: Scenario, top: Table) -> tuple[str, ...]:
-    """Return whether the files agree with one another; returns what may be wrong."""
+    """Check that the files agree with one another, and return warnings.
+
+    Raises:
+        TableError: they do not agree.
+    """
     try:
         network = read_network(scenario.network)
     except NetworkError as error:

@@ -1,4 +1,4 @@
-"""Where the traffic of a scenario comes from, and who of it is the ego."""
+"""The source of a scenario's traffic, and which vehicle of it is the ego."""
 
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -11,14 +11,14 @@ class FromRoutes:
 
 @dataclass(frozen=True, slots=True)
 class Departing:
-    """A vehicle that SUMO's configuration lets depart, whenever that is."""
+    """A vehicle of SUMO's configuration, as the ego from its departure on."""
 
     id: str
 
 
 @dataclass(frozen=True, slots=True)
 class Added:
-    """A car beside those of SUMO's configuration."""
+    """A car that is added to those of SUMO's configuration, as the ego."""
 
     origin: str  # the edge where it starts
     destination: str  # the edge where it wants to go
@@ -38,11 +38,11 @@ class FromConfiguration:
 
 Source: TypeAlias = FromRoutes | FromConfiguration
 FROM_ROUTES = FromRoutes()
-EGO_ID = "ego"  # of a car that is added; with a number where it is taken
+EGO_ID = "ego"  # id of a car that is added; a number is appended if the id is taken
 
 
 def told(rider: Rider) -> str:
-    """Return who the ego is, in words."""
+    """Return words for the ego."""
     match rider:
         case Departing(name):
             return f"vehicle {name!r}"

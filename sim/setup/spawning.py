@@ -1,8 +1,8 @@
 """Starts that vary with the seed: drawn for vehicles that depart at 0 s and move then.
 
-A start stays within its lane, before the vehicle's own first stop and clear of the others; its
-speed is no higher than type and lane allow, and lets it stop where it has to. Who stands keeps
-standing.
+A start stays within its lane, before the vehicle's own first stop and clear of the others. Its
+speed is not higher than type and lane allow, and lets the vehicle stop where it has to. Vehicles
+that depart at a standstill are left as they are.
 """
 
 import math
@@ -31,14 +31,14 @@ LENGTHS = {
     "moped": 2.1,
     "bicycle": 1.6,
 }
-#: Speeds [m/s] of types that state none: what a class can reach, and what it wishes to.
+#: Speeds [m/s] of types that state none: the top speed of a class, and the speed it wishes for.
 FASTEST = {"truck": 36.1, "trailer": 36.1, "bus": 27.7, "coach": 27.7, "tram": 22.2, "moped": 16.6}
 WISHED = {"bicycle": 5.55}
 
 
 @dataclass(frozen=True, slots=True)
 class Spawn:
-    """How starts vary with the seed, for vehicles that depart at 0 s."""
+    """The ranges in which starts vary with the seed, for vehicles that depart at 0 s."""
 
     longitudinal: float  # [m] length of the interval, centred on departPos
     speed: tuple[float, float]  # [m/s] least and greatest
@@ -46,19 +46,19 @@ class Spawn:
 
 @dataclass(frozen=True, slots=True)
 class _Kind:
-    """What matters of a vehicle type."""
+    """The properties of a vehicle type that matter for starts."""
 
     length: float  # [m]
     top_speed: float  # [m/s]
-    wished: float  # [m/s] most that it wishes to drive, times its factor
-    factor: float  # of the limit at which it drives on average
+    wished: float  # [m/s] greatest speed that it wishes to drive, before its factor
+    factor: float  # mean ratio of its speed to the limit
     braking: float  # [m/s2]
-    name: str  # of its class
+    name: str  # name of its class
 
 
 @dataclass(frozen=True, slots=True)
 class _Start:
-    """Where a vehicle is at 0 s."""
+    """The place of a vehicle at 0 s."""
 
     lanes: tuple[str, ...]  # on which it may be
     front: float  # [m] along the lane
@@ -66,7 +66,7 @@ class _Start:
 
 
 def with_spawn(root: ET.Element, spawn: Spawn, seed: int, network: Network) -> bytes:
-    """Return a route file in which the starts at 0 s vary: the same seed gives the same file.
+    """Return a route file in which the starts at 0 s vary; the same seed gives the same file.
 
     Place and speed are drawn uniformly, vehicle by vehicle in file order. SUMO's insertion
     checks are off for these vehicles, since they would delay or slow a start.
@@ -147,21 +147,21 @@ def _lanes(departure: Departure, network: Network) -> tuple[Lane, ...]:
 
 
 def _moves(element: ET.Element, departure: Departure, start: _Start, network: Network) -> bool:
-    """Check whether a vehicle neither departs at no speed nor where it stops."""
+    """Check whether a vehicle moves at 0 s: it does not depart at speed 0 or at a stop."""
     if number(element.get("departSpeed")) == 0.0:
         return False
     return not any(low <= start.front <= high for low, high in _stops(element, departure, network))
 
 
 def _first_stop(element: ET.Element, departure: Departure, network: Network) -> float:
-    """Return how far [m] a vehicle may come on its first edge: to its first stop there."""
+    """Return the offset [m] of the first stop on a vehicle's first edge; infinite if none."""
     return min((high for _, high in _stops(element, departure, network)), default=math.inf)
 
 
 def _stops(
     element: ET.Element, departure: Departure, network: Network
 ) -> list[tuple[float, float]]:
-    """From where to where [m] the stops on the first edge reach."""
+    """Return the interval [m] of each stop on the first edge."""
     lengths = {lane.id: lane.stated_length for lane in _lanes(departure, network)}
     found = []
     for stop in element.iter("stop"):
@@ -174,7 +174,7 @@ def _stops(
 
 
 def _along(text: str | None, length: float, default: float) -> float:
-    """Return a place [m] along a lane, which is written from its end where negative."""
+    """Return a place [m] along a lane; a negative number counts from the lane's end."""
     value = number(text)
     if value is None:
         return default
@@ -197,9 +197,9 @@ def _within(
 
 
 def _caps(kind: _Kind, lanes: Sequence[Lane], room: float) -> tuple[float, ...]:
-    """The speeds [m/s] not to be exceeded: of the type, of the lanes, and to stop in time.
+    """Return the speeds [m/s] not to be exceeded: of the type, of the lanes, and to stop in time.
 
-    Who deviates from the factor of the type may drive faster; SUMO lets it where it has to.
+    The caps use the mean factor. SUMO lets a vehicle whose own factor is higher drive faster later.
     """
     wishes = (kind.wished, *(lane.limit_for(kind.name) for lane in lanes))
     factor = min(1.0, kind.factor)

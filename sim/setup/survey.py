@@ -1,4 +1,7 @@
-"""Who drives where in a SUMO configuration, and in what company: a look before a ride is chosen."""
+"""A survey of where vehicles drive in a SUMO configuration, and how many others are near.
+
+It helps to choose a ride.
+"""
 
 import math
 from collections.abc import Callable
@@ -13,7 +16,7 @@ from sim.setup.departing import clock
 from sim.setup.options import ALWAYS, listed
 
 STEP = 1.0  # [s] of the simulation
-NEAR = 50.0  # [m] within which others are company
+NEAR = 50.0  # [m] greatest distance at which others count as company
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,12 +26,12 @@ class Stay:
     edge: str
     begin: float  # [s] of SUMO's clock when it was first seen there
     end: float  # [s] when it was first seen elsewhere, or gone
-    company: float  # vehicles near it, on average
+    company: float  # average number of vehicles near it
 
 
 @dataclass(frozen=True, slots=True)
 class Trail:
-    """The edges that a vehicle drove along and left, those within junctions left out."""
+    """The edges that a vehicle drove along and left, without those inside junctions."""
 
     vehicle: str
     stays: tuple[Stay, ...]
@@ -36,7 +39,7 @@ class Trail:
 
 @dataclass
 class _Open:
-    """A stay that lasts."""
+    """A stay that has not ended."""
 
     edge: str
     begin: float
@@ -49,7 +52,7 @@ def survey(file: Path, seed: int, seconds: float) -> tuple[Trail, ...]:
     Args:
         file: the configuration.
         seed: of SUMO's random numbers.
-        seconds: how long from its begin.
+        seconds: [s] duration of the run, from the configuration's begin.
 
     Returns:
         The trails, by the vehicles' ids.
@@ -67,7 +70,7 @@ def survey(file: Path, seed: int, seconds: float) -> tuple[Trail, ...]:
 
 
 class _Watch:
-    """Follows the vehicles of a running simulation."""
+    """An observer of the vehicles in a running simulation."""
 
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
@@ -97,7 +100,7 @@ class _Watch:
                 known.company.append(near)
 
     def _company(self, ids: tuple[str, ...]) -> list[int]:
-        """Return how many others are near each vehicle."""
+        """Return the number of others near each vehicle."""
         api, call = self._engine.api.vehicle, self._engine.call
         places = np.array([call(api.getPosition, vehicle) for vehicle in ids]).reshape(-1, 2)
         apart = np.hypot(*(places[:, None] - places[None, :]).transpose(2, 0, 1))

@@ -1,6 +1,6 @@
 """Tables of a TOML file, read key by key with strict types.
 
-The one error is TableError.
+The only error is TableError.
 """
 
 import math
@@ -26,7 +26,7 @@ class Table:
     """A table of the TOML file, read key by key with strict types."""
 
     file: Path
-    prefix: str  # of its keys in messages
+    prefix: str  # of its keys in error messages
     values: Mapping[str, object]
 
     def wrong(self, key: str, problem: str, remedy: str) -> TableError:
@@ -65,7 +65,11 @@ class Table:
         return value
 
     def check(self, key: str, value: object) -> float:
-        """Return a finite number, or an error."""
+        """Return a value as a finite number.
+
+        Raises:
+            TableError: it is none.
+        """
         if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
             return float(value)
         raise self.wrong(key, f"{value!r} is no number", "write a finite number, unquoted")
