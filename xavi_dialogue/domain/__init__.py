@@ -1,5 +1,5 @@
-"""Domain: what is meant and what is answered, as typed values. No text, no record, no I/O.
+"""Domain: the typed values of questions and answers. No text, no record, no I/O.
 
-Parser and realiser share this package alone. All values are frozen msgspec structs, so that a
-turn can be stored and sent; a union is distinguished by the tag `is`.
+This package is all that the parser and the realiser share. All values are frozen msgspec structs,
+so that a turn can be stored and sent; the tag `is` tells the members of a union apart.
 """

@@ -83,7 +83,7 @@ __all__ = [
 
 
 class Comforting(Value, frozen=True):
-    """The reply to a feeling: a human sentence, and a fact that bears on it."""
+    """The reply to a feeling: a personal sentence, and a fact that bears on it."""
 
     feel: Feel
     fact: "Answer | None" = None
@@ -93,25 +93,25 @@ class Declined(Value, frozen=True):
     """The reply to a request to drive otherwise: what the car is going to do anyway."""
 
     request: Request
-    able: bool = True  # False: no car of this kind can do that at all
+    able: bool = True  # False: this car cannot do that at all
     ahead: PlanAhead | None = None
     doing: Activity | None = None
     already: bool = False  # it is just what the car is doing
     cannot: str | None = None  # code of the reason why the plan cannot have it, if it cannot
-    soon: float | None = None  # [s] when the plan comes to it anyway
-    facts: tuple[Measure, ...] = ()  # what bears on it: our speed, when we drive on or are there
-    cause: MotionCause | None = None  # for which reason the car must drive as it does
+    soon: float | None = None  # [s] when the plan does it anyway
+    facts: tuple[Measure, ...] = ()  # that bear on it: our speed, when we drive on or arrive
+    cause: MotionCause | None = None  # why the car must drive as it does
 
 
 class Sociable(Value, frozen=True):
     """The reply to a social move."""
 
     kind: str  # of `meaning.Social`
-    fact: "Answer | None" = None  # that bears on what is asked about
+    fact: "Answer | None" = None  # that bears on the subject of the move
 
 
 class Helpful(Value, frozen=True):
-    """What can be asked."""
+    """The reply to a request for help: what can be asked."""
 
 
 class Again(Value, frozen=True):
@@ -122,34 +122,34 @@ class Again(Value, frozen=True):
 
 
 class Acknowledged(Value, frozen=True):
-    """The reply to "never mind", "yes", "no" and the like, where nothing is open."""
+    """The reply to "never mind", "yes", "no" and the like, when no question is open."""
 
     kind: Literal["cancelled", "yes", "no", "nothing-open", "noted"]
 
 
 class TakenAs(Value, frozen=True):
-    """The plain question that an unclear one was taken for."""
+    """The plain question as which an unclear one was understood."""
 
     question: str  # in the passenger's words: "Why did we brake?"
 
 
 class Unfamiliar(Value, frozen=True):
-    """Owning up to words that were not understood, beside the answer to the rest."""
+    """The words that were not understood, stated together with the answer to the rest."""
 
     words: tuple[str, ...] = ()  # as typed
-    known: bool = False  # they are English, but had no place in what was asked
+    known: bool = False  # they are English, but have no place in the question
 
 
 class Posed(Value, frozen=True):
     """A question of ours to the passenger, who wants to be quizzed."""
 
     kind: Literal["vehicle", "deed", "sooner"]  # who made us, what we would have done, when
-    about: Question  # grounded; what the record answers to it is the solution
-    again: bool = False  # it was put before, and the reply was no answer
+    about: Question  # grounded; the solution is its answer from the record
+    again: bool = False  # it was asked before, and the reply was no answer
 
 
 class Judged(Value, frozen=True):
-    """What the reply to a question of ours comes to, and the solution."""
+    """Whether the passenger's reply to a question of ours is right, and the solution."""
 
     judgement: Literal["right", "wrong", "passed"]
     posed: Posed
@@ -157,9 +157,9 @@ class Judged(Value, frozen=True):
 
 
 class NothingToAsk(Value, frozen=True):
-    """There is no question left to put to the passenger."""
+    """There is no question left to ask the passenger."""
 
-    asked: bool = False  # some were put before
+    asked: bool = False  # some were asked before
 
 
 # --- refusals -----------------------------------------------------------------------------------
@@ -188,34 +188,34 @@ class NotUnderstood(Value, frozen=True):
     """Nothing, or not enough, was understood."""
 
     words: tuple[str, ...] = ()  # that are in no vocabulary
-    quote: str = ""  # the passenger's words of which nothing was made, where they are not all
-    rest: bool = False  # something else of the text was understood
+    quote: str = ""  # the words that were not understood, if they are not the whole text
+    rest: bool = False  # another part of the text was understood
 
 
 class WhichOne(Value, frozen=True):
-    """Several readings or several vehicles: which one is meant (a clarification)."""
+    """A clarification: which of several readings or vehicles is meant."""
 
     readings: tuple[Proposition | Thing, ...]
     looks: tuple[Look, ...] = ()  # where vehicles are to be distinguished
     between: Literal["vehicles", "meanings", "times"] = "vehicles"
-    acts: tuple[Act, ...] = ()  # the readings whole, as grounded, where they are meanings
+    acts: tuple[Act, ...] = ()  # between meanings: the readings as whole grounded acts
 
 
 class NoSuchVehicle(Value, frozen=True):
-    """What is spoken of cannot be found: no such number, or nobody of that description."""
+    """A thing that cannot be found: no such number, or nobody fits the description."""
 
     thing: Thing
     time: float  # [s]
-    known: tuple[Look, ...] = ()  # who could be meant instead
-    misdescribed: Look | None = None  # the one that fits but for its colour or kind
+    known: tuple[Look, ...] = ()  # vehicles that could be meant instead
+    misdescribed: Look | None = None  # the one that fits except for its colour or kind
 
 
 class DidNotHappen(Value, frozen=True):
-    """The question takes for granted what did not happen; says what did."""
+    """A question that presupposes something that did not happen, and what happened instead."""
 
     asked: Event
     instead: tuple[Episode, ...] = ()
-    planned: float | None = None  # [s] it is yet to come
+    planned: float | None = None  # [s] when it is going to happen
     elsewhen: float | None = None  # [s] it happened at another time than the one named
     answer: "Answer | None" = None  # to the question about what happened instead
 
@@ -226,11 +226,11 @@ class NotApplicable(Value, frozen=True):
     asked: tuple[MacroAction, ...]
     reason: str  # as the trace has it
     time: float | None = None  # [s] of the decision
-    overtaking: bool = False  # it was asked of overtaking
+    overtaking: bool = False  # the question was about overtaking
 
 
 class TooLittle(Value, frozen=True):
-    """There is too little evidence, or too small an effect, to speak of."""
+    """Too little evidence, or too small an effect, for an answer."""
 
     reason: Literal["too-little-evidence", "effect-too-small", "no-influence"]
     asked: tuple[MacroAction, ...] = ()
@@ -241,7 +241,7 @@ class TooLittle(Value, frozen=True):
 
 
 class NotRecorded(Value, frozen=True):
-    """The record does not hold it, and why."""
+    """Something that the record does not contain, and why."""
 
     gap: Gap
     thing: Thing | None = None
@@ -251,7 +251,7 @@ class NotRecorded(Value, frozen=True):
 
 
 class CannotSay(Value, frozen=True):
-    """It is beyond what this car speaks of: advice, opinions, the world, other drivers' minds."""
+    """A subject that the car does not speak about: advice, opinions, other drivers' minds."""
 
     topic: str
     words: str = ""
@@ -259,7 +259,7 @@ class CannotSay(Value, frozen=True):
 
 
 class Unavailable(Value, frozen=True):
-    """The machinery behind the answer failed."""
+    """A failure of the planner that the answer needs."""
 
     reason: Literal["planner-unavailable", "timed-out", "busy", "planner-failed"]
 
@@ -335,15 +335,15 @@ Answer: TypeAlias = (
 
 
 class NeedRollout(Value, frozen=True):
-    """The record lacks a plan: the planner is to plan again (planner.record.trace.WhatIf)."""
+    """A plan that the record lacks and the planner must compute (planner.record.trace.WhatIf)."""
 
     trace_id: str
     actions: tuple[MacroAction, ...] = ()  # forced for the ego, in order
     removed: int | tuple[int, ...] | None = None  # a vehicle to plan without, or several
     rollouts: int = 40
-    vehicle: int | None = None  # another vehicle that acts as supposed:
-    goal: str | None = None  # where it goes: kind of a goal, or its edge
-    vehicle_actions: tuple[MacroAction, ...] = ()  # what it does first
+    vehicle: int | None = None  # another vehicle whose conduct is supposed
+    goal: str | None = None  # where that vehicle goes: kind of a goal, or its edge
+    vehicle_actions: tuple[MacroAction, ...] = ()  # what that vehicle does first
     faster: float | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
     lights: tuple[LightSupposed, ...] | msgspec.UnsetType = msgspec.UNSET  # what they show
-    seen_past: tuple[int, ...] | msgspec.UnsetType = msgspec.UNSET  # who is imagined, and not there
+    seen_past: tuple[int, ...] | msgspec.UnsetType = msgspec.UNSET  # phantoms to plan without

@@ -1,4 +1,4 @@
-"""Base: the struct that all values of the domain are."""
+"""Base: the base class of all values of the domain."""
 
 import msgspec
 

@@ -1,4 +1,4 @@
-"""Discourse: what a conversation has come to, as far as understanding the next turn needs it."""
+"""Discourse: the state of a conversation, as far as understanding the next turn needs it."""
 
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.meaning import Act, Question
@@ -6,12 +6,12 @@ from xavi_dialogue.domain.terms import Ego, Event, Proposition, Thing, Vehicle, 
 
 
 class Mention(Value, frozen=True):
-    """A thing that was spoken of."""
+    """A thing that was mentioned."""
 
     thing: Ego | Vehicle | Vehicles | Thing
     turn: int  # number of the turn
     by_car: bool  # the car named it
-    salience: float  # higher is likelier meant by "it"
+    salience: float  # the higher, the likelier "it" means this
     role: str | None = None  # subject, object, cause, other
 
 
@@ -21,17 +21,17 @@ class Discourse(Value, frozen=True):
     turn: int = 0  # number of the coming turn
     mentions: tuple[Mention, ...] = ()  # most salient first
     question: Question | None = None  # under discussion, grounded
-    propositions: tuple[Proposition, ...] = ()  # asserted last by either side, latest first
-    episode: tuple[float, float] | None = None  # [s] what "that" was, "then"
-    named: tuple[float, float] | None = None  # [s] past time that was said earlier in the turn
+    propositions: tuple[Proposition, ...] = ()  # that either side asserted, latest first
+    episode: tuple[float, float] | None = None  # [s] that "that" or "then" refers to
+    named: tuple[float, float] | None = None  # [s] past time that was named earlier in the turn
     offered: tuple[Act, ...] = ()  # readings that a clarification offered, grounded
     offered_things: tuple[Thing, ...] = ()  # vehicles that a clarification offered
     pending: Act | None = None  # the act that a clarification was about, to be completed
     last_acts: tuple[Act, ...] = ()  # grounded acts of the last turn
     asked_at: float | None = None  # [s] when the last question was asked
     times: tuple[float, ...] = ()  # [s] that the passenger named, latest first
-    option: Event | None = None  # of ours that was told of in place of what was decided
-    decided: Event | None = None  # what was decided there, instead of that option
+    option: Event | None = None  # an option of ours, discussed as alternative to what was decided
+    decided: Event | None = None  # what was decided instead of that option
 
 
 class Span(Value, frozen=True):
@@ -39,16 +39,16 @@ class Span(Value, frozen=True):
 
     begin: float  # [s]
     end: float  # [s]
-    said: bool = False  # the passenger said when; else it was inferred
-    ahead: bool = False  # it is to come
+    said: bool = False  # the passenger named the time; else it was inferred
+    ahead: bool = False  # it lies in the future
 
 
 class GroundedAct(Value, frozen=True):
     """An act with its things, times and anaphors resolved."""
 
     act: Act
-    span: Span | None = None  # None: no time was said and none is implied
+    span: Span | None = None  # None: no time was named and none is implied
     leaned: bool = False  # it was completed from an earlier turn
-    doubts: tuple[str, ...] = ()  # words that were not understood, to be owned up to
+    doubts: tuple[str, ...] = ()  # words that were not understood; the answer has to say so
     strange: tuple[str, ...] = ()  # those of them that are in no vocabulary
-    presupposed: bool = True  # what it takes for granted holds, as far as could be checked
+    presupposed: bool = True  # its presuppositions hold, as far as could be checked

@@ -1,4 +1,4 @@
-"""Evidence: the parts of answers: what they rest on, effects, causes and contrasts."""
+"""Evidence: the parts of causal answers, such as effects, causes and contrasts."""
 
 from typing import Literal, TypeAlias
 
@@ -8,7 +8,7 @@ from xavi_dialogue.domain.base import Value
 
 
 class Evidence(Value, frozen=True):
-    """What an answer rests on."""
+    """The evidence for an answer."""
 
     method: Literal["record", "tree", "rollouts"] = "record"
     rollouts: int = 0
@@ -19,11 +19,11 @@ class Evidence(Value, frozen=True):
 def calibrated(
     probability: float, model_error: float, unforeseen: float = 1.0 / len(OUTCOMES)
 ) -> float:
-    """Return how probable an outcome is, of its probability among rollouts.
+    """Return the probability of an outcome, given its probability among rollouts.
 
-    Rollouts do not know the error of their own model. With the probability `model_error` they
-    tell nothing, and the outcome is as likely as it is among what they did not foresee; by
-    default each outcome is (label smoothing, Szegedy et al. 2016).
+    Rollouts do not know the error of their own model. With probability `model_error` they say
+    nothing about the outcome, and its probability is then `unforeseen`. By default all outcomes
+    are equally likely in that case (label smoothing, Szegedy et al. 2016).
     """
     return (1.0 - model_error) * probability + model_error * unforeseen
 
@@ -32,12 +32,12 @@ class OutcomeEstimate(Value, frozen=True):
     """The likeliest outcome of a plan."""
 
     name: Outcome
-    probability: float  # as far as the rollouts are to be trusted
+    probability: float  # calibrated
     collided_with: int | None = None
 
 
 class Effect(Value, frozen=True):
-    """How a component would differ: foil minus fact, in natural units."""
+    """The difference in a component: foil minus fact, in natural units."""
 
     component: Component
     unit: str
@@ -49,14 +49,14 @@ class Effect(Value, frozen=True):
 
 
 class Mechanism(Value, frozen=True):
-    """How a vehicle held the ego up in the rollouts of the foil, or under the plan."""
+    """The way a vehicle held the ego up in the rollouts of the foil, or under the plan."""
 
     how: HoldUp | Literal["collision"]
     speed_from: float | None  # [m/s] its speed when the hold-up began
     speed_to: float | None  # [m/s] its lowest speed within it
     delay: float | None  # [s] mean duration of the hold-up
     share: float  # weight of the rollouts in which it occurred
-    present: bool = False  # it was going on when the decision was taken
+    present: bool = False  # it was going on when the decision was made
 
 
 class Cause(Value, frozen=True):
@@ -72,44 +72,44 @@ class Cause(Value, frozen=True):
 
 
 class Causation(Value, frozen=True):
-    """Which vehicles a deed hangs on, tried by planning again without one, two, and all."""
+    """The vehicles that an action depends on, tested by planning without one, two, and all."""
 
     kind: Literal[
-        "one",  # without it the deed would not have come about
-        "both",  # each of them had to be there
-        "either",  # one of them would have been enough
-        "pre-empted",  # the first; had it not been there, the second
-        "several",  # none of them alone, but all of them together
-        "none",  # no vehicle, and not all of them together
-        "open",  # that could not be planned
+        "one",  # without it the action would not have come about
+        "both",  # each of the two was needed
+        "either",  # one of the two would have been enough
+        "pre-empted",  # the first is the cause; without it, the second would have been
+        "several",  # not one of them alone, but all of them together
+        "none",  # no vehicle, nor all of them together
+        "open",  # the plans for the test could not be made
     ]
     vehicles: tuple[int, ...] = ()
-    cleared: tuple[int, ...] = ()  # tried, and of no matter
-    decides: bool = True  # without them something else is done; else the same, for less of a reason
-    alters: tuple[int, ...] = ()  # of "both": without each of these, something else is done
-    minimal: bool = True  # False: "several" are together enough, but maybe not all of them needed
+    cleared: tuple[int, ...] = ()  # tested, and without effect
+    decides: bool = True  # without them something else is done; else the same, for weaker reasons
+    alters: tuple[int, ...] = ()  # of "both": without any of these, something else is done
+    minimal: bool = True  # False: "several" are enough together, but maybe not all are needed
 
     @property
     def jointly(self) -> tuple[int, ...]:
-        """The vehicles that are causes together, or of which each would have been enough."""
+        """Return the vehicles that are causes together, or each of which would have sufficed."""
         return self.vehicles if self.is_joint and self.minimal else ()
 
     @property
     def is_joint(self) -> bool:
-        """Tell whether several are causes together, or each would have been enough."""
+        """Check whether several are causes together, or each would have been enough."""
         return self.kind in ("both", "either", "several")
 
 
-#: What the planner reckons with, in seconds: the components of the reward, what other outcomes cost
-#: (collision, dead: off the way to the goal, late: not there in the time foreseen), and effort.
+#: What the planner counts as cost, in seconds: the components of the reward, the outcomes other
+#: than arrival (collision; dead: off the way to the goal; late: after the horizon), and effort.
 Term: TypeAlias = Component | Literal["collision", "dead", "late", "effort"]
 
 
-#: Whether the fact is better by the record as it is known now, or the two are as good within the
-#: error of the comparison; "alone": there is nothing beside the fact.
+#: Whether the fact is better or worse than the foil, as far as the record shows by now; "close":
+#: equally good within the error of the comparison; "alone": there is nothing to compare with.
 Weighing: TypeAlias = Literal["better", "close", "worse", "alone"]
 CHANGES = frozenset[MacroAction](("change-left", "change-right"))
-MOST = 2  # further manoeuvres that are named
+MOST = 2  # maximum of further manoeuvres that are named
 EXITS = frozenset[MacroAction](("exit-left", "exit-right", "exit-straight", "continue-next-exit"))
 
 
@@ -123,7 +123,7 @@ class Share(Value, frozen=True):
 
 
 class Aim(Value, frozen=True):
-    """What plans lead to, and their times are to."""
+    """The place that plans lead to; their times are times of arrival there."""
 
     edge: str
     position: float  # [m] along the edge
@@ -132,19 +132,19 @@ class Aim(Value, frozen=True):
 
 
 class TimeRange(Value, frozen=True):
-    """How much later a foil comes to the destination, as it held in so many cases of its kind."""
+    """The range of how much later a foil arrives, calibrated by earlier cases of its kind."""
 
     low: float  # [s] foil minus fact
     high: float
-    coverage: float  # share of cases that lay within
+    coverage: float  # share of the cases that lay within the range
     cases: int
 
 
 class Contrast(Value, frozen=True):
-    """A fact and a foil compared: the heart of causal answers about our own choice.
+    """A comparison of fact and foil: the main part of causal answers about our own choice.
 
     Raises:
-        ValueError: what is stated of the terms does not bear the verdict out.
+        ValueError: the terms that are stated contradict the verdict.
     """
 
     fact: tuple[MacroAction, ...]  # the whole plan
@@ -155,25 +155,25 @@ class Contrast(Value, frozen=True):
     evidence: Evidence
     decided: float  # [s] time of the decision
     fact_outcome: OutcomeEstimate | None = None
-    collision: float = 0.0  # probability of one under the foil, from 1 % on ...
+    collision: float = 0.0  # probability of a collision under the foil, from 1 % on ...
     fact_collision: float = 0.0  # ... and under the fact
     collided_with: int | None = None  # the likeliest vehicle, where the foil may collide
-    continued: tuple[MacroAction, ...] = ()  # what the foil would be followed by
+    continued: tuple[MacroAction, ...] = ()  # actions that would follow the foil
     aim: Aim | None = None
-    cleared: tuple[int, ...] = ()  # vehicles that make no difference: it was planned without them
+    cleared: tuple[int, ...] = ()  # vehicles that make no difference, tested by planning again
     causation: Causation | None = None  # None: nobody was suspected
     way: bool = False  # the fact is the way to the destination, and no other way is known to be
     verdict: Weighing = "alone"
-    terms: tuple[Share, ...] = ()  # the difference of the rewards, taken apart; largest first
-    told: tuple[Share, ...] = ()  # those that are stated, the decisive one first
+    terms: tuple[Share, ...] = ()  # terms of the difference of the rewards, largest first
+    told: tuple[Share, ...] = ()  # those that the answer states, the decisive one first
     error: float = 0.0  # [s] standard error of the difference
-    likely: TimeRange | None = None  # None: what was calibrated does not reach this
-    route: MacroAction | None = None  # what comes next on our way, where the foil misses it
-    horizon: float | None = None  # [s] that is looked ahead: what takes longer is late
-    exceeds: float | None = None  # [s] by which the one that is surely late takes longer, at least
+    likely: TimeRange | None = None  # None: there is no calibration for this
+    route: MacroAction | None = None  # the next turn on our way, if the foil misses it
+    horizon: float | None = None  # [s] of the planner: a plan that takes longer is late
+    exceeds: float | None = None  # [s] minimum by which the plan that is surely late takes longer
 
     def __post_init__(self) -> None:
-        """Refuse reasons that speak for the other side."""
+        """Refuse stated terms that speak against the verdict."""
         weight = sum(share.cost for share in self.told)
         if (self.verdict == "better" and weight <= 0.0) or (
             self.verdict == "worse" and weight >= 0.0
@@ -182,24 +182,27 @@ class Contrast(Value, frozen=True):
 
     @property
     def value(self) -> float | None:
-        """By how much [s] the expected reward of the fact is higher; None: nothing is beside it."""
+        """Return how much higher [s] the expected reward of the fact is; None: no foil."""
         return None if self.verdict == "alone" else sum(share.cost for share in self.terms)
 
     @property
     def late(self) -> bool:
-        """Whether the foil probably does not arrive within the time that is looked ahead."""
+        """Check whether the foil probably does not arrive within the horizon."""
         return self.outcome is not None and self.outcome.name == "termination"
 
     @property
     def spares_delay(self) -> bool:
-        """Whether the foil probably arrives within the time that is looked ahead, the fact not."""
+        """Check whether the foil probably arrives within the horizon, but the fact does not."""
         arrives = self.outcome is not None and self.outcome.name == "done"
         late = self.fact_outcome is not None and self.fact_outcome.name == "termination"
         return arrives and late
 
     @property
     def lane_for(self) -> MacroAction | None:
-        """The turn for which the fact changes lanes: the foil does so later, or misses the turn."""
+        """Return the turn for which the fact changes lanes; None: another reason, or no change.
+
+        The foil goes on in the lane, and changes later or misses the turn.
+        """
         change, *rest = self.fact or ("continue",)
         turn = next((action for action in rest if action in EXITS), None)
         if change not in CHANGES or turn is None or self.foil != ("continue",):
@@ -210,24 +213,25 @@ class Contrast(Value, frozen=True):
 
     @property
     def close(self) -> bool:
-        """Whether the two are as good within the error of the comparison."""
+        """Check whether the two are equally good within the error of the comparison."""
         return self.verdict == "close"
 
     @property
     def decisive(self) -> Term | None:
-        """What speaks most for the fact, in the planner's own reckoning."""
+        """Return the term that speaks most for the fact; None unless the fact is better."""
         return self.told[0].term if self.verdict == "better" else None
 
     @property
     def waypoint(self) -> bool:
-        """Whether times are to a place on the way, and not to the destination."""
+        """Check whether times are to a place on the way, and not to the destination."""
         return self.aim is not None and not self.aim.destination
 
     @property
     def further(self) -> tuple[MacroAction, ...]:
-        """The manoeuvres that the foil holds beyond what was asked, and the fact does not.
+        """Return manoeuvres that follow the foil, but not the fact.
 
-        Changes of lanes; after one of them or going on, also the way taken at the next junction.
+        They are lane changes. If the foil ends with a lane change or with going on, the way taken
+        at the next junction is one too.
         """
         rest = [action for action in self.continued if action in CHANGES]
         for action in reversed(self.fact[len(self.foil) :]):

@@ -1,4 +1,4 @@
-"""Facts: what the record shows, as values that answers are made of.
+"""Facts: what the record shows, as values that answers consist of.
 
 Times are simulation seconds. Things are grounded: `Ego`, `Vehicle`, and places.
 """
@@ -18,21 +18,21 @@ Somebody: TypeAlias = Ego | Vehicle
 Gap: TypeAlias = Literal[
     "before-record",  # earlier than the ride
     "in-future",  # not known yet
-    "gap-in-record",  # lost on its way
+    "gap-in-record",  # reports were lost
     "out-of-view",  # the vehicle was not in view then
     "hidden",  # behind another vehicle
     "out-of-sight",  # behind a building: nobody can be seen there
     "not-sensed",  # the car has no such sense: weather, drivers' faces, horns
-    "not-recorded",  # it exists but no record keeps it
+    "not-recorded",  # it exists but is not recorded
     "no-way",  # no road leads to the destination from where the car is going
-    "not-applicable",  # it has no value: time to collision of vehicles that part
+    "not-applicable",  # it has no value: time to collision of vehicles that move apart
     "others-thoughts",  # what other drivers think or know
-    "unknown-plans",  # what the passengers have to be there for
+    "unknown-plans",  # what the passengers have to do at the destination
 ]
 
 
 class Look(Value, frozen=True):
-    """A vehicle as it is seen at a time: enough to describe it truly."""
+    """A vehicle as it is seen at one time: all that its description needs."""
 
     vehicle: int
     time: float  # [s]
@@ -47,26 +47,26 @@ class Look(Value, frozen=True):
     oncoming: bool = False
     alone: bool = False  # no other vehicle in view has its kind and colour
     in_view: bool = True
-    seen: float | None = None  # [s] when it was seen last, where it is not in view
+    seen: float | None = None  # [s] when it was last seen, if it is not in view
 
 
 class Episode(Value, frozen=True):
-    """A stretch of the ride in which somebody did one thing, or a traffic light showed one."""
+    """A stretch of the ride in which somebody did one thing, or a light showed one colour."""
 
     actor: Somebody | Feature
     action: ActionName
     begin: float  # [s]
     end: float | None = None  # [s] None while it goes on
-    object: Thing | None = None  # whom or what it concerns
+    object: Thing | None = None  # the thing or road user that it concerns
     side: Side | None = None
     speed_from: float | None = None  # [m/s]
     speed_to: float | None = None  # [m/s]
     peak: float | None = None  # [m/s2] highest deceleration, positive
     place: Junction | None = None
     exit: int | None = None  # of a roundabout, counted from where it was entered
-    how: HoldUp | None = None  # of waiting, slowing, giving way: what held the actor up
-    standing: bool = False  # it came to a standstill in it
-    sure: bool = True  # False: read off positions and likely, not recorded
+    how: HoldUp | None = None  # kind of hold-up, of waiting, slowing and giving way
+    standing: bool = False  # the actor came to a standstill in it
+    sure: bool = True  # False: inferred from positions, not recorded
 
 
 class Measure(Value, frozen=True):
@@ -76,23 +76,23 @@ class Measure(Value, frozen=True):
     thing: Thing
     time: float  # [s] of the value; of an extreme, when it was reached
     value: float | None = None  # in the unit of the attribute
-    word: str | None = None  # of attributes that have words: a colour, a kind, a bearing
+    word: str | None = None  # value of attributes that have words: a colour, a kind, a bearing
     to: Thing | None = None
-    until: float | None = None  # [s] end of the interval, where there is one
+    until: float | None = None  # [s] end of the interval, if there is one
     low: float | None = None
     high: float | None = None
     extreme: Literal["highest", "lowest", "mean", "total"] | None = None
-    reference: float | None = None  # beside a speed: the limit where the thing is
-    at_least: bool = False  # the value is a bound from below
-    lights: tuple[str, ...] = ()  # of indicator and brake lights: what is shown
+    reference: float | None = None  # of a speed: the limit where the thing is
+    at_least: bool = False  # the value is a lower bound
+    lights: tuple[str, ...] = ()  # of indicator and brake lights: those that are on
     side: Side | None = None  # of an exit, a turn, a lane
-    count: int | None = None  # lanes there; exits of the roundabout
+    count: int | None = None  # number of lanes there, or of exits of the roundabout
     rule: str | None = None  # of right of way: priority, give-way, equal, depends
     gap: Gap | None = None  # why there is no value
 
 
 class Expectation(Value, frozen=True):
-    """What the car believed that a vehicle would do."""
+    """Something that the car expected a vehicle to do."""
 
     actions: tuple[ActionName, ...]
     probability: float
@@ -100,7 +100,7 @@ class Expectation(Value, frozen=True):
 
 
 class Belief(Value, frozen=True):
-    """What the car believed of a vehicle at a decision, likeliest first."""
+    """The car's expectations of a vehicle at a decision, likeliest first."""
 
     vehicle: int
     time: float  # [s] of the decision
@@ -108,19 +108,19 @@ class Belief(Value, frozen=True):
 
 
 class OptionValue(Value, frozen=True):
-    """A first action that a decision weighed, with what was expected of it."""
+    """A first action that a decision considered, with its expected outcome."""
 
     action: MacroAction
     chosen: bool
     outcome: Outcome
-    probability: float  # of that outcome, as far as the rollouts are to be trusted
-    time: float | None  # [s] expected until the goal, where it gets there
-    delta: float | None  # [s] by which it takes longer than what was chosen
+    probability: float  # of that outcome, calibrated
+    time: float | None  # [s] expected until the goal; None: it does not get there
+    delta: float | None  # [s] by which it takes longer than the chosen action
     value: float | None  # mean reward
-    collision: float = 0.0  # probability of one
+    collision: float = 0.0  # probability of a collision
     collided_with: int | None = None
-    exceeds: float | None = None  # [s] by which it takes longer at least, where its end is not seen
-    close: bool = False  # all in all, as good as what was chosen, as far as can be told
+    exceeds: float | None = None  # [s] minimum by which it takes longer, if that is all we know
+    close: bool = False  # as good as the chosen action, within the error of the comparison
 
 
 class Relating(Value, frozen=True):

@@ -1,4 +1,4 @@
-"""Hidden parts of the road: what cannot be seen past, and what seeing past it would change."""
+"""Hidden parts of the road: what hides them, and what the ego would do if it could see them."""
 
 from typing import Literal, TypeAlias
 
@@ -9,33 +9,33 @@ Side: TypeAlias = Literal["left", "right", "ahead"]
 
 
 class Hider(Value, frozen=True):
-    """What hides a part of the road from which somebody with right of way might come."""
+    """Something that hides a part of the road from which somebody with priority might come."""
 
     vehicle: int | None  # None: a building
     side: Side  # from which somebody might come
-    probability: float | None  # that somebody is there with right of way; None: not reckoned with
+    probability: float | None  # that somebody with right of way is there; None: not considered
 
 
 class SightTold(Value, frozen=True):
-    """What we cannot see, and who might come from there; nobody who is only imagined is counted."""
+    """What we cannot see, and who might come from there; phantoms are not counted."""
 
-    #: asked: whether we see past it; what we do not see; whether or how surely somebody is there,
-    #: or comes from there; whether somebody came; how we know that nobody does; what if he did;
-    #: who drives ahead of one behind whom we drive
+    #: The question: do we see past it; what do we not see; is somebody there, or how probably;
+    #: did somebody come; how do we know that nobody comes; what if somebody came; who drives
+    #: ahead of the vehicle in front of us.
     asked: Literal["past", "what", "there", "chance", "came", "known", "if", "beyond"]
     hiders: tuple[Hider, ...]  # the likeliest first; () nothing that matters is hidden
     past: bool = False
-    slowed: bool = False  # we came slowly for it
+    slowed: bool = False  # we came slowly because of it
 
 
 class SupposedSeeing(Value, frozen=True):
-    """What would have been had we seen past some who hide the road, and nobody been there."""
+    """What we would have done if we had seen past some hiders, and nobody had been there."""
 
-    hiders: tuple[Hider, ...]  # these; () nothing that matters was hidden
+    hiders: tuple[Hider, ...]  # that are seen past; () nothing that matters was hidden
     decided: float  # [s] of the decision
     plan: tuple[MacroAction, ...]  # as things were
     then: tuple[MacroAction, ...]  # as it would have been
-    saved: float  # [s] that the drive would have been shorter
+    saved: float  # [s] by which the drive would have been shorter
     past: bool = False
 
 

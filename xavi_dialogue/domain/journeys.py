@@ -1,4 +1,4 @@
-"""Journeys: answers about our way, the moments that stand out on it, and what was decided."""
+"""Journeys: answers about our way, its extreme moments, and the decisions on it."""
 
 from typing import Literal
 
@@ -11,7 +11,7 @@ from xavi_dialogue.domain.traffic_lights import Shown
 
 
 class WayStep(Value, frozen=True):
-    """What we do at a junction that we come to."""
+    """Our way through a junction ahead."""
 
     kind: JunctionKind
     turn: Turn
@@ -19,51 +19,51 @@ class WayStep(Value, frozen=True):
     rank: int  # 1: the next junction
     exit: int | None = None  # of a roundabout
     inside: bool = False  # we are on it: the exits still to come are counted
-    rule: Rule | None = None  # who goes first there, where that is told
+    rule: Rule | None = None  # who goes first there, if the answer states it
     light: bool = False  # a traffic light is in view there
 
 
 class Course(Value, frozen=True):
-    """Our way ahead: which way we take, how many turns are left, whether we stay on the road."""
+    """Our way ahead: the way we take, the turns that are left, whether we stay on the road."""
 
     form: Literal["way", "turns", "junctions", "roundabouts", "road", "nearly", "halt"]
     steps: tuple[WayStep, ...]
-    holds: bool | None = None  # of a yes or no question
+    holds: bool | None = None  # the reply to a yes or no question
     left: float | None = None  # [m] to the destination
     soon: float | None = None  # [s] to it
-    then: bool = False  # it is asked what comes after what was stated
+    then: bool = False  # the question is what comes after what was stated
 
 
 class PeakMoment(Value, frozen=True):
-    """The moment of the ride at which something was at its most."""
+    """The moment of the ride at which something was greatest."""
 
-    of: str  # of `meaning.Peak`
+    of: str  # `meaning.Peak.of`
     time: float | None = None  # [s] None: there was nothing of the sort
-    deeds: tuple[Episode, ...] = ()  # what we did then, the most telling first
+    deeds: tuple[Episode, ...] = ()  # what we did then, the most important first
     measure: Measure | None = None  # how much it was
-    others: tuple[Look, ...] = ()  # on account of whom
+    others: tuple[Look, ...] = ()  # vehicles that caused it
 
 
 class Decided(Value, frozen=True):
-    """What a decision came to."""
+    """The result of a decision."""
 
     time: float  # [s]
     steps: tuple[MacroAction, ...]
-    kept: bool = False  # it was the plan of before
+    kept: bool = False  # it kept the previous plan
     doing: tuple[Episode, ...] = ()  # how we drove then
 
 
 class Altered(Value, frozen=True):
-    """What was different at one decision from an earlier one."""
+    """The differences between a decision and an earlier one."""
 
     before: Decided
     after: Decided
     appeared: tuple[Look, ...] = ()
-    beliefs: tuple[tuple[Belief, Belief], ...] = ()  # that moved, the most first
+    beliefs: tuple[tuple[Belief, Belief], ...] = ()  # that changed, largest change first
     did: tuple[Episode, ...] = ()  # what happened between them
     light: Shown | None = None  # that had changed
     sudden: bool = False  # the one was made right after the other
-    reason: ChoiceReason | None = None  # for the change, where that is asked
+    reason: ChoiceReason | None = None  # for the change, if the question is why
 
 
 class AbandonedPlan(Value, frozen=True):
@@ -71,13 +71,13 @@ class AbandonedPlan(Value, frozen=True):
 
     time: float  # [s]
     risk: float  # of a collision
-    vehicle: int | None = None  # with whom
+    vehicle: int | None = None  # the other one in the collision
 
 
 class Wavered(Value, frozen=True):
-    """Why a plan was given up and taken up again and again."""
+    """The reason why a plan was repeatedly given up and resumed."""
 
     plan: MacroAction  # that was given up
     turns: tuple[AbandonedPlan, ...]
-    resumed: bool = False  # it was taken up again in the end
-    claim: bool = False  # it answers a charge
+    resumed: bool = False  # it was resumed in the end
+    claim: bool = False  # it answers a claim that we wavered

@@ -1,4 +1,4 @@
-"""Meaning: what an utterance is: a row of acts, each a question, claim, request, feeling, ..."""
+"""Meaning: the acts that an utterance consists of: questions, claims, requests, feelings, ..."""
 
 from typing import Literal, TypeAlias
 
@@ -18,7 +18,7 @@ from xavi_dialogue.domain.vocabulary import Extreme, FeelingKind, Merit
 
 
 class Why(Value, frozen=True):
-    """Why something is so; with `Not`, why it is not ("why not", "why didn't you")."""
+    """The question why something is so; with `Not`, why it is not ("why didn't you")."""
 
     of: Proposition
     instead: Proposition | None = None  # the contrast: "instead of", "rather than", "and not"
@@ -28,36 +28,36 @@ class Why(Value, frozen=True):
 
 
 class WhatIf(Value, frozen=True):
-    """What would have been, or would be, under a supposition."""
+    """The question what would happen, or would have happened, under a supposition."""
 
     supposed: Proposition  # `Not(Exists(thing))`: if it were not there
-    then: "Question | None" = None  # asked of that world: "would you still have braked?"
+    then: "Question | None" = None  # about the supposed world: "would you still have braked?"
 
 
 class Whether(Value, frozen=True):
     """A yes or no question."""
 
     that: Proposition
-    tag: bool = False  # put as a statement: "you saw him, right?"
+    tag: bool = False  # worded as a statement: "you saw him, right?"
     degree: bool = False  # "how risky was that?"
 
 
 class Which(Value, frozen=True):
-    """Who or which thing it is of which something holds: "who did you wait for"."""
+    """The question for whom or what something holds: "who did you wait for"."""
 
-    thing: Thing  # what is asked for: `Wanted`, or `Described` ("which of the red cars")
-    such: Proposition | None = None  # with the `Wanted` in it; None: "who is that?" of `thing`
+    thing: Thing  # that is asked for: `Wanted`, or `Described` ("which of the red cars")
+    such: Proposition | None = None  # that contains the `Wanted`; None: "who is" the `thing`?
     among: tuple[Thing, ...] = ()  # "who lets us in, the bus or the red car?"
 
 
 class Identify(Value, frozen=True):
-    """What or who a thing is: "what is that big thing on the left", "which car is vehicle 3"."""
+    """The question what a thing is: "what is that big thing", "which car is vehicle 3"."""
 
     thing: Thing
 
 
 class HowMuch(Value, frozen=True):
-    """The value of a measure: "how fast", "how far", "what is the limit", "which colour"."""
+    """The question for a measure: "how fast", "how far", "what is the limit", "which colour"."""
 
     of: Measured
     extreme: Extreme | None = None  # "the highest speed we reached"
@@ -65,50 +65,50 @@ class HowMuch(Value, frozen=True):
 
 
 class HowMany(Value, frozen=True):
-    """How many things there are, or how often an event happened."""
+    """The question how many things there are, or how often an event happened."""
 
     of: Thing | Event
-    such: Thing | None = None  # grounded: what was said of those that are counted
+    such: Thing | None = None  # grounded: the description of those that are counted
 
 
 class When(Value, frozen=True):
-    """At what time something happens, happened or will."""
+    """The question at what time something happens, happened or will happen."""
 
     of: Proposition
     edge: Literal["begin", "end"] = "begin"
 
 
 class HowLong(Value, frozen=True):
-    """How long something lasts or lasted, or since when it is so: "how long did you wait"."""
+    """The question how long something lasts or lasted, or since when: "how long did you wait"."""
 
     of: Event | Proposition
 
 
 class Where(Value, frozen=True):
-    """Where a thing is, or where an event took place."""
+    """The question where a thing is, or where an event took place."""
 
     of: Thing | Event
     time: Time = Unsaid()
 
 
 class Whither(Value, frozen=True):
-    """Where somebody is going."""
+    """The question where somebody is going."""
 
     actor: Thing = Ego()
     time: Time = Unsaid()
 
 
 class Doing(Value, frozen=True):
-    """What somebody does, did, or will do next; or what happened (`actor` None)."""
+    """The question what somebody does, did, or will do; or what happened (`actor` None)."""
 
     actor: Thing | None = Ego()
     time: Time = Unsaid()
     tense: Tense = "present"
-    besides: Proposition | None = None  # what else
+    besides: Proposition | None = None  # known already: the question is what else
 
 
 class Compare(Value, frozen=True):
-    """Which of several is better, sooner, safer, smoother, faster, closer, ahead."""
+    """The question which of several is better, sooner, safer, smoother, faster, closer, ahead."""
 
     options: tuple[Proposition | Thing, ...]
     by: Merit
@@ -116,7 +116,7 @@ class Compare(Value, frozen=True):
 
 
 class Listing(Value, frozen=True):
-    """List things of a sort, with times where they have them."""
+    """The request for a list of things of a sort, with times if they have any."""
 
     of: Literal[
         "events", "vehicles", "options", "beliefs", "causes", "reasons", "stops", "decisions",
@@ -125,11 +125,11 @@ class Listing(Value, frozen=True):
     ]  # fmt: skip
     about: Thing | None = None
     time: Time = Unsaid()
-    event: Event | None = None  # of events: only those that are such
+    event: Event | None = None  # of events: only those that match it
 
 
 class Peak(Value, frozen=True):
-    """The moment at which something was at its most: "the hardest moment", "the closest call"."""
+    """The question when something was greatest: "the hardest moment", "the closest call"."""
 
     of: Literal["danger", "difficulty", "closeness", "braking", "slowing", "slowness", "speed",
                 "waiting", "delay"]  # fmt: skip
@@ -138,53 +138,53 @@ class Peak(Value, frozen=True):
 
 
 class Changed(Value, frozen=True):
-    """What became different between two times, in the plan and in what was seen and expected."""
+    """The question what changed between two times in the plan, the view and the expectations."""
 
     time: Time = Unsaid()
 
 
 class Summarise(Value, frozen=True):
-    """Tell what happened: of the ride, an interval, a vehicle, or the episode spoken of."""
+    """The request for a summary of the ride, an interval, a vehicle, or the current episode."""
 
     about: Thing | Event | None = None
     time: Time = Unsaid()
 
 
 class HowKnow(Value, frozen=True):
-    """On what evidence something was believed or said."""
+    """The question on what evidence the car believed or said something."""
 
-    of: Proposition | None = None  # None: what was said last
+    of: Proposition | None = None  # None: what the car said last
 
 
 class HowSure(Value, frozen=True):
-    """How probable something was or is, for the car."""
+    """The question how probable the car considers something, or did."""
 
     of: Proposition | None = None
     time: Time = Unsaid()
-    changed: bool = False  # how it moved, when or why it changed
+    changed: bool = False  # how, when or why the probability changed
 
 
 class HowDecide(Value, frozen=True):
-    """How the car came to a decision, or how it works: the manner, not the reason."""
+    """The question how the car makes a decision, or how it works: the manner, not the reason."""
 
     of: Proposition | None = None
 
 
 class WhatWouldChange(Value, frozen=True):
-    """What a decision hangs on; what mattered most; what would have made it decide otherwise."""
+    """The question what a decision depends on, what mattered most, or what would change it."""
 
     of: Proposition | None = None
     most: bool = False  # the one factor that mattered most
 
 
 class HowAvoid(Value, frozen=True):
-    """How something could have been avoided, or done sooner or better."""
+    """The question how something could have been avoided, or done sooner or better."""
 
     of: Proposition | None = None
 
 
 class Fault(Value, frozen=True):
-    """Whose fault, who is to blame, was it legal: answered by facts, not by a verdict."""
+    """The question whose fault it was, or whether it was legal; facts answer it, not a verdict."""
 
     of: Proposition | None = None
     suspect: Thing | None = None
@@ -241,7 +241,7 @@ class Request(Value, frozen=True):
 
 
 class Feel(Value, frozen=True):
-    """How the passenger feels, about what where that is said."""
+    """The passenger's feeling, and what it is about if they say so."""
 
     feeling: FeelingKind
     about: Proposition | Thing | None = None
@@ -254,15 +254,15 @@ class Repair(Value, frozen=True):
         "repeat", "simpler", "shorter", "longer", "cancel", "correct", "meant", "continue", "why",
         "yes", "no", "pick",
     ]  # fmt: skip
-    thing: Thing | None = None  # "no, the red one": what was meant instead
+    thing: Thing | None = None  # "no, the red one": the thing that was meant instead
     question: Question | None = None  # "I meant ..."
     pick: int | None = None  # which of the readings offered, from 1
 
 
 class Elliptic(Value, frozen=True):
-    """A fragment that takes its frame from the question before: "and the bus?", "and before that?".
+    """A fragment that the question before completes: "and the bus?", "and before that?".
 
-    What is not None replaces the part of the same sort in the question under discussion.
+    Fields that are not None replace the part of the same sort in the question under discussion.
     """
 
     thing: Thing | None = None
@@ -283,21 +283,21 @@ class Social(Value, frozen=True):
         "who-are-you", "are-you-human", "feelings", "agree", "disagree", "acknowledge", "laugh",
         "wish", "address", "caution",
     ]  # fmt: skip
-    about: Proposition | Thing | None = None  # of "feelings": what is to have stirred us
+    about: Proposition | Thing | None = None  # of "feelings": what our feelings would be about
 
 
 class AskHelp(Value, frozen=True):
-    """What can be asked, how this works."""
+    """The question what can be asked, or how this works."""
 
 
 class Quizzing(Value, frozen=True):
-    """The passenger wants to be quizzed, or to stop it."""
+    """The wish of the passenger to be quizzed, or to stop the quiz."""
 
     stop: bool = False
 
 
 class Beyond(Value, frozen=True):
-    """What the car cannot speak of, as read from the words: what topic, never by a word alone."""
+    """A topic that the car cannot speak about, found by more than a single word."""
 
     topic: Literal[
         "off-topic", "injection", "non-english", "capability", "perception", "advice", "opinion",
@@ -312,18 +312,18 @@ Act: TypeAlias = (
 
 
 class TokenShare(Value, frozen=True):
-    """What one word contributes to a reading."""
+    """The contribution of one word to a reading."""
 
     text: str  # as typed
     read: str  # as read, spelling corrected
     share: Literal["meaning", "grammar", "politeness", "hedge", "address", "unknown"]
     part: str = ""  # what it stands for, for developers
-    act: int | None = None  # index of the act that it belongs to; None: not told
-    strange: bool = False  # it is no English word that is known
+    act: int | None = None  # index of the act that it belongs to; None: not known
+    strange: bool = False  # it is in no vocabulary
 
 
 class Unread(Value, frozen=True):
-    """A stretch of a text of which nothing was made."""
+    """A stretch of a text that was not understood."""
 
     words: tuple[str, ...]  # as typed
     asks: bool = False  # it has the form of a question
@@ -334,17 +334,17 @@ class Reading(Value, frozen=True):
 
     acts: tuple[Act, ...]
     shares: tuple[TokenShare, ...]
-    cost: float = 0.0  # lower is likelier, by the words alone
+    cost: float = 0.0  # the lower, the likelier by the words alone
     unread: tuple[Unread, ...] = ()
-    paraphrase: str = ""  # the plain question that the text as a whole was taken for
+    paraphrase: str = ""  # the plain question as which the whole text was understood
     ignored: tuple[tuple[str, ...], ...] = ()  # clauses without which the acts are the same
 
     @property
     def unknown(self) -> tuple[str, ...]:
-        """The words as typed that have no part in the reading."""
+        """Return the words, as typed, that have no part in the reading."""
         return tuple(share.text for share in self.shares if share.share == "unknown")
 
     @property
     def strange(self) -> tuple[str, ...]:
-        """The words as typed that are no words that are known."""
+        """Return the words, as typed, that are in no vocabulary."""
         return tuple(share.text for share in self.shares if share.strange)

@@ -1,4 +1,4 @@
-"""Rewriting: replace or collect parts of terms, whatever they are nested in."""
+"""Rewriting: functions that replace or collect parts of terms at any depth."""
 
 from collections.abc import Callable, Iterator
 from typing import Any, TypeVar
@@ -13,7 +13,7 @@ V = TypeVar("V")
 
 
 def rewrite(value: T, change: Callable[[Any], Any]) -> T:
-    """Replace every part for which `change` gives something else; outermost parts first."""
+    """Replace every part for which `change` returns another object; outermost parts first."""
     changed = change(value)
     if changed is not value:
         return changed  # type: ignore[no-any-return]
@@ -38,13 +38,13 @@ def substitute(value: T, old: object, new: object) -> T:
 
 
 def with_wanted(value: T, thing: object) -> T:
-    """Put a thing in the place of what is asked for."""
+    """Replace every `Wanted`, which stands for what is asked for, by a thing."""
     return rewrite(value, lambda part: thing if isinstance(part, Wanted) else part)
 
 
 def parts(value: object, sort: type[V] | tuple[type[V], ...]) -> Iterator[V]:
     """Yield every part of a sort, outermost and leftmost first."""
-    left = [value]  # the next one last
+    left = [value]  # parts still to visit; the next one is last
     while left:
         part = left.pop()
         if isinstance(part, sort):

@@ -1,8 +1,8 @@
-"""Terms: things, times, events and propositions, of which questions and claims are built.
+"""Terms: things, times, events and propositions that questions and claims are built from.
 
-A term is as spoken or grounded. Grounding replaces what depends on scene, record or discourse:
-of things, only `Ego`, `Vehicle`, `Vehicles`, `Nobody` and the places remain; of times, only `At`,
-`Between`, `Now`, `Next` and `WholeRide`, and `Unsaid` where the explainer is to decide.
+A term is as spoken, or grounded. Grounding replaces what depends on scene, record or discourse.
+Of things, only `Ego`, `Vehicle`, `Vehicles`, `Nobody` and places remain; of times, only `At`,
+`Between`, `Now`, `Next`, `WholeRide`, and `Unsaid` if the explainer has to decide.
 """
 
 from typing import Final, Literal, TypeAlias
@@ -46,7 +46,7 @@ __all__ = [
 
 
 class Ego(Value, frozen=True):
-    """Our own car: "you", "we", "us", "the car" where it can be nobody else."""
+    """Our own car: "you", "we", "us", or "the car" if that can mean no other."""
 
 
 class Vehicle(Value, frozen=True):
@@ -62,7 +62,7 @@ class Vehicles(Value, frozen=True):
 
 
 class Together(Value, frozen=True):
-    """Several that are named one by one: "the lorry and the grey car"."""
+    """Several things that are named one by one: "the lorry and the grey car"."""
 
     members: tuple["Thing", ...]
 
@@ -81,7 +81,7 @@ class Described(Value, frozen=True):
     size: Literal["big", "small"] | None = None
     bearing: Bearing | None = None  # where it is
     origin: Bearing | None = None  # where it comes or came from
-    of: "Thing | None" = None  # the bearing is seen from this, from us where it is None
+    of: "Thing | None" = None  # the bearing is relative to this; None: to us
     doing: "Event | None" = None  # relative clause: "that cut in", "which we waited for"
     such: "Proposition | None" = None  # any other relative clause: "that you cannot see"
     plural: bool = False
@@ -96,25 +96,25 @@ SOMEBODY_ELSE: Final = Described(other=True, definite=False)  # "anybody else", 
 
 
 class Pronoun(Value, frozen=True):
-    """A word for what was spoken of or is pointed at."""
+    """A word for a thing that was mentioned or is pointed at."""
 
     form: Literal["it", "he", "she", "they", "that", "this", "one", "who", "them-all"]
 
 
 class Wanted(Value, frozen=True):
-    """What the question asks for: "which car", "who", "what"."""
+    """The thing that the question asks for: "which car", "who", "what"."""
 
     kind: Kind = "vehicle"
 
 
 class Everyone(Value, frozen=True):
-    """All road users, of a kind where one is said: "everybody", "all cars", "the others"."""
+    """All road users, or all of a kind: "everybody", "all cars", "the others"."""
 
     kind: Kind = "vehicle"
 
 
 class Destination(Value, frozen=True):
-    """Where the passenger is going."""
+    """The passenger's destination."""
 
 
 class Junction(Value, frozen=True):
@@ -147,20 +147,20 @@ class Road(Value, frozen=True):
 
 
 class Feature(Value, frozen=True):
-    """What a road has beside lanes; what is said of colour, rank and owner is said of lights."""
+    """A thing on a road other than a lane; colour, rank and owner apply to lights."""
 
     kind: Literal[
         "light", "sign", "crossing", "curb", "parking", "building", "line", "bend", "queue",
         "space", "way", "obstacle", "headlight", "blind",
     ]  # fmt: skip
-    colour: str | None = None  # that it is said to show: "the red light"
+    colour: str | None = None  # that the description names: "the red light"
     rank: int | None = None  # 1 the next one, 2 the one behind it, -1 the last one
     of: "Thing | None" = None  # who faces it; None: we
-    time: float | None = None  # [s] grounded: when it is spoken of
+    time: float | None = None  # [s] grounded: the time that is meant
 
 
 class Passenger(Value, frozen=True):
-    """Who speaks: "me", "I"."""
+    """The passenger who speaks: "me", "I"."""
 
 
 class Record(Value, frozen=True):
@@ -168,7 +168,7 @@ class Record(Value, frozen=True):
 
 
 class Unknown(Value, frozen=True):
-    """A thing named by words that have no sense here."""
+    """A thing that is named by words without a known meaning."""
 
     words: str
 
@@ -196,7 +196,7 @@ Thing: TypeAlias = (
 
 
 class Relative(Value, frozen=True):
-    """While, before or after an event or thing: "when we turned", "before the roundabout"."""
+    """A time relative to an event or thing: "when we turned", "before the roundabout"."""
 
     relation: Literal["during", "before", "after", "until", "since"]
     anchor: "Event | Thing"
@@ -222,7 +222,7 @@ Tense: TypeAlias = Literal["past", "present", "future", "perfect"]
 
 
 class Event(Value, frozen=True):
-    """Somebody doing something."""
+    """An action of somebody."""
 
     action: ActionName
     actor: Thing = Ego()
@@ -233,7 +233,7 @@ class Event(Value, frozen=True):
     tense: Tense = "past"
     modal: Literal["will", "would", "can", "could", "should", "must", "might", "want"] | None = None
     then: "Event | None" = None  # done next: "change left and then turn right"
-    where: "Related | None" = None  # beside what it is done: "wait behind the lorry"
+    where: "Related | None" = None  # the place where it is done: "wait behind the lorry"
 
 
 class Measured(Value, frozen=True):
@@ -249,14 +249,14 @@ class Measured(Value, frozen=True):
 
 
 class Quantity(Value, frozen=True):
-    """A number with the unit that was said, in SI."""
+    """A number with its unit, converted to SI."""
 
     value: float
     unit: Literal["m/s", "m", "s", "%", "m/s2", "count"] = "count"
 
 
 class Happens(Value, frozen=True):
-    """That an event happens, happened or will."""
+    """That an event happens, happened or will happen."""
 
     event: Event
 
@@ -293,7 +293,7 @@ class Has(Value, frozen=True):
 
 
 class Compares(Value, frozen=True):
-    """How a measure compares with another, or with a number."""
+    """That a measure is more, less or the same as another, or as a number."""
 
     left: Measured
     comparator: Comparator
@@ -313,7 +313,7 @@ class Caused(Value, frozen=True):
     """That a thing or a fact is why an event came about: "is it the truck?", "because of him"."""
 
     cause: "Thing | Proposition"
-    effect: "Proposition | None" = None  # None: what is being spoken of
+    effect: "Proposition | None" = None  # None: what is under discussion
 
 
 class Believed(Value, frozen=True):
@@ -325,21 +325,21 @@ class Believed(Value, frozen=True):
 
 
 class Not(Value, frozen=True):
-    """The contrary."""
+    """The negation of a proposition."""
 
     content: "Proposition"
-    lexical: bool = False  # by the word itself: "blocked" for not free
+    lexical: bool = False  # it is part of the word's meaning: "blocked" for not free
 
 
 class Both(Value, frozen=True):
-    """Several that hold together ("and"), or one of which does ("or")."""
+    """Several propositions that all hold ("and"), or one of which holds ("or")."""
 
     contents: tuple["Proposition", ...]
     join: Literal["and", "or"] = "and"
 
 
 class That(Value, frozen=True):
-    """A proposition that was spoken of: "that", "so", "it" for a fact."""
+    """A word for a proposition that was mentioned: "that", "so", "it" for a fact."""
 
 
 Proposition: TypeAlias = (

@@ -1,4 +1,4 @@
-"""Times: those that name no other thing; see `terms`."""
+"""Times: the terms for times that contain no other terms; see `terms` for the rest."""
 
 from typing import Literal
 
@@ -10,7 +10,7 @@ class Now(Value, frozen=True):
 
 
 class Unsaid(Value, frozen=True):
-    """No time was said: tense and discourse decide."""
+    """No time was named: tense and discourse decide."""
 
 
 class At(Value, frozen=True):
@@ -23,7 +23,7 @@ class Ago(Value, frozen=True):
     """A time before now: "five seconds ago", "just now" (None: a few seconds)."""
 
     seconds: float | None = None  # [s]
-    span: bool = False  # all of it up to now: "in the last ten seconds"
+    span: bool = False  # the whole interval up to now: "in the last ten seconds"
 
 
 class AtDecision(Value, frozen=True):
@@ -47,7 +47,7 @@ class Between(Value, frozen=True):
 
 
 class Back(Value, frozen=True):
-    """The episode spoken of: "then", "at that time", "back there", "before that"."""
+    """The time of the episode under discussion, or before or after it: "then", "before that"."""
 
     relation: Literal["during", "before", "after"] = "during"
 

@@ -1,4 +1,4 @@
-"""Traffic lights: what they showed, how they were expected to go on, how we passed them."""
+"""Traffic lights: facts and answers about their colours, past and expected, and our passing."""
 
 from typing import Literal, TypeAlias
 
@@ -6,9 +6,9 @@ from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.terms import Feature, Thing
 
-#: What a light shows, as people say it.
+#: What a light shows, in everyday words.
 LightColour: TypeAlias = Literal["red", "red-amber", "amber", "green", "flashing", "off"]
-#: By the letters of a record; see sim.scene.LightState.
+#: Colours by the letters of a record; see sim.scene.LightState.
 COLOURS: dict[str, LightColour] = {
     "r": "red", "u": "red-amber", "y": "amber", "G": "green", "g": "green", "s": "red",
     "o": "flashing", "O": "off",
@@ -18,42 +18,42 @@ TURNING = "s"  # red, but one may turn after a full stop
 
 
 class Shown(Value, frozen=True):
-    """What a traffic light showed over a time."""
+    """A stretch of time in which a traffic light showed one colour."""
 
     light: Feature
     colour: LightColour
     begin: float  # [s]
-    begun: bool  # it was seen to change to it; else it showed it when it came into view
+    begun: bool  # the change to it was seen; else it showed it when it came into view
     end: float | None = None  # [s] None: it goes on
-    ended: bool = True  # it was seen to change then; else it went out of view
+    ended: bool = True  # the change at its end was seen; else it went out of view
     gives_way: bool = False  # green, but others may go first
     turning: bool = False  # red, but one may turn after a full stop
     after: LightColour | None = None  # what it changed to
 
 
 class Crossed(Value, frozen=True):
-    """That our front passed the line of a traffic light."""
+    """The moment at which our front passed the line of a traffic light."""
 
     time: float  # [s]
     speed: float  # [m/s]
     shown: Shown | None  # what it showed then; None: that was not seen
     since: float | None = None  # [s] for which it had shown that then
-    late: bool = False  # when it came to show that, we were too close to stop comfortably
+    late: bool = False  # when it changed to that, we were too close to stop comfortably
 
 
 class Foreseen(Value, frozen=True):
-    """When a traffic light was expected to change, at a decision."""
+    """The expectation of a decision when a traffic light changes."""
 
     shown: Shown  # what it showed then
     time: float  # [s] of the decision
-    to: LightColour  # that it is expected to show next, or was asked about
-    chance: float  # that it does so within the horizon
-    horizon: float  # [s] after the decision up to which it is foreseen
-    middle: float | None = None  # [s] by when it is as likely as not; None: beyond the horizon
-    low: float | None = None  # [s] the earliest time that was reckoned with ...
+    to: LightColour  # that it is expected to show next, or that the question names
+    chance: float  # probability that it does so within the horizon
+    horizon: float  # [s] after the decision, to which the prediction reaches
+    middle: float | None = None  # [s] median of the time; None: beyond the horizon
+    low: float | None = None  # [s] the earliest time that was expected ...
     high: float | None = None  # ... and the latest; None: beyond the horizon
-    cycle: bool = False  # from how it went on before; else from how long lights usually last
-    came: float | None = None  # [s] when it did so in fact
+    cycle: bool = False  # from its observed cycle; else from how long lights usually last
+    came: float | None = None  # [s] when it actually changed
 
 
 # --- answers --------------------------------------------------------------------------------------
@@ -67,41 +67,41 @@ class LightTold(Value, frozen=True):
         "count", "turn",
     ]  # fmt: skip
     shown: Shown | None = None  # None: no light was in view, or none such
-    wanted: LightColour | None = None  # that it is asked whether, or since when, it shows
-    holds: bool | None = None  # the reply where it is asked or said that it does
-    past: bool = False  # it is asked about as past
+    wanted: LightColour | None = None  # the colour that the question or claim names
+    holds: bool | None = None  # whether it shows that; the reply to the question or claim
+    past: bool = False  # the question is in the past tense
     time: float | None = None  # [s] the moment that is asked about
-    distance: float | None = None  # [m] from our front to its line, where it is ahead
-    passed: float | None = None  # [s] when we passed it, where we have
-    count: int | None = None  # of lights that we passed
+    distance: float | None = None  # [m] from our front to its line, if it is ahead
+    passed: float | None = None  # [s] when we passed it, if we have
+    count: int | None = None  # number of lights that we passed
     crossed: tuple[Crossed, ...] = ()
-    others: tuple[Crossed, ...] = ()  # passed while they showed something else than was asked of
-    whose: Thing | None = None  # who faces it, where that is somebody else
-    own: Shown | None = None  # what ours showed then, where theirs is not known
+    others: tuple[Crossed, ...] = ()  # lights that showed another colour when we passed them
+    whose: Thing | None = None  # who faces it, if that is somebody else
+    own: Shown | None = None  # what ours showed then, if theirs is not known
 
 
 class LightForeseen(Value, frozen=True):
     """When a traffic light is or was expected to change: a belief, with its range."""
 
-    foreseen: Foreseen | None  # None: it shows that already, or nothing is known of it
+    foreseen: Foreseen | None  # None: it shows that already, or nothing is known about it
     shown: Shown | None = None
-    past: bool = False  # it is asked what was expected
+    past: bool = False  # the question is what was expected
     asked: Literal["when", "whether", "how-sure"] = "when"
-    holds: bool | None = None  # the reply where it is asked whether
+    holds: bool | None = None  # the reply to the question whether it will change
 
 
 class LightPassed(Value, frozen=True):
-    """How we passed a traffic light: checked where it is said that we ran it."""
+    """How we passed a traffic light, for claims and questions that we ran it."""
 
     crossed: Crossed | None  # None: we have passed none, or not yet
-    claimed: LightColour | None = None  # that it is said to have shown then
-    holds: bool | None = None  # whether it is so; None: that was not seen
+    claimed: LightColour | None = None  # the colour that it showed according to the passenger
+    holds: bool | None = None  # whether it did; None: that was not seen
     asked: Literal["whether", "claim", "why"] = "whether"
-    ahead: Shown | None = None  # what the light before us shows, where we have passed none
+    ahead: Shown | None = None  # what the light ahead shows, if we have passed none
 
 
 class SupposedOfLight(Value, frozen=True):
-    """What would have been had a traffic light shown something else."""
+    """What we would have done if a traffic light had shown something else."""
 
     shown: Shown  # what it showed
     supposed: LightColour
@@ -114,14 +114,14 @@ class SupposedOfLight(Value, frozen=True):
     passed: float | None = None  # [s] when we did; None: not yet
     past: bool = True
     standing: bool = False  # we stood at it when it was decided
-    holds: bool | None = None  # the reply where it is asked whether we would have stopped
+    holds: bool | None = None  # the reply to the question whether we would have stopped
 
 
 class TurnOnRed(Value, frozen=True):
-    """Why we do not turn on red: what the light shows to those who turn."""
+    """The reason why we do not turn on red: what the light shows for the turn."""
 
     shown: Shown | None  # None: no light on our way is in view
-    way: Literal["left", "right", "straight"] | None  # that we take there; None: not known
+    way: Literal["left", "right", "straight"] | None  # our way there; None: not known
     asked: Literal["left", "right", "straight"]
 
 

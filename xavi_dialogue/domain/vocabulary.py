@@ -1,11 +1,11 @@
-"""Vocabulary: the names of actions, attributes, relations and states that terms are built of."""
+"""Vocabulary: the names of actions, attributes, relations and states that terms consist of."""
 
 from typing import Literal, TypeAlias, get_args
 
 from planner.record.trace import Action as MacroAction
 
-#: What somebody does. First the macro actions, then what people say beside them. A lane change or
-#: turn whose side is open is "change-lane" or "turn" with `Event.side` None.
+#: Actions: first the macro actions, then other actions that people name. A lane change or turn
+#: whose side is open is "change-lane" or "turn" with `Event.side` None.
 ActionName: TypeAlias = Literal[
     "continue",  # follow the lane, go straight on where no junction comes first
     "change-left",
@@ -51,14 +51,14 @@ ActionName: TypeAlias = Literal[
     "appear",
     "disappear",
     "arrive",  # at the object, the destination unless said
-    "head",  # be on the way to the object, a place or side
+    "head",  # be on the way to the object: a place or side
     "keep-lane",
     "change-plan",
     "do",  # something: "what is he doing", "do that"
     "happen",  # "what happened"
     "show",  # of a traffic light: a colour, the object
     "turn-colour",  # of a traffic light: to a colour, the object; or to another one
-    # What the car has no way of doing; told so when it is asked for.
+    # Actions that the car cannot do; a request for one is answered that way.
     "honk",
     "flash",
     "gesture",  # wave, nod, smile, shout
@@ -77,16 +77,16 @@ Manner: TypeAlias = Literal[
     "hard", "gently", "suddenly", "fast", "slowly", "early", "late", "close", "again", "first",
     "far", "long", "still", "already", "safely", "on-purpose",
 ]  # fmt: skip
-GENTLE: frozenset[Manner] = frozenset(("gently", "safely"))  # how one may want to be driven
+GENTLE: frozenset[Manner] = frozenset(("gently", "safely"))  # how passengers may want us to drive
 
-#: What can be measured or read off. Units stand beside each; words have none.
+#: What can be measured or seen. The comment states the unit; attributes with words have none.
 Attribute: TypeAlias = Literal[
     "speed",  # [m/s]
     "limit",  # [m/s] in force where the thing is
-    "speed-change",  # [m/s] by how much the speed rose or fell over the time or event
+    "speed-change",  # [m/s] difference in speed over the time or event
     "excess",  # [m/s] speed over the limit
     "acceleration",  # [m/s2] positive: speeding up
-    "deceleration",  # [m/s2] positive: braking; how hard
+    "deceleration",  # [m/s2] positive: braking
     "gap",  # [m] bumper to bumper along the way, to the object
     "headway",  # [s] gap over the follower's speed
     "distance",  # [m] between bodies, to the object (a vehicle, junction, destination)
@@ -99,7 +99,7 @@ Attribute: TypeAlias = Literal[
     "kind",
     "size",  # [m] length
     "name",  # number on the screen
-    "place",  # where it is, seen from us
+    "place",  # where it is, relative to us
     "origin",  # where it came from
     "heading",  # where it is going
     "right-of-way",
@@ -134,7 +134,7 @@ Relation: TypeAlias = Literal[
     "must-yield-to",
     "waiting-for",
     "can-see",
-    "sees-past",  # what hides a part of the road
+    "sees-past",  # the object, which hides a part of the road
     "in-the-way-of",
     "same-as",
     "faster-than",
@@ -143,7 +143,7 @@ Relation: TypeAlias = Literal[
     "with",
 ]  # fmt: skip
 
-#: What a thing or an event can be said to be.
+#: States that people ascribe to a thing or an event.
 State: TypeAlias = Literal[
     "safe", "dangerous", "comfortable", "uncomfortable", "allowed", "necessary", "possible",
     "free",  # a lane, a way
@@ -153,14 +153,14 @@ State: TypeAlias = Literal[
     "upset",  # how a driver feels: angry, glad, afraid
 ]  # fmt: skip
 
-#: What a passenger sees a vehicle to be. "vehicle": not said, or cannot be known; "bike": with or
-#: without a motor, which is only said of it and never seen.
+#: What kind a vehicle looks to a passenger. "vehicle": not named, or cannot be known; "bike": with
+#: or without a motor, which passengers may say, but is never the kind of a vehicle in view.
 Kind: TypeAlias = Literal[
     "vehicle", "car", "truck", "bus", "van", "motorcycle", "bicycle", "pedestrian", "tram", "taxi",
     "emergency", "wheelchair", "scooter", "bike",
 ]  # fmt: skip
 
-#: Where something is, seen from our car (or from the vehicle named beside it).
+#: Where something is, relative to our car (or to the vehicle that is named with it).
 Bearing: TypeAlias = Literal[
     "ahead", "behind", "left", "right", "ahead-left", "ahead-right", "behind-left", "behind-right",
     "beside", "beside-left", "beside-right", "oncoming", "around", "crossing-left",
@@ -176,7 +176,7 @@ FeelingKind: TypeAlias = Literal[
     "disliking", "liking",
 ]  # fmt: skip
 
-#: By what several things or deeds are compared.
+#: What several things or actions are compared by.
 Merit: TypeAlias = Literal[
     "best", "time", "safety", "comfort", "speed", "distance", "probability", "size", "place",
 ]  # fmt: skip
