@@ -1,8 +1,8 @@
-"""Avoidance: how something unpleasant could have been avoided: which option known does without it.
+"""Avoidance: which option could have avoided something unpleasant that happened.
 
-Looked at are the decisions of the last seconds before it, and at each of them the options that
-were tried often enough. An option avoids it where its rollouts seldom have it, up to the time at
-which it happened, and where what was chosen has it markedly more often.
+The decisions of the last seconds before it are examined, with their options that were tried often
+enough. An option avoids it if it seldom happens in its rollouts, up to the time at which it did
+happen, and if it happens markedly more often under what was chosen.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -23,7 +23,7 @@ from xavi_dialogue.explain.causes.vehicles.course import HARD, brakes, lines, sp
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, Unanswered, planned
 
-SLOWING: tuple[ActionName, ...] = ("stop", "slow-down", "give-way")  # what a stop is itself
+SLOWING: tuple[ActionName, ...] = ("stop", "slow-down", "give-way")  # not avoided by a stop
 BEFORE = 10.0  # [s] before something happens, in which decisions may have avoided it
 LEEWAY = 2.0  # [s] by which it may happen later in a rollout than it did
 SELDOM = 0.25  # probability up to which an option avoids it
@@ -34,14 +34,14 @@ Occurs: TypeAlias = Callable[[Rollout, Motion | None], bool | None]  # None: not
 
 @dataclass(frozen=True, slots=True)
 class _Way:
-    """One way to act at one decision."""
+    """An option at a decision, with the risk of the mishap."""
 
     model: CausalModel
     here: Intervention  # what was chosen
     there: Intervention
     foil: tuple[Action, ...]
     risk: float  # under what was chosen
-    other: float
+    other: float  # under the option
 
 
 def avoiding(ride: Ride, mishap: ActionName, moment: float) -> Avoidance:
@@ -82,13 +82,13 @@ def crashed(ride: Ride) -> RideEvent | None:
 
 
 def impact_of(crash: RideEvent) -> Episode:
-    """Tell a collision as an episode."""
+    """Return a collision as an episode."""
     other = None if crash.vehicle is None else Vehicle(crash.vehicle)
     return Episode(Ego(), "collide", crash.sim_time, crash.sim_time, object=other)
 
 
 def _occurs(mishap: ActionName, until: float) -> Occurs:
-    """Tells whether it happens in a rollout up to a time [s]."""
+    """Return a check whether a mishap occurs in a rollout up to a time [s]."""
 
     def occurs(rollout: Rollout, line: Motion | None) -> bool | None:
         if mishap == "collide":
@@ -109,7 +109,7 @@ def _occurs(mishap: ActionName, until: float) -> Occurs:
 
 
 def _ways(ride: Ride, trace: PlanTrace, occurs: Occurs) -> list[_Way] | None:
-    """The alternatives of a decision; None where it is not known what was chosen leads to."""
+    """Return the alternatives of a decision; None if the risk of what was chosen is not known."""
     model, plan = ride.model(trace), planned(trace)
     try:
         here = factual(model, trace)
@@ -139,7 +139,7 @@ def _risk(plan: Intervention, occurs: Occurs, known: Mapping[int, Motion]) -> fl
 
 
 def _chance(mishap: ActionName, share: float) -> float:
-    """How probable it is, of its share of the rollouts, as far as these are to be trusted."""
+    """Return the probability of a mishap from its share of the rollouts, with their model error."""
     return table().trusted("collision", share) if mishap == "collide" else either_way(share)
 
 
@@ -175,7 +175,7 @@ def _told(
 def _without_options(
     ride: Ride, mishap: ActionName, moment: float, looked: Sequence[PlanTrace]
 ) -> Avoidance:
-    """There was nothing else to do."""
+    """Return the answer that there was nothing else to do."""
     trace = looked[-1]
     model = ride.model(trace)
     here = factual(model, trace)

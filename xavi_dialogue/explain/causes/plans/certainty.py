@@ -1,4 +1,4 @@
-"""Certainty: how sure the ego is of its plan, and that what it chose was the better choice."""
+"""Certainty: how sure the ego is that its plan goes well, and that its choice is the better one."""
 
 import numpy as np
 
@@ -27,9 +27,9 @@ from xavi_dialogue.explain.history.ride import (
 )
 
 DOUBT = 0.05  # chance that a probability is smaller than its lower bound
-UTMOST = 0.99  # no bound is higher: there is always what nobody foresees
+UTMOST = 0.99  # no bound is higher: the unforeseen is always possible
 EQUAL = 0.05  # [s] of reward that make no difference
-WELL: tuple[Outcome, ...] = ("done", "termination")  # who is late is still on the way
+WELL: tuple[Outcome, ...] = ("done", "termination")  # if late, the ego is still on its way
 FINENESS = 4000  # steps of a numerical integral
 
 
@@ -51,7 +51,7 @@ def at_least(share: float, n: int) -> float:
 
 
 def of_plan(ride: Ride, found: Premise) -> Certainty:
-    """Tell how surely the plan of a decision goes well, by the chances of its outcomes.
+    """Estimate how surely the plan of a decision goes well, by the chances of its outcomes.
 
     Raises:
         Unanswered: there is too little evidence.
@@ -81,7 +81,7 @@ def of_plan(ride: Ride, found: Premise) -> Certainty:
 
 
 def of_choice(ride: Ride, found: Premise, foil: Actions = ()) -> Certainty | None:
-    """Tell how surely a choice does better than what it is compared with where it is explained.
+    """Estimate how surely a choice does better than what its explanation compares it with.
 
     Args:
         ride: the record.
@@ -89,7 +89,7 @@ def of_choice(ride: Ride, found: Premise, foil: Actions = ()) -> Certainty | Non
         foil: what the question names instead; () for the rival.
 
     Returns:
-        None where there is nothing to compare it with.
+        The certainty; None if there is nothing to compare the choice with.
 
     Raises:
         Unanswered: rollouts are needed.
@@ -128,9 +128,10 @@ def of_choice(ride: Ride, found: Premise, foil: Actions = ()) -> Certainty | Non
 
 
 def _rival(ride: Ride, trace: PlanTrace, node: Actions) -> Contrast | None:
-    """Compare a choice with what one would naturally do, else with the best that leads on.
+    """Compare a choice with its natural foil, else with the best option that stays on the way.
 
-    What leads off the way is no rival: that it is worse was never in doubt. None where all do.
+    An option that leads off the way is no rival: it was never in doubt that it is worse. None if
+    all options do.
 
     Raises:
         Unanswered: there is too little evidence, or rollouts are needed.
@@ -154,14 +155,14 @@ def _expected(good: int, tried: int) -> float:
 def _bound(share: float, n: int, proven: float) -> float:
     """Return the lower bound of a probability, of which a part is proven by exhaustion.
 
-    What comes of a situation is certain once it was tried, so the prior mass of those tried with
-    success is a bound too, however few they are.
+    What a situation leads to is certain once it was tried. So the prior mass of the situations
+    tried with success is a bound, too, however few they are.
     """
     return min(max(at_least(share, n), proven), share, UTMOST)
 
 
 def _gains(here: Intervention, there: Intervention) -> dict[Joint, float]:
-    """By how much [s] the fact's reward exceeds the foil's, in each situation tried with both."""
+    """Return how much higher [s] the fact's reward is, in each situation tried with both."""
     other = {result.joint: result.rollout.reward for result in there.results}
     return {
         result.joint: result.rollout.reward - other[result.joint]

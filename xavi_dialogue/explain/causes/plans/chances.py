@@ -1,8 +1,8 @@
 """Chances: how probable the outcomes of an option of a decision are.
 
-There is one estimate for each option, and all answers tell it: from the mixture of its rollouts
-alone, whatever it is compared with, and with the error of the model behind the rollouts, which
-enters here and nowhere else.
+There is one estimate for each option, which all answers state. It follows from the mixture of the
+option's rollouts alone, whatever it is compared with, and from the error of the model behind the
+rollouts, which enters here and nowhere else.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from xavi_dialogue.causal.mixtures import Mixture
 from xavi_dialogue.domain.evidence import OutcomeEstimate
 from xavi_dialogue.explain.causes.plans.ranges import Ranges, table
 
-ALONE = 0.9  # of the probability of a collision that must be with one vehicle to name it
+ALONE = 0.9  # share of the collisions that must be with one vehicle to name it
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +23,7 @@ class Chances:
     known: Ranges  # with the error of the model behind them
 
     def of(self, outcome: Outcome) -> float:
-        """Give the probability of an outcome; where roads lead (dead) is no guess."""
+        """Return the probability of an outcome; "dead" is not calibrated: the roads are known."""
         found = min(self.rollouts.outcomes[outcome], 1.0)
         return found if outcome == "dead" else self.known.trusted(outcome, found)
 
@@ -33,15 +33,15 @@ class Chances:
         return self.of("collision")
 
     def collision_with(self, vehicle: int) -> float:
-        """Give the probability of a collision with a vehicle, as if errors struck it alone."""
+        """Return the probability of a collision with a vehicle, as if errors affected it alone."""
         found = self.rollouts.collisions().get(vehicle, 0.0)
         return self.known.trusted("collision", min(found, 1.0))
 
     @property
     def struck(self) -> int | None:
-        """The vehicle that nearly all collisions are with, by weight; None where several are hit.
+        """The vehicle that nearly all collisions are with, by weight; None if several are hit.
 
-        A probability of any collision is not told of one of several vehicles.
+        One of several vehicles is not named with the probability of any collision.
         """
         found = self.rollouts.collisions()
         first = max(found, key=lambda vehicle: found[vehicle], default=None)
@@ -56,16 +56,16 @@ class Chances:
 
 
 def either_way(probability: float) -> float:
-    """Trust the rollouts with which of two comes out better, as far as their model goes.
+    """Calibrate a probability that rollouts give to one of two results.
 
-    Where they tell nothing, either does as often.
+    With the probability of the model error, the rollouts show nothing, and both are as likely.
     """
     error = table().model_error
     return (1.0 - error) * probability + error / 2.0
 
 
 def surely(probability: float) -> float:
-    """Bound a probability that the rollouts bound from below by what holds if their model does."""
+    """Lower a bound from below that rollouts give, since it holds only if their model does."""
     return (1.0 - table().model_error) * probability
 
 

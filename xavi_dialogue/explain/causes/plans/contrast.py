@@ -1,4 +1,4 @@
-"""Contrast: what the ego did or plans against what it might have done instead."""
+"""Contrast: what the ego did or plans, compared with what it might have done instead."""
 
 from collections.abc import Mapping, Sequence
 
@@ -67,7 +67,7 @@ class SameAsPlan(Unanswered):
 
 
 def check_applicable(model: CausalModel, foil: Actions, node: Actions = ()) -> None:
-    """Decline a foil that cannot be done, with the planner's reason.
+    """Refuse a foil that cannot be done, with the planner's reason.
 
     Raises:
         Unanswered: it does not apply at the node, or further on.
@@ -87,7 +87,7 @@ def check_applicable(model: CausalModel, foil: Actions, node: Actions = ()) -> N
 
 
 def factual(model: CausalModel, trace: PlanTrace) -> Intervention:
-    """Find the plan of a decision; of its later actions, as many as there is evidence for.
+    """Find the plan of a decision, with as many of its actions as there is evidence for.
 
     Raises:
         Unanswered: there is not even enough for its first action.
@@ -101,9 +101,9 @@ def factual(model: CausalModel, trace: PlanTrace) -> Intervention:
 
 
 def decided(ride: Ride, model: CausalModel) -> Intervention:
-    """Find the plan of a decision by its own rollouts, or by further ones where these do not do.
+    """Find the plan of a decision by its own rollouts, or by further ones if these are too few.
 
-    So what is stated of the plan is the same whatever it is compared with.
+    So statements about the plan are the same whatever it is compared with.
 
     Raises:
         Unanswered: there is not enough evidence for it in either.
@@ -131,7 +131,7 @@ def alternatives(
 def compare(
     ride: Ride, model: CausalModel, here: Intervention, there: Intervention, foil: Actions
 ) -> Contrast:
-    """Compare one plan with another; where nothing tells them apart, it was close.
+    """Compare one plan with another, with the vehicles that cause the difference.
 
     Raises:
         Unanswered: rollouts are needed.
@@ -143,9 +143,9 @@ def compare(
 
 
 def _as_seen(ride: Ride, model: CausalModel, cause: Cause) -> Cause:
-    """Tell one that has stood ever since it was seen, and is in our way, as standing there.
+    """Correct a cause that is in our way and has stood ever since it was seen: it stands there.
 
-    What was believed of where it would go is no reason then.
+    What was believed about where it would go is no reason then.
     """
     seen = ride.motion(cause.vehicle).until(model.trace.sim_time).speed
     how = cause.mechanism
@@ -163,7 +163,7 @@ def sides(
     foil: Actions,
     tried: Proven | None = None,
 ) -> Contrast:
-    """Put fact and foil beside each other, with the causes that were tried."""
+    """Return the contrast of fact and foil, with the causes that were tried."""
     difference = differences(model, there, here)
     other, own = chances(there), chances(here)
     risky = other.collision >= RISK
@@ -199,9 +199,9 @@ def sides(
 
 
 def missed(trace: PlanTrace, there: Intervention, here: Intervention) -> Action | None:
-    """Find what comes next on our way, where the foil goes another or keeps to a wrong lane.
+    """Find what comes next on our way, if the foil takes another way or keeps to a wrong lane.
 
-    None where the foil probably arrives or collides, or stops, and so loses time above all.
+    None if the foil probably arrives or collides, or stops, and so loses time above all.
     """
     if there.likeliest in ("done", "collision"):
         return None
@@ -221,7 +221,7 @@ def missed(trace: PlanTrace, there: Intervention, here: Intervention) -> Action 
 
 
 def aim(trace: PlanTrace, here: Intervention) -> Aim:
-    """Tell what the plans of a decision lead to, and how long the one taken is expected to need."""
+    """Return where the plans of a decision lead to, and the expected time of the chosen one."""
     goal = trace.waypoint or trace.goal
     return Aim(goal.edge, goal.position, trace.waypoint is None, here.expectation("time"))
 
@@ -229,7 +229,7 @@ def aim(trace: PlanTrace, here: Intervention) -> Aim:
 def alone(
     ride: Ride, model: CausalModel, here: Intervention, tried: Proven | None = None
 ) -> Contrast:
-    """Tell what was decided, with nothing beside it."""
+    """Return what was decided as a contrast without a foil."""
     return Contrast(
         fact=here.plan,
         foil=(),
@@ -247,7 +247,7 @@ def alone(
 
 
 def evidence(ride: Ride, model: CausalModel, *plans: Intervention) -> Evidence:
-    """Tell what an explanation of one decision rests on; each simulation counts once."""
+    """Return what an explanation of one decision rests on; each simulation counts once."""
     joints = {result.joint for plan in plans for result in plan.results}
     simulations = {result.rollout.index for plan in plans for result in plan.results}
     trace = model.trace
@@ -261,14 +261,14 @@ def evidence(ride: Ride, model: CausalModel, *plans: Intervention) -> Evidence:
 
 
 def to_effects(found: Sequence[ComponentEffect]) -> tuple[Effect, ...]:
-    """Put effects into the values that answers hold."""
+    """Convert effects to the values that answers hold."""
     return tuple(
         Effect(e.component, e.unit, e.delta, e.low, e.high, e.n, e.n_distinct) for e in found
     )
 
 
 def against_best(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast:
-    """Compare the plan of a decision with the best alternative; by itself where there is none.
+    """Compare the plan of a decision with the best alternative, if there is any.
 
     Raises:
         Unanswered: there is too little evidence, or the two make no difference.
@@ -284,12 +284,12 @@ def against_best(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast:
 
 
 def _coming(plan: Actions, foil: Actions) -> bool:
-    """Whether a foil is what the plan has next: driving on up to it is no choice against it."""
+    """Check whether a plan has a foil next: driving on until then is no choice against it."""
     at = len(foil) - 1
     later = next((action for action in plan[at:] if action != "continue"), None)
     return plan[at] == "continue" and later is not None and same(foil[-1], later)
 
 
 def _natural(plan: Actions, foil: Actions) -> bool:
-    """Whether a foil is what one thinks of first: who changes lanes might have stayed in his."""
+    """Check whether a foil comes to mind first: staying in the lane, instead of leaving it."""
     return plan[len(foil) - 1] in CHANGES and foil[-1] == "continue"

@@ -1,4 +1,4 @@
-"""DecisiveFactor: what a decision hangs on: what would have made another option the best."""
+"""Decisive factors: what would have made another option of a decision the best."""
 
 from collections.abc import Mapping
 
@@ -17,8 +17,8 @@ from xavi_dialogue.explain.causes.vehicles.actions import same
 from xavi_dialogue.explain.causes.vehicles.involved import contrastive_causes
 from xavi_dialogue.explain.history.ride import Ride, Unanswered, enough, planned, prediction
 
-TRIED = 2  # vehicles that are taken away one by one
-WORTH = 0.02  # probability from which a vehicle's conduct is worth speaking of
+TRIED = 2  # maximum number of vehicles that are removed one by one
+WORTH = 0.02  # minimum probability of a vehicle's conduct that is mentioned
 
 
 def towards(ride: Ride, found: Premise, foil: Actions) -> DecisiveFactor:
@@ -50,7 +50,8 @@ def towards(ride: Ride, found: Premise, foil: Actions) -> DecisiveFactor:
 def otherwise(ride: Ride, found: Premise) -> DecisiveFactor:
     """Find what would have made any other option the best.
 
-    That is the conduct or the absence of one vehicle; of what is best else where there is none.
+    That is the conduct or the absence of one vehicle. If no option has such a factor, the result
+    is that of the best alternative.
 
     Raises:
         Unanswered: there is too little evidence, or rollouts are needed.
@@ -72,7 +73,7 @@ def _conduct(
     factors = [
         DecisiveFactor("conduct", contrast, vehicle, actions, chance)
         for vehicle in model.vehicles
-        if not blamed or vehicle in blamed  # of no other is it known that it matters
+        if not blamed or vehicle in blamed  # only these are known to matter
         for actions, (choices, chance) in _conducts(model, vehicle).items()
         if chance >= WORTH and _wins(model, vehicle, choices, foil, node)
     ]
@@ -97,7 +98,10 @@ def _conducts(
 def _wins(
     model: CausalModel, vehicle: int, choices: frozenset[Choice], foil: Actions, node: Actions
 ) -> bool:
-    """Whether the foil is the best option given what a vehicle does, with evidence for all."""
+    """Check whether the foil is the best option given what a vehicle does.
+
+    There must be evidence for what was chosen as well.
+    """
     given = CausalModel(model.trace, {vehicle: choices})
     mine = given.intervene(foil)
     if mine is None or not enough(mine):
@@ -114,7 +118,7 @@ def _wins(
 def _removal(
     ride: Ride, found: Premise, foil: Actions, causes: tuple[Cause, ...], contrast: Contrast
 ) -> DecisiveFactor:
-    """Return the first of the causes without which the plan begins with the foil."""
+    """Return the first cause as a factor without which the plan begins with the foil."""
     for cause in causes[:TRIED]:
         again = ride.without(found.trace, cause.vehicle)
         if again is not None and planned(again)[: len(foil)] == foil:
@@ -123,7 +127,7 @@ def _removal(
 
 
 def weight(cause: Cause) -> tuple[int, float]:
-    """Order causes: collisions first, then hold-ups by the delay expected, then influence."""
+    """Return a key that sorts causes: collisions, then hold-ups by expected delay, then others."""
     mechanism = cause.mechanism
     if mechanism is None:
         return 2, -(cause.influence or 0.0)

@@ -1,8 +1,9 @@
 """Lateness: what can be known of the time of a plan that does not arrive while it is simulated.
 
-Rollouts end after the time that is looked ahead (the horizon). How long a plan takes whose
-rollouts end so is not known, only that it is longer; those that arrive all the same are the quick
-ones, and the mean of their times says nothing of the rest (right censoring: Kaplan and Meier 1958).
+Rollouts end after the time that is looked ahead (the horizon). If the rollouts of a plan end that
+way, it is only known that the plan takes longer. The rollouts that arrive all the same are the
+quick ones, and their mean time shows nothing about the rest (right censoring: Kaplan and Meier
+1958).
 """
 
 from collections.abc import Sequence
@@ -10,21 +11,21 @@ from collections.abc import Sequence
 from xavi_dialogue.causal.effects import ComponentEffect
 from xavi_dialogue.causal.model import Intervention
 
-SURE = 0.995  # probability from which an outcome is that of all rollouts
+SURE = 0.995  # probability from which an outcome counts as that of all rollouts
 
 
 def in_time(
     found: Sequence[ComponentEffect], there: Intervention, here: Intervention
 ) -> tuple[ComponentEffect, ...]:
-    """Leave the time out where foil or fact is late: that of the few that arrive tells nothing."""
+    """Drop the effect on time if foil or fact is late: only few rollouts have a time then."""
     late = "termination" in (there.likeliest, here.likeliest)
     return tuple(e for e in found if not (late and e.component == "time"))
 
 
 def exceeds(horizon: float, there: Intervention, here: Intervention) -> float | None:
-    """Give how much longer [s] the one of two plans takes that never arrives in time, at least.
+    """Return the minimum time [s] by which a plan that never arrives in time takes longer.
 
-    None where neither always does so while the other always arrives, or nothing is known of it.
+    None unless one of the plans never arrives in time and the other always does.
 
     Args:
         horizon: [s] that rollouts look ahead.

@@ -1,8 +1,8 @@
-"""Natural foils: what one thinks of first instead of what was done.
+"""Natural foils: the alternative that comes to mind first.
 
-Against a turn, an exit or going straight on that is another direction; against a change of lanes
-it is staying, and against a stop going on as planned. Stopping is compared only where nothing else
-was possible.
+For a turn, an exit or going straight on, that is another direction. For a lane change it is staying
+in the lane, and for a stop it is going on as planned. Stopping is a foil only if nothing else was
+possible.
 """
 
 from msgspec.structs import replace
@@ -24,11 +24,11 @@ from xavi_dialogue.explain.history.ride import Ride, Unanswered, chose, planned
 
 DIRECTIONS: tuple[Action, ...] = (*EXITS, "continue-next-exit")
 STAYING: Actions = ("continue",)
-APPROACH = 10.0  # [s] before a decision since when a junction may be the next one
+APPROACH = 10.0  # [s] before a decision in which its junction may have been the next one already
 
 
 def natural(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast:
-    """Compare the plan of a decision with what one would naturally do instead.
+    """Compare the plan of a decision with its natural foil.
 
     Raises:
         Unanswered: there is too little evidence, or rollouts are needed.
@@ -45,12 +45,12 @@ def natural(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast:
 
 
 def other_way(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast | None:
-    """Compare the way that a plan takes with the best other one; None where nothing is known.
+    """Compare the way that a plan takes with the best other one; None if nothing is known.
 
-    Where no other way leads to the destination, the way taken is the reason, and so it is where
-    the map has it on the route and no other is known to lead there. Where one is, or was until
-    somebody got in its way, what speaks against that one is: the route of a trace follows the
-    plan.
+    If no other way leads to the destination, the way itself is the reason. So it is if the map has
+    it on the route, and no other is known to lead there. If another leads there, or did until
+    somebody got in its way, the reason is what speaks against that one, since the route of a trace
+    follows the plan.
 
     Raises:
         Unanswered: there is too little evidence of the plan, or rollouts are needed.
@@ -76,7 +76,7 @@ def other_way(ride: Ride, trace: PlanTrace, node: Actions = ()) -> Contrast | No
 
 
 def _leads_there(ride: Ride, trace: PlanTrace, foil: Actions, there: Intervention) -> bool:
-    """Tell whether a way leads to the destination: what it collides with now it did not before."""
+    """Check whether a way leads to the destination, or did before somebody got in its way."""
     if there.likeliest != "collision" or len(foil) > 1:
         return there.likeliest == "done"
     for before in reversed(ride.traces):
@@ -99,7 +99,7 @@ def _compared(
 
 
 def on_way(trace: PlanTrace, found: Contrast, node: Actions = ()) -> Contrast:
-    """Mark a comparison of two ways where the map has the one taken on the route."""
+    """Mark a comparison of two ways if the one taken is on the route of the map."""
     at = len(node)
     fact, foil = found.fact[at : at + 1], found.foil[at : at + 1]
     both = bool(fact and foil) and fact != foil and {*fact, *foil} <= {*DIRECTIONS, "continue"}
@@ -110,7 +110,7 @@ def on_way(trace: PlanTrace, found: Contrast, node: Actions = ()) -> Contrast:
 
 
 def _going_on(ride: Ride, trace: PlanTrace, node: Actions) -> Contrast:
-    """Compare a stop with doing at once what is planned after it; else with the best alternative.
+    """Compare a stop with doing at once what comes after it, else with the best alternative.
 
     Raises:
         Unanswered: there is too little evidence, or rollouts are needed.
@@ -125,7 +125,7 @@ def _going_on(ride: Ride, trace: PlanTrace, node: Actions) -> Contrast:
 
 
 def stopping(ride: Ride, decided: PlanTrace, *, going_on: bool) -> Contrast:
-    """Compare a stop with driving on: as it is now where the stop goes on, else as decided.
+    """Compare a stop with driving on: as of now if the stop goes on, else as of the decision.
 
     Raises:
         Unanswered: there is too little evidence, or rollouts are needed.
@@ -149,7 +149,7 @@ def _staying(ride: Ride, trace: PlanTrace, node: Actions) -> Contrast:
 
 
 def on_route(trace: PlanTrace, action: Action, node: Actions = ()) -> bool:
-    """Tell whether an action is what the route has at the next junction, after those of a node."""
+    """Check whether the route has an action at the next junction after the actions of a node."""
     route, passed = route_after(trace, node)
     if not route:
         return False

@@ -1,4 +1,4 @@
-"""Options: what a decision weighed, and how each came out."""
+"""Options: what a decision could choose from, and what was expected of each option."""
 
 from msgspec.structs import replace
 
@@ -29,7 +29,7 @@ def free(ride: Ride, found: Premise) -> Premise:
 def open_at(ride: Ride, found: Premise) -> Premise:
     """Find the decision asked about, or the last before it that had more than one option.
 
-    Where none had, that is the last before it that was free.
+    If none had, it is the last that was free to choose.
     """
     last = free(ride, found)
     if last.node:
@@ -45,7 +45,7 @@ def open_at(ride: Ride, found: Premise) -> Premise:
 def in_force(ride: Ride, at: float) -> Premise:
     """Find the decision in force at a time [s], or the last before it that had a choice.
 
-    All that is asked of "the decision", with no deed named, is asked of this one.
+    Questions about "the decision" that name no action are about this one.
     """
     return open_at(ride, Premise(ride.at(at) or ride.latest, None))
 
@@ -53,8 +53,8 @@ def in_force(ride: Ride, at: float) -> Premise:
 def with_choice(ride: Ride, found: Premise) -> Premise:
     """Find the decision that chose what is under way, with more than one thing to choose from.
 
-    That is the one asked about, or the last before it that chose the same; where all that did had
-    no choice, the one asked about.
+    It is the one asked about, or the last before it that chose the same. If none of these had more
+    than one option, it is the one asked about.
     """
     found = free(ride, found)
     if found.node or not planned(found.trace):
@@ -71,9 +71,9 @@ def with_choice(ride: Ride, found: Premise) -> Premise:
 
 
 def options_at(ride: Ride, at: float) -> tuple[OptionValue, ...]:
-    """List what the last decision up to a time [s] could choose from; the chosen one first.
+    """List what the last decision with a choice, up to a time [s], could choose from.
 
-    Where another manoeuvre was under way, that of the last decision with a choice.
+    The chosen option comes first.
     """
     trace = last_choice(ride, at)
     return () if trace is None else of_trace(ride, trace)
@@ -114,7 +114,7 @@ def weighed(ride: Ride, found: Premise) -> tuple[OptionValue, ...]:
 
 
 def with_rival(ride: Ride, found: Premise) -> tuple[tuple[OptionValue, ...], Weighing]:
-    """List what a decision chose and the best of the rest, and tell how the first weighs.
+    """Return what a decision chose and the best of the rest, and how they compare.
 
     Raises:
         Unanswered: there is too little evidence of what was chosen.
@@ -144,7 +144,7 @@ def _option(
     here: Intervention | None,
     base: float,
 ) -> OptionValue:
-    """Value what was not chosen, beside what was, where that is known, with its value [s]."""
+    """Return the value of an option that was not chosen, relative to the chosen one if known."""
     difference = None if here is None else differences(model, plan, here)
     value = plan.value if difference is None else base - difference.value
     time = delta = None
@@ -184,7 +184,7 @@ def _valued(
 
 
 def situations(found: Premise) -> Evidence:
-    """Tell how many distinct simulations and situations a decision rests on."""
+    """Return how many distinct simulations and situations a decision rests on."""
     trace = found.trace
     distinct = len({rollout.samples for rollout in trace.rollouts})
     simulations = len({(rollout.samples, plan_of(rollout)) for rollout in trace.rollouts})

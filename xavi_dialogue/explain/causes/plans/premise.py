@@ -24,28 +24,28 @@ class Premise:
     """The decision that a question is about."""
 
     trace: PlanTrace
-    deed: Deed | None  # that it led to; None for what is planned
+    deed: Deed | None  # the action that it led to; None for what is planned
     node: Actions = ()  # the actions of its plan that come before the one asked about
 
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """A deed of the ego that a question names, as far as it names one."""
+    """The action of the ego that a question is about, as far as the question names one."""
 
     event: Event | None
     names: tuple[ActionName, ...]  # any of them may be meant; () none is named
     is_past: bool
     span: Span | None
-    coming: bool = False  # it is asked about what is yet to be done
+    coming: bool = False  # the question is about what is yet to be done
 
 
 def episode_of(deed: Deed) -> Episode:
-    """Tell a deed as an episode."""
+    """Return an action of the ego as an episode."""
     return Episode(Ego(), deed.action, deed.time, deed.ended)
 
 
 def deeds_called(ride: Ride, names: Sequence[ActionName]) -> list[Deed]:
-    """List what the ego carried out that may be called by one of some names, oldest first."""
+    """List the actions that the ego carried out and that names may refer to, oldest first."""
     exact = [deed for deed in ride.deeds if deed.action in names]
     if exact:
         return exact
@@ -53,12 +53,12 @@ def deeds_called(ride: Ride, names: Sequence[ActionName]) -> list[Deed]:
 
 
 def happened(ride: Ride, names: Sequence[ActionName], span: Span | None) -> Deed | None:
-    """Find the deed that is meant by some names at a time."""
+    """Find the action that names refer to at a time."""
     return pick(span, deeds_called(ride, names), lambda deed: deed.span)
 
 
 def manoeuvre(ride: Ride, span: Span | None) -> Deed | None:
-    """Find the deed that was more than driving on, else any, that a span points at."""
+    """Find the action that a span points at, preferably one that is more than driving on."""
     moves = [deed for deed in ride.deeds if deed.action != "continue"]
     if past(span) is None:
         return next(reversed(moves or ride.deeds), None)
@@ -73,9 +73,10 @@ def _said(span: Span | None) -> Span | None:
 
 
 def premise(ride: Ride, subject: Subject) -> Premise:
-    """Find the decision that led to what the question says happened, or takes to be planned.
+    """Find the decision that led to what the question says happened, or says is planned.
 
-    Without a name: about the past the last manoeuvre, else the latest decision.
+    If the question names no action, it is that of the last manoeuvre for a question about the
+    past, else the latest decision.
 
     Raises:
         Unanswered: it did not happen, or is not in the record.
@@ -96,7 +97,7 @@ def premise(ride: Ride, subject: Subject) -> Premise:
 
 
 def did_not_happen(ride: Ride, subject: Subject) -> Unanswered:
-    """Refuse, as the ego did not do what the question says, with what it did instead."""
+    """Return the refusal that the ego did not do so, with what it did instead."""
     event = subject.event or Event(subject.names[0] if subject.names else "do")
     others = deeds_called(ride, subject.names)
     if others and past(subject.span) is not None:
@@ -131,7 +132,7 @@ def _unnamed(ride: Ride, subject: Subject) -> Premise:
 
 
 def _ahead(ride: Ride, names: Sequence[ActionName]) -> Premise | None:
-    """The last free decision for what the latest one plans; none is free within a manoeuvre."""
+    """Find the last free decision that plans what the latest one does; None if that does not."""
     for trace in reversed(ride.traces):
         plan = planned(trace)
         depths = [k for k, step in enumerate(plan) if any(same(name, step) for name in names)]
@@ -145,10 +146,10 @@ def _ahead(ride: Ride, names: Sequence[ActionName]) -> Premise | None:
 def about_foil(ride: Ride, subject: Subject, foil: tuple[ActionName, ...]) -> Premise:
     """Find the decision at which a foil was an alternative.
 
-    Where the question names a deed, that is the decision for it. Where it says when, it is the one
-    then. Otherwise it is the decision in force if the foil was open there, and not chosen, else
-    the last one at which it was. Going on is asked of the last manoeuvre, which it was to do
-    without, and which way to go of the last turn.
+    If the question names an action, it is the decision for that. If it says when, it is the one
+    then. Otherwise it is the decision in force if the foil was open there and not chosen, else the
+    last one at which that was so. Going on as a foil belongs to the last manoeuvre, which it would
+    replace, and a direction to the last turn.
     """
     found = premise(ride, subject)
     if subject.names or not foil or not subject.is_past:
@@ -174,7 +175,7 @@ def about_foil(ride: Ride, subject: Subject, foil: tuple[ActionName, ...]) -> Pr
 
 
 def _free(ride: Ride, found: Premise, foil: tuple[ActionName, ...]) -> Premise:
-    """Within a manoeuvre, what might have been is asked of the decision for it."""
+    """Return, within a manoeuvre, the decision for it, since a foil is about that one."""
     if found.trace.under_way is None or not foil:
         return found
     deed = found.deed
@@ -187,7 +188,7 @@ def _free(ride: Ride, found: Premise, foil: tuple[ActionName, ...]) -> Premise:
 
 
 def is_open(ride: Ride, trace: PlanTrace, foil: Sequence[ActionName]) -> bool:
-    """Tell whether a foil could be begun at a decision."""
+    """Check whether a foil could be begun at a decision."""
     if trace.under_way is not None or not means(foil[0]):
         return False
     model = ride.model(trace)
@@ -195,7 +196,7 @@ def is_open(ride: Ride, trace: PlanTrace, foil: Sequence[ActionName]) -> bool:
 
 
 def options_known(ride: Ride, names: Sequence[MacroAction]) -> tuple[MacroAction, ...]:
-    """List those of some actions that a decision of the ego had to choose from."""
+    """List those of some actions that any decision of the ego could choose from."""
     free = [trace for trace in ride.traces if trace.under_way is None]
     known = {action for trace in free for action in ride.model(trace).options()}
     return tuple(name for name in names if name in known)

@@ -1,6 +1,6 @@
 """Calibrated ranges of times and probabilities of outcomes, learnt from foils driven in SUMO.
 
-`xavi bench fidelity --learn` makes the table, ranges.json, which says what it was made of. Cases
+`xavi bench fidelity --learn` makes the table, ranges.json, which records its sources. Cases
 are distinguished by the kind of foil and of road (Mondrian conformal prediction, Vovk et al. 2005).
 If a kind of road had too few rides, the range for all roads is used; if those are too few as well,
 or nothing similar was tried, no range is given.
@@ -24,12 +24,12 @@ from xavi_dialogue.explain.causes.vehicles.actions import EXITS
 FoilKind: TypeAlias = Literal["stop", "exit", "manoeuvre"]
 RoadKind: TypeAlias = Literal["junction", "lanes", "road"]
 
-NEAR = 80.0  # [m] before a junction within which a road counts as one towards it
-LEAST = 20  # rides that a kind needs at least for a range of its own
+NEAR = 80.0  # [m] before a junction in which a road counts as leading to it
+LEAST = 20  # minimum number of rides for a kind to have a range of its own
 
 
 class Error(NamedTuple):
-    """By how much later than foreseen one foil arrived."""
+    """The time by which one foil arrived later than predicted."""
 
     foil: FoilKind
     road: RoadKind
@@ -44,7 +44,7 @@ class Group(msgspec.Struct, frozen=True):
     road: RoadKind | None  # None: all roads
     rides: int
     cases: int
-    reach: float  # [s] half the width of the range around the time foreseen
+    reach: float  # [s] half the width of the range around the predicted time
 
 
 class Source(msgspec.Struct, frozen=True):
@@ -54,8 +54,8 @@ class Source(msgspec.Struct, frozen=True):
     worlds: dict[str, tuple[int, int]]  # the first and the last seed, by scenario or family
     rides: int
     cases: int
-    missed: int  # of these, foils that never came to the destination
-    foils: int = 0  # foils whose outcomes were foreseen
+    missed: int  # cases in which the foil never came to the destination
+    foils: int = 0  # foils whose outcomes were predicted
     model_error: float | None = None  # as fitted, without the margin of the bound
 
 
@@ -63,11 +63,11 @@ class Ranges(msgspec.Struct, frozen=True):
     """The table of ranges."""
 
     coverage: float
-    constant: float  # [s] half the width of one range for all, a rival in the bench
+    constant: float  # [s] half the width of a single range for all, for comparison in the bench
     groups: tuple[Group, ...]
     source: Source
-    model_error: float = 0.0  # highest probability that rollouts tell nothing about the outcome
-    unforeseen: dict[Outcome, float] = {}  # probability of each in that case; empty: all are alike
+    model_error: float = 0.0  # highest probability that rollouts show nothing of an outcome
+    unforeseen: dict[Outcome, float] = {}  # probability of each in that case; empty: all equal
 
     def trusted(self, outcome: Outcome, probability: float) -> float:
         """Return the probability of an outcome, calibrated from that among the rollouts."""
@@ -76,20 +76,20 @@ class Ranges(msgspec.Struct, frozen=True):
         return calibrated(probability, self.model_error, self.unforeseen.get(outcome, 0.0))
 
     def group(self, foil: FoilKind, road: RoadKind) -> Group | None:
-        """Find the group of a kind of case; None where too few rides had it."""
+        """Find the group of a kind of case; None if too few rides had it."""
         found = {one.road: one for one in self.groups if one.foil == foil}
         return found.get(road, found.get(None))
 
 
 def foil_kind(action: str) -> FoilKind:
-    """Tell the kind of a foil, by its first action."""
+    """Return the kind of a foil, by its first action."""
     if action == "stop":
         return "stop"
     return "exit" if action in EXITS else "manoeuvre"
 
 
 def road_kind(trace: PlanTrace) -> RoadKind:
-    """Tell the kind of road of a decision: towards a junction, of several lanes, or of one."""
+    """Return the kind of road of a decision: towards a junction, of several lanes, or of one."""
     road = trace.road
     if road is not None and road.route and road.route[0].distance <= NEAR:
         return "junction"
@@ -101,8 +101,8 @@ def group_errors(errors: Sequence[Error], coverage: float = COVERAGE) -> tuple[G
     """Find the ranges of the kinds of cases.
 
     Args:
-        errors: of each case.
-        coverage: of each range.
+        errors: the error of each case.
+        coverage: the share of cases that each range must cover.
     """
     found = []
     for foil in dict.fromkeys(one.foil for one in errors):
@@ -136,14 +136,14 @@ def likely(
     found: Sequence[ComponentEffect],
     known: Ranges | None = None,
 ) -> TimeRange | None:
-    """Give the range of how much later [s] a foil comes to the destination.
+    """Return the range of how much later [s] a foil comes to the destination.
 
-    None where the calibration does not apply: arrival is not the likeliest outcome of the foil, its
-    first action is also that of the fact, others are supposed to differ, or too few rides had its
-    kind.
+    None if the calibration does not apply: arrival is not the likeliest outcome of the foil, its
+    first action is also that of the fact, others are supposed to act differently, or too few rides
+    had its kind.
 
     Args:
-        model: of the decision.
+        model: the causal model of the decision.
         here: the fact.
         there: the foil.
         found: the effects of doing the foil instead of the fact.

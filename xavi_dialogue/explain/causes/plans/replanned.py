@@ -11,14 +11,14 @@ from xavi_dialogue.explain.causes.plans.contrast import factual
 from xavi_dialogue.explain.causes.vehicles.course import lines
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 
-LEAST: Final = 0.5  # [s] of reward from which a plan made again counts as better
-FURTHER: Final = 5.0  # [m] by which it leads further, about a place in a queue
+LEAST: Final = 0.5  # [s] minimum gain in reward of a plan that counts as better
+FURTHER: Final = 5.0  # [m] minimum distance by which it leads further, about a place in a queue
 
 
 def replanned(ride: Ride, trace: PlanTrace, need: NeedRollout) -> PlanTrace | None:
     """Find the plan made again from a decision with what is supposed of lights and views.
 
-    None where the planner could not make it.
+    None if the planner could not make it.
 
     Raises:
         Unanswered: it must be made first.
@@ -34,7 +34,7 @@ def replanned(ride: Ride, trace: PlanTrace, need: NeedRollout) -> PlanTrace | No
 
 
 def saves_time(ride: Ride, trace: PlanTrace, again: PlanTrace | None) -> bool | None:
-    """Tell whether a plan made again is better by at least LEAST; None where it is not known."""
+    """Check whether a plan made again is better by LEAST or more; None if that is not known."""
     if again is None:
         return None
     try:
@@ -46,9 +46,9 @@ def saves_time(ride: Ride, trace: PlanTrace, again: PlanTrace | None) -> bool | 
 
 
 def gets_further(ride: Ride, trace: PlanTrace, again: PlanTrace) -> bool:
-    """Tell whether a plan made again leads further up to the end of the time looked ahead.
+    """Check whether a plan made again leads further within the time that is looked ahead.
 
-    So it may save time that no drive imagined is long enough to show.
+    So it may save time that no rollout is long enough to show.
     """
     try:
         here = _driven(trace, factual(ride.model(trace), trace))
@@ -59,7 +59,10 @@ def gets_further(ride: Ride, trace: PlanTrace, again: PlanTrace) -> bool:
 
 
 def _driven(trace: PlanTrace, plan: Intervention) -> float | None:
-    """How far [m] the drives imagined lead, in their mean; None where no line is recorded."""
+    """Return how far [m] rollouts of a plan that run out of time lead, in the mean.
+
+    None if no line of them is recorded.
+    """
     known = lines(trace)
     found = [
         (sum(math.dist(a, b) for a, b in itertools.pairwise(known[index].position)), weight)

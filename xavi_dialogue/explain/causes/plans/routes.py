@@ -10,7 +10,7 @@ from xavi_dialogue.explain.causes.vehicles.actions import EXITS
 
 
 def route_after(trace: PlanTrace, node: Actions) -> tuple[tuple[RouteStep, ...], int]:
-    """List the junctions of the route that are left after some actions.
+    """Find the junctions of the route that remain after some actions.
 
     Returns:
         The steps of the route, and how many exits of the roundabout that comes first were passed.

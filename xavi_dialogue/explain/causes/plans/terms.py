@@ -1,8 +1,8 @@
-"""Terms: what the planner's reward holds for or against a plan, in seconds, term by term.
+"""Terms: what counts for or against a plan in the planner's reward, in seconds, term by term.
 
-A contrast tells components in natural units. Which of them the choice turned on is shown by the
-planner's own reckoning: its reward, taken apart as the trace has it. The terms of a difference
-sum to the difference of the expected rewards.
+A contrast states components in natural units. Which of them decided the choice is shown by the
+planner's own reward, split up as the trace records it. The terms of a difference sum to the
+difference of the expected rewards.
 """
 
 import math
@@ -17,15 +17,15 @@ from xavi_dialogue.domain.answers import Share, Term, Weighing
 from xavi_dialogue.explain.causes.plans.chances import chances
 
 PAIRED = 0.5  # share of the weight of either side that must have been tried with both
-SPEAKS = 0.25  # [s] by which one plan must be better than another to be called so
-REVERSAL = 2.0  # standard errors by which the foil must be better to speak against the decision
-ROUNDING = 0.05  # [s] by which terms that are worked out from components may be off
-TINY = 1e-9  # what sums of floats are off by
-RISK = 0.01  # probability of a collision from which it is always told
+SPEAKS = 0.25  # [s] minimum by which a plan must be better to be called better
+REVERSAL = 2.0  # minimum standard errors by which the foil must be better to be called so
+ROUNDING = 0.05  # [s] greatest error of terms that are computed from components
+TINY = 1e-9  # greatest error of sums of floats
+RISK = 0.01  # probability of a collision from which it is always stated
 STEERING = frozenset[Term](("angular-acceleration", "curvature"))
 RIDE = STEERING | {"jerk"}
-SMALL = STEERING | {"effort"}  # told only where the choice turns on them
-#: Outcomes that cost what they cost, whatever was driven before, and their terms.
+SMALL = STEERING | {"effort"}  # stated only if they decide the choice
+#: Outcomes whose cost does not depend on what was driven before, and their terms.
 FATAL: Mapping[Outcome, Term] = {"collision": "collision", "dead": "dead"}
 
 
@@ -39,15 +39,15 @@ class Difference:
 
     @cached_property
     def value(self) -> float:
-        """By how much [s] the expected reward of the fact is higher."""
+        """The difference [s] by which the expected reward of the fact is higher."""
         return sum(self.terms.values())
 
     @property
     def verdict(self) -> Weighing:
-        """Whether the fact is better, or the two are as good within the error.
+        """Whether the fact is better or worse, or the two are as good within the error.
 
-        The decision itself is evidence: the planner compared both in the same situations. So it
-        takes more error to call what was decided worse than to call it better.
+        The decision itself is evidence, since the planner compared both in the same situations. So
+        it takes a greater difference to call what was decided worse than to call it better.
         """
         least = max(self.error * (REVERSAL if self.value < 0.0 else 1.0), SPEAKS)
         if abs(self.value) < least:
@@ -60,7 +60,7 @@ class Difference:
         return self.chances.get("collision", (0.0, 0.0))
 
     def share(self, term: Term) -> Share:
-        """Tell one term, with the chances of foil and fact where it is an outcome's."""
+        """Return one term, with the probabilities under foil and fact if it is an outcome's."""
         there, here = self.chances.get(term, (None, None))
         return Share(term, self.terms.get(term, 0.0), there, here)
 
@@ -71,16 +71,16 @@ class Difference:
 
 
 def differences(model: CausalModel, foil: Intervention, fact: Intervention) -> Difference:
-    """Tell how much [s] more the foil costs than the fact, term by term, and how surely.
+    """Compute how much more [s] the foil costs than the fact, term by term, with the error.
 
-    Where the situations that were tried with both make up PAIRED of either side, they alone
-    count, each by its prior: so the planner compares, and what one side met by chance alone
-    tells nothing of the choice. Else the two sides vary independently; so they do where a fatal
-    outcome was met in a situation that was tried with one side only, since it weighs too much to
-    be left out, and where the pairs contradict the chances that are stated of such an outcome.
+    If the situations that were tried with both make up PAIRED of either side, they alone count,
+    each by its prior. The planner compares in this way, too, and what only one side met by chance
+    shows nothing about the choice. Otherwise the two sides vary independently. They also do if a
+    fatal outcome occurred in a situation that was tried with one side only, since it weighs too
+    much to be left out, or if the pairs contradict the stated chances of such an outcome.
 
-    The standard error is that of the weighted mean (Hajek 1971), of the differences by situation
-    where there are such, in the share of the prior mass that was not tried.
+    The standard error is that of the weighted mean (Hajek 1971): of the differences by situation,
+    if there are any, for the share of the prior mass that was not tried.
     """
     costs = model.trace.reckoned
     found = _paired(model, foil, fact)
@@ -96,9 +96,9 @@ def differences(model: CausalModel, foil: Intervention, fact: Intervention) -> D
 def _paired(
     model: CausalModel, foil: Intervention, fact: Intervention
 ) -> tuple[dict[Term, float], float] | None:
-    """Return what the foil costs more [s] where both were tried, and its standard error [s].
+    """Return how much more [s] the foil costs if both were tried, and the standard error [s].
 
-    None where that is too small a part of either side, or leaves a fatal outcome out.
+    None if that is too small a part of either side, or leaves a fatal outcome out.
     """
     costs = model.trace.reckoned
     there, here = ({r.joint: r for r in side.results} for side in (foil, fact))
@@ -118,7 +118,7 @@ def _paired(
 
 
 def _contradicted(terms: Mapping[Term, float], foil: Mixture, fact: Mixture) -> bool:
-    """Tell whether a fatal outcome counts against the side that is less likely to have it."""
+    """Check whether a fatal outcome counts against the side that is less likely to have it."""
     return any(
         terms.get(term, 0.0) * (foil.outcomes[outcome] - fact.outcomes[outcome]) < -TINY
         for outcome, term in FATAL.items()
@@ -126,12 +126,12 @@ def _contradicted(terms: Mapping[Term, float], foil: Mixture, fact: Mixture) -> 
 
 
 def told(difference: Difference) -> tuple[Share, ...]:
-    """Choose the terms that are stated, the decisive one first: they outweigh what they must.
+    """Choose the terms that are stated, the decisive one first, so that they bear out the verdict.
 
-    Of what speaks against, the largest is stated where it is worth telling and more than effort or
-    steering, and a collision always; of what speaks for, as much as outweighs that, and time
-    beside comfort where it does. Where it is close, the largest of either side. What steering
-    costs goes together.
+    Of the terms against it, the largest is stated if it is large enough and more than effort or
+    steering, and a collision always. Of the terms for it, as many are stated as outweigh these, and
+    time besides comfort if both count. If it is close, the largest on either side is stated. The
+    terms of steering go together.
     """
     sign = -1.0 if difference.verdict == "worse" else 1.0
     groups = _grouped(difference.terms)
@@ -156,14 +156,14 @@ def told(difference: Difference) -> tuple[Share, ...]:
 
 
 def _grouped(terms: Mapping[Term, float]) -> list[tuple[Term, ...]]:
-    """Return the terms as they are stated: those of steering as one, the larger first."""
+    """Return the terms in groups that are stated together: those of steering, the larger first."""
     steering = sorted((t for t in terms if t in STEERING), key=lambda t: -abs(terms[t]))
     single: list[tuple[Term, ...]] = [(t,) for t in terms if t not in STEERING]
     return [*single, tuple(steering)] if steering else single
 
 
 def costs_of(model: CausalModel, plan: Intervention) -> dict[Term, float]:
-    """Take the expected cost [s] of a plan apart into the terms of the reward."""
+    """Split the expected cost [s] of a plan into the terms of the reward."""
     costs = model.trace.reckoned
     cases = (_Case.of(costs, result).parts for result in plan.results)
     return _sum(zip(plan.weights, cases, strict=True))
@@ -171,7 +171,7 @@ def costs_of(model: CausalModel, plan: Intervention) -> dict[Term, float]:
 
 @dataclass(frozen=True, slots=True)
 class _Case:
-    """What one rollout costs, or the mean of several that ended alike."""
+    """The cost of one rollout, or the mean cost of several with the same outcome."""
 
     outcome: Outcome
     parts: dict[Term, float]  # [s]
@@ -186,11 +186,11 @@ class _Case:
 
 
 def _split(there: _Case, here: _Case) -> dict[Term, float]:
-    """Return what one case costs more than another, by term.
+    """Return how much more [s] one case costs than another, by term.
 
-    Where one of them is fatal, all that it makes of a difference is that outcome's; where one
-    alone is out of time, all but the effort is. Two that are out of time differ by their terms,
-    of which the way that is left is the late one.
+    If one of them is fatal, the whole difference counts for that outcome. If only one runs out of
+    time, all but the effort counts as late. Two that run out of time differ by their terms, in
+    which "late" stands for the way that is left.
     """
     fatal = [FATAL.get(case.outcome) for case in (there, here)]
     if fatal[0] is not None or fatal[1] is not None:
@@ -208,7 +208,7 @@ def _split(there: _Case, here: _Case) -> dict[Term, float]:
 
 
 def _independent(costs: Costs, foil: Intervention, fact: Intervention) -> dict[Term, float]:
-    """Return what the foil costs more where the two sides vary independently."""
+    """Return how much more [s] the foil costs if the two sides vary independently."""
     there, here = _by_outcome(costs, foil), _by_outcome(costs, fact)
     return _sum((w * v, _split(one, other)) for w, one in there for v, other in here)
 
@@ -227,7 +227,10 @@ def _by_outcome(costs: Costs, plan: Intervention) -> list[tuple[float, _Case]]:
 
 
 def _error(weights: list[float], values: list[float], covered: float) -> float:
-    """The standard error of a weighted mean of which a share of the mass is known; one value: 0."""
+    """Return the standard error of a weighted mean that covers a share of the mass.
+
+    It is 0 for a single value.
+    """
     count = len(values)
     if count < 2:
         return 0.0
@@ -242,7 +245,7 @@ def _own_error(costs: Costs, plan: Intervention) -> float:
 
 
 def _chances(foil: Mixture, fact: Mixture) -> dict[Term, tuple[float, float]]:
-    """Return how probable the outcomes other than arriving are, under foil and fact."""
+    """Return the probabilities of the outcomes other than arriving, under foil and fact."""
     there, here = chances(foil), chances(fact)
     names: dict[Outcome, Term] = {**FATAL, "termination": "late"}
     return {term: (there.of(outcome), here.of(outcome)) for outcome, term in names.items()}
@@ -262,9 +265,9 @@ def _mass(plan: Intervention, among: set[object]) -> float:
 
 
 def _parts(costs: Costs, result: Result) -> dict[Term, float]:
-    """Return what a rollout costs [s] by term: as recorded, else by the costs of its trace.
+    """Return the cost [s] of a rollout by term: as recorded, else by the costs of its trace.
 
-    Of a planner that reckons otherwise, and does not tell how, all that it holds is time.
+    If these do not explain the reward of the rollout, all of it counts as time.
     """
     rollout = result.rollout
     if rollout.terms:

@@ -1,4 +1,4 @@
-"""Actions: what passengers call them, in terms of the planner's macro actions."""
+"""Actions: the names that passengers use, in terms of the planner's macro actions."""
 
 from typing import TypeGuard
 
@@ -10,7 +10,7 @@ from xavi_dialogue.domain.terms import Event, Lane, Thing
 from xavi_dialogue.domain.vocabulary import ActionName, Side
 from xavi_dialogue.explain.history.ride import Unanswered
 
-#: "Straight" is one word for both: whether a junction comes first decides.
+#: "Straight" is one word for both; which one is meant depends on whether a junction comes first.
 STRAIGHT: tuple[MacroAction, ...] = ("continue", "exit-straight")
 CHANGES: tuple[MacroAction, ...] = ("change-left", "change-right")
 TURNS: tuple[MacroAction, ...] = ("exit-left", "exit-right", "continue-next-exit")
@@ -52,7 +52,7 @@ _EXIT: dict[Side, MacroAction] = {
 
 
 def is_macro(action: ActionName) -> TypeGuard[MacroAction]:
-    """Tell whether an action is one that the planner chooses."""
+    """Check whether an action is one that the planner chooses."""
     return action in ACTIONS
 
 
@@ -64,14 +64,14 @@ def means(action: ActionName) -> tuple[MacroAction, ...]:
 
 
 def same(one: ActionName, other: ActionName) -> bool:
-    """Tell whether a deed may be called by either name."""
+    """Check whether one action may be called by either name."""
     return one == other or other in means(one) or one in means(other)
 
 
 def names_of(event: Event) -> tuple[ActionName, ...]:
-    """List what an event is called where side and object are taken into account.
+    """List the names of an event that follow from its action, side and object.
 
-    Several where the side is open: any of them may be meant.
+    They are several if the side is open: any of them may be meant.
     """
     action = _plain(event.action, event.object)
     if action == "change-lane":
@@ -86,7 +86,7 @@ def names_of(event: Event) -> tuple[ActionName, ...]:
 
 
 def _plain(action: ActionName, thing: Thing | None) -> ActionName:
-    """Return the name without what its object tells already."""
+    """Return the simplest name of an action with an object, such as "change-lane" for "merge"."""
     if action in LANE_WORDS or (action in ("enter", "leave") and isinstance(thing, Lane)):
         return "change-lane"
     same_as: dict[ActionName, ActionName] = {
@@ -101,7 +101,7 @@ def _plain(action: ActionName, thing: Thing | None) -> ActionName:
 
 
 def sequence(event: Event) -> tuple[Event, ...]:
-    """List an event and what is done after it."""
+    """List an event and those that follow it in the same question."""
     return (event, *(() if event.then is None else sequence(event.then)))
 
 
@@ -109,7 +109,7 @@ def to_macros(model: CausalModel, asked: tuple[ActionName, ...], node: Actions =
     """Express a foil in macro actions, from a node of the search on.
 
     Raises:
-        Unanswered: it cannot be expressed so.
+        Unanswered: it cannot be expressed in this way.
     """
     found: list[MacroAction] = []
     for action in asked:

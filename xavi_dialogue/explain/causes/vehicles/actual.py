@@ -1,22 +1,23 @@
-"""Actual causes: the smallest sets of vehicles without which a deed does not come about.
+"""Actual causes: the smallest sets of vehicles without which an action does not come about.
 
-But-for on sets, after Halpern and Pearl (2005): a set is a cause where the deed is gone without
-it and is not gone without any part of it. Sets of one and of two vehicles are tried. One vehicle
-that is necessary is the cause; several, each of which is, are causes together ("both"). Where
-none is and two are, either would have been enough (symmetric overdetermination) if both are at
-work as things are; if one of them is at work only where the other is not there, it is pre-empted
-by that one (Halpern 2016, Actual Causality, 2.3). Where no one and no two are, all others are
-taken away at once: where it is not gone then, no vehicle is a cause; where it is, that set is made
-as small as it gets: in the order of who is at work as things are, then of who is so where those
-are not there, then of who is near, the shortest beginning without which it is gone, found by
-halving; of that one after the other is kept where it is not gone without the rest. What is gone
-without some is taken to be gone without more. Where the trials do not suffice for that, nobody is
-named: only several are it, together.
+This is the but-for test on sets, after Halpern and Pearl (2005). A set is a cause if the action is
+gone without it and is not gone without any part of it. Sets of one and of two vehicles are tried. A
+single necessary vehicle is the cause; several that are each necessary are causes together ("both").
+If no single one is necessary but a set of two is, either would have been enough (symmetric
+overdetermination), provided that both are at work in the plan as it is. If one of them is at work
+only without the other, it is pre-empted by that one (Halpern 2016, Actual Causality, 2.3).
 
-One may matter only by what it makes a cause do, as somebody because of whom the one ahead waits.
-So those who have held a necessary vehicle up are tried as well.
+If no such set is a cause, all vehicles are removed at once. If the action is not gone then, no
+vehicle is a cause. If it is, the set is reduced. The vehicles are put in order: at work as things
+are, at work without those, near. Halving finds the shortest beginning of that list without which
+the action is gone. Of these, each is dropped if the action is gone without the rest. What is gone
+without some vehicles is taken to be gone without more. If there are too few trials for that, nobody
+is named: only several vehicles together are the cause.
 
-A trial is planning again, so they are few: the smallest and most suspicious sets come first.
+A vehicle may matter only by what it makes a cause do, such as making the vehicle ahead wait. So
+those that have held up a necessary vehicle are tried as well.
+
+Each trial plans again, so trials are few: the smallest and most suspicious sets come first.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -28,16 +29,16 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.evidence import Causation
 
 SINGLES = 3  # vehicles that are tried one by one
-PAIRS = 2  # sets of two that are tried where none of these is necessary
-TRIALS = 8  # sets that are tried at most before that of all others is made no smaller
+PAIRS = 2  # sets of two that are tried if none of these is necessary
+TRIALS = 8  # maximum number of sets that are tried while the set of all is reduced
 
 
 @dataclass(frozen=True, slots=True)
 class Trial:
     """What planning again without a set of vehicles shows."""
 
-    gone: bool | None  # the deed does not come about; None: that could not be planned
-    instead: tuple[int, ...] = ()  # who is then at work, most important first
+    gone: bool | None  # the action does not come about; None: that could not be planned
+    instead: tuple[int, ...] = ()  # vehicles that are at work then, most important first
 
 
 Try = Callable[[tuple[int, ...]], Trial]
@@ -50,14 +51,14 @@ def actual_causes(
     behind: Callable[[int], Sequence[int]] = lambda _: (),
     everybody: Sequence[int] = (),
 ) -> Causation:
-    """Find the vehicles that a deed hangs on: the smallest sets of at most two, else several.
+    """Find the vehicles that an action depends on: the smallest set of one or two, else several.
 
     Args:
         suspects: the vehicles at work as things are, most important first.
-        reserve: who may matter beside one that is necessary, without being at work itself.
+        reserve: vehicles that may matter besides a necessary one, without being at work.
         trial: plans again without a set.
-        behind: who makes a vehicle that is necessary do what it does, and so is necessary too.
-        everybody: all vehicles that are there, but the ego, most relevant first.
+        behind: returns who makes a necessary vehicle do what it does, and so is necessary, too.
+        everybody: all vehicles that are there except for the ego, most relevant first.
     """
     known: dict[tuple[int, ...], Trial] = {}
 
@@ -75,7 +76,7 @@ def actual_causes(
         needed += dict.fromkeys(v for one in needed for v in behind(one) if v not in needed)
         return Causation("one" if len(needed) == 1 else "both", tuple(needed), _cleared(known))
     for one, other in _pairs(singles, without, everybody):
-        if without(other).gone:  # who is at work is held up itself, and of no matter
+        if without(other).gone:  # the vehicle at work is held up itself, and does not matter
             return Causation("one", (other,), _cleared(known))
         if without(one, other).gone:
             at_work = one in suspects and other in suspects
@@ -92,9 +93,9 @@ def actual_causes(
 def _pairs(
     singles: Sequence[int], without: Callable[..., Trial], everybody: Sequence[int]
 ) -> Iterator[tuple[int, int]]:
-    """The sets of two to try: each with who takes its place first, then those at work in pairs.
+    """Yield the pairs to try: each vehicle with the one that takes its place, then other pairs.
 
-    Where there are but two vehicles, they are one of these sets.
+    If there are only two vehicles, they are one of the pairs.
     """
     refuted = [vehicle for vehicle in singles if without(vehicle).gone is False]
     replaced = ((one, other) for one in refuted for other in without(one).instead[:1])
@@ -110,7 +111,7 @@ def _several(
     known: Mapping[tuple[int, ...], Trial],
     without: Callable[..., Trial],
 ) -> Causation:
-    """Without whom together it is gone, made as small as it gets within the trials."""
+    """Find a set without which the action is gone, as small as the number of trials allows."""
     at_work = dict.fromkeys((*suspects, *(v for one in known.values() for v in one.instead)))
     ranked = [v for v in dict.fromkeys((*at_work, *everybody)) if v in everybody]
 
@@ -130,12 +131,12 @@ def _several(
 def _smallest(
     ranked: Sequence[int], at_work: int, without: Callable[..., Trial]
 ) -> tuple[tuple[int, ...], bool]:
-    """Make a set without which it is gone smaller, and tell whether none of the rest is too many.
+    """Reduce a set without which the action is gone, and check whether the result is minimal.
 
     Args:
-        ranked: the set, those that are kept longest first.
-        at_work: how many of them are tried by themselves before they are halved.
-        without: plans again, as often as it may.
+        ranked: the set; the first vehicles are the last to be removed from it.
+        at_work: how many of the first are tried by themselves before the set is halved.
+        without: plans again without vehicles, as long as there are trials left.
     """
     unknown = False
 
@@ -166,5 +167,5 @@ def _distinct(pairs: Iterable[tuple[int, int]]) -> Iterator[tuple[int, int]]:
 
 
 def _cleared(known: dict[tuple[int, ...], Trial]) -> tuple[int, ...]:
-    """Return those without whom, each by itself, the deed comes about as well."""
+    """Return the vehicles without which, one at a time, the action comes about all the same."""
     return tuple(group[0] for group, one in known.items() if len(group) == 1 and one.gone is False)

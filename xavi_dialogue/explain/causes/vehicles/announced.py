@@ -1,7 +1,7 @@
-"""Announced: what an indicator of another vehicle means, and how it came to be where it is.
+"""Announced: what an indicator of another vehicle means, and how the vehicle got where it is.
 
-An indicator announces a change of lanes or a turn to that side; who drives in front of a vehicle
-is no reason for it. Where a vehicle is, seen from us, is shown by who let whom go, or went past.
+An indicator announces a change of lanes or a turn to that side; who drives in front of the vehicle
+is no reason for it. A vehicle got behind us or ahead because one let the other go, or passed it.
 """
 
 from planner.record.trace import PlanTrace
@@ -18,9 +18,9 @@ MEANT: dict[Side, tuple[ActionName, ...]] = {
     "right": ("change-right", "exit-right"),
 }
 LEAVING: tuple[ActionName, ...] = ("leave",)  # a roundabout, to the right
-LATER = 15.0  # [s] after an indicator within which what it announced is done
-EARLY = 1.0  # [s] before it shows in which that may have begun
-THOUGHT = 0.1  # probability from which something is thought possible
+LATER = 15.0  # [s] after an indicator begins, in which what it announced may begin
+EARLY = 1.0  # [s] before the indicator shows, in which that may have begun
+THOUGHT = 0.1  # minimum probability of what is thought possible
 JUNCTION = 100.0  # [m] from a junction within which a turn may be announced
 #: What brings another vehicle behind us: done by it, and done by us.
 LETTING = frozenset[ActionName](("give-way", "let-go"))
@@ -30,7 +30,7 @@ PASSING = frozenset[ActionName](("overtake", "cut-in", "pull-out"))
 def announced(
     ride: Ride, world: World, vehicle: int, signal: Episode, time: float
 ) -> SignalReason | None:
-    """Tell what an indicator means, as believed up to a time [s]; None: its side is not known."""
+    """Return what an indicator means, as believed up to a time [s]; None: side not known."""
     meant = MEANT.get(signal.side) if signal.side is not None else None
     if meant is None:
         return None
@@ -53,7 +53,7 @@ def announced(
 def _possible(
     trace: PlanTrace | None, vehicle: int, meant: tuple[ActionName, ...]
 ) -> tuple[ActionName, ...]:
-    """Return which of a change of lanes and a turn the road allows there."""
+    """Return which of the meanings, a change of lanes and a turn, the road allows there."""
     road = None if trace is None else trace.road
     place = None if road is None else road.places.get(vehicle)
     if road is None or place is None:
@@ -68,7 +68,7 @@ def _possible(
 
 
 def meeting(world: World, vehicle: int, relation: Relation, time: float) -> Episode | None:
-    """Find what brought a vehicle behind us or in front of us: the last of what was done so."""
+    """Find the last action that brought a vehicle behind us or in front of us."""
     if relation not in ("behind", "ahead-of"):
         return None
     theirs, ours = (LETTING, PASSING) if relation == "behind" else (PASSING, LETTING)

@@ -1,4 +1,4 @@
-"""Conduct: what a decision holds possible of another vehicle, matched with what is asked of it."""
+"""Conduct: what a decision expects of another vehicle, matched with what a question names."""
 
 from collections.abc import Sequence
 
@@ -13,7 +13,7 @@ from xavi_dialogue.explain.causes.vehicles.involved import expected_actions
 from xavi_dialogue.explain.history.motion import branches_off, foretold, steps
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, Unanswered, prediction
 
-#: What a vehicle does as far as predicted ways can tell, by what people say.
+#: By action that people name: the action that predicted ways can show.
 FORESEEN: dict[ActionName, ActionName] = {
     "brake": "slow-down",
     "wait": "give-way",
@@ -28,7 +28,7 @@ FORESEEN: dict[ActionName, ActionName] = {
 
 
 def conduct_names(event: Event) -> tuple[ActionName, ...]:
-    """List what another vehicle's doing is called in predictions; any of them may be meant."""
+    """List the names that predictions have for an event; any of them may be meant."""
     if event.action in TURN_WORDS and event.side is None:
         return EXITS[:2]
     if event.action == "leave" and not isinstance(event.object, Lane):
@@ -37,7 +37,7 @@ def conduct_names(event: Event) -> tuple[ActionName, ...]:
 
 
 def matching(model: CausalModel, vehicle: int, names: Sequence[ActionName]) -> frozenset[Choice]:
-    """Find the goals and ways of a vehicle in which any of some things is done."""
+    """Find the goals and ways of a vehicle that contain any of some actions."""
     known = prediction(model.trace, vehicle)
     if known is None:
         return frozenset()
@@ -49,7 +49,7 @@ def matching(model: CausalModel, vehicle: int, names: Sequence[ActionName]) -> f
 
 
 def _does(goal: GoalPrediction, way: TrajectoryPrediction, name: ActionName) -> bool:
-    """Whether a predicted way contains an action; of leaving, that it does so at the next exit."""
+    """Check whether a predicted way contains an action; for "leave", at the next exit."""
     if name != "leave" or branches_off(goal, way):
         return foretold(goal, way, name)
     first = next((action for action in way.actions if action != "continue"), None)
@@ -71,14 +71,14 @@ def last_with(ride: Ride, vehicle: int, time: float) -> PlanTrace:
 def likeliest(
     model: CausalModel, vehicle: int, goal: int, among: frozenset[Choice] | None = None
 ) -> tuple[Actions, float]:
-    """Tell what a vehicle most probably does under one goal, and how probable that is."""
+    """Return what a vehicle most probably does under one goal, and how probable that is."""
     chances = model.choices(vehicle).items()
     ways = {c: p for c, p in chances if c[0] == goal and (among is None or c in among)}
     return expected_actions(model, vehicle, max(ways, key=lambda c: ways[c]))
 
 
 def belief_of(ride: Ride, trace: PlanTrace, vehicle: int) -> Belief:
-    """Tell what a decision expects of a vehicle, likeliest first: its actions, and how probable."""
+    """Return what a decision expects of a vehicle: actions with probabilities, likeliest first."""
     known = prediction(trace, vehicle)
     found: dict[tuple[ActionName, ...], tuple[float, str | None]] = {}
     if known is not None:
@@ -92,7 +92,7 @@ def belief_of(ride: Ride, trace: PlanTrace, vehicle: int) -> Belief:
 
 
 def probability(ride: Ride, trace: PlanTrace, vehicle: int, names: Sequence[ActionName]) -> float:
-    """Tell how probable a decision holds it that a vehicle does any of some things."""
+    """Return the probability, for a decision, that a vehicle takes any of some actions."""
     model = ride.model(trace)
     if vehicle not in model.vehicles:
         return 0.0

@@ -1,4 +1,4 @@
-"""Course: when things happen in the rollouts of a plan, read off their lines."""
+"""Course: when things happen in the rollouts of a plan, according to their recorded lines."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -18,12 +18,12 @@ from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.thresholds import STANDING
 
 TURNS: tuple[ActionName, ...] = ("exit-left", "exit-right")
-#: What is shown by the speed, and not by the actions.
+#: Actions that the speed shows, and not the actions of a rollout.
 SPEED_MARKS: tuple[ActionName, ...] = ("slow-down", "speed-up", "stop", "give-way")
 BEGUN = 0.15  # share of its whole angle from which a turn has begun
 SLIGHT = math.radians(20.0)  # an angle that is no turn
 STRIDE = 0.5  # [m] below which two positions give no heading
-MOVING = 1.0  # [m/s] from which a vehicle that stood is under way again
+MOVING = 1.0  # [m/s] minimum speed of a vehicle that moves on after standing
 HARD = 4.0  # [m/s2] of braking that passengers call hard
 
 
@@ -40,8 +40,8 @@ class Expected:
 class Lines(Mapping[int, Motion]):
     """The motion of the ego in each rollout whose line is recorded, by the rollout's index.
 
-    Also in those that share another's line; sample k lies k periods after the decision. Each line
-    is read when it is asked for.
+    Rollouts that share another's line are included. Sample k lies k periods after the decision.
+    Each line is read when it is asked for.
     """
 
     def __init__(self, trace: PlanTrace) -> None:
@@ -55,7 +55,11 @@ class Lines(Mapping[int, Motion]):
         self._times: tuple[float, ...] = ()
 
     def __getitem__(self, index: int) -> Motion:
-        """Read a line; raises KeyError where it is not recorded."""
+        """Return a line.
+
+        Raises:
+            KeyError: it is not recorded.
+        """
         rollout = self._drawn[index]
         if rollout.index not in self._read:
             self._read[rollout.index] = self._motion(rollout)
@@ -85,7 +89,7 @@ def lines(trace: PlanTrace) -> Lines:
 def expected(
     trace: PlanTrace, plan: Intervention, moment: Callable[[Rollout, Motion], float | None]
 ) -> Expected | None:
-    """When something happens under a plan; None where no line is recorded, or it never does."""
+    """Return when something happens under a plan; None if no line is recorded, or it never does."""
     known = lines(trace)
     times, weights, total = [], [], 0.0
     for result, weight in zip(plan.results, plan.weights, strict=True):
@@ -106,10 +110,12 @@ def expected(
 def begins(
     action: ActionName, names: tuple[Action, ...]
 ) -> Callable[[Rollout, Motion], float | None]:
-    """When [s] something begins in a rollout: a change of speed, a turn itself, another action.
+    """Return a function that finds when [s] an action begins in a rollout.
+
+    A turn begins where the heading changes, not with the macro action that leads up to it.
 
     Args:
-        action: as the question calls it.
+        action: the action, as the question calls it.
         names: the macro actions that it stands for.
     """
 
@@ -200,7 +206,7 @@ class Headings(Sequence[float]):
     @overload
     def __getitem__(self, index: slice) -> tuple[float, ...]: ...
     def __getitem__(self, index: int | slice) -> float | tuple[float, ...]:
-        """Give one heading, or those of a part."""
+        """Return one heading, or those of a slice."""
         return self._found[index]
 
     def __len__(self) -> int:
@@ -209,7 +215,7 @@ class Headings(Sequence[float]):
 
 
 def _headings(path: tuple[Point, ...]) -> tuple[float, ...]:
-    """Return the heading [rad] at each position; where nothing moves, that of the last stride."""
+    """Return the heading [rad] at each position; after a move below STRIDE, the last one."""
     found: list[float] = []
     anchor, heading = 0, 0.0
     for k, (x, y) in enumerate(path):

@@ -1,7 +1,7 @@
-"""Grounds: how we came to expect something of another vehicle: how the belief grew, and why.
+"""Grounds: why we expect something of another vehicle, and how that belief grew.
 
-The record holds the belief of every decision. What told most is what the vehicle did between the
-two decisions between which the odds rose most; nothing else is claimed to be a sign.
+The record holds the belief of every decision. The strongest sign is what the vehicle did between
+the two decisions between which the odds rose most. Nothing else is stated as a sign.
 """
 
 import math
@@ -22,21 +22,21 @@ from xavi_dialogue.explain.history.ride import ROUNDING, Ride, Unanswered, predi
 from xavi_dialogue.explain.history.thresholds import CHANGED
 
 EVEN = 0.5  # probability from which something is more probable than not
-CERTAIN = 1e-3  # of probability, within which odds are not told apart
-SPEAKS = 3.0  # times by which its lights must fit a goal better to be stated
+CERTAIN = 1e-3  # probabilities this close to 0 or 1 have the same odds
+SPEAKS = 3.0  # minimum ratio by which its lights fit a goal better, to be stated
 LEAST_FIT = 1e-3  # relative likelihood below which a path does not fit at all
-#: What predicted ways tell though the planner does not choose it.
+#: Actions that predicted ways show although the planner does not choose them.
 DRIVEN = frozenset[ActionName](("slow-down", "speed-up"))
-ANYTHING = frozenset[ActionName](("do", "happen"))  # what leaves open what is done
+ANYTHING = frozenset[ActionName](("do", "happen"))  # names that leave the action open
 
 
 def grounds(
     ride: Ride, vehicle: int, names: tuple[ActionName, ...], moment: float, *, held: bool = True
 ) -> Grounds:
-    """Tell how we came to know what a vehicle would do, or what it is most likely to do.
+    """Find how we came to expect an action of a vehicle, or else its most likely one.
 
-    Where it did so, the decisions up to then count; else those up to a moment [s], or up to when
-    it was believed most where it is asked why it was `held` at all.
+    If the vehicle did so, the decisions up to then count, else those up to a moment [s]. With
+    `held`, and a belief that has faded since, those up to its highest value count.
 
     Raises:
         Unanswered: no decision expects anything of the vehicle, or none can expect that.
@@ -75,7 +75,7 @@ def _done(ride: Ride, vehicle: int, names: Sequence[ActionName]) -> float | None
 def _belief(
     ride: Ride, trace: PlanTrace, vehicle: int, names: tuple[ActionName, ...], stays: bool
 ) -> float:
-    """Return how probable it is that a vehicle does so, or that it stays where it is."""
+    """Return the probability that a vehicle takes an action, or that it stays where it is."""
     model, known = ride.model(trace), prediction(trace, vehicle)
     if known is None:
         return 0.0
@@ -124,9 +124,9 @@ def _grounds(
 def _meant(
     ride: Ride, trace: PlanTrace, vehicle: int, names: tuple[ActionName, ...]
 ) -> tuple[ActionName, ...]:
-    """Return what is believed: of several macro actions that a name may mean, the likeliest.
+    """Return the actions that are believed: the likeliest of those that a name may mean.
 
-    What is no choice of the planner, such as a change of speed, keeps its name.
+    An action that the planner does not choose, such as a change of speed, keeps its name.
     """
     if not any(means(name) for name in names[:1]):
         return names[:1]
@@ -140,14 +140,14 @@ def _meant(
 
 
 def to_macro(names: Sequence[ActionName]) -> Actions:
-    """Tell names as macro actions, each once."""
+    """Return names as macro actions, each once."""
     found = [n if is_macro(n) else next(iter(means(n)), None) for n in names]
     kept = tuple(dict.fromkeys(name for name in found if name is not None))
     return ("exit-straight",) if kept == STRAIGHT else kept
 
 
 def _moves(known: Sequence[PlanTrace], beliefs: Sequence[float]) -> tuple[tuple[float, float], ...]:
-    """Return the probabilities over time where they moved, and the last."""
+    """Return the times [s] and probabilities at which a belief changed, and the last."""
     kept: list[tuple[float, float]] = []
     for trace, belief in zip(known, beliefs, strict=True):
         if not kept or abs(belief - kept[-1][1]) >= 0.05 or trace is known[-1]:
@@ -161,7 +161,7 @@ def _odds(probability: float) -> float:
 
 
 def _deed(motion: Motion, vehicle: int, start: float, end: float) -> Episode | None:
-    """What a vehicle was seen to do between two times: a move sideways, else a change of speed."""
+    """Return what a vehicle did between two times [s]: a manoeuvre, else a change of speed."""
     actor = Vehicle(vehicle)
     inside = [s for s in motion.until(end).sightings() if s.end > start + ROUNDING]
     one, other = _speed(motion, start), _speed(motion, end)
@@ -185,13 +185,14 @@ def _speed(motion: Motion, time: float) -> float | None:
 def _rival(
     ride: Ride, trace: PlanTrace, vehicle: int, names: tuple[ActionName, ...]
 ) -> tuple[Actions, float | None, float]:
-    """Find the likeliest goal under which a vehicle does not do that, and how much worse it fits.
+    """Find the likeliest goal without the actions, and how much worse it fits.
 
-    Likelihoods are of the goal's best way: the probability of the track under rational driving.
+    The likelihood of a goal is that of its best way: the probability of the track under rational
+    driving.
 
     Returns:
-        What goes with that goal; how many times better the track, and how many times better the
-        lights fit what is believed.
+        The actions of that goal, and the ratios by which the track and the lights fit better to
+        what is believed.
     """
     known = prediction(trace, vehicle)
     if known is None:
@@ -220,5 +221,5 @@ def _light(trace: PlanTrace, vehicle: int) -> Literal["left", "right"] | None:
 
 
 def _contains(goal: GoalPrediction, names: tuple[ActionName, ...]) -> bool:
-    """Check whether a vehicle with that goal may do one of these."""
+    """Check whether a vehicle with a goal may take one of some actions."""
     return any(foresees(way, name) for way in goal.trajectories for name in names)

@@ -1,8 +1,8 @@
-"""Hindsight: plans weighed by what the others turned out to do.
+"""Hindsight: plans weighted by what the others turned out to do.
 
-What a deed hung on is a question about what happened, not about what was thought possible. So
-rollouts are weighed by where the others went, as far as the record knows by now: by the road that
-a vehicle took, else by the last belief about the same goals.
+What an action depended on is a question about what happened, not about what was thought possible.
+So rollouts are weighted by where the others went, as far as the record knows by now. This is the
+road that a vehicle took, else the last belief about the same goals.
 """
 
 from dataclasses import replace
@@ -11,12 +11,12 @@ from planner.record.trace import GoalPrediction, PlanTrace
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.explain.history.ride import Ride, prediction
 
-LEAST = 0.01  # probability of a goal that was believed in, below which nothing is made of it
-KEPT = 0.02  # of the weight that must remain
+LEAST = 0.01  # minimum believed probability of a goal that is corrected
+KEPT = 0.02  # minimum share of the weight that must remain
 
 
 def in_hindsight(ride: Ride, model: CausalModel, plan: Intervention) -> Intervention:
-    """Weigh the results of a plan by what the others did since; unchanged where none fits."""
+    """Weight the results of a plan by what the others did since; unchanged if too few fit."""
     factors = {v: _factors(ride, model.trace, v) for v in model.vehicles}
     weights = []
     for result, weight in zip(plan.results, plan.weights, strict=True):
@@ -30,7 +30,7 @@ def in_hindsight(ride: Ride, model: CausalModel, plan: Intervention) -> Interven
 
 
 def _factors(ride: Ride, trace: PlanTrace, vehicle: int) -> dict[int, float]:
-    """By how much more probable each goal of a vehicle is than was believed; {}: not known."""
+    """Return the factor by which each goal is more probable than was believed; {}: not known."""
     then = prediction(trace, vehicle)
     if then is None:
         return {}

@@ -1,9 +1,9 @@
-"""Involved: the vehicles because of which a foil would have turned out as it would.
+"""Involved: the vehicles that would have made a foil turn out as it would.
 
-Which they are depends on the foil. A vehicle is named because the foil collides with it more
-often than the fact; because it holds the ego up longer under the foil, where that is slower; or
-because what it does decides between the two. A vehicle of which none of this holds is not named,
-and none is where the foil leaves the way to the goal: that is nobody's doing.
+They depend on the foil. A vehicle is named if the foil collides with it more often than the fact,
+if it holds the ego up longer under the foil and the foil is slower, or if what it does decides
+between the two. Otherwise it is not named. If the foil leaves the way to the goal, no vehicle is
+named: no vehicle causes that.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -18,11 +18,11 @@ from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Interventio
 from xavi_dialogue.domain.answers import Cause, Mechanism
 from xavi_dialogue.explain.history.ride import prediction
 
-MORE_OFTEN = 0.05  # probability by which the foil must terminate more often
+MORE_OFTEN = 0.05  # difference in probability by which the foil must run out of time more often
 COLLIDES = 0.01  # ... and by which it must collide more often: a collision weighs much
 LONGER = 0.5  # [s] expected, by which the foil must be held up longer
-LIKELY = 0.5  # share of the rollouts of a plan in which somebody holds it up
-AT_ONCE = 0.5  # [s] after a decision by which a hold-up begins that is going on already ...
+LIKELY = 0.5  # minimum share of the rollouts in which somebody probably holds a plan up
+AT_ONCE = 0.5  # [s] after a decision in which a hold-up begins that is going on already ...
 SURELY = 0.9  # ... in this share of the rollouts that have it
 SLOWER = 0.5  # [s] by which the foil must arrive later to be called slower
 
@@ -54,7 +54,7 @@ def contrastive_causes(
     measured = _Measured(lambda: influence(model, (fact, foil)))
     struck = _struck(model, foil, fact, measured)
     slowed = _slowed(model, foil, fact, effects, measured)
-    halts = foil.plan[:1] == ("stop",) and fact.plan[:1] != ("stop",)  # slower in any case
+    halts = foil.plan[:1] == ("stop",) and fact.plan[:1] != ("stop",)  # slower anyway
     decided = [] if halts else _deciding(model, measured.known.values())
     first, second = (struck, slowed) if foil.likeliest == "collision" else (slowed, struck)
     found: dict[int, Cause] = {}
@@ -69,9 +69,9 @@ def holding_up(
     """Find the vehicles that probably hold the ego up under its plan, longest first.
 
     Args:
-        model: the network of the decision.
+        model: the causal model of the decision.
         plan: what the ego does.
-        window: [s] simulation times between which the hold-up must lie at least in part.
+        window: [s] simulation times that the hold-up must overlap.
     """
     found = [
         h for h in hold_ups(plan, window).values() if h.share >= LIKELY and h.expected >= LONGER
@@ -81,18 +81,18 @@ def holding_up(
 
 
 def held_by(model: CausalModel, held: VehicleHoldUp) -> Cause:
-    """Make a cause of a vehicle that holds the ego up."""
+    """Return a vehicle that holds the ego up as a cause."""
     return _by_hold_up(model, held, None)
 
 
 def slowing(model: CausalModel, foil: Intervention, fact: Intervention) -> tuple[int, ...]:
-    """List who is collided with or holds the ego up longer under a foil, most important first."""
+    """List who is hit, or holds the ego up longer, under a foil, most important first."""
     struck = _struck(model, foil, fact, NOTHING)
     return tuple(dict.fromkeys(c.vehicle for c in (*struck, *_longer(model, foil, fact, NOTHING))))
 
 
 def against(model: CausalModel, vehicle: int) -> Cause:
-    """Make a cause of a vehicle that is in the way of what the ego might do instead."""
+    """Return as a cause a vehicle that is in the way of what the ego might do instead."""
     choices = model.choices(vehicle)
     likeliest = max(choices, key=lambda choice: choices[choice])
     actions, probability = expected_actions(model, vehicle, likeliest)
@@ -100,7 +100,7 @@ def against(model: CausalModel, vehicle: int) -> Cause:
 
 
 def expected_actions(model: CausalModel, vehicle: int, choice: Choice) -> tuple[Actions, float]:
-    """Tell the actions of a goal and trajectory, and the probability that they are those taken."""
+    """Return the actions of a goal and trajectory, and the probability that they are taken."""
     known = prediction(model.trace, vehicle)
     if known is None:
         return (), 0.0
@@ -179,9 +179,9 @@ def _by_hold_up(model: CausalModel, held: VehicleHoldUp, measured: Influence | N
 
 
 def _how(held: VehicleHoldUp, actions: Actions) -> HoldUp:
-    """Return how it holds up, as one would say it: who goes straight on does not cut in.
+    """Return how a vehicle holds the ego up, as people put it: going straight on is no cutting in.
 
-    In rollouts it does as well where the ego moves in behind it.
+    Rollouts call it a cut-in, too, if the ego moves in behind the vehicle.
     """
     straight = bool(actions) and set(actions) <= {"continue", "exit-straight"}
     return "leader" if held.how == "cut-in" and straight else held.how

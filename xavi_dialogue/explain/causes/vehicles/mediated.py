@@ -1,7 +1,7 @@
-"""Mediated causes: who matters by what it makes another do: wait for it, or pull out to pass it.
+"""Mediated causes: vehicles that make another one wait for them, or pull out to pass them.
 
-What it has made the other do stays done at later decisions, so it is taken away at the first one
-of late that foresaw it (mediation: Pearl 2009, Causality, 4.5).
+What they made the other vehicle do cannot be undone at later decisions. So they are removed at the
+first recent decision that predicted it (mediation: Pearl 2009, Causality, 4.5).
 """
 
 import math
@@ -12,25 +12,25 @@ from sim.scene import EGO, VehicleState
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES
 from xavi_dialogue.explain.history.ride import Ride, prediction
 
-EARLIER = 8.0  # [s] before the decision that is explained, within which a wait is looked for ...
+EARLIER = 8.0  # [s] before the decision that is explained, in which a wait is looked for ...
 MOVED = 12.0  # ... and a change of lanes, which stays done
-SHARE = 0.25  # probability from which one is foreseen to hold another up
-MOSTLY = 0.75  # part of the decisions from the first one on that foresaw it
-LATELY = 2.5  # [s] since when a wait must be over at most
-REACH = 80.0  # [m] ahead of a vehicle, within which it may leave its lane for another
-TRIED = 2  # vehicles that are tried
+SHARE = 0.25  # minimum probability of what counts as predicted
+MOSTLY = 0.75  # minimum share of the decisions, from first to last, that predicted it
+LATELY = 2.5  # [s] maximum time since the last decision that predicted a wait
+REACH = 80.0  # [m] ahead of a vehicle, in which another may make it leave its lane
+TRIED = 2  # maximum number of vehicles that are tried
 
 
 def holders(ride: Ride, decision: PlanTrace, vehicle: int) -> Mapping[int, PlanTrace]:
-    """Find who has made another vehicle wait or pull out of late, with the first sign of each.
+    """Find who has recently made a vehicle wait or pull out.
 
     Args:
         ride: the record.
-        decision: the one that is explained.
-        vehicle: the other.
+        decision: the decision that is explained.
+        vehicle: the vehicle that waits or pulls out.
 
     Returns:
-        By vehicle the first decision that foresaw it; those foreseen most often come first.
+        By holder, the first decision that predicted this; those predicted most often come first.
     """
     now = decision.sim_time
     recent = [t for t in ride.traces if now - MOVED <= t.sim_time <= now]
@@ -50,7 +50,7 @@ def _foreseen(
     vehicle: int,
     look: Callable[[PlanTrace, int], Mapping[int, float]],
 ) -> dict[int, list[PlanTrace]]:
-    """In which decisions it was foreseen of whom; those of whom it was not so all along are out."""
+    """Return, by holder, the decisions that predicted it, if nearly all in between did, too."""
     seen: dict[int, list[int]] = {}
     for k, trace in enumerate(recent):
         for holder, share in look(trace, vehicle).items():
@@ -64,7 +64,7 @@ def _foreseen(
 
 
 def _held(trace: PlanTrace, vehicle: int) -> dict[int, float]:
-    """By whom a vehicle is held up, as was predicted, and how probably; the ego left out."""
+    """Return who is predicted to hold a vehicle up, and how probably, except for the ego."""
     found: dict[int, float] = {}
     for way, share in _ways(trace, vehicle):
         for holder in {held.vehicle for held in way.held_up} - {EGO}:
@@ -73,7 +73,10 @@ def _held(trace: PlanTrace, vehicle: int) -> dict[int, float]:
 
 
 def _passed(trace: PlanTrace, vehicle: int) -> dict[int, float]:
-    """Return whom a vehicle leaves its lane for, as was predicted: the nearest ahead in it."""
+    """Return the nearest ahead in the lane that a vehicle is predicted to leave, with how probably.
+
+    Nobody, if the vehicle is not predicted to leave its lane.
+    """
     lane = _lane(trace, vehicle)
     share = leaves(trace, vehicle)
     if lane is None or share <= 0.0:
@@ -90,12 +93,12 @@ def _passed(trace: PlanTrace, vehicle: int) -> dict[int, float]:
 
 
 def leaves(trace: PlanTrace, vehicle: int) -> float:
-    """Tell the probability that a vehicle leaves its lane next, as was predicted."""
+    """Return the predicted probability that a vehicle leaves its lane next."""
     return sum(p for way, p in _ways(trace, vehicle) if set(way.actions[:1]) & set(CHANGES))
 
 
 def _ways(trace: PlanTrace, vehicle: int) -> Iterator[tuple[TrajectoryPrediction, float]]:
-    """Yield the ways that a vehicle may take, as was predicted, with their probabilities."""
+    """Yield the predicted ways of a vehicle, with their probabilities."""
     known = prediction(trace, vehicle)
     for goal in () if known is None else known.goals:
         for way in goal.trajectories:

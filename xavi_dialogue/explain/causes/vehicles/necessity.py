@@ -1,11 +1,11 @@
-"""Necessity: whether the vehicles that are blamed matter, by planning again without them.
+"""Necessity: whether the vehicles that are suspected matter, by planning again without them.
 
-Anyone who holds the ego up in the rollouts of a foil may be one of many: without it, the next one
-would. So the decision is taken again without the vehicle, where that shows nothing without two,
-and last without all others (`actual`). A choice hangs on vehicles without which it is made
-otherwise, or most of what spoke for it is gone. A way of driving hangs on those without which most
-of the speed that is lost to others on the next stretch of road is not lost. Who makes no
-difference is no cause.
+A vehicle that holds the ego up in the rollouts of a foil may be one of many: without it, the next
+one would. So the decision is taken again without the vehicle. If that shows nothing, it is taken
+without two, and last without all others (`actual`). A choice depends on vehicles without which it
+is made differently, or most of its advantage is gone. A way of driving depends on those without
+which most of the speed is regained that others cost on the next stretch of road. A vehicle that
+makes no difference is no cause.
 """
 
 import math
@@ -29,15 +29,15 @@ from xavi_dialogue.explain.causes.vehicles.mediated import holders, leaves
 from xavi_dialogue.explain.causes.vehicles.profile import driven, speeds
 from xavi_dialogue.explain.history.ride import Ride, enough, planned
 
-LEAST = 0.5  # [s] of reward that must go with vehicles ...
-SHARE = 0.5  # ... and this part of what the plan was better by than the foil
-EXPECTED = 0.5  # probability from which what a vehicle does is expected
-NEARLY = 1.0  # [m/s] above the lowest speed, up to which one is as slow
-LOST = 1.0  # [m/s] that the ego must lose to others there, where a way of driving is explained ...
-PART = 0.25  # ... and part of what it is slower there than anywhere with nobody else there ...
+LEAST = 0.5  # [s] minimum reward that must depend on vehicles ...
+SHARE = 0.5  # ... and this share of the plan's advantage over the foil
+EXPECTED = 0.5  # minimum probability of what a vehicle is expected to do
+NEARLY = 1.0  # [m/s] above the lowest speed, up to which the ego counts as slowest
+LOST = 1.0  # [m/s] that others must cost the ego there, if a way of driving is explained ...
+PART = 0.25  # ... and share of what it is slower there than its highest speed without others ...
 CREEPING = 1.0  # [m/s] below which the ego stands, and loses time instead of speed
 SOMETIMES = 0.25  # [s] of hold-up, expected, from which somebody may be at work
-LEFT = 0.5  # ... and this part of it at most may still be lost without those that matter
+LEFT = 0.5  # ... and maximum share that may remain without the vehicles that matter
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +46,7 @@ class Proven:
 
     causes: tuple[Cause, ...] = ()
     causation: Causation | None = None  # None: nobody was suspected
-    replaced: tuple[int, ...] = ()  # without whom it comes about by others that are then at work
+    replaced: tuple[int, ...] = ()  # vehicles without which others are at work instead
 
     @property
     def cleared(self) -> tuple[int, ...]:
@@ -61,14 +61,14 @@ def proven(
     fact: Intervention,
     foil: Intervention | None = None,
 ) -> Proven:
-    """Keep the causes that matter; where that cannot be tried, all, with `necessary` left open.
+    """Keep the causes that matter; if that cannot be tried, all, with `necessary` left open.
 
     Args:
         ride: the record.
-        model: of the decision.
+        model: the causal model of the decision.
         causes: most important first.
         fact: what was decided.
-        foil: what was not; None where a way of driving is explained.
+        foil: what was not decided; None if a way of driving is explained.
 
     Raises:
         Unanswered: rollouts are needed.
@@ -92,7 +92,7 @@ def proven(
         for vehicle in blamed
         if found.kind != "both" or vehicle in (*suspects, *reserve)  # else not in our own way
     ]
-    if found.kind in ("both", "either"):  # none of them comes first but what is expected
+    if found.kind in ("both", "either"):  # equal, so what is expected comes first
         told.sort(key=lambda cause: cause.probability < EXPECTED)
     needed = found.kind in ("one", "both")
     causes = tuple(
@@ -108,7 +108,7 @@ def proven(
 def trial_of(
     ride: Ride, model: CausalModel, fact: Intervention, vehicles: tuple[int, ...]
 ) -> Trial:
-    """Try whether the ego drives so without vehicles, as where they are suspected of it.
+    """Test whether the ego drives so without vehicles, as is done for suspects.
 
     Raises:
         Unanswered: rollouts are needed.
@@ -132,22 +132,22 @@ class _Tests:
 
     @property
     def everybody(self) -> tuple[int, ...]:
-        """All vehicles of the decision but the ego, nearest first."""
+        """All vehicles of the decision except for the ego, nearest first."""
         scene = self.decision.scene
         ours = scene[EGO].position
         away = {v: math.dist(ours, other.position) for v, other in scene.items() if v != EGO}
         return tuple(sorted(away, key=lambda vehicle: (away[vehicle], vehicle)))
 
     def changes(self, *vehicles: int) -> bool | None:
-        """Check whether another action is chosen without vehicles; None where that is not known."""
+        """Check whether another action is chosen without vehicles; None if that is not known."""
         again = self.ride.without(self.decision, *vehicles)
         return None if again is None else planned(again)[:1] != planned(self.decision)[:1]
 
     def decides(self, found: Causation, causes: Sequence[Cause]) -> bool:
-        """Whether something else is done without those it hangs on: without each, or without all.
+        """Check whether another action is chosen without the causes: without each, or without all.
 
         Args:
-            found: on whom it hangs.
+            found: the vehicles that it depends on.
             causes: those of them that are stated.
         """
         if self.foil is None or not found.vehicles:
@@ -157,7 +157,7 @@ class _Tests:
         return self.changes(*found.vehicles) is not False
 
     def instead(self, vehicle: int, suspects: Sequence[int]) -> Cause | None:
-        """Find how a vehicle holds the ego up where one of those at work is not there."""
+        """Find how a vehicle holds the ego up if one of the suspects is not there."""
         for suspect in suspects[:SINGLES]:
             again = None if suspect == vehicle else self.ride.without(self.decision, suspect)
             plan = None if again is None else self._chosen(again)
@@ -168,12 +168,12 @@ class _Tests:
         return None
 
     def replaced(self, found: Causation) -> tuple[int, ...]:
-        """List those, where it hangs on nobody, in whose place others would be at work."""
+        """List the vehicles that others would replace, if no vehicle is a cause."""
         alone = found.cleared if found.kind == "none" else ()
         return tuple(vehicle for vehicle in alone if self.trial((vehicle,)).instead)
 
     def behind(self, vehicle: int) -> tuple[int, ...]:
-        """List those without whom a vehicle would not have come to be in our way.
+        """List the vehicles without which another would not have got in our way.
 
         Raises:
             Unanswered: rollouts are needed.
@@ -182,13 +182,13 @@ class _Tests:
         return tuple(one for one, since in found.items() if self._makes(vehicle, one, since))
 
     def _makes(self, vehicle: int, holder: int, since: PlanTrace) -> bool:
-        """Whether without a vehicle another would have stayed in its lane, or been no matter."""
+        """Check whether without a holder a vehicle had kept its lane, or not mattered."""
         again, before = self.ride.without(since, holder), leaves(since, vehicle)
         stays = again is not None and leaves(again, vehicle) <= LEFT * before
         return (before >= EXPECTED and stays) or self._matters_since(holder, since)
 
     def _matters_since(self, holder: int, since: PlanTrace) -> bool:
-        """Whether most of what others cost the plan of an earlier decision goes with a vehicle."""
+        """Check whether most of what others cost an earlier plan is due to one vehicle."""
         model, again = self.ride.model(since), self.ride.without(since, holder)
         then = _again(model, planned(since))
         plan = None if again is None else self._chosen(again)
@@ -201,7 +201,7 @@ class _Tests:
         return gain >= max(LEAST, LEFT * most)
 
     def trial(self, vehicles: tuple[int, ...]) -> Trial:
-        """Tell what it comes to without some vehicles.
+        """Plan again without some vehicles, and compare.
 
         Raises:
             Unanswered: rollouts are needed.
@@ -247,13 +247,13 @@ class _Tests:
         return Trial(matters and float(np.max(free - theirs)) <= LEFT * lost, instead)
 
     def _chosen(self, again: PlanTrace) -> Intervention | None:
-        """Return the plan that is then chosen, weighed as the others turned out to drive."""
+        """Return the plan that a new decision chooses, weighted by what the others did since."""
         other = self.ride.model(again)
         found = _again(other, planned(again))
         return None if found is None else in_hindsight(self.ride, other, found)
 
     def _free(self, plan: Intervention, again: PlanTrace) -> tuple[Intervention, PlanTrace] | None:
-        """What is chosen with nobody else there, and the decision; None where it is not known."""
+        """Return the plan and the decision with nobody else there; None if they are not known."""
         if set(self.everybody).isdisjoint(again.scene):
             return plan, again
         empty = self.ride.without(self.decision, *self.everybody)
@@ -262,7 +262,7 @@ class _Tests:
 
 
 def _again(other: CausalModel, wanted: Intervention | Actions) -> Intervention | None:
-    """Return the same plan, or at least its beginning, where vehicles are not there."""
+    """Return the same plan, or at least its first action, in another model; None if thin."""
     plan = wanted.plan if isinstance(wanted, Intervention) else wanted
     for length in dict.fromkeys((len(plan), 1)):
         found = other.intervene(plan[:length])
@@ -278,7 +278,7 @@ def _at_work(plan: Intervention) -> tuple[int, ...]:
 
 
 def _in_the_way_around(model: CausalModel) -> tuple[int, ...]:
-    """Return who makes it worse to leave the lane: who is hit, or holds the ego up, on doing so."""
+    """Return the vehicles that the ego would hit, or be held up by, on changing lanes."""
     found: dict[int, float] = {}
     for action in CHANGES:
         there = model.intervene((action,))

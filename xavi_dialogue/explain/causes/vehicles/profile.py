@@ -1,7 +1,7 @@
-"""Profile: how fast the ego drives where, under a plan.
+"""Profile: the speed of the ego by place, under a plan.
 
-Two plans are compared place by place: who comes to a bend sooner slows down for it sooner, and
-loses nothing by that.
+Two plans are compared place by place, not moment by moment. A plan that comes to a bend sooner also
+slows down for it sooner, and loses nothing by that.
 """
 
 import math
@@ -18,15 +18,15 @@ from xavi_dialogue.explain.history.ride import Ride
 
 Array = NDArray[np.float64]
 
-REACH, GRID = 80.0, 2.0  # [m] of road from the decision on that count, and their steps
+REACH, GRID = 80.0, 2.0  # [m] length of road that counts, and the step between its places
 PLACES = np.arange(GRID, REACH + GRID / 2.0, GRID)
-SHOWN = 2.5  # [s] after a decision from which what came of it is known
+SHOWN = 2.5  # [s] after a decision from which the speed that followed is known
 
 
 def speeds(trace: PlanTrace, plan: Intervention) -> Array | None:
-    """Tell the expected speed [m/s] at each place of the road ahead; None: not recorded.
+    """Return the expected speed [m/s] at each place of the road ahead; None: not recorded.
 
-    Where a rollout does not come so far, the speed at its end counts.
+    Beyond the end of a rollout, its last speed counts.
 
     Returns:
         Speeds [REACH / GRID].
@@ -44,11 +44,11 @@ def speeds(trace: PlanTrace, plan: Intervention) -> Array | None:
 
 
 def driven(ride: Ride, trace: PlanTrace) -> Array | None:
-    """Tell how fast [m/s] the ego has driven at each place since a decision.
+    """Return how fast [m/s] the ego has driven at each place since a decision.
 
     Returns:
-        Speeds [REACH / GRID], NaN at places that it has not come to; None where it is too soon to
-        tell.
+        Speeds [REACH / GRID], NaN at places that it has not come to; None if that is too soon to
+        know.
     """
     if ride.now - trace.sim_time < SHOWN:
         return None
@@ -64,7 +64,7 @@ def driven(ride: Ride, trace: PlanTrace) -> Array | None:
 
 
 def _gone(speed: Sequence[float], periods: Sequence[float]) -> tuple[Array, Array]:
-    """Distances [m] and speeds [m/s] from samples of speed and the times [s] between them."""
+    """Return distances [m] and speeds [m/s] from samples of speed and the times [s] between."""
     values = np.asarray(speed, dtype=np.float64)
     steps = 0.5 * (values[1:] + values[:-1]) * np.asarray(periods, dtype=np.float64)
     return np.concatenate(([0.0], np.cumsum(steps))), values

@@ -1,4 +1,4 @@
-"""When: which of several things that happened a part of the ride points at."""
+"""When: which of several things that happened a time span of a question refers to."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -10,19 +10,19 @@ Item = TypeVar("Item")
 Bounds = tuple[float, float | None]  # [s] begin and end; None while it goes on
 
 LEEWAY = 1.5  # [s] by which passengers misjudge a moment that they name
-RECENT = 2.0  # [s] since when something is still going on
+RECENT = 2.0  # [s] after its end in which something still counts as going on
 ROUNDING = 1e-6  # [s]
 
 
 def past(span: Span | None) -> Span | None:
-    """Keep a span of what has been; None for one that is to come."""
+    """Return a span if it is in the past; None for one that is to come."""
     return span if span is not None and not span.ahead else None
 
 
 def moment_of(span: Span | None, now: float) -> float:
-    """Tell the instant [s] that a span stands for: its middle; now where nothing says when.
+    """Return the instant [s] that a span stands for: its middle; without a past span, now.
 
-    One that was only inferred and lasts up to now stands for now.
+    A span that was only inferred and lasts up to now stands for now.
     """
     found = past(span)
     if found is None or (not found.said and found.end >= now - ROUNDING):
@@ -31,7 +31,7 @@ def moment_of(span: Span | None, now: float) -> float:
 
 
 def meets(span: Span | None, begin: float, end: float | None) -> bool:
-    """Tell whether something lies in a span, at least in part; a moment is not taken exactly."""
+    """Check whether something overlaps a span; the bounds of a moment are not taken exactly."""
     found = past(span)
     if found is None:
         return True
@@ -41,10 +41,10 @@ def meets(span: Span | None, begin: float, end: float | None) -> bool:
 
 
 def pick(span: Span | None, items: Sequence[Item], bounds: Callable[[Item], Bounds]) -> Item | None:
-    """Choose, of what happened, oldest first, the one that a span points at: the latest that fits.
+    """Choose the one of several items, oldest first, that a span refers to.
 
-    Where the span was only inferred and nothing fits, the nearest to it; None where the passenger
-    said when, and there was nothing then.
+    It is the latest that fits; for a moment, the nearest. If nothing fits, it is the nearest to a
+    span that was only inferred, and None if the passenger said when.
     """
     found = past(span)
     if found is None or not items:
