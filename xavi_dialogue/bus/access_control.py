@@ -41,7 +41,7 @@ class Grant:
 
     deed: Deed
     tails: tuple[str, ...]  # ends of keys
-    own: bool = False  # only under the keys of its own car
+    own: bool = False  # True: only under the keys of the member's own car
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +66,7 @@ class Member:
 
     @property
     def vehicle(self) -> str:
-        """The car that it is, if it is one."""
+        """The name of the car, if the member is one."""
         return self.name or DEFAULT_VEHICLE
 
 
@@ -137,9 +137,9 @@ ROLES: Mapping[str, Role] = {
     )
 }
 
-# What each deed is made of at the hub: the kinds of messages that come in from the member, those
-# that go out to it, and the end of the key. A history of what is kept is asked for under the
-# publisher's own key, and answered under the key of what is kept.
+# The parts of each deed at the hub: the end of the key, the kinds of messages that come in from
+# the member, and those that go out to it. A late joiner requests kept messages under a key of the
+# publisher (_HISTORY), and gets the reply under the key of the messages.
 _HISTORY = "/@adv/pub/**"
 PARTS: Mapping[Deed, tuple[tuple[str, tuple[str, ...], tuple[str, ...]], ...]] = {
     "publish": (("", ("put",), ("declare_subscriber",)),),
@@ -215,7 +215,7 @@ def access_control(members: Iterable[Member]) -> dict[str, Json]:
 
 
 def _rules(grant: Grant, one: Member) -> list[dict[str, Json]]:
-    # What goes out is asked for by others, who may mean every car with one pattern.
+    # Outgoing messages are requested by others, possibly with one pattern for every car.
     own = Keys(one.vehicle) if grant.own else EVERY_CAR
     found: list[dict[str, Json]] = []
     for ending, incoming, outgoing in PARTS[grant.deed]:

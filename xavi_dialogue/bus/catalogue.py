@@ -21,7 +21,7 @@ from xavi_dialogue.bus.messages import (
     schema_name,
 )
 
-#: Of these the car serves the schemas; of all others, the service.
+#: Messages whose schemas the car serves; the service serves those of all others.
 CAR_MESSAGES = ("scene", "trace", "event_report")
 #: Every message by its name under `@schema/`.
 MESSAGES: dict[str, type[AnyMessage]] = {

@@ -1,10 +1,10 @@
-"""Certificates of the bus: the only module that knows cryptography.
+"""Certificates of the bus: the only module that imports cryptography.
 
-Keys are on the curve P-256, certificates are X.509 as a TLS library checks them (RFC 5280).
+Keys are on the curve P-256; certificates are X.509, as TLS libraries check them (RFC 5280).
 
     CertificateError
-    ├── BadHost          a name that no certificate can be for
-    └── BadCertificate   it cannot be read
+    ├── BadHost          a host name that a certificate cannot contain
+    └── BadCertificate   a certificate that cannot be read
 """
 
 import ipaddress
@@ -22,7 +22,7 @@ from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 from xavi_dialogue.bus.errors import BusError
 
 AUTHORITY = "xavi development CA"
-SKEW = timedelta(minutes=5)  # by which other clocks may be late
+SKEW = timedelta(minutes=5)  # greatest delay of other clocks
 HOST = re.compile(r"(?!-)[A-Za-z0-9-]{1,63}(?<!-)(\.(?!-)[A-Za-z0-9-]{1,63}(?<!-))*")
 MAX_HOST = 253  # characters of a name in the DNS
 
@@ -32,7 +32,7 @@ class CertificateError(BusError, ValueError):
 
 
 class BadHost(CertificateError):
-    """A name that no certificate can be for."""
+    """A host name that a certificate cannot contain."""
 
 
 class BadCertificate(CertificateError):
@@ -59,18 +59,18 @@ class CertificateInfo:
 
 @dataclass(frozen=True, slots=True)
 class Authority:
-    """A development CA. It signs certificates that are valid as long as itself."""
+    """A development CA. It signs certificates that are valid no longer than its own."""
 
     certificate: x509.Certificate
     key: ec.EllipticCurvePrivateKey
 
     @classmethod
     def new(cls, now: datetime, valid: timedelta) -> Self:
-        """Return a new one.
+        """Return a new authority.
 
         Args:
-            now: from when on it is valid; with a zone.
-            valid: for how long.
+            now: start of its validity, less SKEW; with a time zone.
+            valid: duration of its validity.
         """
         key = ec.generate_private_key(ec.SECP256R1())
         draft = _draft(AUTHORITY, AUTHORITY, key, (now - SKEW, now + valid))
@@ -98,7 +98,7 @@ class Authority:
 
     @property
     def identity(self) -> Identity:
-        """As it is kept."""
+        """Its certificate and key in PEM, for storage."""
         return _identity(self.certificate, self.key)
 
     def issue(
@@ -107,11 +107,12 @@ class Authority:
         """Make a key and a certificate for it.
 
         Args:
-            name: common name: by it access is granted.
+            name: common name, by which access is granted.
             hosts: names and addresses of a hub. Without any, the certificate is for a client,
                 and no client accepts it as that of a hub.
-            now: from when on it is valid; with a zone.
-            valid: how long; at most, and without it, as long as the authority.
+            now: start of its validity, less SKEW; with a time zone.
+            valid: duration of its validity, which ends with that of the authority at the latest;
+                None: it ends then.
 
         Raises:
             BadHost: one of the hosts is neither a name nor an address.
@@ -142,7 +143,7 @@ def read(certificate: bytes) -> CertificateInfo:
         certificate: PEM.
 
     Raises:
-        BadCertificate: it is none.
+        BadCertificate: it cannot be read.
     """
     try:
         found = x509.load_pem_x509_certificate(certificate)
@@ -153,7 +154,7 @@ def read(certificate: bytes) -> CertificateInfo:
 
 
 def utc_now() -> datetime:
-    """Return the time of day."""
+    """Return the current time, in UTC."""
     return datetime.now(UTC)
 
 

@@ -12,12 +12,12 @@ class MessageError(BusError, ValueError):
 
 
 class TooLarge(MessageError):
-    """More bytes than allowed for the message."""
+    """It has more bytes than its kind allows."""
 
 
 class WrongSchema(MessageError):
-    """Another message, or a version that is not known here."""
+    """It is another message, or of an unknown version."""
 
 
 class Malformed(MessageError):
-    """Not JSON, or a field is missing or wrong."""
+    """It is not JSON, or a field is missing or wrong."""

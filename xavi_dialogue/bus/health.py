@@ -16,7 +16,7 @@ STATM = Path("/proc/self/statm")  # in pages; see proc(5)
 
 
 class HealthReporter:
-    """Counts what a component does and reports it; thread-safe."""
+    """Counters of what a component does, with reports of them; thread-safe."""
 
     def __init__(
         self,
@@ -29,7 +29,7 @@ class HealthReporter:
 
         Args:
             component: car, service, dashboard or recorder.
-            counters: that start at 0.
+            counters: names of those that are reported from the start, with 0.
             clock: [s], monotonic.
         """
         self._component, self._clock, self._began = component, clock, clock()
@@ -50,12 +50,12 @@ class HealthReporter:
             return self._counters.get(name, 0.0)
 
     def gauge(self, name: str, read: Callable[[], float]) -> None:
-        """Report what `read` returns among the counters; it is called on a thread of the bus."""
+        """Include the result of `read` in reports; it is called on a thread of the bus."""
         with self._lock:
             self._gauges[name] = read
 
     def at(self, sim_time: float) -> None:
-        """Know a simulation time [s]."""
+        """Update the latest simulation time [s]."""
         self._sim_time = max(self._sim_time, sim_time)
 
     def report(self) -> AliveReport:

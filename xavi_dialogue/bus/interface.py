@@ -136,14 +136,14 @@ class Call(Protocol):
         """
 
     def drop(self) -> None:
-        """Leave it without a reply."""
+        """Leave the request without a reply."""
 
 
 class Presence(Protocol):
     """A sign of life under a key."""
 
     def withdraw(self) -> None:
-        """Take it back; a second time does nothing."""
+        """End the sign of life; doing so twice has no effect."""
 
 
 Handler: TypeAlias = Callable[[str, bytes], None]  # key, payload
@@ -167,7 +167,8 @@ class Bus(Protocol):
 
         Args:
             key: of the messages.
-            keep: 0 allows messages to be dropped; else none is, and late joiners get that many.
+            keep: number of messages kept for late joiners; none is dropped then. With 0, messages
+                may be dropped.
         """
 
     def send(self, key: str, payload: bytes) -> None:

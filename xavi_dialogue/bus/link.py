@@ -50,5 +50,5 @@ class Link:
         return cls(mode, () if listen is None else (listen,), connect, config)
 
     def at(self, endpoint: str) -> Self:
-        """Return the same, but to another hub."""
+        """Return the same link, but to another hub."""
         return replace(self, connect=(endpoint,))

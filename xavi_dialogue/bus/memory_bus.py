@@ -1,7 +1,6 @@
 """The bus within one process, for tests and demonstrations: no sockets, no waiting.
 
-Messages are handled in the thread that sends them. A request whose call is kept for later is
-answered when the call is.
+Messages are handled in the thread that sends them. A server may keep a call, and reply to it later.
 """
 
 from collections import defaultdict, deque

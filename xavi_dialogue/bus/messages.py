@@ -1,11 +1,11 @@
-"""Messages on the bus: JSON, checked where they come in.
+"""Messages on the bus: JSON, checked by the receiver.
 
 Every message carries its schema, a sequence number of its sender, simulation time [s] and wall
 time [s since 1970]; requests carry a name and a deadline instead.
 
     MessageError
-    ├── TooLarge       more bytes than allowed for the message
-    ├── WrongSchema    another message, or a version that is not known here
+    ├── TooLarge       more bytes than its kind allows
+    ├── WrongSchema    another message, or an unknown version
     └── Malformed      not JSON, or a field is missing or wrong
 """
 
@@ -24,7 +24,7 @@ from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.nlg.context import Style
 
 Name = Annotated[str, msgspec.Meta(min_length=1, max_length=64, pattern=r"^[A-Za-z0-9_.-]+$(?!\n)")]
-# What every language reads exactly, and every file holds (RFC 8259, 6).
+# Integers that every language reads exactly (RFC 8259, section 6).
 Whole = Annotated[int, msgspec.Meta(ge=1 - 2**53, le=2**53 - 1)]
 Token = Annotated[
     str, msgspec.Meta(min_length=16, max_length=128, pattern=r"^[A-Za-z0-9_-]+$(?!\n)")

@@ -1,9 +1,9 @@
-"""Makes text from outside safe to print: without escapes and control characters."""
+"""Cleaning of text from outside, which makes it safe to print."""
 
 import re
 import unicodedata
 
-# Escape sequences go as a whole, so that their letters do not stay behind as words: operating
+# Escape sequences are removed as a whole, so that their letters do not remain as words: operating
 # system commands up to their end, control sequences, and other two-character escapes.
 _ESCAPES = re.compile(
     r"(?:\x1b\]|\x9d)[^\x07\x1b\x9c]*(?:\x07|\x1b\\|\x9c)?"

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 Cancel: TypeAlias = Callable[[], None]
-SPENT = 1000  # timers that were cancelled and are still kept, before they are thrown out
+SPENT = 1000  # cancelled timers that may remain in the heap before they are removed
 
 
 @dataclass(order=True)
@@ -19,7 +19,7 @@ class _Timer:
 
 
 class Timers:
-    """Calls functions after their delays."""
+    """Timers that call functions after a delay."""
 
     def __init__(self) -> None:
         self._timers: list[_Timer] = []  # a heap
@@ -66,7 +66,10 @@ class Timers:
                 ring()
 
     def _next(self) -> Callable[[], None] | None:
-        """Wait for the first timer, or for a change of which that is."""
+        """Return the function of the first timer if it is due; else wait a while and return None.
+
+        The wait ends when the first timer is due, or when an earlier one was set.
+        """
         with self._changed:
             if not self._timers:
                 self._changed.wait()

@@ -1,8 +1,8 @@
-"""The bus over Zenoh: the only module that knows zenoh.
+"""The bus over Zenoh: the only module that imports zenoh.
 
 One process hosts the hub, a session in `peer` mode that listens; all others are clients of it.
-Loopback by default, no multicast, no gossip, no shared memory. Callbacks run on Zenoh's threads
-(`indirect=False`: a process that ends without closing would hang with any other kind).
+Defaults are loopback, no multicast, no gossip, no shared memory. Callbacks run on Zenoh's threads
+(`indirect=False`, since with other callbacks a process that ends without closing hangs).
 """
 
 import itertools
@@ -39,16 +39,16 @@ from xavi_dialogue.bus.timers import Timers
 JSON = "application/json"
 CERTIFICATE = "transport/link/tls/connect_certificate"
 RETRY = 0.05  # [s] between attempts to reach a hub that is not up yet
-HEARTBEAT = 0.2  # [s] within which a lost last message is noticed
+HEARTBEAT = 0.2  # [s] after which readers notice at the latest that the last message was lost
 MAX_MESSAGE = 4 * 1024 * 1024  # bytes; all messages are smaller
-SAFE: dict[str, object] = {  # without a configuration file
+SAFE: dict[str, object] = {  # settings if there is no configuration file
     "scouting/multicast/enabled": False,
     "scouting/gossip/enabled": False,
     "transport/shared_memory/enabled": False,
     "transport/link/rx/max_message_size": MAX_MESSAGE,
     "timestamping/enabled": True,
     "transport/unicast/open_timeout": 3000,  # [ms] to detect a listener that is no hub
-    # Who reads no more holds up all others who read the same, until its link is closed.
+    # A reader that has stopped reading blocks all others of the same key until its link is closed.
     "transport/link/tx/queue/congestion_control/block/wait_before_close": 1_000_000,  # [us]
 }
 GRACE = 0.5  # [s] of Zenoh's clean-up after a deadline
@@ -59,9 +59,9 @@ class ZenohBus:
     """A connection of this process to the bus; see `host` and `join`."""
 
     def __init__(self, session: zenoh.Session, places: tuple[str, ...] = ()) -> None:
-        self.places = places  # endpoints that are listened at
+        self.places = places  # endpoints at which the hub listens
         self._session = session
-        self._declared: list[object] = []  # referenced, so that they live as long as the session
+        self._declared: list[object] = []  # references that keep them alive for the session
 
     def publisher(self, key: str, keep: int = 0) -> Publisher:
         """See Bus."""
@@ -134,7 +134,7 @@ class ZenohBus:
         self, key: str, payload: bytes, timeout: float, done: Callable[[Outcome], None]
     ) -> None:
         """See Bus."""
-        tally = itertools.count()  # its first number goes to whoever ends the request
+        tally = itertools.count()  # only the caller that gets the first number ends the request
 
         def end(outcome: Outcome) -> None:
             if next(tally) == 0:
@@ -156,7 +156,7 @@ class ZenohBus:
                 payload=payload,
                 encoding=JSON,
                 timeout=timeout + GRACE,
-                priority=Priority.INTERACTIVE_HIGH,  # the reply has it, too: records are larger
+                priority=Priority.INTERACTIVE_HIGH,  # also of the reply: it overtakes large records
             )
         except zenoh.ZError as error:
             end(NobodyThere(f"cannot reach {key}: {error}"))
@@ -182,7 +182,7 @@ class ZenohBus:
     def close(self) -> None:
         """End the session and all that was declared on it; closing twice does nothing."""
         if not self._session.is_closed():
-            with suppress(zenoh.ZError):  # the other end hangs and gets no reply
+            with suppress(zenoh.ZError):  # the other end hangs
                 self._session.close()  # type: ignore[no-untyped-call]
         self._declared.clear()
 
@@ -216,7 +216,7 @@ class _ZenohPresence:
         self._token = token
 
     def withdraw(self) -> None:
-        with suppress(zenoh.ZError):  # the session is closed, and so it is withdrawn
+        with suppress(zenoh.ZError):  # a closed session has withdrawn it already
             self._token.undeclare()  # type: ignore[no-untyped-call]
 
 
@@ -242,7 +242,7 @@ class _ZenohCall:
 
 @contextmanager
 def _translated(what: str) -> Iterator[None]:
-    """Translate an error of Zenoh."""
+    """Turn errors of Zenoh into BusFailed."""
     try:
         yield
     except zenoh.ZError as error:
@@ -250,10 +250,10 @@ def _translated(what: str) -> Iterator[None]:
 
 
 def host(link: Link) -> ZenohBus:
-    """Open the hub, listening on the endpoints of a link such as `tcp/127.0.0.1:7447`.
+    """Open the hub, which listens at the endpoints of a link, such as `tcp/127.0.0.1:7447`.
 
     Raises:
-        EndpointTaken: one is in use, or cannot be listened at.
+        EndpointTaken: an endpoint is in use, or the hub cannot listen there.
         BadLink: the link's configuration cannot be used.
     """
     config = _config(link)
@@ -295,7 +295,7 @@ def _unreachable(config: zenoh.Config) -> str:
 
 
 def certificate_of(link: Link) -> Path | None:
-    """Return the file of the certificate that a link shows; BadLink as in `join`."""
+    """Return the file of the certificate that a link shows; raise BadLink as `join` does."""
     named = json.loads(_config(link).get_json(CERTIFICATE))
     return None if named is None else Path(named)
 
@@ -304,7 +304,7 @@ def _config(link: Link) -> zenoh.Config:
     """Return the configuration of a session.
 
     Raises:
-        BadLink: the file cannot be used, or an endpoint or mode.
+        BadLink: the file, an endpoint or the mode cannot be used.
     """
     config, settings = zenoh.Config(), SAFE
     if link.config is not None:
@@ -329,7 +329,7 @@ def _config(link: Link) -> zenoh.Config:
 
 
 def _endpoints(config: zenoh.Config, direction: str) -> list[str]:
-    """Return where a session listens or connects to."""
+    """Return the endpoints at which a session listens, or to which it connects."""
     found = json.loads(config.get_json(f"{direction}/endpoints"))
     if isinstance(found, dict):  # by mode
         found = found.get(json.loads(config.get_json("mode")), [])
