@@ -1,7 +1,7 @@
-"""The car among others: joined to the bus, alone under its name, and off the bus in time.
+"""The car on the bus: how it joins, ensures that its name is unique, and leaves in time.
 
-NameTaken   another car of this name is on the bus
-QuitBeforeRide told to quit before the ride began
+NameTaken        another car of this name is on the bus
+QuitBeforeRide   asked to quit before the ride began
 """
 
 import logging
@@ -34,10 +34,10 @@ from xavi_dialogue.vehicle.replanning import Replanner, workers
 from xavi_dialogue.vehicle.worker_pool import WAITING
 
 HUB_PATIENCE = 10.0  # [s] for the hub to come up
-CHILD_PATIENCE = 90.0  # [s] the same where a parent process has started both
-GLANCE = 0.5  # [s] between looks at whether to quit
+CHILD_PATIENCE = 90.0  # [s] the same if a parent process has started both
+GLANCE = 0.5  # [s] between checks of whether to quit
 ANSWERED = 1.0  # [s] within which a car that is on the bus answers
-# [s] A car whose machine has gone is on the bus until its lease of 10 s ends.
+# [s] A car whose machine has failed stays visible on the bus until its lease of 10 s ends.
 VACATED = 12.0
 CLOSING = 1.0  # [s] that leaving the bus may take
 
@@ -54,7 +54,7 @@ class QuitBeforeRide(XaviError):
 
 @dataclass(frozen=True, slots=True)
 class ReplanningOptions:
-    """How decisions are planned again: with how many workers, and how many requests may wait."""
+    """The number of workers that plan again, and of requests that may wait for them."""
 
     workers: int = 1
     waiting: int = WAITING  # requests that may wait for one of them
@@ -62,7 +62,7 @@ class ReplanningOptions:
 
 @dataclass(frozen=True, slots=True)
 class BusSession:
-    """What a car on the bus uses: its connection, reports and replanning."""
+    """The parts of a car on the bus: outbox, replanning, and health reports."""
 
     outbox: Outbox
     planning: Replanner
@@ -83,7 +83,7 @@ def join_bus(
     Args:
         link: to the hub.
         keys: of the car.
-        network: the file that planning again needs.
+        network: the road network's file, for planning again.
         replanning: options of planning again.
         signals: may ask to quit meanwhile.
         patience: [s] to wait for the hub.
@@ -140,7 +140,7 @@ def claim(bus: Bus, keys: Keys, signals: Signals, patience: float = VACATED) -> 
 
 
 class ServiceMonitor:
-    """Logs when the service disappears and when it comes back."""
+    """A watcher that logs when the service disappears and when it comes back."""
 
     def __init__(self, vehicle: str) -> None:
         self._vehicle, self._lost = vehicle, False
@@ -173,7 +173,7 @@ def joined(link: Link, signals: Signals, patience: float = HUB_PATIENCE) -> Zeno
 
 
 def _leave(bus: ZenohBus) -> None:
-    """Close the connection; do not wait for a hub that hangs: nothing is lost."""
+    """Close the connection; wait for at most CLOSING [s], as the hub may hang."""
     closing = threading.Thread(target=bus.close, name="leaving", daemon=True)
     closing.start()
     closing.join(CLOSING)

@@ -1,7 +1,7 @@
 """A ride: the simulated world and the driver, step by step.
 
-The caller takes one moment after the other, and so decides how fast the ride goes and where it
-halts. The record is complete up to the time of the latest moment.
+The caller takes one moment after the other, and thereby sets the speed of the ride and the time
+of a halt. The record is complete up to the time of the latest moment.
 """
 
 from collections.abc import Iterator, Sequence
@@ -33,12 +33,12 @@ class Moment:
     plan: tuple[Action, ...]  # of the latest decision
     trace: PlanTrace | None = None  # of a decision taken now
     events: tuple[Event, ...] = ()  # up to the end of the step that begins now
-    ending: Ending | None = None  # the last moment: why the ride is over
+    ending: Ending | None = None  # in the last moment, the reason why the ride is over
     collisions: tuple[int, ...] = ()  # vehicles that the ego touches now
 
 
 class World(Protocol):
-    """A simulated world that moves the others, and the ego as commanded."""
+    """A simulated world, which moves the other road users, and the ego as commanded."""
 
     def scene(self) -> Scene: ...
 
@@ -57,10 +57,10 @@ class Drives(Protocol):
 
 
 def moments(world: World, driver: Drives, step: float, duration: float) -> Iterator[Moment]:
-    """Drive until arrival, collision or time-out; the last moment says which.
+    """Drive until arrival, collision or time-out; the last moment states which.
 
     Args:
-        world: at its first scene.
+        world: a world at its first scene.
         driver: of the ego.
         step: [s] of the simulation.
         duration: [s] after which the ride ends.
@@ -125,7 +125,7 @@ def start(
     duration: float | None = None,
     vehicle: str = DEFAULT_VEHICLE,
 ) -> Iterator[Iterator[Moment]]:
-    """Start SUMO and the driver; the ride goes on as its moments are taken.
+    """Start SUMO and the driver; the ride advances as its moments are taken.
 
     Raises:
         SimulationError: SUMO is not installed or does not start.

@@ -1,4 +1,4 @@
-"""`xavi drive`: runs the car alone, or as a child process that takes commands."""
+"""`xavi drive`: the car, alone or as a child process that takes commands."""
 
 import logging
 import queue
@@ -37,9 +37,9 @@ Record: TypeAlias = Callable[[Moment], None]
 
 _LOG = logging.getLogger(__name__)
 HARD_BRAKE = -4.0  # [m/s2]
-UNHURRIED = 5.0  # [s] for the last reports to go out after the ride,
-HURRIED = 1.0  # and when asked to quit
-FORCED = 2.8  # [s] after a signal, at which the process ends whatever it is doing
+UNHURRIED = 5.0  # [s] allowed for sending the last reports after the ride,
+HURRIED = 1.0  # [s] and when asked to quit
+FORCED = 2.8  # [s] after a signal, when the process ends in any case
 
 
 class Summary(msgspec.Struct):
@@ -59,7 +59,7 @@ class Summary(msgspec.Struct):
 
 @dataclass
 class SummaryRecorder:
-    """Takes a ride's moments down as figures."""
+    """A recorder of figures from the moments of a ride."""
 
     summary: Summary
     braking: bool = False
@@ -81,7 +81,7 @@ class SummaryRecorder:
 
 @dataclass
 class RideLog:
-    """Records the decisions and events of a ride for saving."""
+    """A log of the decisions and events of a ride, for saving."""
 
     ride: RecordedRide
 
@@ -122,11 +122,11 @@ def drive(
         scenario: to drive.
         seed: of the ride.
         options: of the ride.
-        signals: to listen to; keeps the signals that arrived.
+        signals: record the signals that arrive; None: new ones.
 
     Raises:
         SimulationError: SUMO is not installed or fails.
-        DriverError: the car cannot be driven on.
+        DriverError: the car cannot go on.
         HubUnreachable: there is no hub at the endpoint.
         BadLink: the configuration of the link cannot be used.
         NameTaken: another car of this name is on the bus.
@@ -158,7 +158,7 @@ def drive(
 
 @dataclass(frozen=True)
 class _Connections:
-    """Where commands come from and where moments go."""
+    """The source of commands, and the receivers of moments."""
 
     orders: child_commands.Orders
     records: tuple[Record, ...]

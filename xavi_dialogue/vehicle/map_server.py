@@ -1,4 +1,4 @@
-"""Serves the road network of a car on request: with it, a recorded decision is planned again."""
+"""A server of the car's road network, which is needed to plan a recorded decision again."""
 
 import gzip
 import logging
@@ -15,7 +15,7 @@ _LOG = logging.getLogger(__name__)
 
 
 def serve_roads(bus: Bus, keys: Keys, network: Path) -> None:
-    """Tell the network file of a car, gzipped, at `@blob/network`; none that is too large.
+    """Serve the network file of a car, gzipped, at `@blob/network`; refuse if it is too large.
 
     Raises:
         OSError: it cannot be read.

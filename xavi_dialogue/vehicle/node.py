@@ -1,4 +1,4 @@
-"""The car process: the ride at its pace, reported on the bus."""
+"""The loop of the car process: drives the ride at its pace, and reports it on the bus."""
 
 import queue
 import time
@@ -27,14 +27,14 @@ COUNTERS = ("decisions", "events", "scenes", SCENES, REPORTS, "what_ifs")  # see
 
 @dataclass
 class Pace:
-    """How fast the ride goes, and where it halts."""
+    """The speed of the ride, and the time at which it halts."""
 
     speed: float  # simulated seconds per second; 0 is as fast as possible
     running: bool
-    until: float | None = None  # [s] where to halt; None with `stops`: see ride.halts
-    stops: bool = False
+    until: float | None = None  # [s] when to halt; for None see episode.halts
+    stops: bool = False  # whether to halt then
     quit: bool = False
-    obeyed: int = 0  # orders
+    obeyed: int = 0  # number of orders carried out
 
     def obey(self, order: Order) -> None:
         """Change the pace as ordered."""
@@ -52,22 +52,22 @@ class Pace:
                 self.quit = True
 
     def arrive(self, at: float, events: list[Event]) -> None:
-        """Halt if this is where to halt."""
+        """Halt if the time to halt is reached."""
         if self.running and self.stops and halts(self.until, at, events):
             self.running = False
 
 
 @dataclass
 class VehicleNode:
-    """Drives a ride, reports it, and obeys orders about its pace."""
+    """A car that drives a ride, reports it, and obeys orders about its pace."""
 
     ride: Iterator[Moment]
     step: float  # [s]
-    records: tuple[Callable[[Moment], None], ...]  # take down every moment
+    records: tuple[Callable[[Moment], None], ...]  # called with every moment
     reporter: Reporter | None  # None: nothing is published
     orders: Orders
     pace: Pace
-    stays: bool  # after the ride, until asked to quit
+    stays: bool  # whether it stays on the bus after the ride until asked to quit
     events: list[Event] = field(default_factory=list)
     due: float = 0.0  # [s] on the monotonic clock: when the next step may be taken
 
@@ -101,7 +101,7 @@ class VehicleNode:
                 return
 
     def _listen(self, moment: Moment, patience: float) -> None:
-        """Carry out the commands that arrive within `patience` [s]; stop waiting after one."""
+        """Wait up to `patience` [s] for one command, and carry it out."""
         try:
             order = (
                 self.orders.get(timeout=patience) if patience > 0.0 else self.orders.get_nowait()
@@ -128,7 +128,7 @@ def serve(bus: Bus, keys: Keys, planning: CallHandler, alive: HealthReporter | N
     Args:
         bus: of the car.
         keys: of the car.
-        planning: takes requests for planning again.
+        planning: handles requests for planning again.
         alive: reports the health of the car.
     """
     bus.serve(keys.of("@rpc/whatif"), planning)

@@ -1,8 +1,8 @@
 """A queue in front of the bus: a thread sends its messages, so that senders never wait.
 
-A message that must not be lost waits at the carrier for as long as a reader is slow, up to several
-seconds where a hub hangs. Meanwhile the others wait here. Beyond a bound, what may drop is
-dropped first, the oldest of it, and then the oldest of the rest; all of it is counted.
+If a reader is slow, the transport blocks on a message that must not be lost, for up to several
+seconds if the hub hangs. Meanwhile other messages wait here. Beyond a bound, messages that may be
+dropped are dropped first, from the oldest on, and then the oldest of the rest; all are counted.
 """
 
 import logging
@@ -22,7 +22,7 @@ _LOG = logging.getLogger(__name__)
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """How much may wait."""
+    """The bounds of what may wait in the queue."""
 
     droppable: int = 20  # messages; two seconds of scenes
     messages: int = 1300  # as many as are kept for late joiners
@@ -38,7 +38,7 @@ class _QueuedMessage:
 
 @dataclass(frozen=True, slots=True)
 class _Slot:
-    """Puts messages of one key into the outbox."""
+    """A publisher of one key that puts its messages into the outbox."""
 
     outbox: "Outbox"
     publisher: Publisher
@@ -49,7 +49,7 @@ class _Slot:
 
 
 class Outbox:
-    """Queues messages and sends them on a thread."""
+    """A queue of messages, and the thread that sends them."""
 
     def __init__(self, bus: Bus, alive: HealthReporter, bounds: Bounds | None = None) -> None:
         """Begin to send.
@@ -61,23 +61,23 @@ class Outbox:
         """
         self._bus, self._alive, self._bounds = bus, alive, bounds or Bounds()
         self._waiting: deque[_QueuedMessage] = deque()
-        self._droppable = self._size = 0  # messages, bytes of those waiting
+        self._droppable = self._size = 0  # waiting messages that may be dropped; waiting bytes
         self._sending = self._closing = False
         self._changed = threading.Condition()
         self._sender = threading.Thread(target=self._send, name="outbox", daemon=True)
         self._sender.start()
 
     def publisher(self, key: str, keep: int = 0) -> Publisher:
-        """Make a publisher for a key; see Bus. Messages that are not kept may be dropped."""
+        """Return a publisher for a key; see Bus. Messages that are not kept may be dropped."""
         return _Slot(self, self._bus.publisher(key, keep), may_drop=not keep)
 
     def waiting(self) -> int:
-        """Count the messages that are not sent yet."""
+        """Return the number of messages that are not sent yet."""
         with self._changed:
             return len(self._waiting) + self._sending
 
     def take(self, message: _QueuedMessage) -> None:
-        """Send a message as soon as it can be; returns at once."""
+        """Queue a message for sending; returns at once."""
         with self._changed:
             if self._closing:
                 self._count(message)

@@ -1,8 +1,8 @@
-"""A worker process that plans decisions again on request, beside the driving.
+"""A worker process that plans decisions again on request, separate from the driving.
 
-It reads one order a line on its standard input and writes one result a line on its standard
-output; the first line says that it is ready. It ends when its input does, in the middle of
-planning if need be: so none is left behind by a car that is gone.
+It reads one order per line from its standard input and writes one result per line to its standard
+output; the first line says that it is ready. It ends when its input ends, even in the middle of
+planning, so that it does not outlive its car.
 
     python -m xavi_dialogue.vehicle.replan_worker s1.net.xml
 """
@@ -30,8 +30,8 @@ from xavi_dialogue.bus.messages import Failure
 from xavi_dialogue.domain.answers import Reason
 
 READY = b"ready\n"
-ROOM = 40.0  # [m] of lane for the decision that warms up
-STEP = 0.1  # [s] that is driven then
+ROOM = 40.0  # [m] least length of the lane for the decision that warms up
+STEP = 0.1  # [s] duration of the step that is driven then
 
 
 class ReplanOrder(msgspec.Struct, frozen=True):
@@ -68,7 +68,7 @@ def _reason(error: Exception) -> Reason:
 
 
 def warm_up(network: Network) -> None:
-    """Decide once and drive a step behind another car, so that all kernels are loaded."""
+    """Decide once behind another car, and drive a step, so that all kernels are loaded."""
     for lane in network.lanes.values():
         links = network.links_from(lane.id)
         if lane.internal or lane.length < ROOM or not links:
@@ -100,15 +100,15 @@ def work(network: Network, orders: "queue.SimpleQueue[bytes]", out: IO[bytes]) -
 
 
 def _listen(stream: IO[bytes], orders: "queue.SimpleQueue[bytes]") -> None:
-    """Take down orders; the process ends with the stream, whatever it is doing."""
+    """Queue the orders that arrive; end the process when the stream ends."""
     for line in stream:
-        if line.endswith(b"\n"):  # else the process that wrote it died meanwhile
+        if line.endswith(b"\n"):  # else the process that wrote it died while writing
             orders.put(line)
     os._exit(os.EX_OK)
 
 
 def main() -> None:
-    """Work on the network file that is named on the command line."""
+    """Work on the road network whose file is named on the command line."""
     out, sys.stdout = sys.stdout.buffer, sys.stderr  # nothing else may be written between results
     orders: queue.SimpleQueue[bytes] = queue.SimpleQueue()
     threading.Thread(target=_listen, args=(sys.stdin.buffer, orders), daemon=True).start()

@@ -1,7 +1,7 @@
-"""Planning again on request while the car drives: keeps decisions, checks requests.
+"""Planning again on request while the car drives: storage of decisions, and checks of requests.
 
 The driving loop only stores its decisions here. Requests arrive on threads of the bus, are
-checked, and go to workers (`worker_pool.py`), which answer or are given up at the deadline.
+checked, and go to workers (`worker_pool.py`). Each is answered by its deadline.
 """
 
 import contextlib
@@ -42,7 +42,7 @@ class Planners(Protocol):
 def workers(network: Path, count: int = 1, waiting: int = WAITING) -> WorkerPool:
     """Start workers for a network file; see WorkerPool."""
     path = os.pathsep.join(filter(None, (str(TOP), os.environ.get("PYTHONPATH"))))
-    # -P keeps the working directory off the path: it may hold packages of our names.
+    # -P keeps the working directory off the path: it may hold packages with the same names.
     command = [
         sys.executable,
         "-P",
@@ -55,16 +55,16 @@ def workers(network: Path, count: int = 1, waiting: int = WAITING) -> WorkerPool
 
 
 class Replanner:
-    """Takes requests for planning again from the latest decisions of this ride."""
+    """A handler of requests to plan again from the latest decisions of this ride."""
 
     def __init__(
         self, planners: Planners, kept: int = KEPT, alive: HealthReporter | None = None
     ) -> None:
-        """Know no decision yet.
+        """Begin without a decision.
 
         Args:
             planners: carry out requests.
-            kept: how many decisions are kept.
+            kept: number of decisions that are kept.
             alive: counts requests and their results.
         """
         self._planners, self._kept = planners, kept
@@ -72,7 +72,7 @@ class Replanner:
         self._traces: dict[str, bytes] = {}
 
     def record(self, moment: Moment) -> None:
-        """Know the decision of a moment; the oldest is forgotten for it."""
+        """Store the decision of a moment, and drop the oldest if there are too many."""
         if moment.trace is None:
             return
         self._traces[moment.trace.trace_id] = plan_trace.encode(moment.trace)
@@ -80,7 +80,7 @@ class Replanner:
             del self._traces[next(iter(self._traces))]
 
     def __call__(self, call: Call) -> None:
-        """Take up a request; returns at once."""
+        """Pass a request on to a worker, or refuse it; returns at once."""
         came = time.monotonic()
         try:
             wanted = unpack(call.payload, WhatIfRequest)
@@ -127,7 +127,7 @@ def durations(traces: Sequence[PlanTrace], network: Network) -> Mapping[str, tup
 
 
 def _examples(trace: PlanTrace) -> Iterator[tuple[str, WhatIf]]:
-    """Yield one request of each kind; about the vehicle with the lowest name."""
+    """Yield one change of each kind; those of a vehicle are about the first one predicted."""
     if trace.plan:
         yield "actions forced", WhatIf((trace.plan[0].action,))
     for prediction in trace.predictions[:1]:

@@ -1,4 +1,4 @@
-"""Moments of a ride as reports on the bus."""
+"""Reports on the bus about the moments of a ride."""
 
 import secrets
 import time
@@ -18,27 +18,27 @@ LATELY = 5.0  # [s] over which the speed of the simulation is measured
 
 
 class ReportSink(Protocol):
-    """Where reports go: a bus, or an outbox in front of it."""
+    """The receiver of reports: a bus, or an outbox in front of it."""
 
     def publisher(self, key: str, keep: int = 0) -> Publisher: ...
 
 
 class RateMeter:
-    """Measures the recent speed of the simulation."""
+    """A meter of the recent speed of the simulation."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
         self._marks: deque[tuple[float, float]] = deque()  # [s] of the clock, of the simulation
 
     def note(self, sim_time: float) -> None:
-        """Know a simulation time [s] that is reached now."""
+        """Add a simulation time [s] that is reached now."""
         now = self._clock()
         self._marks.append((now, sim_time))
         while self._marks[0][0] < now - LATELY:
             self._marks.popleft()
 
     def read(self) -> float:
-        """Simulated seconds per second; any thread may ask."""
+        """Return the simulated seconds per second; thread-safe."""
         now, marks = self._clock(), tuple(self._marks)
         recent = [mark for mark in marks if mark[0] >= now - LATELY]
         if not recent or recent[0][0] == now:
@@ -47,7 +47,7 @@ class RateMeter:
 
 
 class Reporter:
-    """Publishes what the car sees, decides and does."""
+    """A publisher of what the car sees, decides and does."""
 
     def __init__(
         self,

@@ -1,13 +1,15 @@
-"""A pool of workers, each a process of its own: jobs with deadlines, and a cap on those waiting.
+"""A pool of worker processes: jobs with deadlines, and a limit on the jobs that wait.
 
-One thread keeps the pool; who submits a job never waits. A job is answered at its deadline at
-the latest, and is not begun when nothing could come of it before that. A worker that is late may
-finish for a short grace, for nobody: it is warm, and its successor will not be at once. Who waits
-meanwhile gets it or the successor, whichever is ready first; the other one is killed. A worker that
-dies is replaced, and its job tried once more. Workers are started as new programs, never forked,
-and end with this process, however it ends (see replan_worker.py).
+One thread manages the pool, so that submitting a job never blocks. A job is answered at its
+deadline at the latest, and is not begun if it cannot be finished by then. A worker that is late may
+finish its job within a short grace period, although the result is discarded: it is warm, and a
+replacement takes time to start. The next job goes to the late worker or to its replacement,
+whichever is ready first; the other one is killed. A worker that dies is replaced, and its job is
+tried once more. Workers are started as new programs, never forked, and end when this process ends
+in any way (see replan_worker.py).
 
-The cap on those waiting is one for all: who asks for many people shares it out among them.
+The limit holds for all clients together. A client that asks on behalf of many people must divide
+it among them.
 """
 
 import contextlib
@@ -29,11 +31,11 @@ from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.vehicle.replan_worker import READY, Result
 
 WAITING = 8  # jobs that may wait for a worker
-LEAST = 0.02  # [s] less than any job takes
+LEAST = 0.02  # [s] a lower bound of the time that a job takes
 GRACE = 1.0  # [s] after which a worker that is late is killed; a new one takes as long to start
-NICENESS = 10  # by which workers stand back behind the driving
+NICENESS = 10  # added to the niceness of workers, so that the driving has priority
 
-Done: TypeAlias = Callable[[bytes | Failure], None]  # gets the plan trace, or why there is none
+Done: TypeAlias = Callable[[bytes | Failure], None]  # gets the plan trace, or the reason for none
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,7 +45,7 @@ class Job:
     order: bytes  # one line; see replan_worker.ReplanOrder
     deadline: float  # [s] on the monotonic clock
     done: Done  # called once, from the pool's thread
-    tried: bool = False  # by a worker that died
+    tried: bool = False  # whether a worker died on it
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,14 +57,14 @@ class _Heard:
 
 
 class _Close:
-    """The pool is no longer needed."""
+    """The request to close the pool."""
 
 
 _Event: TypeAlias = Job | _Heard | _Close
 
 
 class _Worker:
-    """One process, and the job that it is at."""
+    """One worker process, and its current job."""
 
     def __init__(
         self,
@@ -105,7 +107,7 @@ class _Worker:
         threading.Thread(target=self._write, args=(job.order,), daemon=True).start()
 
     def kill(self) -> None:
-        """End the process at once, and leave nothing of it."""
+        """End the process at once, and release its resources."""
         self._process.kill()
         self._process.wait()
         assert self._process.stdin is not None
@@ -143,33 +145,33 @@ class WorkerPool:
             command: the program of a worker and its arguments.
             environment: of the workers; None: that of this process.
             count: number of workers.
-            waiting: how many jobs may wait for one of them.
+            waiting: number of jobs that may wait for one of them.
         """
         self._command, self._environment = command, environment
         self._count, self._limit = count, waiting
         self._events: queue.SimpleQueue[_Event] = queue.SimpleQueue()
         self._workers: list[_Worker] = []
         self._waiting: deque[Job] = deque()
-        self._unstarted = 0  # workers that did not even start, since the latest job came
+        self._unstarted = 0  # workers that failed to start since the latest job came
         self._keeper = threading.Thread(target=self._keep, name="whatif", daemon=True)
         self._keeper.start()
 
     @property
     def pids(self) -> tuple[int, ...]:
-        """The worker processes that run now."""
+        """The ids of the worker processes that run now."""
         return tuple(worker.pid for worker in tuple(self._workers))
 
     @property
     def idle(self) -> int:
-        """Count the workers that are ready for a job."""
+        """The number of workers that are ready for a job."""
         return sum(worker.idle for worker in tuple(self._workers))
 
     def submit(self, job: Job) -> None:
-        """Have a job done; returns at once."""
+        """Submit a job; returns at once."""
         self._events.put(job)
 
     def close(self) -> None:
-        """End the workers; jobs that are open are answered."""
+        """End the workers; open jobs get a failure."""
         self._events.put(_Close())
         self._keeper.join()
 
@@ -207,7 +209,7 @@ class WorkerPool:
         self._workers.clear()
 
     def _patience(self) -> float | None:
-        """Time [s] to the next deadline, or end of a grace."""
+        """Return the time [s] to the next deadline or end of a grace period; None: no limit."""
         ends = [job.deadline for job in self._open()]
         ends += [worker.ends for worker in self._workers if worker.ends is not None]
         return max(min(ends) - time.monotonic(), 0.0) if ends else None
@@ -224,7 +226,7 @@ class WorkerPool:
             self._unstarted = 0
 
     def _mend(self) -> None:
-        """Start the workers that are missing, and successors of the late that are waited for."""
+        """Start the workers that are missing, and replacements of late ones if jobs wait."""
         late = sum(worker.late for worker in self._workers)
         there = len(self._workers) - min(late, len(self._waiting))
         for _ in range(self._count - self._unstarted - there):
@@ -245,7 +247,7 @@ class WorkerPool:
         self._thin_out()
 
     def _lose(self, worker: _Worker) -> None:
-        """Handle the end of a worker; one that did not start is replaced with the next job only."""
+        """Handle the end of a worker; one that failed to start is replaced at the next job."""
         self._workers.remove(worker)
         worker.kill()
         if worker.job is not None and not worker.job.tried:
@@ -259,7 +261,7 @@ class WorkerPool:
                 self._waiting.clear()
 
     def _thin_out(self) -> None:
-        """Kill surplus workers once enough are up: late ones, or their replacements."""
+        """Kill surplus workers once enough are ready: late ones, or their replacements."""
         up = [worker for worker in self._workers if worker.ready and not worker.late]
         if len(up) >= self._count:
             for worker in self._workers:
