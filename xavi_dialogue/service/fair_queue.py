@@ -1,4 +1,4 @@
-"""A fair queue: clients take turns, however many items each of them adds."""
+"""A fair queue: clients take turns, no matter how many items each of them adds."""
 
 from collections import deque
 from dataclasses import dataclass, field
@@ -27,7 +27,7 @@ class FairQueue(Generic[Item]):
         self._size += 1
 
     def pop(self) -> Item:
-        """Take the next one out.
+        """Remove the next item and return it.
 
         Raises:
             LookupError: the queue is empty.

@@ -1,4 +1,4 @@
-"""Talking about a ride within one process: no bus, and planning again when asked to."""
+"""A conversation about a ride within one process, without a bus."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
@@ -49,7 +49,7 @@ class NoPlan(XaviError):
 
 
 def make_pipeline() -> Pipeline:
-    """Make the pipeline of parser, explanations and wording."""
+    """Return the pipeline of parser, explanations and wording."""
     known = Recollection()
     return Pipeline(
         read=interpret, ground=known.ground, explain=known.explain, say=say, see=known.see
@@ -57,7 +57,7 @@ def make_pipeline() -> Pipeline:
 
 
 def planner_for(network: Network) -> Replan:
-    """Plans again on a network."""
+    """Return a function that plans again on a network."""
 
     def again(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
         return replan(trace, network, msgspec.convert(msgspec.to_builtins(need), WhatIf))
@@ -76,7 +76,7 @@ def inputs_of_moment(moment: Moment) -> tuple[Input, ...]:
 
 @dataclass
 class Conversation:
-    """One passenger's conversation about a ride that is recorded as far as is asked about."""
+    """One passenger's conversation about a ride, recorded up to the time of each question."""
 
     pipeline: Pipeline
     again: Replan
@@ -116,12 +116,13 @@ def drive_to(ride: Iterable[Moment], conversation: Conversation, until: float | 
     """Drive and record up to a moment.
 
     Args:
-        ride: the moments that follow.
+        ride: the moments still to come.
         conversation: records them.
         until: [s]; None stands for the end of the first lane change or turn.
 
     Returns:
-        The time [s] reached: `until`, or where the ride ended before.
+        The time [s] reached: `until`, or that of the last moment if `until` is None or the ride
+        ended before.
     """
     time = 0.0
     for moment in ride:

@@ -1,4 +1,4 @@
-"""`xavi serve`: the dialogue service as a process, host of the hub."""
+"""`xavi serve`: the dialogue service as a process, which hosts the hub."""
 
 import gc
 import queue
@@ -25,8 +25,8 @@ def serve(link: Link, memory: TurnLog, note: Callable[[str], None], *, controlle
     Args:
         link: of the hub.
         memory: stores turns.
-        note: takes notes for the operator.
-        controlled: by orders on standard input.
+        note: is called with messages for the operator.
+        controlled: whether orders come on standard input.
 
     Raises:
         EndpointTaken: an endpoint is in use.
@@ -47,7 +47,7 @@ def serve(link: Link, memory: TurnLog, note: Callable[[str], None], *, controlle
 
 
 def _told_to_quit(orders: child_commands.Orders) -> bool:
-    """Check a flag; once true, it stays true."""
+    """Check whether an order to quit has come; once true, it stays true."""
     while not orders.empty():
         if isinstance(orders.get(), child_commands.Quit):
             orders.put(child_commands.Quit())
@@ -56,9 +56,9 @@ def _told_to_quit(orders: child_commands.Orders) -> bool:
 
 
 def _warm(pipeline: Pipeline) -> None:
-    """Have parser and sentences read their grammars, so that the first passenger need not wait.
+    """Load the grammars of parser and wording, so that the first passenger need not wait.
 
-    What is loaded then stays, and need not be gone through whenever memory is tidied up.
+    The objects loaded here are permanent, so the garbage collector is told to skip them.
     """
     grammar()
     advance(pipeline, Dialogue(), Asked("warm", "warm", "Hello!", 0.0))

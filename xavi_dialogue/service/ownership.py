@@ -1,6 +1,6 @@
 """Ownership of sessions: a session belongs to the client that begins it, by its token.
 
-Of a token only a digest is kept, in memory and on disk.
+Only a digest of a token is kept, in memory and on disk.
 """
 
 import hashlib
@@ -10,16 +10,16 @@ from dataclasses import dataclass, field
 
 from xavi_dialogue.storage.database import StoreError
 
-UNKNOWN = "unknown"  # in place of a digest: no token has it
-MAX_OWNERS = 200_000  # more than there are sessions in memory, see request_handler.py
+UNKNOWN = "unknown"  # stands for an owner that cannot be read; no token has this digest
+MAX_OWNERS = 200_000  # exceeds the number of sessions in memory, see request_handler.py
 
 
 @dataclass
 class SessionOwners:
-    """The owners of sessions; the stored owner counts, or the known one if it cannot be read."""
+    """The owners of sessions; the known owner counts only if there is no stored one to read."""
 
     recall: Callable[[str], str | None]  # returns the stored digest; may raise StoreError
-    changed: Callable[[str], object]  # called with a session that has another owner
+    changed: Callable[[str], object]  # called with a session whose stored owner is another
     known: dict[str, str | None] = field(default_factory=dict)  # digest by session; None: open
 
     def admits(self, session: str, token: str | None, *, begun: bool) -> bool:
@@ -28,8 +28,8 @@ class SessionOwners:
         Args:
             session: its name.
             token: of the client.
-            begun: something of it is in memory, or at stake on disk: then, as long as its owner
-                cannot be read, nobody may.
+            begun: whether it is in memory, or is to be erased. Then nobody may use it as long as
+                its owner cannot be read.
         """
         owner = self.of(session)
         if owner is None:
@@ -44,7 +44,7 @@ class SessionOwners:
         Args:
             session: its name.
             token: of the client; None leaves the session open.
-            held: the sessions that are in memory; owners of others may be dropped.
+            held: returns the sessions in memory; owners of other sessions may be dropped.
         """
         owner = self.of(session)
         if owner not in (None, UNKNOWN) or (owner is None and token is None):
@@ -59,7 +59,7 @@ class SessionOwners:
         self.known.pop(session, None)
 
     def of(self, session: str) -> str | None:
-        """The digest of a session's owner; None: it is open; UNKNOWN: that cannot be read now."""
+        """Return the digest of a session's owner; None: open; UNKNOWN: it cannot be read now."""
         try:
             kept = self.recall(session)
         except StoreError:

@@ -1,7 +1,7 @@
-"""Prefetching of plans: what the next "why?" is likely to need is planned while idle.
+"""Prefetching of plans: the service requests while idle what the next "why?" is likely to need.
 
 To name a vehicle as a cause, the decision is planned again without it. This takes longer than
-anything else in an answer. Passengers ask most about a manoeuvre that has just begun, so in a
+any other step of an answer. Passengers ask most about a manoeuvre that has just begun, so in a
 ride at about real time the plans for an answer about it are made at once.
 """
 
@@ -18,17 +18,17 @@ from xavi_dialogue.domain.meaning import Ask, Reading, Why
 from xavi_dialogue.domain.terms import Event, Happens
 
 AHEAD = 5.0  # [s] deadline of such a plan
-FASTEST = 2.0  # simulated seconds per second; beyond it decisions come faster than plans
-#: "Why did you do that?", of what was done last.
+FASTEST = 2.0  # simulated seconds per second, beyond which decisions come faster than plans
+#: "Why did you do that?", about the latest action.
 WHY = Reading(acts=(Ask(Why(Happens(Event("do")))),), shares=())
 
 
 @dataclass
 class Prefetch:
-    """How many plans were prefetched for the latest event of a ride."""
+    """The number of plans that were prefetched for the latest event of a ride."""
 
-    events: int = -1  # of the ride, when that was
-    rounds: int = 0  # of planning since then
+    events: int = -1  # number of the ride's events at the latest call
+    rounds: int = 0  # rounds of planning since the latest event
 
     def need(
         self, pipeline: Pipeline, dialogue: Dialogue, scene: SceneReport
@@ -49,7 +49,7 @@ class Prefetch:
 
 
 def _wanted(pipeline: Pipeline, dialogue: Dialogue, at: float) -> NeedRollout | None:
-    """Return what an answer to "why?" lacks beyond all earlier plans."""
+    """Return the plan that an answer to "why?" still lacks; None if it lacks none."""
     grounding = pipeline.ground((WHY,), dialogue.record(at), Discourse())
     if not grounding.acts:
         return None

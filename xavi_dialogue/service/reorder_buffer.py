@@ -1,4 +1,4 @@
-"""Reports of one ride, put in order: they may arrive in any order."""
+"""A buffer that puts the reports of one ride in order: they may arrive in any order."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -19,21 +19,21 @@ from xavi_dialogue.vehicle.telemetry import KEPT_EVENTS, KEPT_TRACES
 Item = TypeVar("Item")
 ReportOfRide: TypeAlias = SceneReport | TraceReport | EventReport
 
-PATIENCE = 1.0  # [s] to wait for missing reports; the bus repairs its losses within half of it
+PATIENCE = 1.0  # [s] to wait for missing reports; the bus recovers lost ones in half that time
 
 
 @dataclass
 class ReorderBuffer(Generic[Item]):
-    """Hands numbered items on in the order of their numbers, each once."""
+    """A buffer that passes numbered items on in the order of their numbers, each once."""
 
     limit: int  # items that may wait for an earlier one
     time_of: Callable[[Item], float]  # [s]
     next: int = 0  # number of the first item that has not been passed on
     held: dict[int, Item] = field(default_factory=dict)
-    lost: int = 0  # items that were given up
-    known: float | None = None  # [s] up to when all was handed on; None: nothing was
+    lost: int = 0  # number of items that were given up
+    known: float | None = None  # [s] latest time of an item that was passed on; None: none was
     gaps: list[tuple[float, float]] = field(default_factory=list)  # [s] not yet returned by `told`
-    _open: float | None = None  # [s] since when items are given up, until the next comes
+    _open: float | None = None  # [s] start of a gap that ends when the next item comes
 
     def add(self, number: int, item: Item) -> list[Item]:
         """Add an item; return the items that are now in order."""
@@ -42,7 +42,7 @@ class ReorderBuffer(Generic[Item]):
         return self._ready()
 
     def begin(self, oldest: int) -> list[Item]:
-        """Give up items that no sender keeps any more; return those that are now in order.
+        """Give up items that the sender no longer keeps; return those that are now in order.
 
         Args:
             oldest: number of the oldest item that may still come.
@@ -62,7 +62,7 @@ class ReorderBuffer(Generic[Item]):
         return ready
 
     def told(self, now: float) -> list[tuple[float, float]]:
-        """Return the gaps that were not returned before; one may be open at a time [s]."""
+        """Return the gaps not returned before; one that is still open ends at a time [s]."""
         if self._open is not None:
             self.gaps.append((self._open, max(self._open, now)))
             self._open = None
@@ -102,7 +102,7 @@ class RideReports:
     scene: SceneReport | None = None  # the latest
     reached: float = 0.0  # [s] latest time of a scene
     over: bool = False
-    missing: tuple[float, int, int] | None = None  # since when [s], and the next numbers
+    missing: tuple[float, int, int] | None = None  # [s] since this time; the next numbers
 
     def hear(self, report: ReportOfRide) -> list[Input]:
         """Return the inputs for the dialogue after a report of this ride."""
@@ -129,7 +129,7 @@ class RideReports:
     def see(self, report: SceneReport) -> list[Input]:
         """Return the inputs for the dialogue after a scene report.
 
-        Its time may be earlier than that of the scene before: a recording may be played again.
+        Its time may be earlier than that of the previous scene, as a recording may be replayed.
         """
         if self.scene is not None and report.seq <= self.scene.seq:
             return self._end()
@@ -137,14 +137,14 @@ class RideReports:
         self.reached = max(self.reached, report.sim_time)
         if self.over:
             return []
-        # A service that joins late gets no more than what senders keep.
+        # A service that joins late gets only what the sender has kept.
         traces = self.traces.begin(report.traces - KEPT_TRACES)
         events = self.events.begin(report.events - KEPT_EVENTS)
         seen = SceneSeen(report.scene())
         return [*self._gaps(), *traces, *events, seen, *self._end()]
 
     def complete(self, at: float) -> bool:
-        """Check whether all that was recorded up to a time [s] has arrived."""
+        """Check whether all reports up to a time [s] have arrived."""
         scene = self.scene
         if self.over:
             return True
@@ -153,10 +153,10 @@ class RideReports:
         return self.reached >= at - EPSILON
 
     def wait(self, now: float) -> list[Input]:
-        """Give up what has been missing for too long; return the inputs for the dialogue.
+        """Give up reports that have been missing too long; return the inputs for the dialogue.
 
         Args:
-            now: [s] on the shell's clock.
+            now: [s] on the monotonic clock.
         """
         scene = self.scene
         if scene is None or self.over or self._arrived(scene):
@@ -174,7 +174,7 @@ class RideReports:
         return [*self._gaps(), *traces, *events, *self._end()]
 
     def _gaps(self) -> list[Input]:
-        """Return an input for each gap of reports that were given up."""
+        """Return an input for each gap left by reports that were given up."""
         gaps = (*self.traces.told(self.reached), *self.events.told(self.reached))
         return [RecordMissing(since, until) for since, until in gaps]
 

@@ -1,4 +1,4 @@
-"""Requests of passengers: checked, admitted, and passed to the session of their vehicle."""
+"""Handling of requests: they are checked, admitted, and passed to the session of their vehicle."""
 
 import logging
 import time
@@ -36,10 +36,10 @@ from xavi_dialogue.service.vehicle_session import VehicleSession
 from xavi_dialogue.storage.turn_log import TurnLog
 
 _LOG = logging.getLogger(__name__)
-MAX_CARS = 64  # of the cars that have left the bus, the oldest is dropped first
+MAX_CARS = 64  # cars that are kept; the oldest of those that have left the bus is dropped first
 MAX_AGAIN = 8  # times that a request may be repeated while it is open
-MAX_OPEN = 4  # questions of a session
-MAX_EARLY = 500  # questions about one car that wait for the record: others need not wait for these
+MAX_OPEN = 4  # open questions of a session
+MAX_EARLY = 500  # questions about one car that may wait for the record; they do not delay others
 HOPE = 0.7  # share of its deadline that a question may wait for its turn; see RequestHandler.ask
 LEARNT = 0.1  # weight of the latest question in the pace
 UNREADABLE = "whose conversation this is cannot be read at the moment; ask again soon"
@@ -51,7 +51,7 @@ Wanted = TypeVar("Wanted", AskRequest, HistoryRequest, ForgetRequest, CancelRequ
 
 
 class Rejection(XaviError):
-    """A request is not taken up."""
+    """A request is not accepted."""
 
     def __init__(self, reason: Reason, detail: str) -> None:
         super().__init__(detail)
@@ -60,13 +60,13 @@ class Rejection(XaviError):
 
 @dataclass
 class RequestHandler:
-    """Takes requests, one at a time."""
+    """A handler of requests, one at a time."""
 
     pipeline: Pipeline
     memory: TurnLog
     owners: SessionOwners
     alive: HealthReporter
-    repeat: Callable[[str, AskRequest], bytes | None]  # the reply that was sent recently
+    repeat: Callable[[str, AskRequest], bytes | None]  # returns the reply that was sent recently
     forgotten: Callable[[str], None]  # called with a session that was erased
     vehicles: dict[str, VehicleSession] = field(default_factory=dict)  # by car
     pace: float = 0.0  # [s] running average of the time per question
@@ -89,15 +89,15 @@ class RequestHandler:
         return self.vehicles[vehicle]
 
     def all_vehicles(self) -> list[VehicleSession]:
-        """Return those of cars, and that of all others."""
+        """Return the sessions of all cars, and the one for cars never heard of."""
         return [*self.vehicles.values(), self.nowhere]
 
     def waiting(self) -> int:
-        """Count the open questions."""
+        """Return the number of open questions."""
         return sum(len(one.scheduler.open) for one in self.all_vehicles())
 
     def ready(self) -> int:
-        """Count the questions that only wait for their turn."""
+        """Return the number of questions that only wait for their turn."""
         return sum(one.scheduler.ready for one in self.all_vehicles())
 
     def learn(self, taken: float) -> None:
@@ -107,15 +107,14 @@ class RequestHandler:
     def ask(self, call: Call, came: float) -> None:
         """Accept a question if it can probably be answered in time.
 
-        Otherwise reject it at once: if more is asked than can be answered, a queue that grows would
-        delay all passengers.
+        Otherwise reject it at once: under overload a growing queue would delay all passengers.
 
         Args:
             call: the question.
-            came: when it came in [s], on the monotonic clock.
+            came: [s] on the monotonic clock, when it arrived.
 
         Raises:
-            Refusal: it is not taken up.
+            Rejection: it is not accepted.
         """
         vehicle_session, asked = self._admitted(call, AskRequest)
         known = vehicle_session.scheduler.open.get((asked.session, asked.request))
@@ -142,7 +141,7 @@ class RequestHandler:
         """Drop a question.
 
         Raises:
-            Refusal: the request is not taken up.
+            Rejection: the request is not accepted.
         """
         vehicle_session, wanted = self._admitted(call, CancelRequest)
         dropped = vehicle_session.cancel(wanted)
@@ -154,7 +153,7 @@ class RequestHandler:
         """Erase a session.
 
         Raises:
-            Refusal: the request is not taken up.
+            Rejection: the request is not accepted.
         """
         _, wanted = self._admitted(call, ForgetRequest, erasing=True)
         known = self.put_away(wanted.session)
@@ -180,10 +179,10 @@ class RequestHandler:
         return known
 
     def history(self, call: Call, seq: int) -> None:
-        """Return the turns of a session.
+        """Reply with the turns of a session.
 
         Raises:
-            Refusal: the request is not taken up.
+            Rejection: the request is not accepted.
         """
         vehicle_session, wanted = self._admitted(call, HistoryRequest)
         past = vehicle_session.past.get(wanted.session)
@@ -201,7 +200,7 @@ class RequestHandler:
         call.reply(pack(reply))
 
     def evidence(self, call: Call) -> None:
-        """Return a decision of the present ride, or one that was planned again from it.
+        """Reply with a decision of the present ride, or one that was planned again from it.
 
         Raises:
             Rejection: the request is not accepted, or there is no such decision.
@@ -234,7 +233,7 @@ class RequestHandler:
         """Return the car that a request is about, and the request.
 
         Raises:
-            Refusal: it cannot be read.
+            Rejection: it cannot be read.
         """
         vehicle = vehicle_in(call.key)
         if vehicle is None:
@@ -246,7 +245,7 @@ class RequestHandler:
             raise Rejection("not-understood", str(error)) from error
 
     def _claim(self, asked: AskRequest) -> None:
-        """Assign a new session to the client that begins it; one that began as open stays open."""
+        """Assign a new session to the client that begins it; without a token it stays open."""
         if not self._is_begun(asked.session):
             vehicles = self.all_vehicles()
             held = lambda: {name for one in vehicles for name in one.past}  # noqa: E731

@@ -1,4 +1,4 @@
-"""Questions to the service and what it does with them: values without input or output."""
+"""Values for questions to the service and for the tasks that follow, without input or output."""
 
 from dataclasses import dataclass, field
 from typing import TypeAlias
@@ -11,7 +11,7 @@ from xavi_dialogue.domain.answers import NeedRollout
 
 Name: TypeAlias = tuple[str, str]  # session, request
 
-MARGIN = 0.05  # [s] before its deadline at which a question is given up, so that no reply is late
+MARGIN = 0.05  # [s] before its deadline, when a question is given up so that no reply is late
 
 
 @dataclass(eq=False)
@@ -20,29 +20,29 @@ class Question:
 
     call: Call
     asked: AskRequest
-    came: float  # [s] on the shell's clock
+    came: float  # [s] on the monotonic clock
     again: list[Call] = field(default_factory=list)  # repeated calls of the same request
-    begun: bool = False  # the manager has it
-    ready: bool = False  # it waits for its turn alone
+    begun: bool = False  # whether the dialogue has it
+    ready: bool = False  # whether it only waits for its turn
 
     @property
     def name(self) -> Name:
-        """Its name; other sessions may use the same request names."""
+        """Its session and request; other sessions may use the same request names."""
         return self.asked.session, self.asked.request
 
     @property
     def calls(self) -> tuple[Call, ...]:
-        """All that wait for the reply."""
+        """All calls that wait for the reply."""
         return self.call, *self.again
 
     def drop(self) -> None:
-        """Leave it without a reply."""
+        """Leave all calls without a reply."""
         for call in self.calls:
             call.drop()
 
     @property
     def deadline(self) -> float:
-        """When it is given up [s] on the shell's clock."""
+        """The time [s] on the monotonic clock at which it is given up."""
         allowed = self.asked.deadline_ms / 1000.0
         return self.came + max(allowed - MARGIN, 0.5 * allowed)
 
@@ -61,8 +61,8 @@ class PlanAgain:
     """A request to send to the car."""
 
     need: NeedRollout
-    deadline: float  # [s] on the shell's clock, of the first question that needs it
-    request: str = "ahead"  # its name; or nobody has asked yet
+    deadline: float  # [s] on the monotonic clock, of the first question that needs it
+    request: str = "ahead"  # name of that question's request; "ahead" if there is no question yet
     session: str | None = None
 
 

@@ -1,4 +1,4 @@
-"""What the service sends: replies, shared turns and requests to cars; sending never waits."""
+"""Sending of replies, shared turns and requests to cars; it never waits."""
 
 import logging
 import time
@@ -44,7 +44,7 @@ from xavi_dialogue.storage.conversations import RideName
 from xavi_dialogue.storage.turn_log import TurnLog
 
 _LOG = logging.getLogger(__name__)
-MAX_SENT = 500  # replies that can be repeated
+MAX_SENT = 500  # replies that are kept to be repeated
 AGAIN = 30.0  # [s] for which a repeated request gets the same reply
 #: Reasons that may no longer hold when the question is repeated.
 PASSING = frozenset[Reason | None](("busy", "planner-failed", "planner-unavailable", "timed-out"))
@@ -52,14 +52,14 @@ PASSING = frozenset[Reason | None](("busy", "planner-failed", "planner-unavailab
 
 @dataclass
 class Responder:
-    """Sends replies and requests for plans."""
+    """A sender of replies and of requests for plans."""
 
     bus: Bus
     owners: SessionOwners
     memory: TurnLog
     alive: HealthReporter
-    replies: int = 0  # so far
-    shared: int = 0  # turns
+    replies: int = 0  # number of replies so far
+    shared: int = 0  # number of shared turns so far
     #: The reply to each request and its time [s], by session and request.
     sent: dict[tuple[str, str], tuple[AskRequest, bytes, float]] = field(default_factory=dict)
 
@@ -110,7 +110,7 @@ class Responder:
         return self._packed(asked, turn.reply, turn.reply.timing_ms)
 
     def forget(self, session: str) -> None:
-        """Repeat nothing of a session any more."""
+        """Drop the replies of a session, so that they are not repeated."""
         for key in [key for key in self.sent if key[0] == session]:
             del self.sent[key]
 
@@ -137,7 +137,7 @@ class Responder:
         _LOG.info("a question was answered", extra=known)
 
     def _share(self, answer: Answer) -> None:
-        """Let others read a turn, as the passenger allows."""
+        """Publish a turn that the passenger shares."""
         asked, reply = answer.question.asked, answer.reply
         vehicle = vehicle_in(answer.question.call.key)
         assert vehicle is not None
@@ -150,7 +150,7 @@ class Responder:
         )
         self.shared += 1
         key = Keys(vehicle).of(f"dialogue/{asked.session}/turn")
-        with suppress(TransportError):  # it has no reader
+        with suppress(TransportError):  # sharing is optional
             self.bus.send(key, pack(report))
 
     def plan_again(self, vehicle: str, task: PlanAgain, done: Callable[[Outcome], None]) -> None:
@@ -169,7 +169,7 @@ class Responder:
 
 
 def named(vehicle: str, name: str) -> str:
-    """Make a name unique among cars."""
+    """Return a name that is unique among cars."""
     return name if vehicle == DEFAULT_VEHICLE else f"{vehicle}/{name}"
 
 
@@ -185,7 +185,7 @@ def ride_of(vehicle_session: VehicleSession) -> RideName | None:
 
 
 def planned(outcome: Outcome) -> PlanTrace | Reason:
-    """Decode what the car sent back: a plan, or the reason why there is none."""
+    """Decode the outcome of a request to a car: a plan, or the reason why there is none."""
     match outcome:
         case bytes():
             try:

@@ -1,4 +1,4 @@
-"""Tracks which ride a car is on: tells it from earlier rides and from those not seen yet."""
+"""Tracking of a car's present ride, as distinct from earlier rides and those not seen yet."""
 
 from dataclasses import dataclass, field
 
@@ -6,8 +6,8 @@ from xavi_dialogue.bus.messages import SceneReport
 from xavi_dialogue.dialogue.state.events import Input
 from xavi_dialogue.service.reorder_buffer import ReportOfRide, RideReports
 
-MAX_RIDES = 100  # whose names are kept, to recognise their late reports
-MAX_COMING = 2000  # reports of a ride without a scene yet
+MAX_RIDES = 100  # rides whose names are kept, to recognise their late reports
+MAX_COMING = 2000  # inputs kept of a ride without a scene yet
 
 
 @dataclass
@@ -22,8 +22,8 @@ class UnseenRide:
 class RideTracker:
     """The rides of one car."""
 
-    reports: RideReports | None = None  # of the present one
-    _names: dict[str, None] = field(default_factory=dict)  # of those that have begun, in order
+    reports: RideReports | None = None  # of the present ride
+    _names: dict[str, None] = field(default_factory=dict)  # of rides that have begun, in order
     _coming: UnseenRide = field(default_factory=lambda: UnseenRide(RideReports("")))
 
     def hear(self, report: ReportOfRide) -> tuple[bool, list[Input]]:

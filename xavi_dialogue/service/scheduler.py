@@ -6,12 +6,12 @@ from dataclasses import dataclass, field
 from xavi_dialogue.service.fair_queue import FairQueue
 from xavi_dialogue.service.requests import Name, Question
 
-SPENT = 200  # finished questions in the heap, before it is rebuilt
+SPENT = 200  # finished questions that may remain in the heap before it is rebuilt
 
 
 @dataclass
 class Scheduler:
-    """Open questions, by the sessions and names of their requests."""
+    """Open questions, by session and request name."""
 
     open: dict[Name, Question] = field(default_factory=dict)  # in the order in which they came
     _turns: FairQueue[Question] = field(default_factory=FairQueue)  # those that are ready
@@ -19,7 +19,7 @@ class Scheduler:
     _taken: int = 0
 
     def take(self, question: Question) -> None:
-        """Add a question, which waits for the record."""
+        """Add a question; it waits for the record until `let_wait`."""
         self.open[question.name] = question
         if len(self._deadlines) > len(self.open) + SPENT:
             self._deadlines = [one for one in self._deadlines if self.has(one[2])]
@@ -36,7 +36,7 @@ class Scheduler:
         return [one for one in self.open.values() if one.asked.session == session]
 
     def let_wait(self, question: Question) -> None:
-        """From now on it waits for its turn alone."""
+        """Queue a question that from now on only waits for its turn."""
         question.ready = True
         self._turns.put(question.asked.session, question)
 
@@ -57,7 +57,7 @@ class Scheduler:
         """Return a question whose deadline has passed, each once; None if there is none.
 
         Args:
-            now: [s] on the shell's clock.
+            now: [s] on the monotonic clock.
         """
         deadline = self.next_deadline()
         if deadline is None or deadline > now:
@@ -65,13 +65,13 @@ class Scheduler:
         return heapq.heappop(self._deadlines)[2]
 
     def next_deadline(self) -> float | None:
-        """Return when the next question is given up [s], on the shell's clock."""
+        """Return the time [s] on the monotonic clock at which the next question is given up."""
         while self._deadlines and not self.has(self._deadlines[0][2]):
             heapq.heappop(self._deadlines)
         return self._deadlines[0][0] if self._deadlines else None
 
     def begin_anew(self) -> None:
-        """Have every question wait for the record again."""
+        """Let every question wait for the record again."""
         self._turns.clear()
         for question in self.open.values():
             question.begun = question.ready = False

@@ -1,8 +1,8 @@
 """The dialogue service: follows the rides on the bus and answers questions in time.
 
-One service serves any number of cars. Everything that comes in is put into one inbox and handled
-by one thread, so that each manager sees one row of inputs. Cars are asked to plan again, and
-never waited for.
+One service serves any number of cars. Everything that arrives is put into one inbox and handled
+by one thread, so that each dialogue gets its inputs in one sequence. The service asks cars to plan
+again, but never blocks on their answer.
 """
 
 import contextlib
@@ -53,8 +53,8 @@ from xavi_dialogue.storage.turn_log import TurnLog
 _LOG = logging.getLogger(__name__)
 IDLE = 0.5  # [s] between checks for a request to stop
 HURRY = 0.05  # [s] between checks for missing reports
-MAX_INBOX = 20_000  # messages; beyond them reports are left out, and requests refused
-MAX_BYTES = 128 * 1024 * 1024  # of reports
+MAX_INBOX = 20_000  # messages, beyond which reports are discarded and requests refused
+MAX_BYTES = 128 * 1024 * 1024  # of reports in the inbox
 COUNTERS = (
     *("questions", "answered", "declined", "busy", "rejected", "foreign"),
     *("what_ifs", "faults"),
@@ -65,7 +65,7 @@ _Heard: TypeAlias = type[TraceReport | EventReport | SceneReport]
 
 
 class Service:
-    """Answers questions about every car on the bus."""
+    """The service that answers questions about every car on the bus."""
 
     def __init__(self, bus: Bus, pipeline: Pipeline, memory: TurnLog | None = None) -> None:
         """Begin to serve, once opened.
@@ -89,8 +89,8 @@ class Service:
         )
         self._bus = bus
         self._inbox: queue.SimpleQueue[_Job] = queue.SimpleQueue()
-        self._held, self._room = 0, threading.Lock()  # bytes of the reports in it
-        self._seen: dict[str, Presence] = {}  # our signs of life, by car
+        self._held, self._room = 0, threading.Lock()  # bytes of the reports in the inbox
+        self._seen: dict[str, Presence] = {}  # signs of life of the service, by car
 
     def vehicle_session(self, vehicle: str = DEFAULT_VEHICLE) -> VehicleSession:
         """Return the session of a vehicle."""
@@ -129,7 +129,7 @@ class Service:
         _LOG.info("no longer serving")
 
     def work(self, patience: float = 0.0, stopped: Callable[[], bool] = lambda: False) -> None:
-        """Handle what came in, waiting up to `patience` [s] for it, and enforce deadlines.
+        """Handle messages, waiting up to `patience` [s] for the first, and enforce deadlines.
 
         Questions are answered one at a time; reports that arrive meanwhile are recorded in between.
         When asked to stop, it leaves the remaining questions unanswered.
@@ -167,11 +167,11 @@ class Service:
 
     def _empty_inbox(self) -> None:
         with contextlib.suppress(queue.Empty):
-            for _ in range(MAX_INBOX):  # else a flood of reports would block all answers
+            for _ in range(MAX_INBOX):  # bounded, since a flood of reports would block all answers
                 self._do(self._inbox.get_nowait())
 
     def _patience(self, patience: float) -> float:
-        """Return for how long [s] nothing needs to be done unless a message arrives."""
+        """Return how long [s] nothing needs to be done unless a message arrives."""
         for vehicle_session in self.handler.all_vehicles():
             deadline = vehicle_session.scheduler.next_deadline()
             if deadline is not None:
@@ -184,7 +184,7 @@ class Service:
         self._inbox.put(partial(job, *arguments))
 
     def _take(self, handle: Callable[[Call], None], call: Call) -> None:
-        """Have a request handled; on a thread of the bus."""
+        """Queue a request, or refuse it; called on a thread of the bus."""
         if self._inbox.qsize() > MAX_INBOX:
             with contextlib.suppress(TransportError):  # the client has disconnected
                 call.refuse(pack(Failure(reason="busy", detail="too much comes in")))
@@ -192,7 +192,7 @@ class Service:
             self._post(self._handle, handle, call)
 
     def _take_question(self, call: Call) -> None:
-        """Have a question taken up; its time runs from now on, wherever it waits."""
+        """Queue a question; its deadline counts from now on."""
         self._take(partial(self.handler.ask, came=time.monotonic()), call)
 
     def _handle(self, handle: Callable[[Call], None], call: Call) -> None:

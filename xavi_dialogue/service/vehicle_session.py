@@ -1,6 +1,6 @@
 """Questions about one vehicle, which wait for the record, for their turn, or for rollouts.
 
-No bus and no clock: reports and times are arguments, and what is to be sent is returned.
+It has no bus and no clock. Reports and times are arguments; messages to send are return values.
 """
 
 import logging
@@ -40,7 +40,7 @@ from xavi_dialogue.service.scheduler import Scheduler
 from xavi_dialogue.storage.turn_log import MAX_PAST
 
 _LOG = logging.getLogger(__name__)
-MAX_SESSIONS = 2000  # that are kept; the one that was silent for longest is dropped first
+MAX_SESSIONS = 2000  # sessions that are kept; the one silent for longest is dropped first
 
 
 @dataclass
@@ -54,7 +54,7 @@ class VehicleSession:
     scheduler: Scheduler = field(default_factory=Scheduler)
     past: dict[str, tuple[Turn, ...]] = field(default_factory=dict)  # by session, latest at the end
     car_alive: bool = False
-    _planning: dict[NeedRollout, list[Question]] = field(default_factory=dict)  # waiting for it
+    _planning: dict[NeedRollout, list[Question]] = field(default_factory=dict)  # that wait for it
     _prefetch: Prefetch = field(default_factory=Prefetch)
 
     @property
@@ -80,7 +80,7 @@ class VehicleSession:
         self._record(inputs)
 
     def take(self, question: Question) -> None:
-        """Take up a question."""
+        """Add a question."""
         self.scheduler.take(question)
         self._look_at(question)
 
@@ -109,11 +109,11 @@ class VehicleSession:
     def decision(self, trace_id: str) -> PlanTrace | None:
         """Return a decision of the present ride, or one planned again; None if unknown."""
         known = (*self.dialogue.traces, *self.dialogue.planned.values())
-        # From the end: names of old ones may not have been computed yet.
+        # From the end, since the ids of old ones may not have been computed yet.
         return next((trace for trace in reversed(known) if trace.trace_id == trace_id), None)
 
     def deliver(self, task: PlanAgain, result: PlanTrace | Reason) -> list[Task]:
-        """Go on with the questions for which the planner planned again, or did not."""
+        """Continue with the questions that waited for a plan, which was made or has failed."""
         tasks: list[Task] = []
         waited = self._planning.pop(task.need, [])
         still = [question for question in waited if self._waits(question, task.need)]
@@ -134,7 +134,7 @@ class VehicleSession:
         return tasks
 
     def settle(self, now: float) -> list[Task]:
-        """Give up overdue questions, and begin the one whose turn is next."""
+        """Give up overdue questions, and begin the next one in turn."""
         self._do_without(now)
         tasks: list[Task] = []
         while (overdue := self.scheduler.overdue(now)) is not None:
@@ -149,7 +149,7 @@ class VehicleSession:
         """Return a plan that the next "why?" will probably need; call it when idle.
 
         Args:
-            now: [s] on the shell's clock.
+            now: [s] on the monotonic clock.
         """
         reports, dialogue = self.reports, self.dialogue
         if reports is None or reports.scene is None or self._planning or not self.car_alive:
@@ -167,12 +167,12 @@ class VehicleSession:
         return [PlanAgain(need, now + AHEAD)]
 
     def look(self) -> None:
-        """Find the questions that can be answered now; call it after each change."""
+        """Make the questions ready that can be answered now; call it after each change."""
         for question in self.scheduler.open.values():
             self._look_at(question)
 
     def _waits(self, question: Question, need: NeedRollout) -> bool:
-        """Check whether a question waits for these rollouts; it may have been given up."""
+        """Check whether a question still waits for these rollouts; it may have been given up."""
         pending = self.dialogue.session(question.asked.session).pending
         return (
             self.scheduler.has(question)
@@ -218,14 +218,14 @@ class VehicleSession:
         self.look()
 
     def _moment(self, question: Question) -> float:
-        """Return the time [s] that a question is about: as it says, else now."""
+        """Return the time [s] that a question is about: as it states, or of the latest scene."""
         if question.asked.at is not None:
             return question.asked.at
         scene = None if self.reports is None else self.reports.scene
         return 0.0 if scene is None else scene.sim_time
 
     def _look_at(self, question: Question) -> None:
-        """Make a question ready if it waits for nothing but its turn."""
+        """Make a question ready if it only waits for its turn."""
         if question.ready or question.begun or self._is_engaged(question.asked.session):
             return
         at, reports = self._moment(question), self.reports
@@ -234,7 +234,7 @@ class VehicleSession:
             self.scheduler.let_wait(question)
 
     def _gone(self, at: float) -> bool:
-        """Check whether no report of a time can arrive any more."""
+        """Check whether reports of a time [s] can no longer arrive."""
         return not self.car_alive and (self.reports is None or self.reports.reached < at)
 
     def _begin(self, question: Question) -> list[Task]:
@@ -247,7 +247,7 @@ class VehicleSession:
         return self._try(question, TurnedAway(asked, "planner-unavailable"))
 
     def _expire(self, question: Question) -> list[Task]:
-        """Give a question up; say that the service was busy if it only waited for its turn."""
+        """Give a question up; the reason is "busy" if it only waited for its turn."""
         session = question.asked.session
         if question.begun:
             failed = RolloutsFailed(question.asked.request, session, "timed-out")
@@ -274,7 +274,7 @@ class VehicleSession:
     def _try(self, question: Question, event: Input) -> list[Task]:
         """Pass an input to the dialogue; an internal error affects this passenger only.
 
-        The dialogue is pure, so after an error nothing has changed for others.
+        The dialogue is a pure function, so an error changes nothing for others.
         """
         try:
             return self._tell(event)
@@ -314,7 +314,7 @@ def _plan_again(question: Question, need: NeedRollout) -> PlanAgain:
 
 
 def sorry(asked: AskRequest, at: float) -> Reply:
-    """Return a fixed text for when wording an answer fails too."""
+    """Return the reply to a question that an internal error prevented from being answered."""
     said = say(Unavailable("planner-failed"), SpeechContext(style=asked.style))
     return Reply(text=said.text, kind="refusal", reason="planner-failed", sim_time=at)
 
