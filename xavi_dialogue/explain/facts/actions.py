@@ -1,4 +1,4 @@
-"""What counts as what: braking is slowing down, a turn is an exit to either side."""
+"""Which actions count as which: braking is slowing down, a turn is an exit to either side."""
 
 from typing import TypeAlias
 
@@ -7,7 +7,7 @@ from xavi_dialogue.domain.vocabulary import ActionName, Side
 
 Actions: TypeAlias = frozenset[ActionName]
 
-#: The actions of episodes that an action asked about may stand for, beside itself.
+#: The actions of episodes that an action asked about may stand for, besides itself.
 COVERS: dict[ActionName, tuple[ActionName, ...]] = {
     "slow-down": ("brake",),
     "stand": ("stop",),
@@ -23,7 +23,7 @@ COVERS: dict[ActionName, tuple[ActionName, ...]] = {
     "swerve": ("change-left", "change-right"),
     "see": ("appear",),
 }
-#: Actions that follow from others: each with what it is shown by.
+#: The side that is part of an action.
 SIDES: dict[ActionName, Side] = {
     "change-left": "left",
     "change-right": "right",
@@ -31,7 +31,7 @@ SIDES: dict[ActionName, Side] = {
     "exit-right": "right",
     "exit-straight": "straight",
 }
-#: Whose actor and object change places: who blocks us is whom we wait for.
+#: Actions whose actor and object change places: if a vehicle blocks us, we wait for it.
 MIRRORED: dict[ActionName, ActionName] = {"block": "wait"}
 
 
@@ -41,7 +41,7 @@ def covered(actions: frozenset[ActionName]) -> Actions:
 
 
 def somebody(thing: Thing | None) -> frozenset[int] | None:
-    """Return the vehicles that a grounded thing names, 0 being ours; None where it names none."""
+    """Return the vehicles that a grounded thing names, 0 being ours; None if it names none."""
     match thing:
         case Ego():
             return frozenset((0,))
@@ -58,7 +58,7 @@ def named(vehicle: int) -> Ego | Vehicle:
 
 
 def mirrored(event: Event) -> Event:
-    """Return the event by its other name, where actor and object change places."""
+    """Return an event such as "block" as its mirror image, with actor and object exchanged."""
     other = MIRRORED.get(event.action)
     if other is None:
         return event

@@ -11,22 +11,22 @@ from xavi_dialogue.explain.facts.bodies import at_least, distance
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.thresholds import ALONG, SAME_LANE, SAME_WAY
 
-BETWEEN = (-0.15, -0.1, -0.05, 0.05, 0.1, 0.15)  # [s] around a sample that is the closest
-IN_LINE = 2.5  # [m] sideways from a path up to which a vehicle is on it
-BEND = 60.0  # [m] ahead from which a winding road may account for what is seen sideways
-STRAIGHT = math.radians(20.0)  # difference of heading up to which a gap is taken straight
+BETWEEN = (-0.15, -0.1, -0.05, 0.05, 0.1, 0.15)  # [s] offsets to try around the closest sample
+IN_LINE = 2.5  # [m] maximum distance sideways from a path of a vehicle that is on it
+BEND = 60.0  # [m] ahead from which a winding road may explain an offset sideways
+STRAIGHT = math.radians(20.0)  # [rad] maximum difference of headings for a gap measured straight
 
 
 @dataclass(frozen=True, slots=True)
 class Closest:
-    """When two bodies were closest."""
+    """The moment at which two bodies were closest."""
 
     time: float  # [s]
     distance: float  # [m]
 
 
 def closest(states: States, one: int, other: int, begin: float, end: float) -> Closest | None:
-    """Return the closest approach of two bodies in an interval [s]; None where they never met."""
+    """Return the closest approach of two bodies in an interval [s]; None if they never met."""
     key = ("closest", one, other, begin, end)
     return states.memo(key, lambda: _closest(states, one, other, begin, end))
 
@@ -78,7 +78,8 @@ class Following:
 def following(states: States, one: int, other: int, time: float) -> Following | None:
     """Return which of two vehicles is behind the other on one line at a time [s], and the gap.
 
-    The way is the path that the one ahead has driven, where it came past; else straight on.
+    The way is the path that the one ahead has driven, if it passed the other's place; else it is
+    straight on.
     """
     seen = states.offset(one, other, time)
     if seen is None:
@@ -104,7 +105,7 @@ def _lanes_differ(states: States, one: int, other: int, time: float) -> bool:
 
 
 def _abreast(seen: Offset) -> bool:
-    """Check whether both head the same way and are on different lines."""
+    """Check whether both head the same way on different lines, and not far ahead."""
     return abs(seen.turn) < ALONG and abs(seen.left) > SAME_LANE and seen.ahead < BEND
 
 

@@ -9,9 +9,9 @@ from sim.scene import VehicleState
 from xavi_dialogue.domain.vocabulary import Bearing
 from xavi_dialogue.explain.history.thresholds import OPPOSITE, SAME_LANE, SAME_WAY
 
-CORRIDOR = 8.0  # [m] sideways within which an oncoming vehicle is on our road
-LINE = 4.0  # [m] sideways up to which it is straight ahead or behind
-AHEAD, ABREAST = 15.0, 65.0  # [deg] directions up to which it is ahead, and not abreast
+CORRIDOR = 8.0  # [m] maximum offset sideways of an oncoming vehicle on our road
+LINE = 4.0  # [m] maximum offset sideways of a vehicle straight ahead or behind
+AHEAD, ABREAST = 15.0, 65.0  # [deg] angles up to which it is ahead, and not abreast
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class Offset:
 
     @property
     def distance(self) -> float:
-        """Between the centres [m]."""
+        """The distance between the centres [m]."""
         return math.hypot(self.ahead, self.left)
 
     @property
@@ -59,8 +59,8 @@ def bearing(
 
     Args:
         seen: where it is in our frame.
-        mine: our place on the road, where that is known.
-        theirs: the other's.
+        mine: our place on the road, if that is known.
+        theirs: the place of the other vehicle.
     """
     if seen.opposite:
         return "oncoming" if oncoming(seen) else aside(seen)
@@ -79,7 +79,8 @@ def bearing(
 def _across(seen: Offset) -> Bearing:
     """Return the word for a vehicle that heads across our way: where it comes from, or where it is.
 
-    It comes from a side while it heads for our line from there; then it is on the other side.
+    It comes from a side as long as it heads for our line; once it has crossed the line, the word
+    is for where it is.
     """
     nears = seen.left * math.sin(seen.turn) < 0.0
     if not nears or seen.ahead < -seen.clear:
@@ -110,7 +111,7 @@ def aside(seen: Offset) -> Bearing:
 def lane_side(seen: Offset, mine: RoadPlace | None, theirs: RoadPlace | None) -> int:
     """Return which lane a vehicle that heads our way is in: 0 ours, 1 left of it, -1 right of it.
 
-    Lanes count where both are on one road and apart; who is between two lanes is where it is seen.
+    The recorded lanes count if both are on one road and far enough apart; else the offset does.
     """
     aside = 0 if abs(seen.left) <= SAME_LANE else 1 if seen.left > 0.0 else -1
     if mine is None or theirs is None or mine.edge != theirs.edge:

@@ -32,7 +32,7 @@ def over(states: States, vehicle: int, begin: float, end: float) -> tuple[Belief
 
 
 def of_trace(states: States, trace: PlanTrace, vehicle: int) -> Belief | None:
-    """What a decision believed of a vehicle, likeliest first; ways of one sequence are one."""
+    """Return what a decision believed of a vehicle, likeliest first, by sequence of actions."""
     return states.memo(("belief", id(trace), vehicle), lambda: _belief(trace, vehicle))
 
 
@@ -57,7 +57,7 @@ def _belief(trace: PlanTrace, vehicle: int) -> Belief | None:
 
 
 def probability(states: States, event: Event, at: float) -> float | None:
-    """How probable the last decision up to a time [s] held it that a vehicle does something."""
+    """Return the probability of a vehicle's event for the last decision up to a time [s]."""
     who = somebody(event.actor)
     if who is None or len(who) != 1:
         return None

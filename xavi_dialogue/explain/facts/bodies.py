@@ -11,7 +11,7 @@ STEP = 0.1  # [s]
 
 
 def distance(a: VehicleState, b: VehicleState) -> float:
-    """Return the distance [m] between two bodies; 0 where they overlap."""
+    """Return the distance [m] between two bodies; 0 if they overlap."""
     if overlap(a, b):
         return 0.0
     one, other = corners(a), corners(b)
@@ -22,13 +22,13 @@ def distance(a: VehicleState, b: VehicleState) -> float:
 
 
 def at_least(a: VehicleState, b: VehicleState) -> float:
-    """Return a lower bound [m] of the distance between two bodies, quickly had."""
+    """Return a lower bound [m] of the distance between two bodies, which is quick to compute."""
     reach = math.hypot(a.length, a.width) + math.hypot(b.length, b.width)
     return math.dist(a.position, b.position) - reach
 
 
 def time_to_touch(a: VehicleState, b: VehicleState) -> float | None:
-    """The time [s] until two bodies touch if both go straight on at their speeds, if they do."""
+    """Return the time [s] until two bodies touch if both go straight on; None if they do not."""
     relative = math.hypot(
         a.speed * math.cos(a.heading) - b.speed * math.cos(b.heading),
         a.speed * math.sin(a.heading) - b.speed * math.sin(b.heading),

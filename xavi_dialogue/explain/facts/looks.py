@@ -1,4 +1,4 @@
-"""Looks: how a vehicle is seen at a time, and who else looks like it."""
+"""Looks: what a vehicle looks like at a time, and whether any other one looks like it."""
 
 from collections.abc import Mapping
 from typing import TypeAlias, get_args
@@ -17,19 +17,19 @@ from xavi_dialogue.explain.history.motion import EPSILON
 _Places: TypeAlias = tuple[RoadPlace | None, RoadPlace | None]
 
 STILL = 0.3  # [m/s] below which a vehicle stands
-WIDE = 2.3  # [m] least width of a lorry: SUMO makes vans 2.16 m wide, lorries 2.4 m
+WIDE = 2.3  # [m] minimum width of a lorry: SUMO makes vans 2.16 m wide, lorries 2.4 m
 KINDS: dict[str, Kind] = {kind: kind for kind in get_args(Kind)}
 
 
 def kind_of(state: VehicleState) -> Kind:
-    """Tell what a passenger sees a vehicle to be: a narrow lorry is a van."""
+    """Return the kind of vehicle that a passenger sees: a narrow lorry is a van."""
     if state.kind == "truck" and state.width < WIDE:
         return "van"
     return KINDS.get(state.kind, "vehicle")
 
 
 def look(states: States, vehicle: int, time: float) -> Look | None:
-    """Return a vehicle as it is seen at a time [s], or was seen last; None where it never was."""
+    """Return a vehicle as it is seen at a time [s], or was seen last; None if it never was."""
     return states.memo(("look", vehicle, round(time, 3)), lambda: _look(states, vehicle, time))
 
 
@@ -52,7 +52,7 @@ def _look(states: States, vehicle: int, time: float) -> Look | None:
 
 
 def look_in(scene: Mapping[int, VehicleState], vehicle: int, time: float) -> Look | None:
-    """See a vehicle in a scene of which nothing else is known; None where it is not in it."""
+    """Return a vehicle as it is seen in a scene without a record; None if it is not in it."""
     if vehicle == EGO or EGO not in scene or vehicle not in scene:
         return None
     mine = (kind_of(scene[vehicle]), scene[vehicle].colour)
@@ -68,10 +68,10 @@ def _seen(
     state: VehicleState,
     places: _Places = (None, None),
 ) -> Look:
-    """See a vehicle from our car; `places` on the road are ours and its own."""
+    """Return a vehicle as it is seen from our car; `places` on the road are ours and its own."""
     where = offset(ego, state)
     if state.speed < STILL and not (where.same_way or where.opposite):
-        place = aside(where)  # it does not come from there
+        place = aside(where)  # it stands, so it does not come from a side
     else:
         place = bearing(where, *places)
     return Look(

@@ -1,4 +1,4 @@
-"""Plans: what the last decision with a choice meant to do, and when its actions begin."""
+"""Plans: the last decision with a choice, the latest plan, and when its actions begin."""
 
 from collections.abc import Mapping
 
@@ -9,7 +9,7 @@ from xavi_dialogue.explain.history.ride import Ride, enough, planned
 
 
 def last_choice(ride: Ride, at: float) -> PlanTrace | None:
-    """Find the last decision up to a time [s] that had a choice; the first where none had."""
+    """Find the last decision up to a time [s] that had a choice; the first one if none had."""
     k = ride.index(at)
     while k is not None and k > 0 and ride.traces[k].under_way is not None:
         k -= 1
@@ -30,7 +30,7 @@ def plan_of(ride: Ride) -> tuple[CausalModel, Intervention] | None:
 
 
 def beginnings(ride: Ride) -> Mapping[ActionName, float]:
-    """When [s] each action of the plan is expected to begin, in the mean of the drives imagined."""
+    """Return when [s] each action of the plan is expected to begin, in the mean of its rollouts."""
     found = plan_of(ride)
     if found is None:
         return {}

@@ -21,7 +21,7 @@ KMH = 3.6  # [km/h] in 1 m/s
 
 
 def holds(states: States, relation: Relation, thing: Thing, to: Thing, at: float) -> Told:
-    """Return whether a relation holds at a time [s]; None where that cannot be known."""
+    """Check whether a relation holds at a time [s]; None if that cannot be known."""
     first, second = _number(thing), _number(to)
     if relation == "on":
         return None if first is None else _on(states, first, to, at)
@@ -45,7 +45,7 @@ def _number(thing: Thing) -> int | None:
 
 
 def _placed(fits: Callable[[Offset], bool]) -> Callable[[States, int, int, float], Told]:
-    """Reads a relation off where the first is, seen from the second."""
+    """Return a check of a relation that depends on where the first is, seen from the second."""
 
     def read(states: States, thing: int, to: int, at: float) -> Told:
         seen = states.offset(to, thing, at)
@@ -65,7 +65,7 @@ def _behind(seen: Offset) -> bool:
 
 
 def _alongside(seen: Offset) -> bool:
-    """Check whether it drives our way in a lane beside us: neither ahead nor behind."""
+    """Check whether a vehicle drives our way in a lane beside us, neither ahead nor behind."""
     return seen.same_way and abs(seen.ahead) <= seen.clear and abs(seen.left) > SAME_LANE
 
 
@@ -79,7 +79,7 @@ def _near(states: States, thing: int, to: int, at: float) -> Told:
 
 
 def _priority(states: States, thing: int, to: int, at: float) -> Told:
-    """Return whether the first goes first; None where it depends or is not recorded."""
+    """Check whether the first has right of way; None if that depends or is not recorded."""
     other = to if thing == EGO else thing
     road = states.road(at)
     if EGO not in (thing, to) or other == EGO or road is None:
@@ -95,7 +95,7 @@ def _yields(states: States, thing: int, to: int, at: float) -> Told:
 
 
 def _waiting(states: States, thing: int, to: int, at: float) -> Told:
-    """Return whether the first stands or gives way for the second."""
+    """Check whether the first stands or gives way for the second."""
     if not states.known(thing, at):
         return None
     now = [
@@ -106,7 +106,7 @@ def _waiting(states: States, thing: int, to: int, at: float) -> Told:
     state = states.state(thing, at)
     stands = state is not None and state.speed < STANDING
     if stands and thing != EGO and not now:
-        return None  # it stands, and for whom cannot be seen
+        return None  # it stands, but for whom is not known
     return False
 
 
@@ -115,12 +115,12 @@ def _end(states: States, end: float | None) -> float:
 
 
 def _sees(states: States, thing: int, to: int, at: float) -> Told:
-    """Return whether the first can see the second: known of the ego alone."""
+    """Check whether the first can see the second; known only of the ego."""
     return states.visible(to, at) if thing == EGO else None
 
 
 def _in_the_way(states: States, thing: int, to: int, at: float) -> Told:
-    """Return whether the first holds the second up."""
+    """Check whether the first holds the second up."""
     trace = states.trace(at)
     if trace is None:
         return None
@@ -132,13 +132,13 @@ def _speeds(sign: float) -> Callable[[States, int, int, float], Told]:
         a, b = states.state(thing, at), states.state(to, at)
         if a is None or b is None:
             return None
-        return sign * (round(KMH * a.speed) - round(KMH * b.speed)) > 0  # as they are stated
+        return sign * (round(KMH * a.speed) - round(KMH * b.speed)) > 0  # rounded as stated
 
     return read
 
 
 def _on(states: States, vehicle: int, where: Thing, at: float) -> Told:
-    """Return whether a vehicle is on a lane, a roundabout, inside a junction."""
+    """Check whether a road user is on a lane or road, or in a roundabout or junction."""
     shape = states.shape(vehicle)
     if shape is not None and shape.kind in ON_FOOT:
         over = crossings(states, vehicle) if isinstance(where, Junction | Road | Lane) else []
@@ -175,7 +175,7 @@ def _on(states: States, vehicle: int, where: Thing, at: float) -> Told:
 
 
 def _together(states: States, thing: int, to: int, at: float) -> Told:
-    """Whether two drive along together: on one road or roundabout, or one behind the other."""
+    """Check whether two drive together: on one road or roundabout, or one behind the other."""
     here, there = states.place(thing, at), states.place(to, at)
     if here is None or there is None:
         alike = False

@@ -28,16 +28,16 @@ class Pair:
     """One vehicle seen from another, at the times at which both were seen; arrays [N]."""
 
     time: Array  # [s]
-    ahead: Array  # [m] of the centre of the one seen, in the frame of the other
+    ahead: Array  # [m] centre of the vehicle that is seen, in the frame of the other
     left: Array  # [m]
     turn: Array  # [rad] heading relative to the other's, in (-pi, pi]
-    speed: Array  # [m/s] of the one seen
-    eye_speed: Array  # [m/s] of the one from which it is seen
+    speed: Array  # [m/s] of the vehicle that is seen
+    eye_speed: Array  # [m/s] of the other
     clear: float  # [m] half the lengths of both
 
 
 class States:
-    """The states of all vehicles over a ride; what is worked out is kept."""
+    """The states of all vehicles over a ride; results are computed once and kept."""
 
     def __init__(self, ride: Ride) -> None:
         self.ride = ride
@@ -46,7 +46,7 @@ class States:
         self._memo: dict[Hashable, Any] = {}
 
     def memo(self, key: Hashable, work_out: Callable[[], Kept]) -> Kept:
-        """Return what was worked out under a name before, or is now."""
+        """Return the result that was computed under a key before, or compute it now."""
         if key not in self._memo:
             self._memo[key] = work_out()
         found: Kept = self._memo[key]
@@ -73,7 +73,7 @@ class States:
         return None if k is None else self.ride.traces[k]
 
     def shape(self, vehicle: int) -> VehicleState | None:
-        """Return a vehicle as it looks, at any time."""
+        """Return the last recorded state of a vehicle, for what does not change, such as length."""
         if vehicle not in self._shapes:
             seen = (t.scene[vehicle] for t in reversed(self.ride.traces) if vehicle in t.scene)
             here = None if self.ride.scene is None else self.ride.scene.vehicles.get(vehicle)
@@ -81,7 +81,7 @@ class States:
         return self._shapes[vehicle]
 
     def hidden(self, vehicle: int, time: float) -> float | None:
-        """Since when [s] a vehicle is hidden at a time; None where it is not."""
+        """Return since when [s] a vehicle is hidden at a time; None if it is not."""
         for begin, end in self.seen(vehicle).hidden:
             if begin + EPSILON < time <= end + EPSILON:
                 return begin
@@ -91,14 +91,14 @@ class States:
         return trace.unseen.get(vehicle)
 
     def _seen_since(self, vehicle: int, time: float) -> bool | None:
-        """Whether a vehicle was seen up to a time [s], after the last decision; None: not known."""
+        """Check whether the scene after the last decision has a vehicle; None: no such scene."""
         scene = self.ride.scene
         if scene is None or time < scene.time - EPSILON:
             return None
         return vehicle in scene.vehicles
 
     def known(self, vehicle: int, time: float) -> bool:
-        """Whether it is known where a vehicle is at a time [s]: seen, or hidden but remembered."""
+        """Check whether it is known where a vehicle is at a time [s]: seen, or hidden but known."""
         motion = self.motion(vehicle)
         k = motion.index(time)
         if k is None:
@@ -121,7 +121,7 @@ class States:
         return tuple(v for v in self.ride.vehicles if self.visible(v, time))
 
     def last_seen(self, vehicle: int, time: float) -> float | None:
-        """Return when [s] a vehicle was in view last, up to a time; None where it never was."""
+        """Return when [s] a vehicle was in view last, up to a time; None if it never was."""
         if self.visible(vehicle, time):
             return time
         since = self.hidden(vehicle, time)
@@ -134,7 +134,7 @@ class States:
         return last if before is None else before
 
     def state(self, vehicle: int, time: float) -> VehicleState | None:
-        """Where a vehicle is at a time [s], between samples too; None where that is not known."""
+        """Return a vehicle's state at a time [s], also between samples; None if not known."""
         if not self.known(vehicle, time):
             return None
         return self._at(vehicle, time)
@@ -167,12 +167,12 @@ class States:
         )
 
     def offset(self, eye: int, other: int, time: float) -> Offset | None:
-        """Where one vehicle is, seen from another, at a time [s]; None where it is not known."""
+        """Return where one vehicle is, seen from another, at a time [s]; None if not known."""
         a, b = self.state(eye, time), self.state(other, time)
         return None if a is None or b is None else offset(a, b)
 
     def lights(self, vehicle: int, time: float) -> tuple[str, ...] | None:
-        """Return the lights that a vehicle shows at a time [s]; None where that is not known."""
+        """Return the lights that a vehicle shows at a time [s]; None if that is not known."""
         changes = [c for c in self.seen(vehicle).lights if c.time <= time + EPSILON]
         return changes[-1].shown if changes else None
 
@@ -204,7 +204,7 @@ class States:
         return None
 
     def pair(self, eye: int, other: int) -> Pair | None:
-        """Return one vehicle seen from another over all of the ride; None where they never met."""
+        """Return one vehicle seen from another over the whole ride; None if they never met."""
         if (eye, other) not in self._pairs:
             self._pairs[eye, other] = self._pair(eye, other)
         return self._pairs[eye, other]
@@ -225,7 +225,7 @@ class States:
         time = time[held]
         x, y, heading, speed = (column[held] for column in theirs.arrays[1:])
         ex, ey, eh, es = (np.interp(time, ours[0], column) for column in ours[1:])
-        forward, aside = np.cos(eh), np.sin(eh)  # of the heading of the one who sees
+        forward, aside = np.cos(eh), np.sin(eh)  # of the viewer's heading
         dx = x - b.length / 2 * np.cos(heading) - ex + a.length / 2 * forward
         dy = y - b.length / 2 * np.sin(heading) - ey + a.length / 2 * aside
         turn = np.mod(heading - eh + np.pi, 2.0 * np.pi) - np.pi
@@ -233,11 +233,11 @@ class States:
         return Pair(time, ahead, left, turn, speed, es, (a.length + b.length) / 2.0)
 
     def lost(self, begin: float, end: float) -> bool:
-        """Check whether some of the record between two times [s] was lost on its way."""
+        """Check whether some of the record between two times [s] was lost in transmission."""
         return any(a <= end + EPSILON and begin <= b + EPSILON for a, b in self.ride.gaps)
 
     def gap(self, vehicle: int, time: float) -> Gap | None:
-        """Return why it is not known where a vehicle is at a time [s]; None where it is."""
+        """Return why it is not known where a vehicle is at a time [s]; None if it is known."""
         if time > self.ride.now + EPSILON:
             return "in-future"
         if time < self.begin - EPSILON:
@@ -250,7 +250,7 @@ class States:
 
 
 def states_of(ride: Ride) -> States:
-    """Return the states of a ride; worked out once for each ride object."""
+    """Return the states of a ride; there is one object for each ride object."""
     found = ride.notes.get("states")
     if not isinstance(found, States):
         found = ride.notes["states"] = States(ride)

@@ -1,4 +1,4 @@
-"""Traffic lights as facts: which one is meant, what it showed, how it was expected to go on."""
+"""Traffic lights as facts: which one is meant, what it showed, and how it was to change."""
 
 from collections.abc import Iterator, Sequence
 
@@ -33,8 +33,8 @@ SAID: dict[str, LightColour] = {
     "red": "red", "green": "green", "amber": "amber", "yellow": "amber", "orange": "amber",
     "gold": "amber",
 }  # fmt: skip
-AROUND = 1.0  # [s] around a line that we pass in which that light is the one spoken of
-BEHIND = 20.0  # [s] for which a light that we passed is still the one spoken of
+AROUND = 1.0  # [s] around our passing of a line in which its light is meant
+BEHIND = 20.0  # [s] for which a light that we passed is still meant
 
 
 def light_in(*things: object) -> Feature | None:
@@ -43,15 +43,16 @@ def light_in(*things: object) -> Feature | None:
 
 
 def colour_of(light: Feature | None) -> LightColour | None:
-    """Tell what a light is said to show."""
+    """Return the colour that a question gives a light."""
     return None if light is None or light.colour is None else SAID.get(light.colour)
 
 
 def meant(ride: Ride, light: Feature, time: float) -> Signal | None:
-    """Find which light is meant at a time [s]; None where none was in view, or none is known.
+    """Find which light is meant at a time [s]; None if none was in view, or none is known.
 
-    Ours is the next one on our way, or the one whose line we pass; where there is none ahead, the
-    one that we passed last. Of another vehicle, it is the one that holds it; of others, none is.
+    Ours is the next one on our way, or the one whose line we pass; if there is none ahead, the one
+    that we passed last. For another vehicle, it is the light that holds it. For several, it is
+    not known.
     """
     time = time if light.time is None else light.time
     if light.of is not None:
@@ -73,13 +74,13 @@ def meant(ride: Ride, light: Feature, time: float) -> Signal | None:
 
 
 def colour_at(ride: Ride, signal: Signal, time: float) -> LightColour | None:
-    """Tell what a light showed at a time [s]; None where it was not seen then."""
+    """Return the colour that a light showed at a time [s]; None if it was not seen then."""
     one = shown(ride, signal, time)
     return None if one is None else COLOURS.get(one.state)
 
 
 def told(ride: Ride, signal: Signal, one: Stretch, light: Feature) -> Shown:
-    """Tell what a light showed over a stretch."""
+    """Return what a light showed over a stretch, as a value of answers."""
     goes_on = not one.changed and one.end >= ride.now - STALE
     known = stretches(ride, signal)
     later = [other for other in known if other.begin >= one.end - ROUNDING and other is not one]
@@ -98,14 +99,14 @@ def told(ride: Ride, signal: Signal, one: Stretch, light: Feature) -> Shown:
 
 
 def shown_at(ride: Ride, light: Feature, time: float) -> Shown | None:
-    """Tell what the light that is meant showed at a time [s]; None where that was not seen."""
+    """Return what the light that is meant showed at a time [s]; None if that was not seen."""
     signal = meant(ride, light, time)
     one = None if signal is None else shown(ride, signal, min(time, ride.now))
     return None if signal is None or one is None else told(ride, signal, one, light)
 
 
 def crossed(ride: Ride, one: Passing) -> Crossed:
-    """Tell how we passed a line."""
+    """Return how we passed a line: when, how fast, at which colour, and whether it was too late."""
     light = Feature("light")
     seen = None if one.shown is None else told(ride, one.signal, one.shown, light)
     since = None if one.shown is None else one.time - one.shown.begin
@@ -114,7 +115,7 @@ def crossed(ride: Ride, one: Passing) -> Crossed:
 
 
 def _too_late(ride: Ride, begin: float, time: float) -> bool:
-    """Whether at one time [s] the ego was too close to the line passed at another to stop there."""
+    """Check whether at `begin` [s] the ego was too close to the line that it passed at `time`."""
     speed = speed_at(ride, begin)
     far = driven(ride.motion(EGO), begin, time)
     return speed is not None and far < speed * REACTION + speed * speed / (2.0 * BRAKING)
@@ -123,16 +124,17 @@ def _too_late(ride: Ride, begin: float, time: float) -> bool:
 def foreseen(
     ride: Ride, signal: Signal, time: float, to: LightColour | None = None
 ) -> Foreseen | None:
-    """Tell when a light was expected to change, at the last decision up to a time [s].
+    """Return when a light was expected to change, at the last decision up to a time [s].
 
     Args:
         ride: the record.
         signal: the light.
-        time: [s] of what was expected then.
-        to: what it is to show; None: whatever comes next.
+        time: [s] the time whose expectation is asked about.
+        to: the colour that it changes to; None: whatever comes next.
 
     Returns:
-        None where the light was not in view, shows that already, or is not foreseen to change.
+        The expectation; None if the light was not in view, shows that already, or is not expected
+        to change.
     """
     trace = ride.at(time)
     known = None if trace is None else _prediction(trace, signal)
@@ -169,7 +171,7 @@ def _prediction(trace: PlanTrace, signal: Signal) -> LightPrediction | None:
 def _next(
     known: LightPrediction, signal: Signal, time: float, colour: LightColour
 ) -> Iterator[LightColour]:
-    """Yield what it is expected to show next: in the likeliest course first."""
+    """Yield the colours that a light may show next, by course, the likeliest first."""
     at = known.places.index(signal.index)
     for course in sorted(known.courses, key=lambda c: -c.probability):
         for change in course.showings:
@@ -182,7 +184,7 @@ def _next(
 def _turns(
     known: LightPrediction, signal: Signal, trace: PlanTrace, to: LightColour
 ) -> Iterator[tuple[float, float]]:
-    """Yield when [s] it shows something in each course within the horizon, with its probability."""
+    """Yield when [s] a light turns to a colour in each course within the horizon, and its share."""
     at, end = known.places.index(signal.index), trace.sim_time + trace.settings.horizon
     for course in known.courses:
         for change in course.showings:
@@ -193,7 +195,7 @@ def _turns(
 
 
 def _middle(times: Sequence[tuple[float, float]]) -> float | None:
-    """By when [s] it is as likely as not."""
+    """Return the time [s] at which the summed probability reaches one half; None: never."""
     mass = 0.0
     for time, share in times:
         mass += share

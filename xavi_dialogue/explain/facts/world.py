@@ -21,7 +21,7 @@ from xavi_dialogue.explain.history.ride import Ride, planned
 class World:
     """What the record of a ride shows; all times are simulation seconds.
 
-    Nothing is worked out before it is asked for.
+    Nothing is computed before it is asked for.
     """
 
     def __init__(self, ride: Ride) -> None:
@@ -48,11 +48,11 @@ class World:
         return self.states.memo(("view", t), lambda: self.states.in_view(t))
 
     def look(self, vehicle: int, t: float) -> Look | None:
-        """Return a vehicle as it is seen at a time, or was seen last; None where it never was."""
+        """Return a vehicle as it is seen at a time, or was seen last; None if it never was."""
         return looks.look(self.states, vehicle, t)
 
     def road(self, t: float) -> RoadFacts | None:
-        """Return the road as it was known at a time; None where no record keeps it."""
+        """Return the road as it was known at a time; None if no record keeps it."""
         return self.states.road(t)
 
     def junction(self, t: float) -> RouteStep | None:
@@ -62,7 +62,7 @@ class World:
     def measure(
         self, attribute: Attribute, thing: Thing, at: float, to: Thing | None = None
     ) -> Measure:
-        """Return the value of an attribute at a time; where it has none, why."""
+        """Return the value of an attribute at a time, or why it has none."""
         return measuring.measure(self.states, attribute, thing, at, to)
 
     def extreme(
@@ -85,14 +85,14 @@ class World:
         end: float | None = None,
         object: Thing | int | None = None,  # noqa: A002
     ) -> tuple[Episode, ...]:
-        """Return the episodes that meet an interval, in order of their beginnings.
+        """Return the episodes that overlap an interval, in order of their beginnings.
 
         Args:
-            actor: who does it; None: anybody.
-            actions: what is done, each with all that counts as it; None: anything.
-            begin: of the interval; None: from the beginning of the ride on.
-            end: of the interval; None: up to now.
-            object: whom it concerns; None: anybody or nobody.
+            actor: the actor; None: anybody.
+            actions: the actions, each with all that count as it; None: any.
+            begin: the begin of the interval; None: that of the ride.
+            end: the end of the interval; None: now.
+            object: the road user that it concerns; None: anybody or nobody.
         """
         wanted = None if actions is None else covered(_names(actions))
         actors, objects = _numbers(actor), _numbers(object)
@@ -110,7 +110,7 @@ class World:
         return tuple(found)
 
     def holds(self, event: Event, begin: float, end: float) -> tuple[Episode, ...]:
-        """Return the episodes in an interval that are such a grounded event."""
+        """Return the episodes in an interval that a grounded event describes."""
         lit = light_episodes(self.states, event, begin, end)
         if lit is not None:
             return lit
@@ -120,7 +120,7 @@ class World:
         return happening.such(found, named, begin)
 
     def account(self, begin: float, end: float) -> tuple[Episode, ...]:
-        """What is worth telling of an interval: nothing that another episode tells already."""
+        """Return the episodes of an interval that are worth mentioning, without repetitions."""
         return happening.account(self.episodes(begin=begin, end=end))
 
     def duration(self, episode: Episode) -> float:
@@ -128,11 +128,11 @@ class World:
         return max((self.now if episode.end is None else episode.end) - episode.begin, 0.0)
 
     def delay(self, episode: Episode) -> Measure:
-        """Return what an episode of slowing down or standing cost against driving on as before."""
+        """Return the time that an episode cost compared with driving on as before."""
         return measuring.delay(self.states, episode)
 
     def relation(self, relation: Relation, thing: Thing, to: Thing, at: float) -> bool | None:
-        """Check whether a relation holds at a time; None where that cannot be known."""
+        """Check whether a relation holds at a time; None if that cannot be known."""
         return relations.holds(self.states, relation, thing, to, at)
 
     def belief(self, vehicle: int, at: float) -> Belief | None:
@@ -144,7 +144,7 @@ class World:
         return beliefs.over(self.states, vehicle, begin, end)
 
     def probability(self, event: Event, at: float) -> float | None:
-        """Return how probable it was held that another vehicle does something; None: not known."""
+        """Return the believed probability of another vehicle's event; None: not known."""
         return beliefs.probability(self.states, event, at)
 
     def plan(self, at: float) -> tuple[MacroAction, ...]:
@@ -153,7 +153,7 @@ class World:
         return () if trace is None else planned(trace)
 
     def decided(self, number: int) -> float | None:
-        """Return when [s] the decision of a number was taken; None where the record has none."""
+        """Return when [s] the decision with a number was taken; None if it is not recorded."""
         found = (t.sim_time for t in self.ride.traces if t.decision == number)
         return next(found, None)
 
@@ -167,7 +167,7 @@ KEPT = 2  # worlds that are kept for the questions that follow
 
 
 def world_of(record: Record) -> World:
-    """The world of a record; the same for the same record, as the parts of one question need."""
+    """Return the world of a record; the parts of one question get the same object."""
     for known in _kept:
         if known.ride.record is record:
             return known

@@ -1,4 +1,4 @@
-"""What happened: the episodes of all kinds, and those that are an event asked about."""
+"""What happened: the episodes of all kinds, and those that a given event describes."""
 
 from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias, TypeGuard
@@ -36,7 +36,7 @@ from xavi_dialogue.explain.history.thresholds import HARD
 Names: TypeAlias = frozenset[ActionName]
 Reader: TypeAlias = Callable[[States, int], list[Episode]]
 
-#: Which reader finds which actions; those of the ego alone and those of pairs stand beside.
+#: Which reader finds which actions of any one road user.
 READERS: dict[str, tuple[Reader, Names]] = {
     "speeds": (speeds, frozenset(("slow-down", "brake", "speed-up", "stop", "stand", "go"))),
     "ways": (
@@ -53,7 +53,7 @@ READERS: dict[str, tuple[Reader, Names]] = {
     "signals": (signals, frozenset(("signal",))),
     "moves": (moves, frozenset(("move",))),
 }
-#: The same for the meetings of another vehicle and the ego, of which either may be the actor.
+#: Likewise for the meetings of another vehicle and the ego, either of which may be the actor.
 MEETINGS: dict[str, tuple[Reader, Names]] = {
     "passings": (passings, frozenset(("overtake", "pass"))),
     "crossings": (crossings, frozenset(("cross",))),
@@ -61,15 +61,15 @@ MEETINGS: dict[str, tuple[Reader, Names]] = {
     "movings-in": (movings_in, frozenset(("cut-in", "pull-out"))),
     "misses": (misses, frozenset(("nearly-collide",))),
 }
-#: The same for what only the ego has.
+#: Likewise for the actions that only the ego has.
 OWN: dict[str, tuple[Callable[[States], Iterator[Episode]], Names]] = {
     "told": (told, frozenset(("arrive", "collide"))),
     "changed-plans": (changed_plans, frozenset(("change-plan",))),
     "driving-on": (driving_on, frozenset(("continue",))),
     "bearing": (bearing, frozenset(("swerve",))),
 }
-ON_REQUEST: Names = frozenset(("move", "nearly-collide", "continue", "swerve"))  # not of everything
-#: What is worth telling of a ride: of the ego, and of what others did to it.
+ON_REQUEST: Names = frozenset(("move", "nearly-collide", "continue", "swerve"))  # left out of "all"
+#: Actions that an account of a ride mentions: of the ego, and of others that concern it.
 OF_OURS: Names = frozenset(
     (
         *("stop", "stand", "wait", "give-way", "change-left", "change-right", "exit-left"),
@@ -78,8 +78,8 @@ OF_OURS: Names = frozenset(
     )
 )
 OF_OTHERS: Names = frozenset(("overtake", "cut-in", "pull-out", "give-way", "cross"))
-FIRM = 1.5  # [m/s2] from which braking is worth telling
-#: What tells another episode of the same actor at the same time already: the finer by the coarser.
+FIRM = 1.5  # [m/s2] minimum deceleration of braking that an account mentions
+#: By action: those that, at the same time and of the same actor, make it needless to mention it.
 TOLD_BY: dict[ActionName, Names] = {
     "go": frozenset(("give-way", "wait", "stop", "stand")),
     "stop": frozenset(("give-way", "wait")),
@@ -139,9 +139,9 @@ def _fits(episode: Episode, actors: frozenset[int] | None, wanted: Names | None)
 
 
 def actors_of(states: States, event: Event) -> frozenset[int] | None:
-    """Those who may have done an event: who is named, or the others where nobody in particular is.
+    """Return who may be the actor of an event: who is named, else all other vehicles.
 
-    None: anybody, the ego among them.
+    None: anybody, including the ego.
     """
     actors = somebody(event.actor)
     if actors is not None or isinstance(event.actor, Wanted):
@@ -150,12 +150,12 @@ def actors_of(states: States, event: Event) -> frozenset[int] | None:
 
 
 def such(found: Sequence[Episode], event: Event, begin: float) -> tuple[Episode, ...]:
-    """Return those of some episodes, in an interval from `begin` on, that are such an event."""
+    """Return those of some episodes, in an interval from `begin` on, that an event describes."""
     return tuple(episode for episode in found if _is(episode, event, begin))
 
 
 def _is(episode: Episode, event: Event, begin: float) -> bool:
-    """Check whether an episode of the right actor and action is the event, in what else it says."""
+    """Check whether an episode of the right actor and action fits the rest of an event."""
     if event.side is not None and (episode.side or SIDES.get(episode.action)) != event.side:
         return False
     if "hard" in event.manner and (episode.peak or 0.0) < HARD:
@@ -167,7 +167,7 @@ def _is(episode: Episode, event: Event, begin: float) -> bool:
 
 
 def _concerns(episode: Episode, thing: Thing | None) -> bool:
-    """Check whether an episode concerns what an event says it does."""
+    """Check whether an episode concerns the object of an event."""
     if thing is None or isinstance(thing, Wanted):
         return True
     wanted = somebody(thing)
@@ -188,7 +188,7 @@ def _is_place(thing: Thing) -> TypeGuard[Lane | Road]:
 
 
 def account(episodes: Sequence[Episode]) -> tuple[Episode, ...]:
-    """Those of some episodes that are worth telling of a ride, and that no other one tells."""
+    """Return the episodes that are worth mentioning, and that no other one implies."""
     worth = [e for e in episodes if _worth(e)]
     return tuple(e for e in worth if not any(_tells(other, e) for other in worth))
 

@@ -6,16 +6,16 @@ from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.vocabulary import ActionName
 
 HELD: tuple[ActionName, ...] = ("brake", "wait", "stop", "stand")
-JOINED = 3.0  # [s] between slowing down and the way through that belong together
-PAUSE = 4.0  # [s] between two halts before one junction
+JOINED = 3.0  # [s] maximum time between slowing down and entering the junction
+PAUSE = 4.0  # [s] maximum time between two halts before one junction
 
 
 def held_since(episodes: Iterable[Episode], begin: float) -> float:
-    """Tell since when [s] somebody had slowed down and waited before a junction.
+    """Return since when [s] a road user had slowed down and waited before a junction.
 
     Args:
-        episodes: of him; those that are no slowing down or waiting do not count.
-        begin: when [s] he entered the junction.
+        episodes: episodes of the road user; only slowing down and waiting count.
+        begin: [s] when the road user entered the junction.
     """
     slow = [e for e in episodes if e.action in HELD and e.begin < begin]
     since, gap = begin, JOINED

@@ -19,7 +19,7 @@ PASSING = frozenset[ActionName](("pass", "cross", "enter", "leave"))
 HELD = frozenset[ActionName](
     ("wait", "stop", "stand", "brake", "slow-down", "give-way", "block", "follow")
 )
-JUST = 1.0  # [s] by which a change may lie beside the time asked about
+JUST = 1.0  # [s] by which a change may precede the time asked about
 
 
 def light_of(event: Event) -> Feature | None:
@@ -31,7 +31,7 @@ def light_of(event: Event) -> Feature | None:
 def light_episodes(
     states: States, event: Event, begin: float, end: float
 ) -> tuple[Episode, ...] | None:
-    """The episodes in an interval [s] that are such an event; None where no light is in it."""
+    """Return the episodes in an interval [s] that an event describes; None if it has no light."""
     light = light_of(event)
     if light is None:
         return None
@@ -78,7 +78,7 @@ def _passing(states: States, light: Feature, begin: float, end: float) -> Iterat
 
 
 def _held(states: States, event: Event, begin: float, end: float) -> Iterator[Episode]:
-    """Yield what somebody does for a light: standing or braking while it holds him."""
+    """Yield what a vehicle does for a light: standing or braking while the light holds it."""
     actors = happening.actors_of(states, event)
     ride = states.ride
     for one in happening.happening(states, actors, covered(frozenset((event.action,)))):

@@ -1,7 +1,7 @@
-"""Who is held at a traffic light, and when: by the drives imagined and predicted at each decision.
+"""Waits at traffic lights: who is held at a light, and when, by the decisions of the ride.
 
-Of the ego, the drives that do not stop of their own accord tell; of another vehicle, the ways that
-were predicted of it. What is stated of another is never sure.
+For the ego, the rollouts count that do not stop of their own accord. For another vehicle, its
+predicted ways count; such waits are never sure.
 """
 
 from collections.abc import Iterable, Iterator
@@ -28,11 +28,11 @@ class Hold:
     begin: float  # [s]
     end: float  # [s] of the last of these decisions
     goes_on: bool  # it is the last decision of the record
-    share: float  # of the drives at the first of them in which it does
+    share: float  # of the rollouts or ways at the first of them in which it does
 
 
 def held_at(trace: PlanTrace, vehicle: int) -> tuple[Signal, float] | None:
-    """Find the light that holds a vehicle at a decision, and in what share of its drives."""
+    """Find the light that holds a vehicle at a decision, and the probability that it does."""
     return of_decision(trace, ("held by light", vehicle), lambda: _held_at(trace, vehicle))
 
 
@@ -67,7 +67,7 @@ def _other(trace: PlanTrace, vehicle: int) -> Iterator[tuple[float, tuple[HeldBy
 
 
 def holds(ride: Ride, vehicle: int) -> tuple[Hold, ...]:
-    """List when a light held a vehicle, oldest first."""
+    """List the times at which lights held a vehicle, oldest first."""
     key = f"held by lights {vehicle}"
     found = ride.notes.get(key)
     if not isinstance(found, tuple):
@@ -105,12 +105,12 @@ def holding(ride: Ride, vehicle: int, begin: float, end: float, slack: float = 1
 
 
 def held_then(ride: Ride, time: float) -> bool:
-    """Tell whether a light held the ego at a time [s]."""
+    """Check whether a light held the ego at a time [s]."""
     return holding(ride, EGO, time, time, slack=0.0) is not None
 
 
 def facing(ride: Ride, vehicle: int, time: float) -> Signal | None:
-    """Find the light that holds another vehicle at a time [s]; None where none is known to."""
+    """Find the light that holds another vehicle at a time [s]; None if none is known to."""
     trace = ride.at(time, vehicle)
     if trace is None or time - trace.sim_time > STALE:
         return None

@@ -31,21 +31,21 @@ from xavi_dialogue.explain.history.thresholds import (
 )
 
 Flags: TypeAlias = NDArray[np.bool_]
-FAST_ENOUGH = 2.0  # [m/s] from which one who is passed drives, and is overtaken
-STEPPED_OUT = 4.0  # [m] sideways from us within which somebody on foot is on our way
-WALKING = 0.3  # [m/s] from which somebody on foot moves on
-JUST_NOW = 1.0  # [s] since when what was seen last goes on
-BESIDE = 3.0  # [s] around a lane change within which it is judged who was cut off
+FAST_ENOUGH = 2.0  # [m/s] minimum speed of a vehicle that is overtaken, not just passed
+STEPPED_OUT = 4.0  # [m] maximum offset sideways of somebody on foot on our way
+WALKING = 0.3  # [m/s] minimum speed of somebody on foot who moves on
+JUST_NOW = 1.0  # [s] after its last sample in which something still goes on
+BESIDE = 3.0  # [s] duration of a lane change that is still going on
 
 
 def passings(states: States, vehicle: int) -> list[Episode]:
-    """Return who of another vehicle and the ego went past whom."""
+    """Return when one of another vehicle and the ego went past the other."""
     pair = states.pair(EGO, vehicle)
     return [] if pair is None else list(_passing(pair, vehicle))
 
 
 def crossings(states: States, vehicle: int) -> list[Episode]:
-    """Return where another vehicle crossed the ego's way."""
+    """Return when another road user crossed the ego's way."""
     pair = states.pair(EGO, vehicle)
     if pair is None:
         return []
@@ -71,7 +71,7 @@ def movings_in(states: States, vehicle: int) -> list[Episode]:
 
 
 def _runs(mask: Flags, time: Array) -> Iterator[tuple[int, int]]:
-    """Yield the stretches of samples in which something holds, first and last."""
+    """Yield the first and last sample of each stretch in which a mask holds."""
     if not mask.any():
         return
     edges = np.flatnonzero(np.diff(np.concatenate(([0], mask.astype(np.int8), [0]))))
@@ -80,7 +80,7 @@ def _runs(mask: Flags, time: Array) -> Iterator[tuple[int, int]]:
 
 
 def _passing(pair: Pair, vehicle: int) -> Iterator[Episode]:
-    """Who went past whom: abreast for a while, ahead before and behind after it, or contrary."""
+    """Yield when one went past the other: abreast, ahead before and behind after, or vice versa."""
     abreast = (np.abs(pair.ahead) <= pair.clear) & (np.abs(pair.left) <= ROAD_WIDTH)
     abreast &= (np.abs(pair.turn) <= SAME_WAY) | (np.abs(pair.turn) >= OPPOSITE)
     for first, last in _runs(abreast, pair.time):
@@ -106,7 +106,7 @@ def _passing(pair: Pair, vehicle: int) -> Iterator[Episode]:
 
 
 def _crossing(pair: Pair, vehicle: int) -> Iterator[Episode]:
-    """Yield where somebody crossed our line ahead of us, or we crossed his."""
+    """Yield when a vehicle crossed our line ahead of us."""
     across = (np.abs(pair.turn) > SAME_WAY) & (np.abs(pair.turn) < OPPOSITE)
     across &= (pair.ahead > 0.0) & (pair.ahead <= CROSSING) & (pair.speed >= MOVING)
     signs = np.sign(pair.left)
@@ -129,7 +129,7 @@ def _crossing(pair: Pair, vehicle: int) -> Iterator[Episode]:
 
 
 def _walking_across(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:
-    """Yield where somebody on foot walked across our lane ahead of us, from one side of it on."""
+    """Yield when somebody on foot walked across our lane ahead of us."""
     across = (np.abs(pair.turn) > SAME_WAY) & (np.abs(pair.turn) < OPPOSITE)
     across &= (pair.ahead > 0.0) & (pair.ahead <= CROSSING) & (pair.speed >= WALKING)
     across &= np.abs(pair.left) <= STEPPED_OUT
@@ -142,7 +142,7 @@ def _walking_across(states: States, pair: Pair, vehicle: int) -> Iterator[Episod
 
 
 def _following(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:
-    """Stretches in which one follows the other on the same line, with nobody between them."""
+    """Yield the stretches in which one follows the other on one line, with nobody between them."""
     gap = np.abs(pair.ahead) - pair.clear
     behind = np.where(pair.ahead > 0.0, pair.eye_speed, pair.speed)
     near = (np.abs(pair.left) <= SAME_LANE) & (np.abs(pair.turn) <= SAME_WAY) & (gap > -1.0)
@@ -160,7 +160,7 @@ def _following(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:
 
 
 def _closed(mask: Flags, time: Array) -> Flags:
-    """Return the same with breaks of up to a second closed, as where a road winds."""
+    """Return a mask with breaks of up to a second closed, such as those on a winding road."""
     if not mask.any():
         return mask
     closed = mask.copy()
@@ -186,7 +186,7 @@ def _between(states: States, vehicle: int, time: float, ours: bool) -> bool:
 
 
 def _moving_in(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:
-    """Yield who moved in close ahead of whom: by a lane change, or out of a side road."""
+    """Yield when one moved in close ahead of the other, by a lane change or from a side road."""
     for episode in ways(states, vehicle):
         if episode.action in ("change-left", "change-right"):
             yield from _cut_in(states, pair, episode, vehicle, ours=False)
@@ -200,7 +200,7 @@ def _moving_in(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:
 def _cut_in(
     states: States, pair: Pair, change: Episode, vehicle: int, *, ours: bool
 ) -> Iterator[Episode]:
-    """A lane change into the lane of the other, close ahead; he may leave it at the same time."""
+    """Yield a lane change to close ahead in the other's lane, which the other may be leaving."""
     end = change.begin + BESIDE if change.end is None else change.end
     before, after = _sample(pair, change.begin), _sample(pair, end)
     if before is None or after is None or abs(pair.turn[after]) > SAME_WAY:
@@ -248,6 +248,6 @@ def _pulled_out(pair: Pair, turn: Episode, vehicle: int) -> Iterator[Episode]:
 
 
 def _sample(pair: Pair, time: float) -> int | None:
-    """Return the sample nearest to a time [s]; None where there is none near."""
+    """Return the sample nearest to a time [s]; None if none is near."""
     k = int(np.argmin(np.abs(pair.time - time)))
     return k if abs(pair.time[k] - time) <= 0.6 else None

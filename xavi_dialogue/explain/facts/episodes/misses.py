@@ -1,4 +1,4 @@
-"""Near misses: where another vehicle and the ego all but touched."""
+"""Near misses: when another vehicle and the ego almost touched."""
 
 import numpy as np
 
@@ -11,9 +11,9 @@ from xavi_dialogue.explain.history.thresholds import CLOSE, MOVING
 
 
 def misses(states: States, vehicle: int) -> list[Episode]:
-    """Where a vehicle came closer to the ego than CLOSE, one of them in motion across the other.
+    """Return when a vehicle came closer to the ego than CLOSE, with one of them in motion.
 
-    Who stands in a queue, or drives beside us in his own lane, is no near miss.
+    Standing in a queue, or driving beside each other in parallel, is no near miss.
     """
     pair = states.pair(EGO, vehicle)
     if pair is None:

@@ -16,13 +16,13 @@ from xavi_dialogue.explain.history.nearing import driven
 from xavi_dialogue.explain.history.ride import planned
 
 TURNS: tuple[Action, ...] = ("exit-left", "exit-right", "exit-straight", "continue-next-exit")
-ALONG: tuple[Action, ...] = ("continue", "exit-straight", "stop")  # by which one keeps one's lane
-AROUND = 1.0  # [s] around a turn or change of lanes in which bearing to a side is part of it
-SAME_JUNCTION = 6.0  # [m] by which the distance to one junction varies between decisions
+ALONG: tuple[Action, ...] = ("continue", "exit-straight", "stop")  # by which the ego keeps its lane
+AROUND = 1.0  # [s] around another action in which bearing to a side is part of that
+SAME_JUNCTION = 6.0  # [m] maximum difference of the distances to one junction at two decisions
 
 
 def told(states: States) -> Iterator[Episode]:
-    """Yield where the ego arrived, and with whom it collided."""
+    """Yield when the ego arrived, and when and with whom it collided, by its events."""
     for event in states.ride.events:
         time = event.sim_time
         if event.kind == "arrived":
@@ -49,7 +49,7 @@ def bearing(states: States) -> Iterator[Episode]:
 
 
 def changed_plans(states: States) -> Iterator[Episode]:
-    """Yield where the next thing to be done beside driving on was not what had been planned."""
+    """Yield when the next action of the plan, besides driving on, was not the one before."""
     traces = states.ride.traces
     for before, after in itertools.pairwise(traces):
         if changed(states, before, after):
@@ -57,10 +57,10 @@ def changed_plans(states: States) -> Iterator[Episode]:
 
 
 def changed(states: States, before: PlanTrace, after: PlanTrace) -> bool:
-    """Check whether a decision means to do something else first than the one before it.
+    """Check whether the plan of a decision begins differently from that of the one before it.
 
-    That is to take another turn at a junction ahead, or another action beside turns. What has
-    been begun in between is no change, nor is a turn that comes within reach of the plan.
+    This is another turn at a junction ahead, or another action besides turns. An action that began
+    in between is no change, nor is a turn that comes within reach of the plan.
     """
     if before.road is not None and after.road is not None:
         way = driven(states.motion(EGO), before.sim_time, after.sim_time)
@@ -81,7 +81,7 @@ def changed(states: States, before: PlanTrace, after: PlanTrace) -> bool:
 
 
 def _turns_elsewhere(before: RoadFacts, after: RoadFacts, way: float) -> bool:
-    """Check whether at the first junction that is on both routes another way is taken."""
+    """Check whether two routes take different ways at the first junction that is on both."""
     if any(EGO in road.places and road.places[EGO].roundabout for road in (before, after)):
         return False
     for old in before.route:

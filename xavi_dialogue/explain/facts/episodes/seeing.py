@@ -1,4 +1,4 @@
-"""Episodes of seeing: who came into view, was hidden, went out of view, and which lights showed."""
+"""Episodes of seeing: who came into view or was lost from it, and which indicators showed."""
 
 from collections.abc import Iterator
 

@@ -11,10 +11,10 @@ from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.motion import EPSILON, Motion, Sighting
 from xavi_dialogue.explain.history.thresholds import BEGINNING, BRAKING, MOVING, STANDING
 
-FRESH = 1.5  # [s] how old a decision may be whose plan tells what is going on now
+FRESH = 1.5  # [s] maximum age of a decision whose plan shows what is going on now
 SOON = 0.5  # [s] after now in which what begins counts as begun
-RATE = 0.2  # [m/s2] from which a speed changes
-GROWS = 0.2  # [m/s] in a second from which a speed grows
+RATE = 0.2  # [m/s2] minimum rate at which a speed counts as changing
+GROWS = 0.2  # [m/s] minimum gain within five samples of a speed that grows
 
 
 def speeds(states: States, vehicle: int) -> list[Episode]:
@@ -35,7 +35,7 @@ def _speeds(states: States, vehicle: int) -> list[Episode]:
 
 
 def _lit(states: States) -> Iterator[Episode]:
-    """Yield the braking of the ego that the brake light shows and the speed hardly shows yet."""
+    """Yield braking of the ego that its brake light shows, but its speed hardly shows yet."""
     scene = states.ride.scene
     if scene is None or states.ride.ended or "brake" not in scene.ego.signals:
         return
@@ -45,7 +45,7 @@ def _lit(states: States) -> Iterator[Episode]:
 
 
 def underway(states: States) -> Iterator[Episode]:
-    """Slowing down of the ego that began after the record's last sample, as its plan has it."""
+    """Yield slowing down of the ego that its plan has from now on, and the record not yet."""
     ride = states.ride
     trace = ride.traces[-1] if ride.traces else None
     if trace is None or ride.ended or ride.now - trace.sim_time > FRESH:
@@ -99,7 +99,7 @@ def _changed(states: States, vehicle: int, motion: Motion, sighting: Sighting) -
 
 
 def _continues(states: States, vehicle: int, motion: Motion, *, slower: bool) -> bool:
-    """Check whether the speed still changes at the end of the record, as far as it is seen now."""
+    """Check whether the speed still changes at the end of the record."""
     if motion.speed[-1] < STANDING:
         return False
     rate, now = motion.rate[-1], _rate_now(states, vehicle)
@@ -107,7 +107,7 @@ def _continues(states: States, vehicle: int, motion: Motion, *, slower: bool) ->
 
 
 def _rate_now(states: States, vehicle: int) -> float:
-    """Tell how a speed changes [m/s2]: as the newest scene shows it, else between two samples."""
+    """Return the acceleration [m/s2] now: of the newest scene, else between two samples."""
     scene, motion = states.ride.scene, states.motion(vehicle)
     seen = None if scene is None else scene.vehicles.get(vehicle)
     if seen is not None:
@@ -117,14 +117,14 @@ def _rate_now(states: States, vehicle: int) -> float:
 
 
 def _open(states: States, vehicle: int, end: float) -> bool:
-    """Check whether what was seen up to a time [s] may go on: it is the end of the record."""
+    """Check whether what was seen up to a time [s] may go on, as that is the end of the record."""
     motion = states.motion(vehicle)
     over = states.ride.ended or not motion.time or end < motion.time[-1] - EPSILON
     return not over and states.known(vehicle, states.ride.now)
 
 
 def _standstills(states: States, vehicle: int, motion: Motion) -> Iterator[Episode]:
-    """Standstills, and how they ended; short rolls within one are part of it."""
+    """Yield standstills, and the setting off after each; short rolls are part of a standstill."""
     for begin, end, from_first in _still(motion):
         first = motion.index(begin)
         assert first is not None
@@ -143,7 +143,7 @@ def _standstills(states: States, vehicle: int, motion: Motion) -> Iterator[Episo
 
 
 def _setting_off(states: States, vehicle: int, motion: Motion, start: float) -> Episode:
-    """Return the setting off that ends a standstill, up to where the speed grows no more."""
+    """Return the setting off after a standstill, until the speed stops growing."""
     k, last = motion.index(start), len(motion.speed) - 1
     assert k is not None
     while k + 1 < len(motion.speed) and motion.speed[min(k + 5, last)] > motion.speed[k] + GROWS:
@@ -154,7 +154,7 @@ def _setting_off(states: States, vehicle: int, motion: Motion, start: float) -> 
 
 
 def _still(motion: Motion) -> Iterator[tuple[float, float | None, bool]]:
-    """Yield the standstills: from when to when [s], and whether it stood when it was seen first."""
+    """Yield begin and end [s] of each standstill, and whether it is from the first sample on."""
     begin: float | None = None
     last = 0
     for k, speed in enumerate(motion.speed):

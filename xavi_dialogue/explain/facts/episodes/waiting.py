@@ -1,7 +1,7 @@
-"""Episodes of waiting: for whom somebody stands, and to whom the ego gave way.
+"""Episodes of waiting: for whom a vehicle stands, and to whom the ego gave way.
 
-Whom the ego waits for stands in its imagined drives: who holds it up from the moment of a decision
-on. Whom another one waits for is shown by what was predicted of it, and is never sure.
+The ego waits for those who hold it up, from the moment of a decision on, in its rollouts. Another
+vehicle waits for those who do so on its predicted ways; this is never sure.
 """
 
 from collections.abc import Iterator
@@ -21,12 +21,12 @@ from xavi_dialogue.explain.history.ride import prediction
 from xavi_dialogue.explain.history.thresholds import AT_ONCE, FOLLOWING_GAP, HELD_UP, YIELDING
 
 Holder = tuple[int, HoldUp]
-STARTING = 4.0  # [s] after which who waited for somebody has moved off once that one is past
-AWAY = 6.0  # [m] behind somebody from which one is past
+STARTING = 4.0  # [s] after the other is past, in which a vehicle that waited for it moves off
+AWAY = 6.0  # [m] minimum distance behind the other's back from which it is past
 
 
 def waits(states: States, vehicle: int) -> list[Episode]:
-    """For whom a vehicle stood or gave way."""
+    """Return when a vehicle stood for somebody, or gave way, and to whom."""
     return states.memo(("waits", vehicle), lambda: _waits(states, vehicle))
 
 
@@ -55,9 +55,10 @@ def _waits(states: States, vehicle: int) -> list[Episode]:
 
 
 def _until_past(states: States, vehicle: int, wait: Episode) -> Episode | None:
-    """End a wait that goes on where the one waited for is past and behind.
+    """End a wait that goes on at the time at which the other vehicle was past.
 
-    None where that one was past before, or it stands on long after: it stood for something else.
+    None if the other was past before, or the vehicle still stands long after: it stood for
+    something else.
     """
     other = EGO if isinstance(wait.object, Ego) else getattr(wait.object, "number", None)
     end = _end(states, wait)
@@ -72,7 +73,7 @@ def _until_past(states: States, vehicle: int, wait: Episode) -> Episode | None:
 
 
 def _past(states: States, vehicle: int, other: int, time: float) -> bool:
-    """Check whether another one is behind a vehicle, or drives away from it with its back to it."""
+    """Check whether another is behind a vehicle, or ahead with its back to it and some way off."""
     ours, theirs = states.offset(vehicle, other, time), states.offset(other, vehicle, time)
     if ours is None or theirs is None:
         return False
@@ -80,7 +81,7 @@ def _past(states: States, vehicle: int, other: int, time: float) -> bool:
 
 
 def _merged(given: Iterator[Episode]) -> list[Episode]:
-    """Return the same, with what was stated twice of one vehicle told once."""
+    """Return episodes without those that overlap another with the same object."""
     found: list[Episode] = []
     for one in given:
         if not any(one.object == other.object and _meet(one, other) for other in found):
@@ -94,7 +95,7 @@ def _meet(one: Episode, other: Episode) -> bool:
 
 
 def _gave_way(states: States, stood: list[Episode]) -> Iterator[Episode]:
-    """To whom the ego gave way, as it told; from where it slowed down to where it drove on."""
+    """Yield when the ego gave way, by its events, from slowing down to driving on."""
     slowed = [e for e in speeds(states, EGO) if e.action in ("slow-down", "brake")]
     lit = list(waits_at_lights(states.ride, EGO, stood))
     for event in states.ride.events:
@@ -127,13 +128,13 @@ def _gave_way(states: States, stood: list[Episode]) -> Iterator[Episode]:
 def _not_for_a_light(
     states: States, still: Episode, lit: list[Episode], time: float
 ) -> Iterator[Episode]:
-    """Leave out of a standstill what a light held us for; nothing is left where it did later on.
+    """Yield the part of a standstill after the lights that held us; none if one did so later.
 
     Args:
-        states: of the ride.
+        states: the states of the ride.
         still: the standstill.
         lit: our waits at lights.
-        time: [s] when way was given.
+        time: [s] when we gave way.
     """
     held = [_end(states, wait) for wait in lit if _meet(wait, still)]
     if not any(end > time for end in held):
@@ -141,7 +142,7 @@ def _not_for_a_light(
 
 
 def _after_lights(states: States, still: Episode, lit: list[Episode]) -> Iterator[Episode]:
-    """Leave of a standstill what comes after the lights that held us in it."""
+    """Yield the part of a standstill after the lights that held us in it, if it is long."""
     met = [wait for wait in lit if _meet(wait, still)]
     if not met:
         yield still
@@ -156,7 +157,7 @@ def _end(states: States, episode: Episode) -> float:
 
 
 def _stood_for(states: States, vehicle: int, still: Episode) -> Iterator[Episode]:
-    """Yield the parts of a standstill, each with whom it was for."""
+    """Yield the parts of a standstill, each with the vehicle that it was for."""
     end = _end(states, still)
     runs: list[tuple[Holder, float]] = []
     for trace in states.ride.traces:
@@ -184,9 +185,9 @@ def _stood_for(states: States, vehicle: int, still: Episode) -> Iterator[Episode
 
 
 def _let_us_go(states: States, vehicle: int, still: Episode) -> Iterator[Episode]:
-    """Yield the part of a standstill in which the ego went first by the rules, where it is its end.
+    """Yield the last part of a standstill in which the ego has right of way.
 
-    Where it was predicted that it waits for us, that tells it already.
+    None if predictions show already that the vehicle waits for us.
     """
     end = _end(states, still)
     traces = [t for t in states.ride.traces if still.begin <= t.sim_time <= end]
@@ -213,7 +214,7 @@ def _let_us_go(states: States, vehicle: int, still: Episode) -> Iterator[Episode
 
 
 def top_holders(states: States, trace: PlanTrace, vehicle: int) -> tuple[Holder, ...]:
-    """Who holds a vehicle up at a decision, in most of its drives imagined; most often first."""
+    """Return who holds a vehicle up at a decision in most of its rollouts, most often first."""
     shares = of_decision(trace, ("holders", vehicle), lambda: _holders(trace, vehicle))
     found = sorted(shares.items(), key=lambda item: (-item[1], item[0]))
     return tuple(holder for holder, share in found if share >= HELD_UP)

@@ -15,8 +15,8 @@ from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.motion import Motion, Sighting
 
-LEAST = 0.3  # [m] sideways from which a lane change has begun
-ASIDE = 1.5  # [s] around a lane change in which the lane is looked up
+LEAST = 0.3  # [m] minimum movement sideways of a lane change that has begun
+ASIDE = 1.5  # [s] around a lane change or turn in which places on the road count for it
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,14 +31,14 @@ class Stay:
 
 
 def ways(states: States, vehicle: int) -> list[Episode]:
-    """Return where a vehicle went."""
+    """Return the lane changes, turns and roundabouts of a vehicle."""
     return states.memo(("ways", vehicle), lambda: _ways(states, vehicle))
 
 
 def _ways(states: States, vehicle: int) -> list[Episode]:
     shape = states.shape(vehicle)
     if shape is not None and shape.kind in ON_FOOT:
-        return []  # who walks takes no lanes, turns and exits
+        return []  # people on foot take no lanes, turns and exits
     stays = list(_stays(states, vehicle))
     found = list(_rings(states, vehicle, stays))
     if vehicle == EGO:
@@ -67,7 +67,7 @@ def _own(states: States, stays: list[Stay]) -> list[Episode]:
 
 
 def _crossing(deed: Deed, stays: list[Stay]) -> Junction | None:
-    """Return the junction at which a deed of the ego was done."""
+    """Return the junction at which the ego carried out an action; None for a lane change."""
     if deed.action in ("change-left", "change-right"):
         return None
     begin, end = deed.span
@@ -90,7 +90,7 @@ def _speeds(motion: Motion, begin: float, end: float) -> tuple[float | None, flo
 
 
 def _stays(states: States, vehicle: int) -> Iterator[Stay]:
-    """Yield where a vehicle was on roundabouts and inside junctions, as the decisions have it."""
+    """Yield when a vehicle was on roundabouts and inside junctions, as the decisions record."""
     inside: tuple[float, bool, RoadPlace | None] | None = None
     last: tuple[float, RoadPlace] | None = None
     for trace in states.ride.traces:
@@ -127,7 +127,7 @@ def _rings(states: States, vehicle: int, stays: list[Stay]) -> Iterator[Episode]
 
 
 def _exit_taken(states: States, stay: Stay) -> tuple[int | None, None]:
-    """Which exit of a roundabout the ego takes or took: as it was planned when it was left."""
+    """Return which exit of a roundabout the ego takes or took, by the last route before it."""
     number: int | None = None
     for trace in states.ride.traces:
         if trace.sim_time > (math.inf if stay.end is None else stay.end):
@@ -177,7 +177,7 @@ def _moved_over(motion: Motion, sighting: Sighting) -> float:
 def _turned(
     states: States, vehicle: int, sighting: Sighting, rings: list[tuple[float, float]]
 ) -> Iterator[Episode]:
-    """Yield a turn, unless the road itself bends, or goes round."""
+    """Yield a turn, unless the road itself bends, or it is a roundabout."""
     if any(a - ASIDE <= sighting.end and sighting.start <= b + ASIDE for a, b in rings):
         return
     roads = [
@@ -206,7 +206,7 @@ def _turned(
 def _straight(
     states: States, vehicle: int, stays: list[Stay], others: list[Episode]
 ) -> list[Episode]:
-    """Return the junctions that a vehicle came through without a turn."""
+    """Return the junctions that a vehicle crossed without a turn."""
     found = []
     for stay in stays:
         end = stay.end

@@ -1,4 +1,4 @@
-"""What a measure is asked of: the attribute, the things and the time."""
+"""The request for a measure: the attribute, the things and the time."""
 
 from dataclasses import dataclass
 
@@ -21,7 +21,7 @@ class Asked:
 
     @property
     def vehicle(self) -> int:
-        """The vehicle it is of; ours for what is not a vehicle."""
+        """The vehicle that is measured; ours if the thing is not a vehicle."""
         match self.thing:
             case Vehicle(number):
                 return number
@@ -31,7 +31,7 @@ class Asked:
 
     @property
     def other(self) -> int | None:
-        """The other vehicle, where there is one; of another vehicle, ours unless said."""
+        """The other vehicle, if there is one; for another vehicle, ours by default."""
         match self.to:
             case Ego():
                 return EGO
@@ -43,7 +43,7 @@ class Asked:
 
     @property
     def time(self) -> float:
-        """When [s] the value is from: the time asked about, or the last sample before it."""
+        """The time [s] of the value: the time asked about, or the last sample before it."""
         motion = self.states.motion(self.vehicle)
         if motion.time and self.at > motion.time[-1]:
             return motion.time[-1]
@@ -61,7 +61,7 @@ class Asked:
         return Measure(self.attribute, self.thing, self.at, to=self.to, gap=gap)
 
     def gap(self) -> Gap | None:
-        """Return why the things are not known at that time; None where they are."""
+        """Return why the things are not known at that time; None if they are."""
         first = self.states.gap(self.vehicle, self.at)
         if first is not None or self.other is None:
             return first

@@ -15,12 +15,12 @@ from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.nearing import still_to
 from xavi_dialogue.explain.history.thresholds import STALE, TREND_TIME
 
-SOON = 30.0  # [s] beyond which a collision is not foreseen
-STEERED = math.radians(3.0)  # change of heading from which a vehicle turns
+SOON = 30.0  # [s] maximum time to a collision of two vehicles on one line
+STEERED = math.radians(3.0)  # [rad] minimum change of heading of a vehicle that turns
 
 
 def leader(states: States, vehicle: int, time: float) -> int | None:
-    """Return who is next ahead of a vehicle on its line, in view or known."""
+    """Return the next vehicle ahead of another on its line, as far as its place is known."""
     found: list[tuple[float, int]] = []
     for other in (EGO, *states.ride.vehicles):
         if other == vehicle or not states.known(other, time):
@@ -35,7 +35,7 @@ def leader(states: States, vehicle: int, time: float) -> int | None:
 
 
 def _following(asked: Asked) -> tuple[Following | None, Asked]:
-    """Return the two on one line; where nobody is named, with who is ahead."""
+    """Return the two on one line, and the request; without another, it is who is ahead."""
     if asked.other is None and not _is_place(asked.to):
         ahead = leader(asked.states, asked.vehicle, asked.at)
         if ahead is None:
@@ -48,13 +48,13 @@ def _following(asked: Asked) -> tuple[Following | None, Asked]:
 
 
 def gap(asked: Asked) -> Measure:
-    """Return the gap along the way between two of whom one is behind the other."""
+    """Return the gap along the way between two vehicles of which one is behind the other."""
     found, asked = _following(asked)
     return asked.none("not-applicable") if found is None else asked.found(round(found.gap, 1))
 
 
 def headway(asked: Asked) -> Measure:
-    """Return the gap in seconds of the follower; none where it stands."""
+    """Return the follower's gap as a time; none if it stands. `reference`: the gap [m]."""
     found, asked = _following(asked)
     if found is None:
         return asked.none("not-applicable")
@@ -102,7 +102,7 @@ def to_place(asked: Asked, place: Thing | None) -> Measure:
 
 
 def time_to_collision(asked: Asked) -> Measure:
-    """Return the time to a collision if both go on as they do; none where they part."""
+    """Return the time to a collision if both go on as they do; none if they draw apart."""
     if asked.other is None:
         found, asked = _following(asked)
         if found is None:
@@ -113,9 +113,9 @@ def time_to_collision(asked: Asked) -> Measure:
 
 
 def time_to_touch(states: States, one: int, other: int, time: float) -> float | None:
-    """The time [s] to a collision: along the way where one follows the other, else straight on.
+    """Return the time [s] to a collision: along the way if one follows the other, else straight on.
 
-    None where they part, and where one of them is turning, so that neither goes straight on.
+    None if they draw apart, or if they are not on one line and one of them is turning.
     """
     a, b = states.state(one, time), states.state(other, time)
     if a is None or b is None:

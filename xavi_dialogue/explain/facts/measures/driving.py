@@ -23,7 +23,7 @@ def limit(asked: Asked) -> Measure:
 
 
 def limit_at(asked: Asked) -> float | None:
-    """Return the limit [m/s] in force for a vehicle; None where it is not recorded."""
+    """Return the limit [m/s] in force for a vehicle; None if it is not recorded."""
     place = asked.states.place(asked.vehicle, asked.time)
     return None if place is None else place.limit
 
@@ -44,7 +44,7 @@ def acceleration(asked: Asked) -> Measure:
 
 
 def deceleration(asked: Asked) -> Measure:
-    """Return how hard it brakes; 0 where it does not."""
+    """Return how hard a vehicle brakes; 0 if it does not."""
     found = acceleration(asked)
     return found if found.value is None else replace(found, value=max(-found.value, 0.0))
 
@@ -78,7 +78,7 @@ def indicator(asked: Asked) -> Measure:
 
 
 def brake_lights(asked: Asked) -> Measure:
-    """Return whether the brake lights are on."""
+    """Return "on" or "off" for the brake lights."""
     shown = asked.states.lights(asked.vehicle, asked.at)
     if shown is None:
         return asked.none("not-recorded")

@@ -51,7 +51,7 @@ def extreme(
 
 
 def _why_not(asked: Asked, begin: float, end: float) -> Gap:
-    """Return why there is no value in all of an interval: as it is where most is known."""
+    """Return why there is no value in an interval: "not-applicable" before what is not known."""
     gaps = [
         measure(asked.states, asked.attribute, asked.thing, time, asked.to).gap
         for time in (end, (begin + end) / 2.0, begin)
@@ -75,7 +75,7 @@ def _of(asked: Asked, series: list[tuple[float, float]], which: Extreme) -> Meas
 
 
 def _edge(asked: Asked, which: Extreme, begin: float, end: float) -> Measure:
-    """Return the first or last value there is."""
+    """Return the first or last value in an interval."""
     times = _times(asked, begin, end)
     ordered = times if which == "first" else list(reversed(times))
     for time in (ordered[0], *ordered[1:]) if ordered else ():
@@ -113,7 +113,7 @@ def _met(states: States, vehicle: int, begin: float, end: float) -> bool:
 
 
 def _closest(asked: Asked, begin: float, end: float) -> Measure | None:
-    """Return the closest approach of two bodies; to anybody, where nobody is named."""
+    """Return the closest approach of two bodies; without another one, to any vehicle."""
     others = [asked.other] if asked.other is not None else list(asked.states.ride.vehicles)
     if asked.to is not None and asked.other is None:
         return None
@@ -132,14 +132,14 @@ def _closest(asked: Asked, begin: float, end: float) -> Measure | None:
 
 
 def _times(asked: Asked, begin: float, end: float) -> list[float]:
-    """Return the moments of the record in an interval, and its end."""
+    """Return the moments of the record in an interval; its end if there are none."""
     motion = asked.states.motion(asked.vehicle)
     times = [motion.time[k] for k in motion.within(begin, end)]
     return times or [end]
 
 
 def _measured(asked: Asked, begin: float, end: float) -> Series:
-    """Return an attribute at each moment at which it has a value."""
+    """Yield an attribute at each moment at which it has a value."""
     for time in _times(asked, begin, end):
         found = measure(asked.states, asked.attribute, asked.thing, time, asked.to)
         if found.value is not None:

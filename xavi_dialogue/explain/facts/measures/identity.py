@@ -15,7 +15,7 @@ from xavi_dialogue.explain.facts.measures.asked import Asked
 from xavi_dialogue.explain.history.nearing import still_to
 from xavi_dialogue.explain.history.thresholds import BIG, OPPOSITE, SAME_WAY, SMALL
 
-#: Of what a vehicle was expected to do, what says where it goes; the first that comes.
+#: The expected actions that say where a vehicle goes; the first of them in a sequence counts.
 AIMS = ("exit-left", "exit-right", "exit-straight", "continue-next-exit", "stop")
 
 
@@ -28,7 +28,7 @@ def colour(asked: Asked) -> Measure:
 
 
 def kind(asked: Asked) -> Measure:
-    """Return what a vehicle is."""
+    """Return the kind of a vehicle."""
     shape = asked.states.shape(asked.vehicle)
     return asked.none("out-of-view") if shape is None else asked.found(None, kind_of(shape))
 
@@ -48,7 +48,7 @@ def name(asked: Asked) -> Measure:
 
 
 def origin(asked: Asked) -> Measure:
-    """Return where a vehicle came from, as seen from us: when it was seen first."""
+    """Return where a vehicle came from, seen from us, when it was seen first."""
     if asked.vehicle == EGO:
         return asked.none("not-recorded")
     motion = asked.states.motion(asked.vehicle)
@@ -71,7 +71,7 @@ def origin(asked: Asked) -> Measure:
 
 
 def heading(asked: Asked) -> Measure:
-    """Where a vehicle is going: its turn since then, else what was believed, as an action."""
+    """Return where a vehicle is going, as an action: its turn since then, else what we believed."""
     if asked.vehicle == EGO:
         return replace(turn(asked), value=None)
     went = next((e for e in _turns(asked) if e.end is None or e.end >= asked.at), None)
@@ -99,7 +99,7 @@ def _turns(asked: Asked) -> list[Episode]:
 
 
 def visibility(asked: Asked) -> Measure:
-    """Whether a vehicle is in view, hidden or lost, since when; `value`: seconds since then."""
+    """Return whether a vehicle is in view, hidden or lost; `value`: for how many seconds."""
     states, vehicle = asked.states, asked.vehicle
     if vehicle == EGO:
         return asked.none("not-applicable")
@@ -117,7 +117,7 @@ def visibility(asked: Asked) -> Measure:
 
 
 def turn(asked: Asked) -> Measure:
-    """Return which way the ego goes at the next junction; `value`: how far that is."""
+    """Return which way the ego goes at the next junction; `value`: how far [m] that is."""
     road = asked.states.road(asked.at)
     if road is None:
         return asked.none("not-recorded")

@@ -1,4 +1,4 @@
-"""Measuring: the table of what works out each attribute."""
+"""Measuring: the tables of the functions that compute each attribute."""
 
 from collections.abc import Callable, Mapping
 from typing import TypeAlias
@@ -21,7 +21,7 @@ delay = trip.delay
 
 
 def _comfort(asked: Asked) -> Measure:
-    """Return how hard it brakes at that time."""
+    """Return comfort as how hard a vehicle brakes."""
     return replace(driving.deceleration(asked), attribute="comfort")
 
 
@@ -41,7 +41,7 @@ def _count(asked: Asked) -> Measure:
     return asked.found(float(len(asked.states.in_view(asked.at))))
 
 
-#: Of what must be seen at that time.
+#: Attributes for which the things must be known at the time asked about.
 SEEN: Mapping[Attribute, Worker] = {
     "speed": driving.speed,
     "limit": driving.limit,
@@ -61,7 +61,7 @@ SEEN: Mapping[Attribute, Worker] = {
     "lane-count": roads.lane_count,
     "right-of-way": roads.right_of_way,
 }
-#: Of what is known once it was seen.
+#: Attributes that stay known once a thing was seen.
 KNOWN: Mapping[Attribute, Worker] = {
     "colour": identity.colour,
     "kind": identity.kind,
@@ -82,11 +82,11 @@ KNOWN: Mapping[Attribute, Worker] = {
     "value": _value,
     "count": _count,
 }
-#: Of these, what is known of the ego alone: where others want to go is their own.
+#: Those of them that are known only of the ego: we do not know where others want to go.
 OURS: frozenset[Attribute] = frozenset(
     ("distance-to-go", "time-to-go", "arrival-time", "exit-number", "route", "value")
 )
-#: What has no value without an event or a proposition, and what no record holds.
+#: Attributes without a value here, and why: they need an event, or no record has them.
 LACKING: Mapping[Attribute, Gap] = {
     "speed-change": "not-applicable",  # over a time or event
     "duration": "not-applicable",  # World.duration of an episode
@@ -109,7 +109,7 @@ LACKING: Mapping[Attribute, Gap] = {
 def measure(
     states: States, attribute: Attribute, thing: Thing, at: float, to: Thing | None
 ) -> Measure:
-    """Return the value of an attribute at a time [s]; where it has none, why."""
+    """Return the value of an attribute at a time [s], or why it has none."""
     asked = Asked(states, attribute, thing, at, None if to == thing else to)
     if attribute in LACKING:
         return asked.none(LACKING[attribute])

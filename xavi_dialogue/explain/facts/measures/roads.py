@@ -33,9 +33,9 @@ def lane_count(asked: Asked) -> Measure:
 
 
 def right_of_way(asked: Asked) -> Measure:
-    """Return who goes first of the ego and another; without another, the rule at the next junction.
+    """Return whether the ego or another goes first; alone, the rule at the next junction.
 
-    `rule` is that of `thing`: priority, give-way, equal, depends. `word` names who goes first.
+    `rule` is that for `thing`: priority, give-way, equal, depends. `word` names who goes first.
     """
     road = asked.states.road(asked.at)
     if road is None:
@@ -69,7 +69,7 @@ def _next(asked: Asked) -> RouteStep | None:
 
 
 def exit_number(asked: Asked) -> Measure:
-    """Return the exit that is taken of the roundabout ahead, or that was taken of the last one.
+    """Return the number of the exit that the ego takes at the roundabout ahead, or took last.
 
     `count`: how many exits there are; None if the roundabout is behind the ego.
     """
@@ -95,6 +95,6 @@ def _rings(asked: Asked) -> list[Episode]:
 
 
 def route(asked: Asked) -> Measure:
-    """Return how many junctions are on the way to the destination; `World.road` has them."""
+    """Return how many junctions are on the way to the destination; `World.road` lists them."""
     road = asked.states.road(asked.at)
     return asked.none("not-recorded") if road is None else asked.found(float(len(road.route)))

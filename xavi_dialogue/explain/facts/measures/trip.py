@@ -1,4 +1,4 @@
-"""Measures of the trip: what is left of it, what is done, what it cost."""
+"""Measures of the trip: distances and times to go and so far, waiting, and delays."""
 
 import itertools
 import math
@@ -48,10 +48,10 @@ def _there(asked: Asked) -> bool:
 
 
 def time_to_go(asked: Asked) -> Measure:
-    """How long it takes to the destination, as the plan expects; `low` and `high` are 5 and 95 %.
+    """Return the expected time to the destination; `low` and `high` are the 5 and 95 % points.
 
-    Where the plan goes only to a place on the way, the rest of it counts as driven freely: then
-    it is a bound from below.
+    If the plan goes only to a place on the way, the rest of the way counts as driven freely. The
+    value is then a lower bound.
     """
     if _there(asked):
         return asked.found(0.0)
@@ -74,7 +74,7 @@ def time_to_go(asked: Asked) -> Measure:
 
 
 def _quantiles(plan: Intervention) -> tuple[float, float, float] | None:
-    """Mean, 5 % and 95 % point of the time [s] to the goal."""
+    """Return the mean, 5 % and 95 % point of the time [s] to the goal."""
     found = sorted((value, weight) for _, weight, value in plan.present("time"))
     mass = sum(weight for _, weight in found)
     if mass < 0.5:
@@ -110,7 +110,7 @@ def _through_waypoint(asked: Asked, trace: PlanTrace, plan: Intervention, passed
 
 
 def _beyond(asked: Asked, trace: PlanTrace, plan: Intervention) -> Measure | None:
-    """Return a bound where most drives are still under way at the horizon, as at a red light."""
+    """Return a lower bound if most rollouts run out of time, as at a red light; else None."""
     if plan.likeliest != "termination":
         return None
     freely = _freely(asked).value or 0.0
@@ -128,7 +128,7 @@ def _length(trace: PlanTrace, rollout: Rollout) -> float | None:
 
 
 def _freely(asked: Asked) -> Measure:
-    """Return the time to the destination where nobody is in the way."""
+    """Return the time to the destination if nobody is in the way, as a lower bound."""
     trace = asked.states.trace(asked.at)
     if trace is None or trace.road is None:
         return asked.none("not-recorded")
@@ -152,7 +152,7 @@ def arrival_time(asked: Asked) -> Measure:
 
 
 def waiting_time(asked: Asked) -> Measure:
-    """Return how long a vehicle has stood so far; for another one, where that is named."""
+    """Return how long a vehicle has stood so far; if another is named, how long for that one."""
     states, vehicle, at = asked.states, asked.vehicle, asked.at
     named = None if asked.to is None else somebody(asked.to)
     episodes = waits(states, vehicle) if named else speeds(states, vehicle)
@@ -177,13 +177,13 @@ def standing_within(states: States, vehicle: int, begin: float, end: float) -> f
 
 
 def _free(states: States, vehicle: int, free: float, index: int) -> float:
-    """Tell how fast [m/s] one may drive on at a moment: at a speed, at most the limit there."""
+    """Return a speed [m/s], or the limit where a vehicle is at a sample if that is lower."""
     place = states.place(vehicle, states.motion(vehicle).time[index])
     return free if place is None else min(free, place.limit)
 
 
 def _behind(states: States, vehicle: int, free: float, steps: range) -> float:
-    """Tell how much longer [s] a stretch took than at a speed, at most the limit of each place."""
+    """Return how much longer [s] a stretch took than at a speed, or the limit if that is lower."""
     motion, lost = states.motion(vehicle), 0.0
     for k in steps:
         pace = _free(states, vehicle, free, k)
@@ -193,10 +193,10 @@ def _behind(states: States, vehicle: int, free: float, steps: range) -> float:
 
 
 def delay(states: States, episode: Episode) -> Measure:
-    """What slowing down or standing cost: the time it took to drive that far, less free driving.
+    """Return the time that slowing down or standing cost, compared with free driving.
 
-    It is counted until the speed of before is reached again, or now; what is still to be made
-    good by then is not in it. Free driving is at the speed of before, at most the limit.
+    It is counted until the earlier speed is reached again, or until now; the value is then a lower
+    bound. Free driving is at the earlier speed, or at the limit if that is lower.
     """
     who = somebody(episode.actor) or frozenset((EGO,))
     vehicle = min(who)
@@ -207,7 +207,7 @@ def delay(states: States, episode: Episode) -> Measure:
         return asked.none("not-recorded")
     place = states.place(vehicle, episode.begin)
     free = max(motion.speed[max(first - 10, 0) : first + 1])
-    if free < 2.0 and place is not None:  # it stood before that already
+    if free < 2.0 and place is not None:  # it was standing before the episode
         free = place.limit
     if place is not None:
         free = min(free, place.limit)
