@@ -1,4 +1,4 @@
-"""Deeds: the macro actions that the ego carried out, read off its events."""
+"""Deeds: the macro actions that the ego carried out, from its events."""
 
 import math
 from collections.abc import Sequence
@@ -13,19 +13,19 @@ class Deed:
     """One macro action of the ego, from its events."""
 
     action: Action
-    decision: int | None  # that chose it
+    decision: int | None  # the decision that chose it
     started: float  # [s]
     committed: float | None = None  # [s] when it could no longer be taken back
     ended: float | None = None  # [s] None while it is under way
 
     @property
     def time(self) -> float:
-        """When it was decided for good [s]."""
+        """The time [s] at which it was decided for good."""
         return self.started if self.committed is None else self.committed
 
     @property
     def span(self) -> tuple[float, float]:
-        """From when to when it was done [s]; it has no end as long as it is under way."""
+        """The begin and end [s]; the end is infinite as long as it is under way."""
         return self.time, math.inf if self.ended is None else self.ended
 
     @property
@@ -37,7 +37,7 @@ class Deed:
 
 
 def read_deeds(events: Sequence[Event]) -> list[Deed]:
-    """Read what the ego set out to do, oldest first; also what it then gave up."""
+    """Return the actions that the ego began, oldest first, including those that it gave up."""
     found: list[Deed] = []
     for event in events:
         last = found[-1] if found and found[-1].ended is None else None

@@ -1,7 +1,7 @@
 """Joining: the recorded histories of all decisions as one motion for each vehicle.
 
-Joined motions are kept for the rides asked about last: a ride that has gone on adds to what is
-known, and one that is looked back upon is a part of it.
+Joined motions are kept for the rides that were asked about last. If a ride has gone on, its new
+decisions are added; an earlier state of it is a part of what is kept.
 """
 
 import math
@@ -14,7 +14,7 @@ from sim.roads.network import angle_between
 from sim.scene import EGO, Scene, VehicleState
 from xavi_dialogue.explain.history.motion import EPSILON, Motion
 
-FILLED = 2.0  # [s] between the last decision and a scene that are filled in
+FILLED = 2.0  # [s] maximum time between the last decision and a scene that is filled in
 KEPT = 4  # rides whose motions are kept
 Traces = tuple[PlanTrace, ...]
 Span = tuple[float, float]  # [s]
@@ -27,7 +27,7 @@ class Seen:
 
     motion: Motion = NOTHING
     lights: tuple[LightChange, ...] = ()  # oldest first; () unknown
-    hidden: tuple[Span, ...] = ()  # when it was behind something, its motion guessed
+    hidden: tuple[Span, ...] = ()  # when it was behind something, and its motion estimated
 
     def until(self, time: float) -> "Seen":
         """Return what was known at the time [s] of a decision."""
@@ -38,13 +38,17 @@ class Seen:
 
 @dataclass(frozen=True, slots=True)
 class Joined:
-    """What was seen of everybody in some decisions."""
+    """What was seen of all road users in some decisions."""
 
     traces: Traces = ()
     seen: Mapping[int, Seen] = field(default_factory=dict)
 
     def extended(self, traces: Traces) -> "Joined":
-        """Return the same with further decisions, all of them given."""
+        """Return the same with further decisions.
+
+        Args:
+            traces: all decisions, the known ones first.
+        """
         seen = dict(self.seen)
         parts: dict[int, _Part] = {}
         for trace in traces[len(self.traces) :]:
@@ -65,7 +69,7 @@ class Joined:
     def reaching(self, scene: Scene) -> "Joined":
         """Return the same with what was seen after the last decision.
 
-        What lies between is filled in evenly, as each was seen there and here.
+        The time in between is filled in by linear interpolation.
         """
         last = self.traces[-1]
         seen = dict(self.seen)
@@ -84,7 +88,7 @@ class Joined:
 
 
 def _reaching(motion: Motion, time: float, state: VehicleState) -> Motion:
-    """Return a motion with one more sample at a time [s], and those that are missing in between."""
+    """Return a motion with one more sample, at a time [s], and the missing ones in between."""
     since = motion.time[-1] if motion.time else -math.inf
     count = math.ceil((time - since) / SAMPLE_PERIOD - 0.01) if time - since <= FILLED else 1
     if time <= since + EPSILON or count < 1:
@@ -109,7 +113,7 @@ _kept: list[Joined] = []  # latest first
 
 
 def joined(traces: Traces) -> Joined:
-    """Return what was seen of everybody in some decisions of a ride, oldest first."""
+    """Return what was seen of all road users in some decisions of a ride, oldest first."""
     if not traces:
         return Joined()
     for known in tuple(_kept):
@@ -135,7 +139,7 @@ def _keep(found: Joined, instead: Joined | None = None) -> Joined:
 
 
 class _Part:
-    """Collects the samples of one vehicle."""
+    """The samples of one vehicle while they are collected."""
 
     def __init__(self, known: Seen) -> None:
         self._known = known
@@ -148,7 +152,7 @@ class _Part:
         self._hidden = list(known.hidden)
 
     def add(self, trace: PlanTrace, vehicle: int, track: Track) -> None:
-        """Add what a decision knows beyond those before it."""
+        """Add the samples of a decision that those before it lack."""
         self._add_lights(trace, vehicle, track)
         since = trace.unseen.get(vehicle)
         if since is not None and trace.sim_time > since + EPSILON:
@@ -177,7 +181,7 @@ class _Part:
                 self._lights.append(change)
 
     def seen(self) -> Seen:
-        """Return all that is known of it now."""
+        """Return all that is known of the vehicle now."""
         motion = self._known.motion
         if self._time:
             motion = Motion(

@@ -1,4 +1,4 @@
-"""Kept: what follows from one decision alone, worked out once for all questions about the ride."""
+"""Kept: results that depend on one decision alone, computed once for all questions."""
 
 from collections.abc import Callable, Hashable
 from typing import TypeVar
@@ -6,13 +6,13 @@ from typing import TypeVar
 from planner.record.trace import PlanTrace
 
 Value = TypeVar("Value")
-_NAME = "kept"  # of the attribute that holds it: traces are frozen, but have room for such
+_NAME = "kept"  # of the attribute that holds them: traces are frozen, but have a __dict__
 
 
 def of_decision(trace: PlanTrace, key: Hashable, work_out: Callable[[], Value]) -> Value:
-    """Return what was worked out of a decision under a key before, or is now.
+    """Return the result for a decision under a key, computed now unless it is known.
 
-    It is given up together with the decision.
+    It is freed together with the decision.
     """
     known: dict[Hashable, Value] = vars(trace).setdefault(_NAME, {})
     if key not in known:

@@ -1,6 +1,6 @@
-"""Motion: what a vehicle has been seen to do, read off its recorded positions and speeds.
+"""Motion: what a vehicle has been seen to do, by its recorded positions and speeds.
 
-Lane changes and turns are shown by the shape of the path alone: a vehicle that moves over by a
+Lane changes and turns follow from the shape of the path alone. A vehicle that moves sideways by a
 lane's width and heads the same way again has changed lanes; one that heads elsewhere has turned.
 """
 
@@ -40,8 +40,8 @@ Array: TypeAlias = NDArray[np.float64]
 Trend: TypeAlias = Literal["slowing", "steady", "speeding-up", "standing"]
 
 EPSILON = 1e-6  # [s]
-BORE = 0.1  # [rad] of bearing to one side that is felt
-STRAIGHT = 0.01  # [rad] of changes in heading up to which nobody changes lanes
+BORE = 0.1  # [rad] minimum change of heading that passengers feel
+STRAIGHT = 0.01  # [rad] range of headings below which no lane was changed
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +55,7 @@ class Sighting:
 
     @property
     def span(self) -> tuple[float, float]:
-        """From when to when [s]."""
+        """The begin and end [s]."""
         return self.start, self.end
 
 
@@ -76,7 +76,7 @@ class Motion:
         return Motion(self.time[:n], self.position[:n], self.heading[:n], self.speed[:n])
 
     def index(self, time: float) -> int | None:
-        """Return the last sample at or before a time [s]; None where the record begins later."""
+        """Return the last sample at or before a time [s]; None if the record begins later."""
         k = bisect_right(self.time, time + EPSILON) - 1
         return k if k >= 0 else None
 
@@ -87,7 +87,7 @@ class Motion:
 
     @property
     def trend(self) -> Trend | None:
-        """What the speed is doing at the end; None without a record."""
+        """How the speed changes at the end; None without a record."""
         if not self.time:
             return None
         if self.speed[-1] < STANDING:
@@ -111,13 +111,13 @@ class Motion:
         return tuple(sorted(found, key=lambda s: (s.start, s.end, s.action)))
 
     def times(self, action: ActionName) -> tuple[Sighting, ...]:
-        """Return all times that something was done, oldest first."""
+        """Return all sightings that an action of a question may mean, oldest first."""
         return tuple(s for s in self.sightings() if s.action in _means(action))
 
     def first(self, action: ActionName) -> float | None:
-        """Return when [s] something of just this name was first done; None: never.
+        """Return when [s] exactly this action was first done; None: never.
 
-        Changes of speed and stops are stated without reading lane changes and turns.
+        For changes of speed and stops, lane changes and turns are not computed.
         """
         found: Iterable[Sighting]
         if action in ("slow-down", "speed-up"):
@@ -130,7 +130,7 @@ class Motion:
         return min((s.start for s in found), default=None)
 
     def last(self, action: ActionName) -> Sighting | None:
-        """Return the last time that something was done."""
+        """Return the last sighting that an action of a question may mean."""
         return next(reversed(self.times(action)), None)
 
     def _speeds(self) -> list[Sighting]:
@@ -140,8 +140,8 @@ class Motion:
         ]
 
     def _changes_of_speed(self, action: ActionName, sign: float) -> Iterator[Sighting]:
-        """Yield the stretches over which the speed grows, or falls where the sign is -1."""
-        foot = start = best = 0  # where it is measured from; where it leaves that; its end so far
+        """Yield the stretches over which the speed grows, or falls if the sign is -1."""
+        foot = start = best = 0  # reference sample; begin of the change; its end so far
         for k in range(1, len(self.speed) + 1):
             if k == len(self.speed) or sign * (self.speed[k] - self.speed[best]) < -WAVER:
                 least = BEGINNING if k == len(self.speed) else CHANGED
@@ -158,7 +158,7 @@ class Motion:
                 best = k
 
     def _stops(self) -> list[Sighting]:
-        """Standstills; one that was there when the vehicle came into view is not its coming to."""
+        """Return the stops, without a standstill from the first sample on."""
         found: list[Sighting] = []
         for k in range(1, len(self.speed)):
             if self.speed[k] < STANDING <= self.speed[k - 1]:
@@ -188,12 +188,12 @@ class Motion:
 
     @cached_property
     def arc(self) -> tuple[float, ...]:
-        """The way driven [m] up to each sample, from the first one."""
+        """The distance driven [m] up to each sample, from the first one."""
         steps = (math.dist(a, b) for a, b in zip(self.position, self.position[1:], strict=False))
         return tuple(accumulate(steps, initial=0.0)) if self.time else ()
 
     def parts(self) -> tuple["Motion", ...]:
-        """Return the stretches over which it was seen without a break."""
+        """Return the stretches without a break in the samples."""
         breaks = [k for k in range(1, len(self.time)) if self.time[k] - self.time[k - 1] > BROKEN]
         if not breaks:
             return (self,) if self.time else ()
@@ -204,7 +204,7 @@ class Motion:
 
 
 def turns(motion: Motion) -> Iterator[Sighting]:
-    """The turns that a path takes, each from where its heading begins to change to its end."""
+    """Yield the turns of a path, each from where its heading begins to change to its end."""
     if len(motion.time) < 2:
         return
     heading, arc = motion.arrays[3], np.array(motion.arc)
@@ -230,7 +230,7 @@ def turns(motion: Motion) -> Iterator[Sighting]:
 
 
 def bends(motion: Motion) -> Iterator[Sighting]:
-    """The stretches over which a path bears to one side, by too little or too far for a turn."""
+    """Yield the stretches over which a path bears to one side, also those that are no turns."""
     if len(motion.time) < 2:
         return
     heading = motion.arrays[3]
@@ -250,7 +250,7 @@ def bends(motion: Motion) -> Iterator[Sighting]:
 def lane_changes(motion: Motion) -> Iterator[Sighting]:
     """Yield the lane changes of a path: sideways by a lane's width, and on in the same direction.
 
-    Judged along the headings at both ends, so that neither a bend nor a slanted start counts.
+    Offsets are along the headings at both ends, so neither a bend nor a slanted start counts.
     """
     count = len(motion.time)
     if count < 3:
@@ -268,7 +268,7 @@ def lane_changes(motion: Motion) -> Iterator[Sighting]:
 
 
 def _sideways(motion: Motion) -> Array:
-    """By how much [m] to its left a vehicle moved up to each sample [N] from d before it [D]."""
+    """Return how far [m] to the left a vehicle moved from d samples before [D] to each one [N]."""
     time, x, y, heading, _ = motion.arrays
     depth = min(round(LANE_TIME / SAMPLE_PERIOD) + 1, len(time))
     if float(np.ptp(heading)) < STRAIGHT or motion.arc[-1] < LANE_SHIFT[0]:
@@ -294,12 +294,12 @@ def branches_off(goal: GoalPrediction, way: TrajectoryPrediction) -> bool:
 
 
 def steps(goal: GoalPrediction, way: TrajectoryPrediction) -> tuple[ActionName, ...]:
-    """Return what a vehicle does on the way to a goal; where its road branches off, it leaves."""
+    """Return the actions on the way to a goal; the last is "leave" if its road branches off."""
     return (*way.actions[:-1], "leave") if branches_off(goal, way) else way.actions
 
 
 def foretold(goal: GoalPrediction, way: TrajectoryPrediction, action: ActionName) -> bool:
-    """Whether the way to a goal contains an action; a road that branches off is not straight on."""
+    """Check whether the way to a goal contains an action; branching off is not straight on."""
     if not branches_off(goal, way):
         return foresees(way, action)
     if action in ("continue", "exit-straight"):
@@ -308,10 +308,10 @@ def foretold(goal: GoalPrediction, way: TrajectoryPrediction, action: ActionName
 
 
 def foresees(way: TrajectoryPrediction, action: ActionName) -> bool:
-    """Check whether a predicted trajectory contains an action, or a change of speed it describes.
+    """Check whether a predicted trajectory contains an action or a change of speed.
 
-    Who stands already stops if it stays, or stops again. Of a trajectory whose line the trace has
-    no room for, the actions alone are known.
+    A vehicle that stands already stops if it stays, or stops again. If the trace has no line for
+    the trajectory, only the actions are known.
     """
     if not way.speed:
         return any(step in _means(action) for step in way.actions)
@@ -330,7 +330,7 @@ def _halts(speed: Sequence[float]) -> bool:
 
 
 def _means(action: ActionName) -> tuple[ActionName, ...]:
-    """Return the things seen or predicted that an action of a question may stand for."""
+    """Return the actions, seen or predicted, that an action of a question may stand for."""
     meanings: dict[ActionName, tuple[ActionName, ...]] = {
         "continue": ("continue", "exit-straight"),
         "exit-straight": ("continue", "exit-straight"),

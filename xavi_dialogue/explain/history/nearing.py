@@ -1,8 +1,8 @@
-"""Nearing: what the last decision recorded, brought to the time spoken of.
+"""Nearing: distances of the last decision, and speeds, as of the time that is asked about.
 
-A decision tells how far junctions and the destination are from where it was taken. What was driven
-since is taken off, and speeds are those seen at the time, as positions and speeds are recorded
-between decisions too.
+A decision records how far junctions and the destination are from where it was taken. The distance
+driven since is subtracted. Speeds are those at the time, since positions and speeds are recorded
+between decisions, too.
 """
 
 from collections.abc import Iterable
@@ -19,11 +19,11 @@ from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import Ride
 from xavi_dialogue.explain.history.thresholds import BROKEN
 
-PASSED = -2.0  # [m] to a junction's entry from which it lies behind us
+PASSED = -2.0  # [m] distance to a junction's entry below which it lies behind us
 
 
 def driven(motion: Motion, begin: float, end: float) -> float:
-    """Tell the way [m] driven between two times [s], between samples too."""
+    """Return the distance [m] driven between two times [s], also between samples."""
     if not motion.time:
         return 0.0
     first, last = np.interp((begin, end), motion.arrays[0], motion.arc)
@@ -31,7 +31,7 @@ def driven(motion: Motion, begin: float, end: float) -> float:
 
 
 def speed_at(ride: Ride, time: float, vehicle: int = EGO) -> float | None:
-    """Tell how fast [m/s] a vehicle was at a time [s], or was seen last before it; None: never."""
+    """Return the speed [m/s] of a vehicle at a time [s], or when seen last; None: never seen."""
     motion = ride.motion(vehicle)
     k = motion.index(time)
     if k is None:
@@ -42,9 +42,10 @@ def speed_at(ride: Ride, time: float, vehicle: int = EGO) -> float | None:
 
 
 def tellable(deed: Episode | None, moment: float) -> float:
-    """Give the time [s] at which speeds tell why somebody did something: now, while it goes on.
+    """Return the time [s] whose speeds explain an episode: `moment`, while it goes on.
 
-    Who slows down for another one has come down to his speed at the end; else the begin counts.
+    A vehicle that slows down for another has reached its speed at the end, so that counts for
+    slowing down. Otherwise it is the begin.
     """
     if deed is None or deed.end is None:
         return moment
@@ -52,7 +53,7 @@ def tellable(deed: Episode | None, moment: float) -> float:
 
 
 def with_speeds(ride: Ride, causes: Iterable[MotionCause], time: float) -> tuple[MotionCause, ...]:
-    """Give reasons with how fast [m/s] the vehicles that they name were at a time [s]."""
+    """Add to causes the speeds [m/s] of their vehicles at a time [s]."""
     return tuple(
         cause
         if cause.vehicle is None or (speed := speed_at(ride, time, cause.vehicle)) is None
@@ -64,7 +65,7 @@ def with_speeds(ride: Ride, causes: Iterable[MotionCause], time: float) -> tuple
 def with_lowest(
     ride: Ride, causes: Iterable[MotionCause], begin: float, end: float
 ) -> tuple[MotionCause, ...]:
-    """Give reasons with how slow [m/s] the vehicles that they name were between two times [s]."""
+    """Add to causes the lowest speeds [m/s] of their vehicles between two times [s]."""
     found = []
     for cause in causes:
         motion = None if cause.vehicle is None else ride.motion(cause.vehicle)
@@ -74,9 +75,9 @@ def with_lowest(
 
 
 def still_to(ride: Ride, distance: float, time: float) -> float:
-    """Tell how far [m] it still is at a time [s] to what the last decision recorded at a distance.
+    """Return how far [m] it is at a time [s] to a place that the last decision had at a distance.
 
-    Negative where it lies behind us by then.
+    It is negative if the place lies behind us by then.
     """
     trace = ride.at(time)
     return distance - (0.0 if trace is None else driven(ride.motion(EGO), trace.sim_time, time))
@@ -86,7 +87,7 @@ def junctions_ahead(ride: Ride, time: float) -> tuple[RouteStep, ...]:
     """List the junctions on our way at a time [s], nearest first, without those passed by then.
 
     Their distances [m] are from where we are at that time. A decision whose plan does not lead to
-    the destination has no way to it: then the one before tells the way.
+    the destination records no way there; then an earlier decision gives the way.
     """
     trace = ride.at(time)
     if trace is None or trace.road is None:
@@ -100,12 +101,12 @@ def junctions_ahead(ride: Ride, time: float) -> tuple[RouteStep, ...]:
 
 
 def _knows_way(trace: PlanTrace) -> bool:
-    """Tell whether a decision has recorded how far the destination is."""
+    """Check whether a decision has recorded how far the destination is."""
     return trace.road is not None and trace.road.distance is not None
 
 
 def to_destination(ride: Ride, time: float) -> float | None:
-    """Tell how far [m] along the road the destination is at a time [s]; None: not recorded."""
+    """Return how far [m] along the road the destination is at a time [s]; None: not recorded."""
     trace = ride.at(time)
     if trace is None or trace.road is None or trace.road.distance is None:
         return None

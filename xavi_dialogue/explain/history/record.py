@@ -17,6 +17,6 @@ class Record:
     events: tuple[Event, ...] = ()
     ended: bool = False
     extra: tuple[PlanTrace, ...] = ()  # plans made again for NeedRollout requests
-    refused: tuple[NeedRollout, ...] = ()  # requests that came to nothing
-    gaps: tuple[tuple[float, float], ...] = ()  # [s] from when to when some of it was lost
-    scene: Scene | None = None  # what was seen last up to `now`; None: the last decision has it
+    refused: tuple[NeedRollout, ...] = ()  # requests that could not be met
+    gaps: tuple[tuple[float, float], ...] = ()  # [s] begin and end of what was lost
+    scene: Scene | None = None  # the newest scene up to `now`; None: that of the last decision

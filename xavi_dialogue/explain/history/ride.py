@@ -24,14 +24,14 @@ from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.explain.history.thresholds import STANDING
 
-#: Evidence is enough if the samples behind it cover this share of the prior mass, so that what all
-#: agree on is likeliest, however few there are; all of them, where no more exist ...
+#: Evidence is enough if the samples behind it cover this share of the prior mass: then what they
+#: all agree on is the likeliest result, however few they are ...
 MIN_COVERAGE = 0.5
-#: ... or are this many: what happens with probability 1/4 goes unseen in 11 draws with less than
-#: 5 % (0.75^11 = 0.042). docs/causal.md has the errors that go with both.
+#: ... or if they are this many: what happens with probability 1/4 is missed in 11 draws with less
+#: than 5 % (0.75^11 = 0.042). docs/causal.md has the errors that go with both.
 MIN_DISTINCT = 11
-#: Rollouts that are asked for where the search's own do not suffice, and where those do not either:
-#: they spread over what may follow the actions, of which only the best counts.
+#: Rollouts to request if those of the search do not suffice, and if these do not, either. They
+#: spread over what may follow the actions, of which only the best counts.
 ROUNDS = (40, 160)
 ROUNDING = 1e-6  # [s]
 MODELS = 8  # causal models that are kept from one question to the next
@@ -42,7 +42,7 @@ class ExplainError(XaviError):
 
 
 class Unanswered(ExplainError):
-    """Ends the work on a question with a refusal or a request for rollouts."""
+    """A refusal or a request for rollouts that ends the work on a question."""
 
     def __init__(self, result: Refusal | NeedRollout) -> None:
         super().__init__(result)
@@ -58,14 +58,14 @@ class Ride:
         self.traces = tuple(t for t in record.traces if t.sim_time <= record.now + ROUNDING)
         self.events = tuple(e for e in record.events if e.sim_time <= record.now + ROUNDING)
         self.ended = record.ended
-        self.gaps = record.gaps  # [s] from when to when some of it was lost
+        self.gaps = record.gaps  # [s] begin and end of what was lost
         self.arrived = any(event.kind == "arrived" for event in self.events)
-        self.notes: dict[str, object] = {}  # what others worked out of it
+        self.notes: dict[str, object] = {}  # results that other modules keep here
         self._models: dict[int, CausalModel] = {}
 
     @cached_property
     def scene(self) -> Scene | None:
-        """What was seen last, after the last decision; None where that one knows no less.
+        """The newest scene, if it is later than the last decision; else None.
 
         As in traces, people on foot are among the vehicles.
         """
@@ -90,39 +90,39 @@ class Ride:
 
     @cached_property
     def deeds(self) -> tuple[Deed, ...]:
-        """What the ego carried out, oldest first."""
+        """The actions that the ego carried out, oldest first."""
         return tuple(deed for deed in self.begun if deed.carried_out and not self._given_up(deed))
 
     @cached_property
     def begun(self) -> list[Deed]:
-        """What the ego set out to do, oldest first; also what it gave up."""
+        """The actions that the ego began, oldest first, including those that it gave up."""
         return read_deeds(self.events)
 
     def stood(self, deed: Deed) -> float | None:
-        """Return when [s] the ego came to stand in a deed; None where it did not."""
+        """Return when [s] the ego came to a standstill in an action; None if it did not."""
         motion, (_, end) = self.motion(EGO), deed.span
         inside = motion.within(deed.started, end)
         return next((motion.time[k] for k in inside if motion.speed[k] < STANDING), None)
 
     def _given_up(self, deed: Deed) -> bool:
-        """Check whether it was a stop that came to no standstill."""
+        """Check whether an action was a stop that led to no standstill."""
         over = deed.action == "stop" and deed.ended is not None
         known = len(self.motion(EGO).within(deed.started, deed.span[1])) > 0
         return over and known and self.stood(deed) is None
 
     @property
     def under_way(self) -> Deed | None:
-        """What the ego is about, even where the turn itself is still to come."""
+        """The action that has begun and not ended, even if the turn itself is still to come."""
         begun = self.begun
         return begun[-1] if begun and begun[-1].ended is None else None
 
     def meant(self, deeds: Sequence[Deed], span: Span | None = None) -> Deed | None:
-        """Of some deeds, oldest first, the last that meets a part of the ride."""
+        """Return the last of some actions, oldest first, that overlaps a part of the ride."""
         found = [d for d in deeds if span is None or meets(d.span, span)]
         return found[-1] if found else None
 
     def manoeuvre(self, span: Span | None = None) -> Deed | None:
-        """The last deed that was more than driving on, else the last one; at a time, if said."""
+        """Return the last action that was more than driving on, else the last, within a span."""
         moves = tuple(deed for deed in self.deeds if deed.action != "continue")
         return self.meant(moves, span) or self.meant(self.deeds, span)
 
@@ -148,7 +148,7 @@ class Ride:
         return known if self.scene is None else known.reaching(self.scene)
 
     def seen(self, vehicle: int) -> Seen:
-        """What was seen of a vehicle over all decisions: motion, lights, when it was hidden."""
+        """Return what was seen of a vehicle: its motion, its lights, and when it was hidden."""
         return self._joined.seen.get(vehicle) or Seen()
 
     def motion(self, vehicle: int) -> Motion:
@@ -157,11 +157,11 @@ class Ride:
 
     @cached_property
     def times(self) -> list[float]:
-        """When [s] each decision was taken."""
+        """The time [s] of each decision."""
         return [trace.sim_time for trace in self.traces]
 
     def index(self, time: float) -> int | None:
-        """Return which of `traces` is the last decision at or before a time [s]."""
+        """Return the index of the last decision at or before a time [s]."""
         k = bisect_right(self.times, time + ROUNDING) - 1
         return k if k >= 0 else None
 
@@ -175,9 +175,9 @@ class Ride:
         return None
 
     def choice_of(self, deed: Deed) -> PlanTrace:
-        """Return the last decision for a deed that still had alternatives.
+        """Return the last decision for an action that still had alternatives.
 
-        Where that is not in the record, the first one that decided so again.
+        If that is not in the record, it is the first one that decided so again.
 
         Raises:
             Unanswered: it is not in the record.
@@ -195,8 +195,7 @@ class Ride:
     def variants(self, trace: PlanTrace, removed: Collection[int] = ()) -> tuple[PlanTrace, ...]:
         """Return the plans made again from a decision, without some vehicles or with all of them.
 
-        Those for which something was supposed of another vehicle, of lights, or of what is hidden
-        are left out.
+        Plans under a supposition about another vehicle, lights, or what is hidden are left out.
         """
         vehicles = set(trace.scene) - set(removed)
         return tuple(
@@ -210,7 +209,7 @@ class Ride:
         )
 
     def without(self, trace: PlanTrace, *vehicles: int) -> PlanTrace | None:
-        """The plan made again from a decision without vehicles; None where that is not available.
+        """Return the plan made again from a decision without vehicles; None if not available.
 
         Raises:
             Unanswered: rollouts are needed.
@@ -223,7 +222,7 @@ class Ride:
         return again[-1] if again else None
 
     def supposed(self, trace: PlanTrace, need: NeedRollout) -> PlanTrace | None:
-        """The plan made again from a decision with what was supposed of a vehicle, if any."""
+        """Return the plan made again from a decision with a supposition about a vehicle, if any."""
         moment = (trace.sim_time, trace.decision)
         wanted = (need.vehicle, need.goal or None, need.vehicle_actions or (), need.faster)
         return next(
@@ -242,12 +241,12 @@ class Ride:
         return need in self.record.refused
 
     def original(self, trace: PlanTrace) -> PlanTrace:
-        """The decision of the ride from which a plan was made again, or the decision itself."""
+        """Return the decision of the ride from which a plan was made again, or the plan itself."""
         moment = (trace.sim_time, trace.decision)
         return next((t for t in self.traces if (t.sim_time, t.decision) == moment), trace)
 
     def _more(self, trace: PlanTrace, actions: Actions) -> NeedRollout | None:
-        """The next request for rollouts of leading actions; None where there is none left."""
+        """Return the next request for rollouts that begin with actions; None if none is left."""
         if trace.under_way is not None:
             return None
         made = [e.what_if for e in self.variants(trace) if e.what_if is not None]
@@ -261,7 +260,7 @@ class Ride:
         return next(iter(more if done else needs), None)
 
     def _check_possible(self, trace: PlanTrace, actions: Actions) -> None:
-        """Decline actions that turned out not to apply when they were to be tried.
+        """Refuse actions that proved not to apply when the planner tried them.
 
         Raises:
             Unanswered: one of them does not, with the planner's reason.
@@ -274,7 +273,7 @@ class Ride:
                     raise Unanswered(NotApplicable(asked, entry.reason, trace.sim_time))
 
     def evidence(self, trace: PlanTrace, actions: Actions) -> tuple[CausalModel, Intervention]:
-        """Enough rollouts of leading actions, from the search or from planning again.
+        """Return enough rollouts that begin with actions, from the search or planned again.
 
         Raises:
             Unanswered: rollouts are needed; or they have been made and are still too few, or an
@@ -293,11 +292,11 @@ class Ride:
         raise thin(actions, max(known, key=lambda i: i.draws, default=None))
 
 
-_models: list[CausalModel] = []  # of the decisions asked about last, latest first
+_models: list[CausalModel] = []  # of the decisions that were asked about last, latest first
 
 
 def _model(trace: PlanTrace) -> CausalModel:
-    """Return the causal model of a decision, which questions after one another share."""
+    """Return the causal model of a decision; successive questions share it."""
     found = next((one for one in _models if one.trace is trace), None) or CausalModel(trace)
     _models[:] = [found, *(one for one in _models if one is not found)][:MODELS]
     return found
@@ -309,7 +308,7 @@ def _of_other(what_if: WhatIf) -> tuple[object, ...]:
 
 
 def meets(done: tuple[float, float], span: Span) -> bool:
-    """Whether what was done from when to when [s] lies in a part of the ride, at least partly."""
+    """Check whether a begin and end [s] overlap a part of the ride."""
     begin, end = done
     if end <= begin + ROUNDING or span.end <= span.begin + ROUNDING:
         return span.begin - ROUNDING <= end and begin <= span.end + ROUNDING
@@ -317,12 +316,12 @@ def meets(done: tuple[float, float], span: Span) -> bool:
 
 
 def enough(intervention: Intervention) -> bool:
-    """Check whether there is enough evidence to speak of an intervention."""
+    """Check whether there is enough evidence for statements about an intervention."""
     return intervention.coverage >= MIN_COVERAGE or len(intervention.results) >= MIN_DISTINCT
 
 
 def thin(actions: Sequence[Action], found: Intervention | None) -> Unanswered:
-    """Return the refusal where there is not enough evidence."""
+    """Return the refusal for too little evidence."""
     distinct = len(found.results) if found else 0
     asked = tuple(actions)
     return Unanswered(

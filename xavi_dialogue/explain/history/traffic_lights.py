@@ -1,7 +1,7 @@
-"""Traffic lights: what each showed over a ride, and when the ego passed the line of one.
+"""Traffic lights: what each showed over a ride, and when the ego passed its line.
 
-A light is one place of a controller. Decisions record every change that was seen of it; the scene
-of the question adds what came since. What was out of view is not known, and not made up.
+A light is one place of a controller. Decisions record every change of it that was seen; the newest
+scene adds what came since. What was out of view is not known, and is not filled in.
 """
 
 from bisect import bisect_right
@@ -17,7 +17,7 @@ from xavi_dialogue.explain.history.nearing import driven, speed_at
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride
 from xavi_dialogue.explain.history.thresholds import STALE
 
-REACHED = 1.5  # [m] before a line from which one that is gone from the way ahead was passed
+REACHED = 1.5  # [m] from a line at which a light that is no longer ahead counts as passed
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,12 +33,12 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class Passing:
-    """The ego's front passes the line of a light."""
+    """A moment at which the ego's front passed the line of a light."""
 
     signal: Signal
     time: float  # [s]
     speed: float  # [m/s]
-    shown: Stretch | None  # what it showed then; None where that was not seen
+    shown: Stretch | None  # what it showed then; None if that was not seen
 
 
 def stretches(ride: Ride, signal: Signal) -> tuple[Stretch, ...]:
@@ -51,13 +51,13 @@ def stretches(ride: Ride, signal: Signal) -> tuple[Stretch, ...]:
 
 
 def shown(ride: Ride, signal: Signal, time: float) -> Stretch | None:
-    """Find what a light showed at a time [s]; None where it was not seen then."""
+    """Find what a light showed at a time [s]; None if it was not seen then."""
     known = stretches(ride, signal)
     k = bisect_right([one.begin for one in known], time + ROUNDING) - 1
     if k < 0:
         return None
     one = known[k]
-    slack = STALE if one is known[-1] else ROUNDING  # between two decisions it goes on
+    slack = STALE if one is known[-1] else ROUNDING  # the last one goes on until the next decision
     within = time < one.end - ROUNDING if one.changed else time <= one.end + slack
     return one if within else None
 
@@ -78,7 +78,7 @@ def _joined(ride: Ride, signal: Signal) -> Iterator[Stretch]:
 
 
 def _changes(ride: Ride, signal: Signal) -> dict[float, str]:
-    """Return the letters that a light changed to, by time [s]; UNSEEN where it went out of view."""
+    """Return the letters that a light changed to, by time [s]; UNSEEN when it went out of view."""
     found: dict[float, str] = {}
     for trace in ride.traces:
         for light in trace.lights:
@@ -93,7 +93,7 @@ def _changes(ride: Ride, signal: Signal) -> dict[float, str]:
 
 
 def _known(ride: Ride, signal: Signal) -> list[float]:
-    """Return when [s] a light was looked at and in view."""
+    """Return the times [s] of decisions and the newest scene that saw a light."""
     found = [
         trace.sim_time
         for trace in ride.traces
@@ -107,12 +107,12 @@ def _known(ride: Ride, signal: Signal) -> list[float]:
 
 
 def _last(known: list[float], time: float) -> float:
-    """Return the last look [s] up to a time."""
+    """Return the last of some times [s] up to another one."""
     return max((one for one in known if one <= time + ROUNDING), default=0.0)
 
 
 def ahead(ride: Ride, time: float) -> tuple[LightAhead, ...]:
-    """List the lights in view on our way at a time [s], nearest first, as far as they are then."""
+    """List the lights on our way, nearest first, with their distances at a time [s]."""
     trace = ride.at(time)
     if trace is None or trace.road is None:
         return ()
@@ -161,7 +161,7 @@ def _same(one: LightAhead, other: LightAhead) -> bool:
 def _reached(
     ride: Ride, window: tuple[float, float], distance: float, slack: float
 ) -> float | None:
-    """When [s] in a window the ego had driven a distance [m] from its begin; None: it had not."""
+    """Return when [s] in a window the ego had driven a distance [m]; None: it had not."""
     motion, (begin, end) = ride.motion(EGO), window
     if driven(motion, begin, end) < distance - slack or not motion.time:
         return None
