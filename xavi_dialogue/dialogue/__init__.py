@@ -1,1 +1,1 @@
-"""Dialogue: the conversation as a function of its inputs. No sockets, clock or threads."""
+"""Dialogue: the conversation as a pure function of its inputs. No sockets, clock or threads."""

@@ -1,4 +1,4 @@
-"""Acts: what is replied to each act of a turn, and to all of them together. Pure."""
+"""Acts: the replies to each act of a turn, and to all of them together. Pure."""
 
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
@@ -46,12 +46,12 @@ from xavi_dialogue.domain.meaning import (
 Result: TypeAlias = Answer | Refusal
 Results: TypeAlias = tuple[Result, ...]
 
-#: Social moves that a reply to something else makes superfluous.
+#: Social moves that need no reply if there is another act.
 _POLITE = frozenset(
     ("greeting", "farewell", "thanks", "agree", "disagree", "acknowledge", "laugh", "wish",
      "address", "apology", "praise", "caution")
 )  # fmt: skip
-#: Social moves that say less than any other.
+#: Social moves that are replied to only if there are no others.
 _FAINT = (Social("acknowledge"), Social("agree"), Social("address"))
 _MENDING = frozenset(("meant", "correct", "pick"))
 _REWORDINGS = frozenset(("longer", "shorter", "simpler"))
@@ -59,19 +59,19 @@ _REWORDINGS = frozenset(("longer", "shorter", "simpler"))
 
 @dataclass(frozen=True, slots=True)
 class Lacking:
-    """What it takes to answer the next act, and what was answered before it."""
+    """The plan that the next act needs for its answer, and the answers so far."""
 
     need: NeedRollout
-    done: tuple[Results, ...]  # of each act so far
+    done: tuple[Results, ...]  # of each act answered so far
 
 
 def respond(now: Situation, understood: Understood, done: tuple[Results, ...]) -> Said | Lacking:
     """Answer every act in turn.
 
     Args:
-        now: the question and what there is to answer it from.
+        now: the question and all that it can be answered from.
         understood: the acts.
-        done: what was answered of the first of them.
+        done: the answers to the first of them.
     """
     acts = understood.acts
     spoken = _to_repeat(now, acts)
@@ -91,7 +91,7 @@ def respond(now: Situation, understood: Understood, done: tuple[Results, ...]) -
 
 
 def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRollout:
-    """Return what is replied to one act.
+    """Return the replies to one act.
 
     Args:
         now: the situation.
@@ -121,7 +121,7 @@ def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRol
 
 
 def _explained(now: Situation, act: GroundedAct) -> Results | NeedRollout:
-    """Answer an act, of each of several vehicles that it is asked of."""
+    """Answer an act; one about several vehicles is answered for each of them."""
     found: list[Answer | Refusal] = []
     for one in (why for each in severally(act) for why in _occasions(now, each)):
         result = now.pipeline.explain(one, now.record)
@@ -132,7 +132,7 @@ def _explained(now: Situation, act: GroundedAct) -> Results | NeedRollout:
 
 
 def _occasions(now: Situation, act: GroundedAct) -> tuple[GroundedAct, ...]:
-    """Give the questions why of each occasion of a deed whose reasons are asked for."""
+    """Return the act, or a question why for each occasion whose reason it asks for."""
     events = listed(act)
     if events is None:
         return (act,)
@@ -142,10 +142,10 @@ def _occasions(now: Situation, act: GroundedAct) -> tuple[GroundedAct, ...]:
 
 
 def pertinent(acts: tuple[GroundedAct, ...]) -> tuple[GroundedAct, ...]:
-    """Return the acts that are replied to: courtesies only where there is nothing else.
+    """Return the acts to reply to; courtesies only if there is nothing else.
 
-    What is to be said again in another form is not said again as it was, too; "what?" beside
-    a question is no more than surprise.
+    If an answer is wanted in another form, it is not repeated as well. Next to a question, an
+    insult, or a repair such as "what?", only expresses surprise.
     """
     asked = any(isinstance(act.act, Ask | Request) for act in acts)
     telling = tuple(
@@ -163,7 +163,7 @@ def pertinent(acts: tuple[GroundedAct, ...]) -> tuple[GroundedAct, ...]:
 
 
 def _comfort(now: Situation, act: GroundedAct, feel: Feel, beside: bool) -> Results | NeedRollout:
-    """Reply to a feeling; beside another act, the reply to that one is the fact."""
+    """Reply to a feeling, with a fact unless the turn has other acts."""
     if beside:
         return (Comforting(feel),)
     found = now.pipeline.explain(act, now.record)
@@ -200,7 +200,7 @@ def _again(now: Situation, how: Literal["repeat", "simpler", "shorter", "longer"
 
 
 def _previous(now: Situation) -> Turn | None:
-    """Return the turn that is to be stated otherwise: the last that told something."""
+    """Return the turn to restate: the last that restated an answer, or was about the drive."""
     for turn in reversed(now.memory.turns):
         if any(isinstance(r, Again) for r in turn.results) or turn is now.memory.last:
             return turn
@@ -214,9 +214,9 @@ def _plain(result: Result) -> Result | None:
 
 
 def _repeat(now: Situation, last: Turn) -> Said:
-    """Say the same words once more; what was offered still is.
+    """Say the same words once more; what was offered stays open.
 
-    A wish for more or less words that led to them is not made once more.
+    A repair that led to them loses its act, so that its wish for more or fewer words counts once.
     """
     reply: Reply = changed(last.reply, sim_time=now.record.now, timing_ms=None)
     parts = tuple(Part(None, p.result) if _is_repair(p) else p for p in last.parts)
@@ -234,9 +234,9 @@ def _is_repair(part: Part) -> bool:
 
 
 def _to_repeat(now: Situation, acts: tuple[GroundedAct, ...]) -> Turn | None:
-    """Return the turn that is to be said again in the same words; None: nothing of the kind.
+    """Return the turn to be repeated word for word; None: no such repetition is wanted.
 
-    A question of ours is put again as it was, however it is asked to be told.
+    A question of ours is repeated unchanged, even if another wording is wanted.
     """
     last = next((turn for turn in reversed(now.memory.turns) if not turn.turned_away), None)
     if last is None or len(acts) != 1 or not isinstance(acts[0].act, Repair):
@@ -248,7 +248,7 @@ def _to_repeat(now: Situation, acts: tuple[GroundedAct, ...]) -> Turn | None:
 
 
 def _parts(understood: Understood, done: tuple[Results, ...]) -> tuple[Part, ...]:
-    """Return acts and results in the order in which they are stated."""
+    """Return acts and results in the order of the reply."""
     replied = tuple(
         Part(act, result)
         for act, results in zip(understood.acts, done, strict=True)
@@ -285,7 +285,7 @@ def _parts(understood: Understood, done: tuple[Results, ...]) -> tuple[Part, ...
 
 
 def _is_outcry(act: GroundedAct) -> bool:
-    """Tell whether it is surprise, or abuse, beside a question."""
+    """Check whether an act next to a question only expresses surprise, or is abuse."""
     return isinstance(act.act, Repair) or act.act == Social("insult")
 
 

@@ -1,7 +1,7 @@
-"""Going deeper: what a bare "why?", "how do you know?" or "are you sure?" asks after an answer.
+"""Going deeper: what a bare "why?", "how do you know?" or "are you sure?" refers to.
 
-A row of whys goes one level down each time: from a decision to the belief about the vehicle
-behind it, from there to the evidence for the belief, and there it ends.
+Each bare "why?" in a series goes one level down: from a decision to the belief about the vehicle
+behind it, then to the evidence for that belief. There the series ends.
 """
 
 from collections.abc import Sequence
@@ -80,16 +80,16 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 
-#: Nothing lies beneath the last answer; or the words alone are to be understood.
+#: "bottom": nothing lies beneath the last answer; "leave": the act keeps its own meaning.
 Deeper: TypeAlias = Act | Literal["bottom", "leave"]
 BOTTOM = CannotSay(topic="deeper")
 MORE = Repair(kind="longer")
 
 
 def recast(reading: Reading, turns: Sequence[Turn]) -> Reading:
-    """Put in the place of bare follow-ups what they ask after the answers so far.
+    """Replace bare follow-ups by what they ask after the answers so far.
 
-    An act beneath which nothing lies is left as `Repair(kind="why")`.
+    A follow-up with nothing beneath it becomes `Repair(kind="why")`.
     """
     last = _last(turns)
     if last is None:
@@ -123,7 +123,7 @@ def _recast(act: Act, last: Turn) -> Act:
 
 
 def _is_of_supposed(act: Act, result: Answer | Refusal | None) -> bool:
-    """Tell whether words after a supposition stay in it: "what would cause that?"."""
+    """Check whether an act after a supposition is about its world: "what would cause that?"."""
     match act:
         case Ask(question=Why(of=of, instead=None, suspect=None)):
             supposed = isinstance(result, SupposedOfUs | SupposedOfOther)
@@ -145,7 +145,7 @@ def _is_imagined(event: Event | None) -> bool:
 
 
 def _of_other(result: SupposedOfOther, last: Turn) -> Act:
-    """Return why we would do so in a world that was supposed; once told, why we do what we do."""
+    """Ask why we would act so in the supposed world; after that answer, why we act as we do."""
     asked, tense = _asked(result, last), _tense_of(result.past)
     if isinstance(asked, WhatIf) and result.within is None:
         would = Event(result.then[0], tense=tense, modal="would")
@@ -154,7 +154,7 @@ def _of_other(result: SupposedOfOther, last: Turn) -> Act:
 
 
 def _asked(result: Answer | Refusal, last: Turn) -> Question | None:
-    """Return what a turn asked that an answer of it is to."""
+    """Return the question of a turn that a result answers."""
     acts = (p.act.act for p in last.parts if p.act is not None and p.result == result)
     return next((act.question for act in acts if isinstance(act, Ask)), None)
 
@@ -209,12 +209,12 @@ def deeper(last: Turn) -> Deeper:
     return "leave"
 
 
-#: What says least of what somebody is about.
+#: Actions that say least about what somebody is doing.
 _PLAIN = frozenset(("signal", "follow", "speed-up", "slow-down", "continue", "move", "approach"))
 
 
 def _telling(doing: Sequence[Episode]) -> Episode:
-    """Return the deed that tells most of what somebody is about; of equals the last."""
+    """Return the action that says most about what somebody is doing; of equals the last."""
     return max(doing, key=lambda e: (e.action not in _PLAIN, e.action != "signal", e.begin))
 
 
@@ -241,7 +241,7 @@ def _of_ours(
 
 
 def _seen(result: ChoiceReason | MotionReason | SupposedOfUs) -> Act | None:
-    """Return why a vehicle did what was in our way before our eyes."""
+    """Return the question why a visible vehicle did what was in our way."""
     if not isinstance(result, MotionReason):
         return None
     first = _first(result)
@@ -257,7 +257,7 @@ def _seen(result: ChoiceReason | MotionReason | SupposedOfUs) -> Act | None:
 
 
 def _first(result: MotionReason) -> MotionCause | None:
-    """Return the vehicle that is the main reason; None where a light or the road is."""
+    """Return the main reason if it is a vehicle; None if it is a light, the road or the like."""
     main = next(iter(result.causes), None)
     return main if main is not None and main.vehicle else None
 
@@ -280,7 +280,7 @@ def _blamed(result: Answer | Refusal | None) -> Event | None:
 
 
 def _doubted(result: Answer | Refusal | None) -> Event | None:
-    """Return the event of which "are you sure?" asks; None where the words alone tell."""
+    """Return the event that "are you sure?" is about; None: the act keeps its own meaning."""
     match result:
         case ChoiceReason(deed=deed) if deed is not None:
             return event_of(deed)
@@ -326,7 +326,7 @@ def _is_bare_why(act: Act) -> bool:
 
 
 def _last(turns: Sequence[Turn]) -> Turn | None:
-    """Return the turn whose answer is asked about: small talk and repeats are passed over."""
+    """Return the turn that a follow-up refers to; small talk is passed over."""
     return next((turn for turn in reversed(turns) if _counts(turn)), None)
 
 
@@ -336,7 +336,7 @@ def _counts(turn: Turn) -> bool:
 
 
 def _main(turn: Turn) -> Answer | Refusal | None:
-    """Return the answer of a turn that reasons are asked for: the last that is no mere talk."""
+    """Return the answer of a turn that reasons are asked for: the last that is more than talk."""
     for result in reversed(turn.results):
         match result:
             case Again(answer=inner) | Comforting(fact=inner) | Judged(answer=inner):

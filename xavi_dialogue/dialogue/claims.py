@@ -1,8 +1,7 @@
-"""Claims: what is said of a claim that stands beside a question, or beside another claim. Pure.
+"""Claims: replies to a claim that stands next to a question, or to another claim. Pure.
 
-A claim beside a question is the ground on which it is asked. The question is answered; the claim
-is put right only where it disputes what we said or did, where it is false, and where that matters
-and the answer does not tell it.
+A claim next to a question is its background. The question is answered. The claim is corrected only
+if it disputes what we said or did, is false, and matters, and if the answer does not correct it.
 """
 
 from collections.abc import Sequence
@@ -59,17 +58,17 @@ STATES: Final = frozenset(
     ("fast", "slow", "close", "far", "big", "late", "dangerous", "uncomfortable", "normal",
      "worth-it", "better", "busy", "stuck", "comfortable", "safe")
 )  # fmt: skip
-#: Reasons: a claim beside a question after one is the setting in which it is asked.
+#: Reasons: answers next to which a statement is only background.
 REASONS: Final = (
     ChoiceReason | MotionReason | GoReason | OtherReason | SupposedOfUs | SupposedOfOther
     | Reaction | Unslowed
 )  # fmt: skip
-#: Motions that anybody may put otherwise.
+#: Motions for which people use various verbs.
 PASSING: Final = frozenset(
     ("go", "come", "move", "do", "head", "leave", "enter", "pull-out", "stand", "follow", "wait",
      "see", "appear", "disappear", "approach", "pass", "happen", "keep-lane", "cross")
 )  # fmt: skip
-#: Feelings that get a word of sympathy beside a question.
+#: Feelings that get a word of sympathy even next to a question.
 GRAVE: Final = frozenset(("afraid", "nervous", "startled", "sick", "sad"))
 _PERSONAL: Final = frozenset(("how-are-you", "who-are-you", "are-you-human", "feelings"))
 _BARE: Final = frozenset(("right", "wrong"))
@@ -77,14 +76,14 @@ _REAR: Final = ("behind", "behind-left", "behind-right")
 
 
 def in_order(acts: Sequence[GroundedAct]) -> tuple[GroundedAct, ...]:
-    """Return acts in the order in which they are replied to: claims after questions."""
+    """Return acts in the order of their replies: claims after questions."""
     if not asks(acts):
         return tuple(acts)
     return tuple(sorted(acts, key=lambda act: isinstance(act.act, Claim)))
 
 
 def asks(acts: Sequence[GroundedAct]) -> bool:
-    """Tell whether there is a question or request among acts."""
+    """Check whether there is a question or request among acts."""
     return any(
         isinstance(act.act, Ask | Request)
         or (isinstance(act.act, Social) and act.act.kind in _PERSONAL)
@@ -93,7 +92,7 @@ def asks(acts: Sequence[GroundedAct]) -> bool:
 
 
 def is_ground(act: GroundedAct, acts: Sequence[GroundedAct]) -> bool:
-    """Tell whether a claim is so vague, or so bare beside the others, that nobody checks it."""
+    """Check whether a claim is too vague, or says too little next to other acts, to be checked."""
     if not isinstance(act.act, Claim) or len(acts) < 2:
         return False
     if asks(acts):
@@ -118,7 +117,7 @@ def _is_vague(that: Proposition) -> bool:
 
 
 def _is_bare(act: GroundedAct) -> bool:
-    """Tell whether a claim only says of others that they are so, not so, or known."""
+    """Check whether a claim only says that something is right, wrong or known."""
     match act.act:
         case Claim(that=Not(content=content) | content):
             known = isinstance(content, Believed) and act.leaned and not act.act.challenge
@@ -145,7 +144,7 @@ def told(said: Sequence[Part]) -> tuple[Part, ...]:
 
 
 def _foremost(said: Sequence[Part]) -> tuple[Part, ...]:
-    """Reply to one of several claims: to one that is false, to a challenge, or to the last."""
+    """Keep the reply to one of several claims: a false one, else a challenge, else the last."""
     claims = [part for part in said if _is_claim(part)]
     false = [p for p in claims if isinstance(p.result, Verdict) and p.result.holds is False]
     disputed = [part for part in claims if _disputes_us(part.act)]
@@ -154,7 +153,7 @@ def _foremost(said: Sequence[Part]) -> tuple[Part, ...]:
 
 
 def _once(said: Sequence[Part]) -> tuple[Part, ...]:
-    """Leave out who has right of way where another part tells it of the same vehicle."""
+    """Keep one part on right of way for each vehicle; if any replies yes or no, only such parts."""
     rules = [p for p in said if isinstance(p.result, Priority)]
     owned = [p for p in rules if isinstance(p.result, Priority) and p.result.holds is not None]
     kept_rules = {
@@ -164,7 +163,7 @@ def _once(said: Sequence[Part]) -> tuple[Part, ...]:
 
 
 def _without_setting(said: Sequence[Part]) -> tuple[Part, ...]:
-    """Leave out statements with a question mark beside a reason: "..., the road is free?"."""
+    """Leave out statements with a question mark next to a reason: "..., the road is free?"."""
     if not any(isinstance(part.result, REASONS) for part in said):
         return tuple(said)
     return tuple(part for part in said if not _is_statement(part))
@@ -176,7 +175,7 @@ def _is_statement(part: Part) -> bool:
 
 
 def _declined_once(said: Sequence[Part]) -> tuple[Part, ...]:
-    """Leave out all but one refusal to drive otherwise, and that where a reason tells as much."""
+    """Keep at most one refusal to drive otherwise, and none if a reason explains it already."""
     told_why = any(isinstance(part.result, REASONS) for part in said)
     declined = [part for part in said if isinstance(part.result, Declined)]
     others = any(isinstance(p.act.act, Ask) for p in said if p.act is not None)
@@ -188,7 +187,7 @@ def _declined_once(said: Sequence[Part]) -> tuple[Part, ...]:
 
 
 def kept(said: Sequence[Part]) -> tuple[Part, ...]:
-    """Return the parts of a reply as they are remembered: what was asked counts last."""
+    """Return the parts of a reply as they are remembered: answers to questions come last."""
     acts = [part.act for part in said if part.act is not None]
     if not asks(acts):
         return tuple(said)
@@ -200,12 +199,12 @@ def _is_sympathy(part: Part) -> bool:
 
 
 def _is_grave(part: Part) -> bool:
-    """Tell whether a feeling is one that nobody passes over, whatever else was asked."""
+    """Check whether a feeling is so grave that it always gets a reply."""
     return isinstance(part.result, Comforting) and part.result.feel.feeling in GRAVE
 
 
 def _disputes_us(act: GroundedAct | None) -> bool:
-    """Tell whether a claim is a challenge to what we said, did or left undone."""
+    """Check whether a claim is a challenge to what we said, did or did not do."""
     match act:
         case GroundedAct(act=Claim(that=that, challenge=True)):
             return first(that, Believed) is not None or first(that, Ego) is not None
@@ -217,11 +216,11 @@ def _is_claim(part: Part) -> bool:
 
 
 def _matters(result: Result, answers: Sequence[Result]) -> bool:
-    """Tell whether what a claim came to is to be said beside the answers."""
+    """Check whether a claim is false in a way that must be corrected besides the answers."""
     if not isinstance(result, Verdict) or result.holds is not False or result.mistaken:
         return False
     if any(isinstance(answer, DidNotHappen | Verdict | REASONS) for answer in answers):
-        return False  # the answer tells what was so itself, or what mattered
+        return False  # the answer itself states what was true, or what mattered
     if not _weighty(result.that):
         return False
     looks = [fact for fact in result.facts if isinstance(fact, Look)]
@@ -234,16 +233,16 @@ def _matters(result: Result, answers: Sequence[Result]) -> bool:
 
 
 def _is_remark(part: Part) -> bool:
-    """Tell whether a part only agrees to what somebody sees for himself."""
+    """Check whether a part only agrees with what the passenger can see."""
     result = part.result
     agreed = isinstance(result, Verdict) and result.holds is True
     return _is_claim(part) and agreed and isinstance(result, Verdict) and not _weighty(result.that)
 
 
 def _weighty(that: Proposition) -> bool:
-    """Tell whether it matters that something said beside a question is not so.
+    """Check whether it matters that a claim is false.
 
-    Where somebody is, or that he goes, comes or stands, is an observation: it is let pass.
+    Where somebody is, or that they go, come or stand, is an observation and needs no correction.
     """
     match that:
         case Not(content=content):

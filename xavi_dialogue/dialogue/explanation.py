@@ -1,4 +1,4 @@
-"""Explanation: the object of the contract, derived from a typed answer."""
+"""Explanation: the object `explanation` of the contract, derived from a typed answer."""
 
 import re
 from collections.abc import Iterable
@@ -44,7 +44,7 @@ from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.rewriting import parts
 
 _MACRO: frozenset[str] = frozenset(get_args(Action))
-#: Talk, which explains nothing.
+#: Types of talk, which explain nothing.
 TALK: tuple[type, ...] = (
     *(Acknowledged, Again, Comforting, Declined, Helpful, Judged, NothingToAsk, Posed),
     *(Sociable, TakenAs, Unfamiliar),
@@ -52,7 +52,7 @@ TALK: tuple[type, ...] = (
 
 
 class Contrastive(msgspec.Struct, frozen=True, kw_only=True):
-    """What causal answers have in common: see `Explanation` in the contract."""
+    """The common fields of causal answers; see `Explanation` in the contract."""
 
     kind: str
     factual: tuple[Action, ...] = ()
@@ -61,16 +61,16 @@ class Contrastive(msgspec.Struct, frozen=True, kw_only=True):
     effects: tuple[Effect, ...] = ()
     causes: tuple[Cause, ...] = ()
     evidence: Evidence = Evidence()
-    continued: tuple[Action, ...] = ()  # what the counterfactual would be followed by
+    continued: tuple[Action, ...] = ()  # actions that would follow the counterfactual
     aim: Aim | None = None
-    verdict: Weighing | None = None  # whether the factual is better by the record
-    terms: tuple[Share, ...] = ()  # the difference of the rewards, taken apart
-    told: tuple[Share, ...] = ()  # of these, what is stated, the decisive one first
+    verdict: Weighing | None = None  # whether the factual is better, as far as the record shows
+    terms: tuple[Share, ...] = ()  # terms of the difference of the rewards
+    told: tuple[Share, ...] = ()  # those that the answer states, the decisive one first
     error: float | None = None  # [s] standard error of the difference
 
 
 def contrastive(result: Result) -> Contrastive | None:
-    """Return fact, foil, effects and causes of a causal answer; None of any other."""
+    """Return fact, foil, effects and causes of a causal answer; None of any other answer."""
     kind = kind_of(result)
     match result:
         case ChoiceReason(contrast=contrast) | SupposedOfUs(contrast=contrast):
@@ -91,10 +91,10 @@ def contrastive(result: Result) -> Contrastive | None:
 
 
 def explanation_of(results: Iterable[Result]) -> dict[str, object] | None:
-    """Return the object of the contract for the first result that explains, else for the first.
+    """Return the object of the contract for the first causal result, else for the first result.
 
-    Of a causal answer: fact, foil, outcome, effects, causes and evidence. Of any other: its kind
-    and what its type holds. None where nothing was answered, or it was only talk.
+    For a causal answer: fact, foil, outcome, effects, causes and evidence. For any other: its kind
+    and its fields. None if there is no answer, or only talk.
     """
     answers = [_told(result) for result in results if reason_of(result) is None]
     for answer in answers:
@@ -109,7 +109,7 @@ def explanation_of(results: Iterable[Result]) -> dict[str, object] | None:
 
 
 def as_json(value: msgspec.Struct) -> dict[str, object]:
-    """Return a value as the JSON object that it is sent as: what is stored reads back the same."""
+    """Return a value as a JSON object, from which the value can be decoded again."""
     found: dict[str, object] = msgspec.json.decode(msgspec.json.encode(value))
     return found
 
@@ -126,7 +126,7 @@ def evidence_of(results: Iterable[Result]) -> Evidence | None:
 
 
 def _told(result: Result) -> Result:
-    """Return the answer within one that only frames it."""
+    """Return the inner answer of one that only frames it."""
     match result:
         case Comforting(fact=inner) | Again(answer=inner) | Judged(answer=inner):
             return result if inner is None else inner
@@ -152,7 +152,7 @@ def _of_contrast(kind: str, contrast: Contrast) -> Contrastive:
 
 
 def _of_supposition(kind: str, found: SupposedOfOther) -> Contrastive:
-    """Return what would be planned as the counterfactual, and the vehicle as the one cause."""
+    """Return the hypothetical plan as the counterfactual, and the vehicle as the only cause."""
     supposed = found.supposed
     named = supposed is not None and supposed.action in _MACRO
     actions = msgspec.convert((supposed.action,), tuple[Action, ...]) if named and supposed else ()
@@ -170,7 +170,7 @@ def _of_supposition(kind: str, found: SupposedOfOther) -> Contrastive:
 
 
 def _cause(cause: MotionCause) -> Cause:
-    """Return a reason for how we drove as a cause; what was in our way was there for certain."""
+    """Return a reason for how we drove as a cause; without a probability, it was certain."""
     hold_ups = {"leader", "right-of-way", "cut-in", "blocked"}
     how = cause.kind if cause.kind in hold_ups else None
     mechanism = None

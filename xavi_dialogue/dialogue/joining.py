@@ -1,4 +1,4 @@
-"""Joining: what is said of several results as one reply, short and nothing twice. Pure."""
+"""Joining: the sentences of several results as one short reply without repetition. Pure."""
 
 import re
 from collections.abc import Sequence
@@ -6,11 +6,11 @@ from typing import Final
 
 from xavi_dialogue.nlg.context import Utterance
 
-AT_MOST: Final = 3  # sentences of a reply to several acts
+AT_MOST: Final = 3  # maximum of sentences of a reply to several acts
 _CLAUSES: Final = re.compile(r"(: |; |, because |, though |, so )")
 _WORDS: Final = re.compile(r"\d+(?:[.:]\d+)?|[^\W\d_]+")
 _ASIDE: Final = re.compile(r"\((?:vehicle )?\d+\)")
-#: Words that tell nothing new by themselves.
+#: Words that carry no information by themselves.
 _SMALL: Final = frozenset(
     ("yes", "actually", "that", "is", "was", "am", "are", "were", "be", "been", "you",
      "i", "we", "us", "our", "it", "its", "the", "a", "an", "this", "and", "or", "to", "of", "at",
@@ -18,16 +18,16 @@ _SMALL: Final = frozenset(
      "chance", "expect", "expected", "almost", "certainly", "probably", "because", "now", "just",
      "thought", "think", "may", "might", "well", "as", "so"),
 )  # fmt: skip
-#: Where "right" tells no side.
+#: Phrases in which "right" is not a side.
 _NO_SIDE: Final = re.compile(r"\b(?:that is|you are) right\b|\bright(?= of way)")
-#: Endings that tenses and persons put to verbs.
+#: Endings of verb forms.
 _ENDINGS: Final = re.compile(r"(?:ing|ed|es|s|e)$")
 
 
 def joined(utterances: Sequence[Utterance]) -> Utterance:
-    """Join what is said of several results; what was said is not said again.
+    """Join the sentences of several results, without those that were said before.
 
-    Word several results in `AT_MOST` sentences, or in one each where there are more results.
+    Several results get `AT_MOST` sentences together, or one each if there are more results.
     """
     rows: list[tuple[str, ...]] = []
     known: set[str] = set()
@@ -47,7 +47,7 @@ def joined(utterances: Sequence[Utterance]) -> Utterance:
 
 
 def _once(sentence: str) -> str:
-    """Give a sentence without a last clause that says what the one before it says."""
+    """Return a sentence without a last clause that repeats the clause before it."""
     pieces = _CLAUSES.split(sentence.rstrip("."))
     if len(pieces) < 3 or pieces[-2] not in (": ", "; "):
         return sentence
@@ -58,7 +58,7 @@ def _once(sentence: str) -> str:
 
 
 def _new(sentence: str, known: set[str]) -> str:
-    """Give a sentence without the clauses at its end that were stated before; "" if all were."""
+    """Return a sentence without final clauses that repeat earlier ones; "" if all of it repeats."""
     pieces = _CLAUSES.split(sentence.rstrip("."))
     if not known or _gist(sentence) - {"no"} <= known:
         return "" if known else sentence
@@ -69,7 +69,7 @@ def _new(sentence: str, known: set[str]) -> str:
 
 
 def _gist(text: str) -> set[str]:
-    """Collect the words of a text that tell something, without their endings."""
+    """Collect the words of a text that carry information, without their endings."""
     words = _WORDS.findall(_NO_SIDE.sub(" ", _ASIDE.sub(" ", text).casefold()))
     return {_ENDINGS.sub("", word) for word in words if word not in _SMALL}
 
@@ -77,7 +77,7 @@ def _gist(text: str) -> set[str]:
 def _short(
     rows: Sequence[tuple[str, ...]], utterances: Sequence[Utterance]
 ) -> list[tuple[str, ...]]:
-    """Cut the ends off what is said of several results; choices are left whole."""
+    """Shorten the sentences of several results to the limit; choices stay whole."""
     if len(rows) < 2:
         return list(rows)
     spare = max(AT_MOST - sum(bool(row) for row in rows), 0)
@@ -90,7 +90,7 @@ def _short(
 
 
 def sentences(text: str) -> tuple[str, ...]:
-    """Cut a text behind the marks that end a sentence; a choice in brackets is no sentence."""
+    """Split a text into sentences; a choice in brackets is not a sentence of its own."""
     found: list[str] = []
     begin = depth = 0
     for index, mark in enumerate(text):

@@ -1,8 +1,8 @@
-"""Manager: the dialogue sans I/O. Inputs in, outputs out; the state is a fold over inputs.
+"""Manager: the dialogue without I/O. It maps inputs to outputs; its state is a fold over inputs.
 
-It has no sockets, clock or threads. Where evidence is lacking it hands out RolloutsWanted and
-goes on when RolloutsArrived or RolloutsFailed comes back. An input that has no place in the
-present state raises IllegalEvent and changes nothing.
+It has no sockets, clock or threads. If an answer lacks evidence, it puts out RolloutsWanted and
+continues when RolloutsArrived or RolloutsFailed comes in. An input that the present state does
+not permit raises IllegalEvent and changes nothing.
 """
 
 from collections.abc import Iterable
@@ -49,10 +49,10 @@ from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.dialogue.understanding import understand
 from xavi_dialogue.domain.answers import NeedRollout
 
-MAX_ROUNDS = 12  # of planning again for one question
-MAX_TRACES = 300  # decisions of a ride that are remembered; then the oldest is forgotten
+MAX_ROUNDS = 12  # maximum of new plans for one act of a question
+MAX_TRACES = 300  # maximum of decisions of a ride that are remembered; the oldest are forgotten
 MAX_EVENTS = 2000
-MAX_SCENES = 100  # for questions about a moment that is just over
+MAX_SCENES = 100  # needed for questions about a moment just before
 MAX_GAPS = 100  # in the record
 MAX_PLANNED = 100  # decisions planned again
 MAX_TURNS = 400  # of a session
@@ -61,10 +61,10 @@ Step: TypeAlias = tuple[Dialogue, tuple[Output, ...]]
 
 
 def advance(pipeline: Pipeline, dialogue: Dialogue, event: Input) -> Step:
-    """Return the state after one input, and what is handed out.
+    """Return the state and the outputs after one input.
 
     Raises:
-        IllegalEvent: the input has no place in the present state.
+        IllegalEvent: the present state does not permit the input.
     """
     match event:
         case TraceRecorded() | EventRecorded() | SceneSeen() | RecordMissing() | RideEnded():
@@ -90,7 +90,7 @@ def advance(pipeline: Pipeline, dialogue: Dialogue, event: Input) -> Step:
 
 
 def fold(pipeline: Pipeline, events: Iterable[Input], dialogue: Dialogue | None = None) -> Dialogue:
-    """Return the state after a row of inputs."""
+    """Return the state after a series of inputs."""
     state = Dialogue() if dialogue is None else dialogue
     for event in events:
         state, _ = advance(pipeline, state, event)
@@ -132,7 +132,7 @@ def _ask(pipeline: Pipeline, dialogue: Dialogue, asked: Asked) -> Step:
 
 
 def _think(pipeline: Pipeline, dialogue: Dialogue, session: Session, question: Pending) -> Step:
-    """Answer act by act; what was planned again before need not be planned anew."""
+    """Answer act by act; plans that were made before are used again."""
     while True:
         assert question.understood is not None
         now = _situation(pipeline, dialogue, session, question)
@@ -147,17 +147,17 @@ def _think(pipeline: Pipeline, dialogue: Dialogue, session: Session, question: P
 
 
 def _evidence(dialogue: Dialogue, question: Pending, need: NeedRollout) -> Pending | None:
-    """Return the question with a plan it needs or without; None: it has to be planned again."""
+    """Return the question with the plan that it needs, or a failure; None: it must be planned."""
     understood, extra = question.understood, question.extra
     assert understood is not None
     known = dialogue.planned.get(need)
     rounds = MAX_ROUNDS * max(1, len(understood.acts))
     endless = len(extra) >= rounds or known in extra
-    if endless and understood.aim == "quiz":  # there are other questions to put
+    if endless and understood.aim == "quiz":  # there are other questions to ask
         return replace(question, refused=(*question.refused, need))
     if endless:
         return replace(question, done=(*question.done, (failed("too-little-evidence"),)))
-    if need in question.refused:  # there is no answer without it
+    if need in question.refused:  # it cannot be answered without the plan
         return replace(question, done=(*question.done, (failed(question.why),)))
     return None if known is None else replace(question, extra=(*extra, known))
 
@@ -179,7 +179,7 @@ def _want(dialogue: Dialogue, session: Session, pending: Pending) -> Step:
 
 
 def _waiting(dialogue: Dialogue, request: str, name: str, move: Move) -> tuple[Session, Pending]:
-    """Return the session that waits for rollouts for this request, moved on.
+    """Return the session that waits for rollouts for this request, after the move.
 
     Raises:
         IllegalEvent: it waits for nothing, or for another request.
@@ -201,10 +201,10 @@ def _go_on(pipeline: Pipeline, dialogue: Dialogue, event: RolloutsArrived) -> St
 
 
 def _planned(dialogue: Dialogue, need: NeedRollout, trace: PlanTrace) -> Dialogue:
-    """Know a decision planned again.
+    """Remember a decision that was planned again.
 
     Raises:
-        IllegalEvent: it is not the one that was needed.
+        IllegalEvent: it is not the decision that was needed.
     """
     if not _is_wanted(dialogue, need, trace):
         raise IllegalEvent("rollouts that are not those that were needed")
@@ -213,7 +213,7 @@ def _planned(dialogue: Dialogue, need: NeedRollout, trace: PlanTrace) -> Dialogu
 
 
 def _is_wanted(dialogue: Dialogue, need: NeedRollout, trace: PlanTrace) -> bool:
-    """Tell whether a trace is the decision that was to be planned again, as it was wanted."""
+    """Check whether a trace is the needed decision, planned again as wanted."""
     if trace.what_if != msgspec.convert(msgspec.to_builtins(need), WhatIf):
         return False
     moment = (trace.sim_time, trace.decision)
@@ -222,7 +222,7 @@ def _is_wanted(dialogue: Dialogue, need: NeedRollout, trace: PlanTrace) -> bool:
 
 
 def _give_up(pipeline: Pipeline, dialogue: Dialogue, event: RolloutsFailed) -> Step:
-    """Answer without the rollouts where they were only to make sure; else say why not."""
+    """Answer without the rollouts if that is possible; else state why they failed."""
     session, pending = _waiting(dialogue, event.request, event.session, Move.PLANNING_FAILED)
     assert pending.need is not None
     refused = (*pending.refused, pending.need)
@@ -238,13 +238,13 @@ def _turn_away(pipeline: Pipeline, dialogue: Dialogue, event: TurnedAway) -> Ste
 
 
 def _speak(dialogue: Dialogue, session: Session, asked: Asked, said: Said) -> Step:
-    """End the turn that was thought about."""
+    """End the turn that was being answered."""
     session = replace(session, phase=after(PHASES, session.phase, _ending(said)))
     return _tell(dialogue, session, asked, said)
 
 
 def _tell(dialogue: Dialogue, session: Session, asked: Asked, said: Said) -> Step:
-    """Say it, and keep the turn."""
+    """Put out the reply, and keep the turn."""
     turn = said.turn(asked, dialogue.ride_id)
     session = replace(session, turns=(*session.turns, turn)[-MAX_TURNS:])
     answered = Answered(asked.request, asked.session, said.reply, turn)
@@ -258,17 +258,17 @@ def _ending(said: Said | Turn) -> Move:
 
 
 def _open_turn(session: Session) -> Turn | None:
-    """Return the turn that ended with a question of ours, which may be answered now."""
+    """Return the turn that ended with a question of ours, which the next text may answer."""
     if session.phase not in (Phase.CHOOSING, Phase.QUIZZING):
         return None
     return next(turn for turn in reversed(session.turns) if not turn.turned_away)
 
 
 def _resumed(dialogue: Dialogue, name: str, turns: tuple[Turn, ...]) -> Session:
-    """Return the session as its last turn left it; offers of another ride are void.
+    """Return the session as its last turn left it; offers of another ride have expired.
 
     Raises:
-        IllegalEvent: it has gone on already.
+        IllegalEvent: the session has turns already.
     """
     if dialogue.session(name) != Session():
         raise IllegalEvent(f"'resumed' for {name!r}, which has gone on already")
@@ -281,6 +281,6 @@ def _resumed(dialogue: Dialogue, name: str, turns: tuple[Turn, ...]) -> Session:
 
 def _with(dialogue: Dialogue, name: str, session: Session) -> Dialogue:
     sessions = {**dialogue.sessions, name: session}
-    if session == Session():  # as if nothing had been said
+    if session == Session():  # a session without turns is the same as none
         del sessions[name]
     return replace(dialogue, sessions=sessions)

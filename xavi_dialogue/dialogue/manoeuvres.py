@@ -1,4 +1,4 @@
-"""Manoeuvres: the lane changes and turns that the ego carried out, read off its events."""
+"""Manoeuvres: the lane changes and turns that the ego carried out, derived from its events."""
 
 from collections.abc import Iterable
 
@@ -11,7 +11,7 @@ MANOEUVRES: tuple[Action, ...] = ("change-left", "change-right", "exit-left", "e
 def carried_out(events: Iterable[Event]) -> tuple[Event, ...]:
     """Return the ends of the manoeuvres that were carried out, oldest first.
 
-    An action that ends before it is committed was given up, and is not among them.
+    An action that ends before it is committed was given up, and is left out.
     """
     committed = False
     ends = []

@@ -1,4 +1,4 @@
-"""Objections: "but he was leaving, so why did you wait?" is met by what was foreseen then. Pure."""
+"""Objections: replies to "but he was leaving, so why did you wait?" by the belief then. Pure."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -12,23 +12,23 @@ from xavi_dialogue.domain.meaning import Ask, Claim, HowSure
 from xavi_dialogue.domain.terms import At, Event, Happens, Next, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 
-#: What shows where a vehicle goes: with hindsight, one need not have waited for it.
+#: Actions that show where a vehicle goes: in hindsight, we need not have waited for it.
 TELLING: Final = frozenset[ActionName](
     ("leave", "exit-left", "exit-right", "exit-straight", "turn", "change-left", "change-right",
      "stop")
 )  # fmt: skip
-SURE: Final = 0.9  # chance from which it was foreseen
+SURE: Final = 0.9  # probability from which we were sure of it
 
 
 def foreseen_then(
     now: Situation, acts: Sequence[GroundedAct], done: Sequence[tuple[object, ...]]
 ) -> Beliefs | None:
-    """Give what was expected of a vehicle when we slowed for it; None: nobody objects to that.
+    """Return our belief when we slowed for a vehicle, if a claim objects and we were not sure.
 
     Args:
         now: the situation.
         acts: the acts of the turn.
-        done: what is replied to each of them.
+        done: the replies to each of them.
     """
     reasons = [r for results in done for r in results if isinstance(r, MotionReason)]
     reason = next((r for r in reasons if r.causes and r.causes[0].vehicle is not None), None)
@@ -48,7 +48,7 @@ def foreseen_then(
 
 
 def _told(act: GroundedAct) -> Event | None:
-    """Give where another vehicle is said to have gone."""
+    """Return the event of a claim that says where another vehicle went."""
     match act.act:
         case Claim(that=Happens(event=event)) if event.action in TELLING:
             return event

@@ -1,4 +1,4 @@
-"""The pipeline behind the dialogue, as functions, and how a reply is made with it. Pure."""
+"""Pipeline: the stages of a reply as functions, and the making of a reply with them. Pure."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -35,12 +35,12 @@ class Pipeline:
     ground: Ground  # readings into acts about this world and conversation
     explain: Explain
     say: Say
-    see: See  # how vehicles look, for words that describe them
+    see: See  # looks of vehicles, for their descriptions
 
 
 @dataclass(frozen=True, slots=True)
 class Situation:
-    """A question, and all there is to answer it from."""
+    """A question, and all that it can be answered from."""
 
     pipeline: Pipeline
     memory: Memory
@@ -50,7 +50,7 @@ class Situation:
 
 @dataclass(frozen=True, slots=True)
 class Said:
-    """A reply, and what the conversation keeps of it."""
+    """A reply, and what the conversation keeps from it."""
 
     reply: Reply
     parts: tuple[Part, ...] = ()
@@ -78,7 +78,7 @@ class Said:
 
 
 def speech(now: Situation) -> SpeechContext:
-    """Return the situation in which something is said."""
+    """Return the context for wording an answer."""
     memory = now.memory
     return SpeechContext(
         style=now.asked.style,
@@ -95,13 +95,13 @@ def speech(now: Situation) -> SpeechContext:
 def speak(
     now: Situation, said: Sequence[Part], offer: Offer | None = None, taken_as: str = ""
 ) -> Said:
-    """Put results into words, one after the other, nothing twice.
+    """Put results into words, one after the other, without repetition.
 
     Args:
-        now: the question and what there is to answer it from.
+        now: the question and all that it can be answered from.
         said: the results.
-        offer: what is offered where it is asked back.
-        taken_as: the plain question that an unclear one was taken for, told before an answer.
+        offer: what a clarification offers.
+        taken_as: the plain question as which an unclear one was understood, stated first.
     """
     context = speech(now)
     utterances: list[Utterance] = []
@@ -122,17 +122,17 @@ def speak(
 
 
 def _is_named(act: GroundedAct | None, now: Situation) -> bool:
-    """Tell whether an act names a time that lies behind."""
+    """Check whether an act names a time in the past."""
     return act is not None and named_time(act, now.record.now) is not None
 
 
 def _is_aside(result: Answer | Refusal) -> bool:
-    """Tell whether a result only goes before another: sympathy, where the fact comes after."""
+    """Check whether a result only precedes another: sympathy without a fact of its own."""
     return isinstance(result, Comforting) and result.fact is None
 
 
 def reply_of(now: Situation, said: Sequence[Part], whole: Utterance) -> Reply:
-    """Return the reply that says it."""
+    """Return the reply for results and their words."""
     results = tuple(part.result for part in said)
     acts = tuple(dict.fromkeys(part.act for part in said if part.act is not None))
     kind, reason = standing_of(results)
@@ -153,5 +153,5 @@ def reply_of(now: Situation, said: Sequence[Part], whole: Utterance) -> Reply:
 
 
 def turn_away(now: Situation, reason: Reason) -> Said:
-    """Say that the question cannot be taken up at all."""
+    """Reply that the question cannot be answered now."""
     return replace(speak(now, (Part(None, failed(reason)),)), turned_away=True)

@@ -1,7 +1,7 @@
-"""Recollection: what was found out of a record need not be found out again.
+"""Recollection: a cache of what was found from a record.
 
-The same act and record give the same result, with a memory or without one. Several passengers
-may ask about the same moment.
+The same act and record give the same result, with or without the cache. It helps when several
+passengers ask about the same moment.
 """
 
 from dataclasses import dataclass, field
@@ -18,8 +18,8 @@ from xavi_dialogue.nlg.context import Looks
 from xavi_dialogue.nlu.grounding.ground import ground
 from xavi_dialogue.nlu.grounding.result import Grounding
 
-MAX_RIDES = 16  # records that are remembered; that which was used longest ago is forgotten first
-MAX_RESULTS = 256  # of one record
+MAX_RIDES = 16  # maximum of records that are remembered; the least recently used is forgotten
+MAX_RESULTS = 256  # maximum for one record
 
 Result: TypeAlias = Answer | Refusal | NeedRollout
 _Key: TypeAlias = tuple[object, ...]
@@ -27,9 +27,9 @@ _Key: TypeAlias = tuple[object, ...]
 
 @dataclass
 class _Known:
-    """One record, read, and what was explained from it."""
+    """A record as ride and world, and the results from it."""
 
-    record: Record  # kept, for it is known by the identity of what is in it
+    record: Record  # kept alive, because the key consists of identities of its parts
     ride: Ride
     world: World
     results: dict[GroundedAct, Result] = field(default_factory=dict)
@@ -37,9 +37,9 @@ class _Known:
 
 @dataclass
 class Recollection:
-    """Grounds in, explains from and looks at the latest records. For one thread."""
+    """A cached way to ground in, explain from and look at the latest records. For one thread."""
 
-    _known: dict[_Key, _Known] = field(default_factory=dict)  # used latest at the end
+    _known: dict[_Key, _Known] = field(default_factory=dict)  # most recently used last
 
     def ground(
         self, readings: tuple[Reading, ...], record: Record, discourse: Discourse
@@ -73,7 +73,7 @@ class Recollection:
 
 
 def _key(record: Record) -> _Key:
-    """Return what tells a record from all others; comparing its traces would take long."""
+    """Return a key that identifies a record; comparing its traces would take too long."""
     return (
         *(record.now, record.ended, record.refused, record.gaps),
         *(tuple(map(id, part)) for part in (record.traces, record.events, record.extra)),

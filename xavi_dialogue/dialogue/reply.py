@@ -15,16 +15,16 @@ class Reply(msgspec.Struct, frozen=True, kw_only=True):
     schema: Literal["xavi.reply/2"] = "xavi.reply/2"
     text: str
     kind: Kind
-    reason: Reason | None = None  # null of an answer
-    query: QueryFields | None = None  # of the first act; null where nothing was understood
+    reason: Reason | None = None  # null if it is an answer
+    query: QueryFields | None = None  # of the first act; null if nothing was understood
     explanation: dict[str, Any] | None = None  # null unless kind is answer
     acts: tuple[dict[str, Any], ...] = ()  # meanings, grounded, in the order of the text
-    answers: tuple[dict[str, Any], ...] = ()  # what answers them, told apart by `is`
+    answers: tuple[dict[str, Any], ...] = ()  # the results, distinguished by `is`
     choices: tuple[str, ...] = ()  # of a clarification, numbered from 1
     suggestions: tuple[str, ...] = ()  # what can be asked next
     trace_id: str | None = None  # of the decision explained
     sim_time: float  # [s] at which the question was asked
-    timing_ms: float | None = None  # taken to answer; the shell measures it
+    timing_ms: float | None = None  # the time the answer took, measured by the shell
 
 
 def encode(reply: Reply) -> str:

@@ -1,4 +1,4 @@
-"""Severally: what is asked of several vehicles named together is asked of each of them."""
+"""Severally: a question about several vehicles together becomes one question for each."""
 
 from collections.abc import Sequence
 from typing import Final
@@ -12,9 +12,9 @@ from xavi_dialogue.domain.meaning import Ask, Doing, HowMuch, Listing, Whether, 
 from xavi_dialogue.domain.terms import Event, Happens, Is, Measured, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import ActionName
 
-EACH: Final = 4  # occasions of which each has its reason told
-MOST: Final = 3  # vehicles of whom each is shown by itself
-#: Of what each may have another way, or none.
+EACH: Final = 4  # maximum of occasions whose reasons are stated
+MOST: Final = 3  # maximum of vehicles that are answered one by one
+#: Actions in which each vehicle may go its own way, or none.
 OWN: Final = frozenset[ActionName]((
     "go", "leave", "turn", "exit-left", "exit-right", "exit-straight", "continue",
     "change-left", "change-right", "change-lane", "disappear", "approach", "come", "pass", "cross",
@@ -23,7 +23,7 @@ WAITING: Final = frozenset[ActionName](("wait", "give-way", "let-go"))
 
 
 def severally(act: GroundedAct) -> tuple[GroundedAct, ...]:
-    """Give the acts that ask of each of a few vehicles what an act asks of all of them."""
+    """Return one act for each of a few vehicles that an act asks about; else the act itself."""
     match act.act:
         case Ask(question=Why(of=Happens(event=Event(actor=Vehicles(numbers=many)) as event)) as q):
             if "first" in event.manner or len(many) > MOST:
@@ -58,7 +58,7 @@ def _each(event: Event, many: tuple[int, ...]) -> tuple[Happens, ...]:
 
 
 def listed(act: GroundedAct) -> GroundedAct | None:
-    """Give the act that lists the occasions whose reasons an act asks for; None of all others."""
+    """Return the act that lists the occasions whose reasons an act asks for; None of other acts."""
     match act.act:
         case Ask(question=Listing(of="reasons", event=Event(action=action)) as asked):
             if action == "do":
@@ -68,7 +68,7 @@ def listed(act: GroundedAct) -> GroundedAct | None:
 
 
 def whys(act: GroundedAct, deeds: Sequence[Episode], now: float) -> tuple[GroundedAct, ...]:
-    """Give the questions why each of the last few deeds was done, at its time."""
+    """Return the questions why each of the last few actions was done, at its time."""
     spans = ((d, Span(d.begin, now if d.end is None else d.end, said=True)) for d in deeds[-EACH:])
     return tuple(
         replace(act, act=Ask(Why(Happens(event_of(deed)))), span=span) for deed, span in spans

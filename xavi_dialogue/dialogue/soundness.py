@@ -1,6 +1,6 @@
-"""Soundness: answers that say nothing: of nobody in particular, or of what was left open. Pure.
+"""Soundness: the check for answers without content, about nobody or an open question word. Pure.
 
-Such an answer shows that the question was read amiss, whatever its words. It is not given.
+Such an answer shows that the question was misread, whatever its words. It is dropped.
 """
 
 from collections.abc import Iterable
@@ -29,7 +29,7 @@ from xavi_dialogue.domain.terms import (
 
 
 def says_something(result: Answer | Refusal) -> bool:
-    """Tell whether an answer tells a passenger anything."""
+    """Check whether an answer has content for a passenger."""
     match result:
         case Verdict(that=that):
             return not (_is_open(that) or _twice_of_all(that) or _of_nobody(result))
@@ -43,7 +43,7 @@ def says_something(result: Answer | Refusal) -> bool:
 
 
 def is_told_within(result: Answer | Refusal, others: Iterable[Answer | Refusal]) -> bool:
-    """Tell whether another answer of the reply says what is all that a yes rests on."""
+    """Check whether another answer of the reply states the one episode that a yes rests on."""
     if not (isinstance(result, Verdict) and result.holds and len(result.facts) == 1):
         return False
     fact = result.facts[0]
@@ -52,18 +52,18 @@ def is_told_within(result: Answer | Refusal, others: Iterable[Answer | Refusal])
 
 
 def _is_open(that: Proposition) -> bool:
-    """Tell whether something in a proposition was left open, or has no sense."""
+    """Check whether a proposition contains a question word or a thing without meaning."""
     return first(rewrite(that, _plain), (Wanted, Unknown)) is not None
 
 
 def _plain(part: Any) -> Any:
-    """Leave out the relative clause of a description, in which "who" stands for it."""
+    """Remove the relative clause of a description, in which "who" refers to the description."""
     clause = isinstance(part, Described) and (part.doing is not None or part.such is not None)
     return replace(part, doing=None, such=None) if clause else part
 
 
 def _twice_of_all(that: Proposition) -> bool:
-    """Tell whether an event or relation is between all or none on either side."""
+    """Check whether both sides of an event or relation are everybody, nobody or a question word."""
     for one in parts(that, Event):
         if _is_all(one.actor) and _is_all(one.object):
             return True
@@ -75,7 +75,7 @@ def _is_all(thing: object) -> bool:
 
 
 def _of_nobody(verdict: Verdict) -> bool:
-    """Tell whether it stays open what nobody does, or how we ourselves are."""
+    """Check whether a verdict is unknown because it is about nobody, or about our own state."""
     that = verdict.that
     if verdict.holds is not None or first(that, Exists) is not None:
         return False

@@ -1,6 +1,6 @@
-"""Standing: whether a result answers, declines or asks back, and for which reason.
+"""Standing: whether a result is an answer, refusal or clarification, and for which reason.
 
-The one place where the types of results meet the reasons of the contract and exit statuses.
+This is the only module that maps the types of results to the reasons of the contract.
 """
 
 from collections.abc import Iterable
@@ -48,7 +48,7 @@ _BY_GAP: dict[Gap, Reason] = {
 
 
 def reason_of(result: Result) -> Reason | None:
-    """Return why a result is no answer, in the words of the contract; None of an answer."""
+    """Return the contract's reason why a result is not an answer; None if it is one."""
     match result:
         case NotUnderstood():
             return "not-understood"
@@ -72,7 +72,7 @@ def reason_of(result: Result) -> Reason | None:
 
 
 def failed(reason: Reason) -> Refusal:
-    """Return the refusal where the machinery behind an answer gave a reason for its failure."""
+    """Return the refusal for a failure of the planner, by its reason."""
     match reason:
         case "planner-unavailable" | "timed-out" | "busy":
             return Unavailable(reason)
@@ -86,9 +86,9 @@ def failed(reason: Reason) -> Refusal:
 
 
 def standing_of(results: Iterable[Result]) -> tuple[Kind, Reason | None]:
-    """Return what a reply of several results comes to, and the reason where it answers nothing.
+    """Return the kind of a reply of several results, and the reason if it is not an answer.
 
-    It asks back where one of them does; it answers where one of them does.
+    It is a clarification if one of them is; else an answer if one of them is.
     """
     results = tuple(results)
     reasons = [reason_of(result) for result in results]
@@ -100,7 +100,7 @@ def standing_of(results: Iterable[Result]) -> tuple[Kind, Reason | None]:
 
 
 def _of_gaps(result: Result) -> Reason | None:
-    """Return why none of the values asked for is known; None where one is."""
+    """Return the reason why none of the values asked for is known; None if one is known."""
     if isinstance(result, Measures) and result.measures:
         gaps = [m.gap for m in result.measures]
         known = any(gap in (None, "not-applicable") for gap in gaps)

@@ -1,4 +1,4 @@
-"""Understanding: what a passenger's words mean here and now. Pure."""
+"""Understanding: the meaning of a passenger's words in the present situation. Pure."""
 
 from collections.abc import Sequence
 
@@ -17,11 +17,11 @@ from xavi_dialogue.nlu.grounding.result import Grounding
 
 
 def understand(now: Situation, before: Turn | None) -> Understood:
-    """Return what is asked, or what stands in the way.
+    """Return the acts of a text, or what prevents a reply to them.
 
     Args:
-        now: the question and what there is to understand it from.
-        before: the turn before, where it ended with a question of ours.
+        now: the question and all that it can be understood from.
+        before: the turn before, if it ended with a question of ours.
     """
     chosen = _chosen(now.asked.text, before)
     readings = now.pipeline.read(now.asked.text) if chosen is None else (chosen,)
@@ -44,7 +44,7 @@ def understand(now: Situation, before: Turn | None) -> Understood:
 
 
 def _chosen(text: str, before: Turn | None) -> Reading | None:
-    """Read a text that is the number or the very words of a choice that was offered."""
+    """Read a text that is the number, or the exact words, of a choice that was offered."""
     if before is None or before.offer is None:
         return None
     typed = text.strip().strip("().").casefold()
@@ -56,19 +56,19 @@ def _chosen(text: str, before: Turn | None) -> Reading | None:
 
 
 def _of_reply(acts: Sequence[Act]) -> bool:
-    """Tell whether acts ask for the last reply in another form: "more", "again"."""
+    """Check whether acts ask for the last reply in another form: "more", "again"."""
     return any(isinstance(act, Repair) and act.kind in ("longer", "repeat") for act in acts)
 
 
 def _is_fragment(now: Situation, readings: tuple[Reading, ...]) -> bool:
-    """Tell whether a text is a bare answer rather than a question: "vehicle 1"."""
+    """Check whether a text is a bare answer rather than a question: "vehicle 1"."""
     acts = readings[0].acts if readings else ()
     bare = all(isinstance(a, Elliptic) and a.form == "same" and not a.besides for a in acts)
     return bare and "?" not in now.asked.text
 
 
 def grounded(grounding: Grounding) -> Understood:
-    """Return what came of grounding as what is to be replied to."""
+    """Return the result of grounding as what the turn has to reply to."""
     acts = in_order(pertinent(grounding.acts))
     refusal, clarify = grounding.refusal, grounding.clarify
     misdescribed = isinstance(refusal, NoSuchVehicle) and refusal.misdescribed is not None

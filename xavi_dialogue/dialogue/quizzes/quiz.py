@@ -1,7 +1,7 @@
 """Quiz: questions of ours to the passenger and their solutions. Pure.
 
-`candidates` lists what might be asked, and `solved` adds the solution from the answer that the
-record gives, or says that there is none that is sure enough to be asked for.
+`candidates` lists questions that might be asked. `solved` adds the solution from the answer of the
+record, or returns None if no solution is certain enough.
 """
 
 from collections import Counter
@@ -30,17 +30,17 @@ from xavi_dialogue.domain.meaning import Question, WhatIf, Why
 from xavi_dialogue.domain.terms import At, Event, Exists, Happens, Not, Tense, Time, Unsaid, Vehicle
 from xavi_dialogue.explain.history.record import Record
 
-CLEAR = 1.0  # [s] a difference in time that is fit to be asked for
-LIKELY = 0.5  # a cause that is less probable is no solution
-MANY = 8  # candidates worth trying
+CLEAR = 1.0  # [s] minimum difference in time that a question may be about
+LIKELY = 0.5  # minimum probability of a cause that is a solution, exclusive
+MANY = 8  # maximum of candidates that are tried
 LANE_CHANGES: tuple[Action, ...] = ("change-left", "change-right")
 
 
 def candidates(turns: Sequence[Turn], quizzed: Sequence[Quiz], record: Record) -> tuple[Posed, ...]:
     """Return questions worth trying, best first.
 
-    First about what was talked about last, then about the last manoeuvre, the last slowing, and
-    those in our way. What was asked before is left out; what the last answer told comes last.
+    They are about what was discussed last, then about the last manoeuvre, the last slowing, and
+    those in our way. Earlier questions are left out. Kinds that the last answer revealed come last.
     """
     if not record.traces:
         return ()
@@ -53,12 +53,12 @@ def candidates(turns: Sequence[Turn], quizzed: Sequence[Quiz], record: Record) -
 
 
 def solved(posed: Posed, found: Answer | Refusal, at: float) -> Quiz | None:
-    """Return the question with its solution; None where there is none to ask for.
+    """Return the question with its solution; None if there is no clear one.
 
     Args:
         posed: the question.
-        found: what the record answers to it.
-        at: [s] when it is put.
+        found: the answer of the record to it.
+        at: [s] when it is asked.
     """
     match posed.kind, found:
         case "vehicle", ChoiceReason(contrast=contrast):
@@ -99,7 +99,7 @@ def _talked_about(turns: Sequence[Turn], record: Record) -> Iterator[Posed]:
 
 
 def _of_ride(record: Record) -> Iterator[Posed]:
-    """Yield questions about the last manoeuvre, whoever held us up, and the plan."""
+    """Yield questions about the last manoeuvre, the last slowing, and those in our way."""
     done = [event.action for event in carried_out(record.events) if event.action is not None]
     near = _in_our_way(record)
     at = _decided(record)
@@ -115,7 +115,7 @@ def _of_ride(record: Record) -> Iterator[Posed]:
 
 
 def _without(vehicle: int, at: float | None) -> Posed:
-    """Ask what we would do without a vehicle, or would have done at a past decision [s]."""
+    """Return the question what we would do, or would have done at a time [s], without a vehicle."""
     there = Exists(Vehicle(vehicle), time=_time(at), tense=_tense(at))
     return Posed("deed", WhatIf(Not(there)))
 
@@ -144,13 +144,13 @@ def _time(at: float | None) -> Time:
 
 
 def _decided(record: Record) -> float | None:
-    """Return the time [s] of the decision behind the last manoeuvre; None where there is none."""
+    """Return the time [s] of the decision for the last manoeuvre; None if there is none."""
     decisions = [event.decision for event in carried_out(record.events)][-1:]
     return next((t.sim_time for t in record.traces if t.decision in decisions), None)
 
 
 def _in_our_way(record: Record) -> tuple[int, ...]:
-    """Return the others, those first that were in our way in most drives that were simulated."""
+    """Return the other vehicles, those first that held us up in the most rollouts."""
     decisions = [event.decision for event in carried_out(record.events)][-1:]
     behind = [trace for trace in record.traces if trace.decision in decisions]
     return _ranked(behind[0] if behind else record.traces[-1])
@@ -167,7 +167,7 @@ def _ranked(trace: PlanTrace) -> tuple[int, ...]:
 
 
 def _told(results: Iterable[Answer | Refusal]) -> frozenset[str]:
-    """Return the kinds of questions whose solution the last answer told."""
+    """Return the kinds of questions whose solution the last answer revealed."""
     told: set[str] = set()
     for result in results:
         match result:
@@ -185,7 +185,7 @@ def _gives_away(posed: Posed, told: frozenset[str]) -> bool:
 
 
 def _blamed(causes: Sequence[Cause | MotionCause]) -> int | None:
-    """Return the one vehicle that made us do it; None where there is doubt, or more than one."""
+    """Return the one vehicle that is the cause; None if that is in doubt, or if there are more."""
     if not causes or not causes[0].vehicle:
         return None
     first, *others = causes
@@ -197,7 +197,7 @@ def _blamed(causes: Sequence[Cause | MotionCause]) -> int | None:
 
 
 def _sooner(contrast: Contrast) -> bool | None:
-    """Return whether the foil gets us there sooner, where that is clear."""
+    """Check whether the foil gets us there sooner; None if that is not clear."""
     time = next((effect for effect in contrast.effects if effect.component == "time"), None)
     if time is None or abs(time.delta) < CLEAR or time.low * time.high <= 0.0:
         return None

@@ -1,4 +1,4 @@
-"""Replies to our questions: what they come to. Pure."""
+"""Replies of passengers to our questions, and their judgement. Pure."""
 
 import re
 import tomllib
@@ -16,7 +16,7 @@ from xavi_dialogue.domain.terms import Event, Thing, Vehicle
 Sign: TypeAlias = Literal[
     "passed", "same", "other", "sooner", "later", "yes", "no", "nobody", "another"
 ]
-#: What an action that a passenger names may be called by us.
+#: By action that a passenger names: the macro actions that it may mean.
 _ALIKE: Mapping[str, tuple[Action, ...]] = {
     "continue": ("continue", "exit-straight"),
     "exit-straight": ("continue", "exit-straight"),
@@ -34,7 +34,7 @@ _ALIKE: Mapping[str, tuple[Action, ...]] = {
 
 
 def signs(text: str) -> frozenset[Sign]:
-    """Return what a text says beside vehicles and actions."""
+    """Return the signs in a text, other than vehicles and actions."""
     bare = " ".join(re.sub(r"[^\w'\s]", " ", text.casefold()).split())
     return frozenset(name for name, one in _patterns().items() if one.search(bare))
 
@@ -42,9 +42,9 @@ def signs(text: str) -> frozenset[Sign]:
 def judged(
     quiz: Quiz, said: frozenset[Sign], reading: Reading | None, meant: Sequence[Thing]
 ) -> Judgement | None:
-    """Return what a reply comes to; None where it is no reply.
+    """Return the judgement of a reply; None if the text is not a reply.
 
-    It is "passed" where the passenger does not know, or does not settle on one answer.
+    It is "passed" if the passenger does not know, or does not settle on one answer.
 
     Args:
         quiz: the question.

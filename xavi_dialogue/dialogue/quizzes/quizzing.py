@@ -1,4 +1,4 @@
-"""Quizzing: what is said to what was understood: answers, a question of ours, or a verdict."""
+"""Quizzing: replies by the aim of a turn: answers, a question of ours, or a verdict."""
 
 from msgspec.structs import replace
 
@@ -18,7 +18,7 @@ from xavi_dialogue.explain.history.record import Record
 
 
 def reply_to(now: Situation, understood: Understood, done: tuple[Results, ...]) -> Said | Lacking:
-    """Return the reply to what was understood, or what it takes to find it."""
+    """Return the reply to what was understood, or the plan that it lacks."""
     quiz = understood.quiz
     match understood.aim:
         case "quiz":
@@ -32,7 +32,7 @@ def reply_to(now: Situation, understood: Understood, done: tuple[Results, ...]) 
 
 
 def judgement_of(now: Situation, quiz: Quiz, readings: tuple[Reading, ...]) -> Understood | None:
-    """Return the verdict on a reply to a question of ours; None where it is no such reply."""
+    """Return the verdict on a reply to a question of ours; None if the text is not such a reply."""
     said = signs(now.asked.text)
     if "another" in said:
         return Understood(aim="quiz")
@@ -43,12 +43,12 @@ def judgement_of(now: Situation, quiz: Quiz, readings: tuple[Reading, ...]) -> U
 
 
 def put_again(quiz: Quiz) -> Understood:
-    """Put a question of ours once more, to which there came no answer."""
+    """Ask a question of ours once more, after a text that was no answer to it."""
     return Understood(aim="again", quiz=quiz)
 
 
 def _pose(now: Situation) -> Said | Lacking:
-    """Put the first question to the passenger whose answer the record holds."""
+    """Ask the passenger the first question that the record can answer."""
     memory = now.memory
     for posed in candidates(memory.turns, memory.quizzed, now.record):
         found = _explained(now, posed, now.record)
@@ -65,7 +65,7 @@ def _pose(now: Situation) -> Said | Lacking:
 def _conclude(
     now: Situation, understood: Understood, quiz: Quiz, done: tuple[Results, ...]
 ) -> Said | Lacking:
-    """Tell whether the passenger's answer was right, and what it is."""
+    """Say whether the passenger's answer was right, and state the solution."""
     judgement = understood.judgement
     assert judgement is not None
     found: Answer | Refusal | NeedRollout
@@ -85,7 +85,7 @@ def _explained(now: Situation, posed: Posed, record: Record) -> Answer | Refusal
 
 
 def _act(posed: Posed) -> GroundedAct:
-    """Return a question of ours as the passenger would ask it, about the time that it names."""
+    """Return a question of ours as if the passenger asked it about the time that it names."""
     at = next(parts(posed.about, At), None)
     span = None if at is None else Span(at.at, at.at, said=True)
     return GroundedAct(Ask(posed.about), span)
@@ -96,7 +96,7 @@ def _with_quiz(said: Said, quiz: Quiz) -> Said:
 
 
 def _vehicles(now: Situation, quiz: Quiz, readings: tuple[Reading, ...]) -> tuple[Thing, ...]:
-    """Return the vehicles that a reply names, by number or description, as of the question."""
+    """Return the vehicles that a reply names by number, or by a description when it was asked."""
     if quiz.posed.kind != "vehicle":
         return ()
     acts = readings[0].acts if readings else ()

@@ -1,1 +1,1 @@
-"""The state of a conversation: its turns, and what later turns may draw on."""
+"""The state of a conversation: its turns, and what later turns depend on."""

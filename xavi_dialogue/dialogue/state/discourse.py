@@ -1,7 +1,7 @@
-"""Discourse: how each turn changes what the conversation has come to. Pure.
+"""Discourse: how each turn changes the state of the conversation. Pure.
 
-The discourse before a question is folded from the turns of the ride, so that a conversation that
-is resumed stands where it stood.
+The discourse before a question is a fold over the turns of the ride, so that a resumed
+conversation has the same state.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -65,11 +65,11 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.traffic_lights import Shown
 from xavi_dialogue.nlu.grounding.salience import decayed, mention, mentions_of, renewed
 
-REMEMBERED = 20  # turns; what was said before them is no longer referred to
-ASSERTED = 6  # propositions that are kept
-TIMES = 4  # moments that the passenger named which are kept
-_UNSETTLED = frozenset(("do", "go", "overtake"))  # that a decision has by another name
-LONG = 60.0  # [s] a longer stretch is no episode that "that" or "then" may mean
+REMEMBERED = 20  # turns; later ones no longer refer to what was said before them
+ASSERTED = 6  # maximum of propositions that are kept
+TIMES = 4  # maximum of moments named by the passenger that are kept
+_UNSETTLED = frozenset(("do", "go", "overtake"))  # that a decision calls by another name
+LONG = 60.0  # [s] longest episode that "that" or "then" may mean
 
 
 def discourse_of(turns: Sequence[Turn]) -> Discourse:
@@ -106,9 +106,9 @@ def after(discourse: Discourse, turn: Turn) -> Discourse:
 
 
 def _weighed(turn: Turn, before: Discourse) -> tuple[Event | None, Event | None]:
-    """Give the option of ours that was told of, and what was decided instead of it.
+    """Return the option of ours that a turn discussed, and what was decided instead of it.
 
-    What follows up on a turn leaves under discussion what was.
+    A turn that follows up on an earlier one keeps the earlier pair.
     """
     for part in reversed(turn.parts):
         asked = None if part.act is None else part.act.act
@@ -130,7 +130,7 @@ def _weighed(turn: Turn, before: Discourse) -> tuple[Event | None, Event | None]
 
 
 def _option_in(question: Question) -> Event | None:
-    """Find what of ours is supposed, compared, or was not done."""
+    """Find the action of ours that is supposed, compared, asked why not, or asked to be safe."""
     match question:
         case (
             WhatIf(supposed=Happens(event=Event(actor=Ego()) as event))
@@ -150,16 +150,16 @@ def _times(turn: Turn) -> Iterator[float]:
 
 
 def _said(turn: Turn) -> Iterator[Ask | Claim | Request | Feel]:
-    """Yield the acts about the drive; talk leaves under discussion what was."""
+    """Yield the acts about the drive; talk does not change what is under discussion."""
     for act in turn.acts:
         if isinstance(act.act, Ask | Claim | Request | Feel):
             yield act.act
 
 
 def _mentions(turn: Turn, number: int) -> Iterator[Mention]:
-    """Yield what the passenger spoke of, and the parts that vehicles have in the answers.
+    """Yield the things that the passenger mentioned, and those in the answers with their roles.
 
-    A cause that the words of the reply leave out has not been spoken of.
+    A cause that the words of the reply omit has not been mentioned.
     """
     for act in turn.acts:
         yield from mentions_of(act.act, number)
@@ -171,7 +171,7 @@ def _mentions(turn: Turn, number: int) -> Iterator[Mention]:
 
 
 def _roles(result: Answer | Refusal) -> Iterator[tuple[Thing, str]]:
-    """Yield the vehicles that an answer is about."""
+    """Yield the things that an answer is about, with their roles."""
     for vehicle, _ in causes_of(result):
         if vehicle != 0:
             yield Vehicle(vehicle), "cause"
@@ -188,7 +188,7 @@ def _roles(result: Answer | Refusal) -> Iterator[tuple[Thing, str]]:
 
 
 def causes_of(result: Answer | Refusal) -> Iterator[tuple[int, tuple[str, ...]]]:
-    """Yield the vehicles that an answer blames, with what was expected of each."""
+    """Yield the vehicles that an answer names as causes, with what was expected of each."""
     for cause in parts(result, Cause):
         yield cause.vehicle, tuple(cause.actions)
     for reason in parts(result, MotionCause):
@@ -201,13 +201,13 @@ def _others(*things: Thing | None) -> Iterator[tuple[Thing, str]]:
 
 
 def _named(turn: Turn, number: int) -> Iterator[Mention]:
-    """Yield what the words of the reply name."""
+    """Yield the vehicles that the words of the reply name."""
     for vehicle in turn.mentioned:
         yield mention(Vehicle(vehicle), number, "other", by_car=True)
 
 
 def _asserted(turn: Turn) -> Iterator[Proposition]:
-    """Yield what either side said to be so, the latest and the most to the point first."""
+    """Yield what either side asserted, the latest and most relevant first."""
     for part in reversed(turn.parts):
         told = tuple(_answered(part))
         yield from told
@@ -219,7 +219,7 @@ def _asserted(turn: Turn) -> Iterator[Proposition]:
 
 
 def _answered(part: Part) -> Iterator[Proposition]:
-    """Yield what the car said to be so in answer to one act."""
+    """Yield what the car asserted in answer to one act."""
     result = part.result
     match result:
         case Verdict(that=that, holds=True):
@@ -277,7 +277,7 @@ def event_of(deed: Episode) -> Event:
 
 
 def _episode(turn: Turn) -> tuple[float, float] | None:
-    """Return the part of the ride [s] that was spoken of last: what "that" and "then" are."""
+    """Return the part of the ride [s] that was discussed last, for "that" and "then"."""
     now = turn.reply.sim_time
     for part in reversed(turn.parts):
         found = _told(part.result, now) or _asked(part)

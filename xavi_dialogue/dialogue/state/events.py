@@ -14,10 +14,10 @@ from xavi_dialogue.nlg.context import Style
 
 @dataclass(frozen=True, slots=True)
 class TraceRecorded:
-    """The planner took a decision."""
+    """The planner made a decision."""
 
     trace: PlanTrace
-    first: str | None = None  # id of the ride's first, which names it; None: this one, if any
+    first: str | None = None  # of the ride, as its name; None: `trace`, if none was before
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,14 +29,14 @@ class EventRecorded:
 
 @dataclass(frozen=True, slots=True)
 class SceneSeen:
-    """What is in view at a moment, between decisions too."""
+    """What is in view at a moment, also between decisions."""
 
     scene: Scene
 
 
 @dataclass(frozen=True, slots=True)
 class RecordMissing:
-    """What was recorded between two moments did not all arrive, and will not any more."""
+    """Some reports between two moments did not arrive, and are not going to."""
 
     since: float  # [s]
     until: float  # [s]
@@ -51,9 +51,9 @@ class RideEnded:
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A passenger asks; the record is complete up to `at`."""
+    """A passenger asks a question; the record is complete up to `at`."""
 
-    request: str  # names the question until it is answered
+    request: str  # identifies the question until it is answered
     session: str
     text: str
     at: float  # [s] the moment at which it is asked
@@ -62,7 +62,7 @@ class Asked:
 
 @dataclass(frozen=True, slots=True)
 class TurnedAway:
-    """A passenger asked, and the shell cannot have the question answered."""
+    """A passenger asked, and the shell could not have the question answered."""
 
     asked: Asked
     reason: Reason
@@ -70,7 +70,7 @@ class TurnedAway:
 
 @dataclass(frozen=True, slots=True)
 class RolloutsArrived:
-    """The planner planned again, as wanted for the question."""
+    """The planner has planned again for the question."""
 
     request: str
     session: str
@@ -79,7 +79,7 @@ class RolloutsArrived:
 
 @dataclass(frozen=True, slots=True)
 class PlannedAhead:
-    """The planner planned again what nobody has asked about yet."""
+    """The planner has planned again without a question."""
 
     need: NeedRollout
     trace: PlanTrace
@@ -87,7 +87,7 @@ class PlannedAhead:
 
 @dataclass(frozen=True, slots=True)
 class RolloutsFailed:
-    """The planner did not plan again."""
+    """The planner has not planned again."""
 
     request: str
     session: str
@@ -104,7 +104,7 @@ class Cancelled:
 
 @dataclass(frozen=True, slots=True)
 class Resumed:
-    """A conversation of before goes on; to be stated before its first question."""
+    """An earlier conversation goes on; this input comes before its first new question."""
 
     session: str
     turns: tuple[Turn, ...]  # oldest first
@@ -112,7 +112,7 @@ class Resumed:
 
 @dataclass(frozen=True, slots=True)
 class Forgotten:
-    """The passenger wants the conversation forgotten."""
+    """The passenger wants the conversation to be forgotten."""
 
     session: str
 
@@ -136,7 +136,7 @@ Input: TypeAlias = (
 
 @dataclass(frozen=True, slots=True)
 class Answered:
-    """The reply to a question, and the turn to be kept; None of one that was turned away."""
+    """The reply to a question, and the turn to be kept."""
 
     request: str
     session: str

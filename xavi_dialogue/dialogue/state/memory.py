@@ -1,7 +1,7 @@
-"""Memory: what later turns may draw on, read off the turns of a conversation.
+"""Memory: what later turns depend on, derived from the turns of a conversation.
 
-Vehicles and offers belong to the ride in which they came up; how much the passenger wants to
-hear outlasts it.
+Vehicles and offers belong to the ride in which they came up. The level of detail that the passenger
+wants is kept from ride to ride.
 """
 
 from collections.abc import Sequence
@@ -14,40 +14,40 @@ from xavi_dialogue.domain.discourse import Discourse, GroundedAct
 from xavi_dialogue.domain.meaning import Act, Ask, Claim, Feel, Repair, Request
 from xavi_dialogue.nlg.context import Detail, Told
 
-_FRESH = 3  # replies after which the same may be suggested again
-_STANDING = 2  # requests in a row for more, or less, that make it the rule
+_FRESH = 3  # replies before a suggestion may be repeated
+_STANDING = 2  # successive requests for more, or less, that make it permanent
 _WISHES: dict[str, Detail] = {"longer": "more", "shorter": "less", "simpler": "simpler"}
 
 
 @dataclass(frozen=True, slots=True)
 class Memory:
-    """What a conversation has come to."""
+    """What later turns need to know about a conversation."""
 
     turns: tuple[Turn, ...]  # about this ride, oldest first
     discourse: Discourse
-    named: frozenset[int]  # vehicles that were spoken of
+    named: frozenset[int]  # vehicles that were mentioned
     last: Turn | None  # the last turn that was about the drive
     detail: Detail  # how much the passenger wants to hear
-    missed: frozenset[int]  # vehicles whose part in things the passenger got wrong
+    missed: frozenset[int]  # vehicles whose role the passenger got wrong
     quizzed: tuple[Quiz, ...]  # questions put to the passenger so far
-    suggested: frozenset[str]  # what the last replies said could be asked
+    suggested: frozenset[str]  # questions that the last replies suggested
 
     @property
     def is_quizzing(self) -> bool:
-        """Tell whether the last turn put a question to the passenger, or judged the reply."""
+        """Check whether the last turn asked the passenger a question, or judged the reply."""
         last = self.turns[-1] if self.turns else None
         return last is not None and (last.quiz is not None or last.answered is not None)
 
     @property
     def told(self) -> Told:
-        """Return the causes that were stated to the passenger, who has not got them wrong since."""
+        """Return the causes that were stated to the passenger, except those that they got wrong."""
         causes = {
             cause for turn in self.turns for result in turn.results for cause in causes_of(result)
         }
         return frozenset(cause for cause in causes if cause[0] not in self.missed)
 
     def answered(self, act: GroundedAct, result: Answer | Refusal) -> bool:
-        """Tell whether the same was answered before to a question of the same kind."""
+        """Check whether the same result answered a question of the same kind before."""
         return any(
             part.act is not None and _kind(part.act.act) == _kind(act.act) and part.result == result
             for turn in self.turns
@@ -56,7 +56,7 @@ class Memory:
 
 
 def remember(turns: Sequence[Turn], ride: str | None) -> Memory:
-    """Return what the turns of a conversation, oldest first, come to during a ride."""
+    """Return the memory of the turns of a conversation, oldest first, during a ride."""
     here = tuple(turn for turn in turns if turn.ride == ride)
     about = [turn for turn in here if is_about_drive(turn)]
     return Memory(
@@ -77,17 +77,17 @@ def remember(turns: Sequence[Turn], ride: str | None) -> Memory:
 
 
 def is_about_drive(turn: Turn) -> bool:
-    """Tell whether a turn was about the drive; what is asked about it then stands."""
+    """Check whether a turn was about the drive, so that follow-ups can refer to it."""
     return any(isinstance(one.act, Ask | Claim | Request | Feel) for one in turn.acts)
 
 
 def _kind(act: Act) -> type:
-    """Return the kind of an act; of a question, what it asks for."""
+    """Return the type of an act, or of its question."""
     return type(act.question if isinstance(act, Ask) else act)
 
 
 def _detail(turns: Sequence[Turn]) -> Detail:
-    """Return what was asked for twice in a row, until something else is asked for."""
+    """Return the level of detail that was wanted twice in a row, until another one is wanted."""
     standing: Detail = "usual"
     run: list[Detail] = []
     for turn in turns:

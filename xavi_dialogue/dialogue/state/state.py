@@ -1,4 +1,4 @@
-"""State: all conversations about one ride as a value, folded from inputs."""
+"""State: all conversations about one ride as one value, a fold over inputs."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -14,36 +14,36 @@ from xavi_dialogue.domain.answers import Answer, NeedRollout, Reason, Refusal
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.explain.history.record import Record
 
-EPSILON = 1e-6  # [s] times nearer than this are the same
+EPSILON = 1e-6  # [s] times closer than this are equal
 
 
 @dataclass(frozen=True, slots=True)
 class Understood:
-    """A passenger's turn, as it is to be replied to."""
+    """A passenger's turn, ready to be replied to."""
 
     acts: tuple[GroundedAct, ...] = ()  # in the order in which they are answered
-    before: tuple[Refusal, ...] = ()  # what is put right before they are
-    behind: tuple[Refusal, ...] = ()  # what is declined or asked back after that
-    offer: Offer | None = None  # what is offered where it is asked back
-    named: GroundedAct | None = None  # who was named in what was not understood
+    before: tuple[Refusal, ...] = ()  # corrections that come before the answers
+    behind: tuple[Refusal, ...] = ()  # refusals and clarifications that come after them
+    offer: Offer | None = None  # what a clarification offers
+    named: GroundedAct | None = None  # the vehicle named in a part that was not understood
     quotes: Mapping[GroundedAct, str] = field(default_factory=dict)  # the words of each act
-    taken_as: str = ""  # the plain question that an unclear one was taken for
+    taken_as: str = ""  # the plain question as which an unclear one was understood
     aim: Literal["answer", "quiz", "again", "verdict"] = "answer"
     quiz: Quiz | None = None  # the question of ours that was answered, or was not ...
-    judgement: Judgement | None = None  # ... and how
+    judgement: Judgement | None = None  # ... and the judgement
 
 
 @dataclass(frozen=True, slots=True)
 class Pending:
-    """A question that is thought about, or waits for rollouts."""
+    """A question that is being answered, or waits for rollouts."""
 
     asked: Asked
-    understood: Understood | None = None  # None: not looked at yet
-    done: tuple[tuple[Answer | Refusal, ...], ...] = ()  # what its first acts were answered
-    need: NeedRollout | None = None  # what it waits for
-    extra: tuple[PlanTrace, ...] = ()  # what arrived for it so far
-    refused: tuple[NeedRollout, ...] = ()  # what could not be had for it
-    why: Reason = "planner-failed"  # the last of these could not be had
+    understood: Understood | None = None  # None: not read yet
+    done: tuple[tuple[Answer | Refusal, ...], ...] = ()  # answers to its first acts
+    need: NeedRollout | None = None  # the plan that it waits for
+    extra: tuple[PlanTrace, ...] = ()  # plans that have arrived for it
+    refused: tuple[NeedRollout, ...] = ()  # plans that could not be made for it
+    why: Reason = "planner-failed"  # why the last of these could not be made
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,20 +57,20 @@ class Session:
 
 @dataclass(frozen=True, slots=True)
 class Dialogue:
-    """The ride's record, and every conversation about it."""
+    """The record of the ride, and all conversations about it."""
 
     ride: RidePhase = RidePhase.UNDER_WAY
-    ride_id: str | None = None  # id of its first trace: the same ride driven again has the same
+    ride_id: str | None = None  # id of its first trace; the same ride driven again has the same id
     traces: tuple[PlanTrace, ...] = ()
     events: tuple[Event, ...] = ()
-    scenes: tuple[Scene, ...] = ()  # the last few, in the order in which they came
+    scenes: tuple[Scene, ...] = ()  # the last few, in order of arrival
     ended_at: float | None = None  # [s]
-    gaps: tuple[tuple[float, float], ...] = ()  # [s] of the record, from when to when
+    gaps: tuple[tuple[float, float], ...] = ()  # [s] gaps in the record, from when to when
     sessions: Mapping[str, Session] = field(default_factory=dict)
-    planned: Mapping[NeedRollout, PlanTrace] = field(default_factory=dict)  # planned again so far
+    planned: Mapping[NeedRollout, PlanTrace] = field(default_factory=dict)  # new plans so far
 
     def session(self, name: str) -> Session:
-        """Return a passenger's conversation, a fresh one at first."""
+        """Return a passenger's conversation; a new one if there is none."""
         return self.sessions.get(name, Session())
 
     def record(
@@ -79,12 +79,12 @@ class Dialogue:
         extra: tuple[PlanTrace, ...] = (),
         refused: tuple[NeedRollout, ...] = (),
     ) -> Record:
-        """Return all that was known at a moment [s]; after the ride, at its end.
+        """Return all that was known at a moment [s]; after the end of the ride, at its end.
 
         Args:
             at: the moment [s].
-            extra: plans made again.
-            refused: requests for such plans that came to nothing.
+            extra: decisions that were planned again.
+            refused: requests for such plans that failed.
         """
         ended = self.ended_at is not None and at >= self.ended_at - EPSILON
         now = self.ended_at if ended and self.ended_at is not None else at

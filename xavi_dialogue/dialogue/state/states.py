@@ -1,10 +1,9 @@
-"""States: the conversation as a table; everything that decides what may follow what stands here.
+"""States: the transition tables of sessions and of the ride.
 
 A session listens, thinks about one question at a time, and may have to wait for new rollouts
-before it can go on thinking. It may end a turn with a question of its own: which of several
-readings is meant, or, on request, one that shows whether the passenger has understood. A ride is
-under way until it is over. An input that the table does not provide for is an error and changes
-nothing.
+before it can continue. It may end a turn with a question of its own: a clarification, or on
+request a quiz question, which shows whether the passenger has understood. A ride is under way until
+it is over. An input that the table does not contain is an error and changes nothing.
 """
 
 from collections.abc import Mapping
@@ -15,7 +14,7 @@ from xavi_dialogue.errors import XaviError
 
 
 class Phase(Enum):
-    """State of a session. THINKING never outlasts the input that led to it."""
+    """State of a session. THINKING ends within the input that begins it."""
 
     LISTENING = "listening"
     THINKING = "thinking"
@@ -85,11 +84,11 @@ Input = TypeVar("Input", bound=Enum)
 
 
 class IllegalEvent(XaviError):
-    """An input that has no place in the present state."""
+    """An input that the present state does not permit."""
 
 
 def after(table: Mapping[tuple[State, Input], State], state: State, move: Input) -> State:
-    """Return the state that follows.
+    """Return the next state.
 
     Raises:
         IllegalEvent: the table has no such transition.

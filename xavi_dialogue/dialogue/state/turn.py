@@ -1,4 +1,4 @@
-"""Turn: what was said once by either side, with all that later turns need of it. Plain data."""
+"""Turn: one question and its reply, with all that later turns need to know. Plain data."""
 
 from typing import Literal, TypeAlias
 
@@ -11,14 +11,14 @@ from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.meaning import Act
 from xavi_dialogue.domain.terms import Thing
 
-#: What a reply comes to; "passed": the passenger does not know, or does not settle on one answer.
+#: Judgement of a reply; "passed": the passenger does not know, or does not settle on one answer.
 Judgement: TypeAlias = Literal["right", "wrong", "passed"]
 
 
 class Part(msgspec.Struct, frozen=True):
-    """One act of the passenger with what answers it."""
+    """One act of the passenger with its result."""
 
-    act: GroundedAct | None  # None where it could not be grounded
+    act: GroundedAct | None  # None: the result belongs to no act
     result: Answer | Refusal
 
 
@@ -26,7 +26,7 @@ class Quiz(msgspec.Struct, frozen=True, kw_only=True):
     """A question of ours to the passenger, with its solution from the record."""
 
     posed: Posed
-    at: float  # [s] when it was put
+    at: float  # [s] when it was asked
     vehicle: int | None = None  # of kind vehicle: the one that is meant
     actions: tuple[Action, ...] = ()  # of kind deed: what we would have done
     same: bool | None = None  # of kind deed: whether that is what we did anyway
@@ -34,11 +34,11 @@ class Quiz(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Offer(msgspec.Struct, frozen=True, kw_only=True):
-    """What a clarification offered: the readings, in the order in which they are numbered."""
+    """What a clarification offered: readings or vehicles, in the order of their numbers."""
 
-    acts: tuple[Act, ...] = ()  # one for each choice, as far as they are whole acts
+    acts: tuple[Act, ...] = ()  # one for each choice that is a whole act
     things: tuple[Thing, ...] = ()  # the vehicles to choose from
-    pending: Act | None = None  # the act to be completed with one of them
+    pending: Act | None = None  # the act that one of them is to complete
 
 
 class Turn(msgspec.Struct, frozen=True, kw_only=True):
@@ -50,17 +50,17 @@ class Turn(msgspec.Struct, frozen=True, kw_only=True):
     ride: str | None = None  # id of the first trace of the ride that it is about
     mentioned: tuple[int, ...] = ()  # vehicles that the reply names, in order
     offer: Offer | None = None  # of a clarification
-    quiz: Quiz | None = None  # put by the reply
-    answered: Quiz | None = None  # which the text answers ...
+    quiz: Quiz | None = None  # asked by the reply
+    answered: Quiz | None = None  # the question of ours that the text answers ...
     right: bool | None = None  # ... and whether rightly; None: the passenger does not know
-    turned_away: bool = False  # the question was not taken up
+    turned_away: bool = False  # the question was not answered at all
 
     @property
     def acts(self) -> tuple[GroundedAct, ...]:
-        """What was meant, each act once."""
+        """Return the acts of the text, each once."""
         return tuple(dict.fromkeys(p.act for p in self.parts if p.act is not None))
 
     @property
     def results(self) -> tuple[Answer | Refusal, ...]:
-        """What was replied to it."""
+        """Return the results of all parts."""
         return tuple(part.result for part in self.parts)
