@@ -1,7 +1,7 @@
-"""Against: what was decided beside what a question asks about, both at one decision.
+"""Against: what was decided compared with what a question asks about, at one decision.
 
-Who asks why we did not do something, and who asks what would have come of it, ask of the same
-decision: `foils.foil_at` finds it by the tense of the question and by the deed that it names.
+The questions why we did not do something, and what it would have led to, are about the same
+decision. `foils.foil_at` finds it by the tense of the question and by the action that it names.
 """
 
 from dataclasses import dataclass
@@ -26,8 +26,8 @@ from xavi_dialogue.explain.causes.vehicles.actions import STRAIGHT, same, to_mac
 from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import ROUNDING, planned
 
-EARLIER = 8.0  # [s] by which something could have been begun earlier
-BEGUN = 1.0  # [s] before a decision at which what it chose had been begun
+EARLIER = 8.0  # [s] before a decision in which something may have been possible
+BEGUN = 1.0  # [s] before a decision in which what it chose may have begun
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,9 +37,9 @@ class Against:
     found: Premise
     foil: Actions
     contrast: Contrast
-    earlier: bool = False  # of a decision before the one asked about: there it came too late
+    earlier: bool = False  # the decision is before the one asked about, when it was too late
     later: Performed | None = None  # it was done after that decision, or is planned
-    open_at: float | None = None  # [s] when it could last be done; None where that is not asked
+    open_at: float | None = None  # [s] when it could last be done; None: not asked
 
 
 def against(
@@ -50,11 +50,11 @@ def against(
     Args:
         event: what was not done.
         scene: the setting.
-        deed: what was done instead, where the question says so.
-        before: whether a decision shortly before will do, where it is too late now.
+        deed: what was done instead, if the question says so.
+        before: whether a decision shortly before may be used if it is too late now.
 
     Raises:
-        Did: it is what we did, are doing or plan to do.
+        Did: the event is what we did, are doing or plan to do.
         Unanswered: it could not be done; or rollouts are needed.
     """
     found, foil = foil_at(event, scene, deed)
@@ -83,7 +83,7 @@ def against(
 
 
 def _open_at(event: Event, scene: Asked, found: Premise) -> float | None:
-    """Tell when [s] something could last be done, where no time and no deed says of when it is."""
+    """Return when [s] something could last be done, if the question names no time and no action."""
     in_force = scene.ride.at(scene.now)
     about = foil_subject(scene, event)
     if found.deed is not None or about.span is not None or not about.is_past:
@@ -111,10 +111,10 @@ def _open_before(scene: Asked, trace: PlanTrace, foil: Actions) -> PlanTrace | N
 
 
 def _sooner(event: Event, scene: Asked, found: Premise, foil: Actions) -> tuple[Premise, Contrast]:
-    """Compare with beginning earlier what was done.
+    """Compare what was done with doing it earlier.
 
     Raises:
-        Unanswered: it was not open before; or it is asked of doing it later.
+        Unanswered: it was not open before; or the question is about doing it later.
     """
     before = None if found.node else _open_before(scene, found.trace, foil)
     if before is None or manner_of(event, "early") is None:
@@ -126,7 +126,7 @@ def _sooner(event: Event, scene: Asked, found: Premise, foil: Actions) -> tuple[
 def _given_up(
     event: Event, scene: Asked, found: Premise, foil: Actions, same_: SameAsPlan
 ) -> tuple[Premise, Actions]:
-    """Find where to compare what a decision chose and a later one gave up: the latest one.
+    """Find the decision and foil for what one decision chose and a later one gave up.
 
     Raises:
         Did: it was done, or is still what is planned.
@@ -157,7 +157,7 @@ def _dropped(scene: Asked, trace: PlanTrace, foil: Actions) -> PlanTrace:
 
 
 def _carried_out(scene: Asked, found: Premise, action: MacroAction, decided: float) -> Deed | None:
-    """Find the deed to which a decision led, where what it chose was carried out."""
+    """Find the action that a decision led to, if what it chose was carried out."""
     if found.node:
         return None
     done = [d for d in scene.ride.deeds if d.action == action]
@@ -167,12 +167,12 @@ def _carried_out(scene: Asked, found: Premise, action: MacroAction, decided: flo
 
 
 def _later(event: Event, scene: Asked, decided: float, node: Actions) -> Performed | None:
-    """Tell whether what is asked about was done after a decision, or is planned for later."""
+    """Return how what is asked about was done after a decision or is planned; None: neither."""
     names: tuple[ActionName, ...] = tuple(n for n in settled(scene, event) if n in MANOEUVRES)
     if not names or any(name in STRAIGHT for name in names):
         return None
     if isinstance(event.object, Exit) or event.where is not None:
-        return None  # at another place it would be another deed
+        return None  # at another place it would be another action
     done = [d for d in scene.ride.deeds if d.action in names and d.time > decided + ROUNDING]
     if done:
         over = done[0].ended is not None

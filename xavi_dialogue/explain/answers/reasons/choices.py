@@ -37,12 +37,12 @@ from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import ROUNDING, planned
 
 Form = Literal["why", "why-not", "necessary", "worth-it"]
-LATELY = 12.0  # [s] since when a change of lanes still tells why we are in our lane
-LEAST = 1.0  # [s] that a change of lane or a turn takes at least
+LATELY = 12.0  # [s] after a change of lanes in which it still explains why we are in our lane
+LEAST = 1.0  # [s] minimum duration of a change of lanes or a turn
 
 
 def why(event: Event | None, scene: Asked, instead: Proposition | None = None) -> Answer:
-    """Tell why we did or plan something: against the foil named, else the best alternative.
+    """Explain why we did or plan something, against the foil named, else the natural one.
 
     Raises:
         Unanswered: we did not; or the record lacks it; or rollouts are needed.
@@ -61,15 +61,15 @@ def why(event: Event | None, scene: Asked, instead: Proposition | None = None) -
     try:
         compared = contrast(scene.ride, found.trace, foil, found.node)
         compared = on_way(found.trace, compared, found.node)
-    except SameAsPlan:  # the contrast that the question draws is none
+    except SameAsPlan:  # the question's contrast is no contrast
         compared = natural(scene.ride, found.trace, found.node)
     return _reason(scene, event, found, compared)
 
 
 def _reason(scene: Asked, event: Event | None, found: Premise, against: Contrast) -> ChoiceReason:
-    """Return the reason for what was chosen, with whom a lane was left for.
+    """Return the reason for what was chosen, with the vehicle for which a lane was left.
 
-    Going straight on is not what was chosen where the plan begins with something else.
+    Going straight on is not what was chosen if the plan begins with something else.
     """
     chosen = against.fact[len(found.node) : len(found.node) + 1]
     if found.deed is not None and found.deed.action == "continue" and chosen not in ((), STAYING):
@@ -80,7 +80,7 @@ def _reason(scene: Asked, event: Event | None, found: Premise, against: Contrast
 
 
 def _left_for(scene: Asked, found: Premise, against: Contrast) -> MotionCause | None:
-    """Return who stood or crept in the lane that was left, where one was."""
+    """Return the slow vehicle in the lane that was left, if one was left."""
     first = against.fact[:1]
     if found.node or not first or first[0] not in CHANGES:
         return None
@@ -90,7 +90,7 @@ def _left_for(scene: Asked, found: Premise, against: Contrast) -> MotionCause | 
 
 
 def _beside(scene: Asked, found: Premise, against: Contrast) -> MotionCause | None:
-    """Return who is in the lane that was left alone: beside us, or slower than we drive."""
+    """Return the vehicle in the lane we did not change to: beside us, or slower than we drive."""
     if found.node or against.foil[0] not in CHANGES or against.route is not None:
         return None
     there = in_lane_beside(scene.ride, scene.world, against.decided, against.foil[0])
@@ -98,12 +98,12 @@ def _beside(scene: Asked, found: Premise, against: Contrast) -> MotionCause | No
 
 
 def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
-    """Tell why we did not do something.
+    """Explain why we did not do something.
 
     Args:
         event: what was not done.
         scene: the setting.
-        deed: what was done instead, where the question says so.
+        deed: what was done instead, if the question says so.
 
     Raises:
         Unanswered: we did; or it was not possible; or the record lacks it; or rollouts are needed.
@@ -120,7 +120,7 @@ def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
         found, foil = foil_at(event, scene, deed)
         model = scene.ride.model(found.trace)
         compared = replace(alone(scene.ride, model, factual(model, found.trace)), foil=foil)
-        if found.node or _beside(scene, found, compared) is None:  # who is there tells enough
+        if found.node or _beside(scene, found, compared) is None:  # who is there is enough
             raise
     stays = compared.foil == STAYING
     past = _over(scene, event, found) or is_past(scene, event)
@@ -132,7 +132,7 @@ def why_not(event: Event, scene: Asked, deed: Event | None = None) -> Answer:
 
 
 def straight(scene: Asked) -> Answer:
-    """Tell why we go straight on: the way, where we could turn at the next junction; else the lane.
+    """Explain why we go straight on: by the way, if we could turn next; else by the lane.
 
     Raises:
         Unanswered: there is no other lane; or rollouts are needed.
@@ -148,7 +148,7 @@ def straight(scene: Asked) -> Answer:
 
 
 def in_lane(scene: Asked) -> Answer:
-    """Tell why we are in our lane: why we moved there, or what speaks against another.
+    """Explain why we are in our lane: why we moved there, or what speaks against another.
 
     Raises:
         Unanswered: there is no other lane; or rollouts are needed.
@@ -176,7 +176,7 @@ def in_lane(scene: Asked) -> Answer:
 
 
 def needed(event: Event | None, scene: Asked, form: Form = "necessary") -> Answer:
-    """Tell whether we had to do what we did: what the best alternative would have cost.
+    """Return whether we had to do what we did: what the best alternative would have cost.
 
     Raises:
         Unanswered: we did not do it; or the record lacks it; or rollouts are needed.
@@ -198,17 +198,17 @@ def needed(event: Event | None, scene: Asked, form: Form = "necessary") -> Answe
 
 
 def is_choice(event: Event) -> bool:
-    """Tell whether an event of ours is one that the planner chooses, not a way of driving."""
+    """Check whether an event of ours is one that the planner chooses, not a way of driving."""
     return not set(names_of(event)) & DRIVING
 
 
 def is_kept_from(other: Event, event: Event, keeping: Collection[ActionName]) -> bool:
-    """Tell whether what was done is only going on, so that why not the other is what is asked.
+    """Check whether what was done is only going on, so that the question is why not the other.
 
     Args:
         other: what was not done.
-        event: what was.
-        keeping: what one does who leaves nothing.
+        event: what was done.
+        keeping: actions that only keep on with what went before.
     """
     plain = event.object is None and event.side is None and event.where is None
     going_on = event.action in keeping or (plain and event.action in ("go", "continue"))
@@ -216,7 +216,7 @@ def is_kept_from(other: Event, event: Event, keeping: Collection[ActionName]) ->
 
 
 def deed_of(scene: Asked, found: Premise) -> Episode | None:
-    """Tell what was done, with where it was done, as far as the road is recorded."""
+    """Return what was done, with the place, as far as the road is recorded."""
     if found.deed is None:
         return None
     deed = episode_of(found.deed)
@@ -227,7 +227,7 @@ def deed_of(scene: Asked, found: Premise) -> Episode | None:
 
 
 def _over(scene: Asked, event: Event | None, found: Premise) -> bool:
-    """Check whether it is stated as past: what was asked so, or has ended."""
+    """Check whether the answer is in the past tense: the question is, or the action has ended."""
     if found.deed is None:
         return is_past(scene, event) and found.trace is not scene.ride.latest
     if found.deed.ended is None and (event is None or event.tense != "future"):
@@ -236,5 +236,5 @@ def _over(scene: Asked, event: Event | None, found: Premise) -> bool:
 
 
 def _lasted(deed: Deed) -> bool:
-    """Check whether it was more than given up at once."""
+    """Check whether an action was not given up at once."""
     return deed.ended is None or deed.ended - deed.started >= LEAST

@@ -22,14 +22,14 @@ AS_CHANGE: dict[ActionName, ActionName] = {
     "exit-left": "change-left",
     "exit-right": "change-right",
 }
-BEGUN = 0.5  # [s] since when what was begun is stated as past
-LATELY = 10.0  # [s] since when a junction that was crossed may be meant
-JUST = 4.0  # [s] since when a change of lanes is what "going" means
-SOON = 4.0  # [s] before we went within which waiting was the other choice
+BEGUN = 0.5  # [s] after which what has begun is stated in the past tense
+LATELY = 10.0  # [s] after a junction in which it may be meant
+JUST = 4.0  # [s] after a change of lanes in which "going" means it
+SOON = 4.0  # [s] before we went in which waiting was the other choice
 
 
 def went(event: Event, scene: Asked) -> Answer:
-    """Tell why we went when we did: who had right of way, and what waiting would have cost.
+    """Explain why we went when we did: who had right of way, and what waiting would have cost.
 
     Raises:
         Unanswered: the record lacks it; or rollouts are needed.
@@ -49,7 +49,7 @@ def went(event: Event, scene: Asked) -> Answer:
     others = tuple(one for one in others if one.vehicle == asked) or others
     held = None if asked is not None else freed(scene.ride, scene.world, begun)
     trace = scene.ride.at(begun)
-    unknown = trace is None or trace.road is None  # who has right of way
+    unknown = trace is None or trace.road is None  # no right of way is on record
     if held is None and not others and (found.deed is None or unknown):
         return choices.why(None, scene)
     past = past or (found.deed is not None and begun < scene.now - BEGUN)
@@ -61,7 +61,7 @@ def went(event: Event, scene: Asked) -> Answer:
 
 
 def sideways(event: Event, scene: Asked) -> Event:
-    """Read going left, or right, as the change of lanes that is under way, where one is."""
+    """Read going left or right as the change of lanes that is under way, if one is."""
     change = AS_CHANGE.get(event.action)
     if change is None or isinstance(event.object, Junction | Exit):
         return event
@@ -72,7 +72,7 @@ def sideways(event: Event, scene: Asked) -> Event:
 
 
 def crossed(scene: Asked) -> Deed | None:
-    """Return the last junction that we went into up to the moment asked about."""
+    """Return our action at the last junction up to the moment asked about, else at the next."""
     before = [
         deed
         for deed in scene.ride.deeds
@@ -84,12 +84,12 @@ def crossed(scene: Asked) -> Deed | None:
 
 
 def _lately(scene: Asked, deed: Deed) -> bool:
-    """Check whether a deed goes on at the moment asked about, or was over shortly before."""
+    """Check whether an action goes on at the moment asked about, or ended shortly before."""
     return deed.ended is None or deed.ended >= scene.moment - JUST
 
 
 def _waiting(scene: Asked, time: float) -> Contrast | None:
-    """The last decision up to a time [s] that could have stopped and did not, against stopping."""
+    """Compare stopping with the last decision before a time [s] that could have chosen it."""
     open_ = [
         trace
         for trace in scene.ride.traces

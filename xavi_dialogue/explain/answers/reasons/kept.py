@@ -1,4 +1,4 @@
-"""Kept: whom we gave way to, how that goes on, and how hard we braked."""
+"""Kept: to whom we gave way, how that goes on, and how hard we braked."""
 
 from dataclasses import replace
 
@@ -11,12 +11,12 @@ from xavi_dialogue.explain.answers.reference.reading import manner_of, vehicle_i
 from xavi_dialogue.explain.causes.driving.driving import Reasons
 
 SLOWING = ("slow-down", "brake", "stop", "stand")
-#: Kinds of reasons that say nothing of who kept us from going.
+#: Kinds of reasons that do not say who kept us from going.
 UNKNOWN = frozenset(("limit", "plan", "starting", "turn", "picking-up"))
 
 
 def peak(scene: Asked, event: Event, deed: Episode) -> float | None:
-    """Tell how hard [m/s2] we braked, where it is asked why so hard, or so suddenly."""
+    """Return how hard [m/s2] we braked, if the question is why so hard or so suddenly."""
     if manner_of(event, "hard", "suddenly") is None or deed.action not in SLOWING:
         return None
     end = scene.now if deed.end is None else deed.end
@@ -24,7 +24,7 @@ def peak(scene: Asked, event: Event, deed: Episode) -> float | None:
 
 
 def with_yielding(scene: Asked, found: Reasons, begin: float, end: float) -> Reasons:
-    """Name whom we gave way to then, where nothing else is known to have kept us."""
+    """Add to whom we gave way then, if nothing else is known to have kept us."""
     if any(c.kind not in UNKNOWN for c in found.causes):
         return found
     gave = [
@@ -39,7 +39,7 @@ def with_yielding(scene: Asked, found: Reasons, begin: float, end: float) -> Rea
 
 
 def going_on(scene: Asked, deed: Episode, rows: tuple[tuple[ActionName, ...], ...]) -> Episode:
-    """Take for giving way that has begun the slowing or standing that goes on for it."""
+    """Replace giving way that is over by the slowing or standing that still goes on."""
     if deed.action != "give-way" or deed.end is None or scene.past is not None:
         return deed
     kinds = tuple(kind for row in rows for kind in row)

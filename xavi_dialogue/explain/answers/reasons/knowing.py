@@ -1,4 +1,4 @@
-"""Knowing: on what evidence something is believed, how sure the car is, and how it decides."""
+"""Knowing: the evidence for what is believed, how sure the car is, and how it decides."""
 
 from itertools import pairwise
 
@@ -61,20 +61,20 @@ from xavi_dialogue.explain.history.ride import planned, prediction
 
 COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
 SPEEDS = frozenset[ActionName](("brake", "slow-down", "speed-up"))
-FORESEEN = 12.0  # [s] within which what came is what was foreseen
-LATELY = 20.0  # [s] since when our last crossing is what others were expected to do something at
-BEFORE = 0.2  # [s] before what came at which it was still to come
-MOVED = 0.05  # of probability, from which a belief has moved
+FORESEEN = 12.0  # [s] after a prediction in which what came is what was predicted
+LATELY = 20.0  # [s] after our last crossing in which expectations of others are about it
+BEFORE = 0.2  # [s] before an event, when it was still to come
+MOVED = 0.05  # minimum change of the probability of a belief that has moved
 
 
 def how_know(question: HowKnow, scene: Asked) -> Answer:
-    """Tell on what evidence something was believed or decided.
+    """Return the evidence for something that was believed or decided.
 
-    Of another vehicle, how the belief grew; of a deed of ours, how we came to expect what the
-    vehicle would do because of which we did it, else how we decided.
+    For another vehicle, it is how the belief grew. For an action of ours, it is how we came to
+    expect what the vehicle that caused it would do, else how we decided.
 
     Raises:
-        Unanswered: nothing was believed of it; or the record lacks it.
+        Unanswered: nothing was believed of the vehicle; or the record lacks it.
     """
     of, _ = unwrapped(question.of)
     event = event_of(of)
@@ -104,7 +104,7 @@ def how_know(question: HowKnow, scene: Asked) -> Answer:
 
 
 def how_sure(question: HowSure, scene: Asked) -> Answer:
-    """Tell how probable the car holds something, or how sure it was of what it did.
+    """Return how probable something is for the car, or how sure it was of what it did.
 
     Raises:
         Unanswered: the record lacks it.
@@ -140,16 +140,16 @@ def how_sure(question: HowSure, scene: Asked) -> Answer:
 
 
 def _stays(event: Event, vehicle: int, scene: Asked) -> bool:
-    """Tell whether it is asked if one that stands now goes on standing: what for tells that."""
+    """Check whether a vehicle stands that is asked about as standing; the reason answers that."""
     here = event.action in HALTS and event.modal != "would" and not is_past(scene, event)
     return here and scene.ride.motion(vehicle).trend == "standing"
 
 
 def certain(scene: Asked, event: Event | None, *, negated: bool) -> Certainty:
-    """Tell how surely a deed was better than the best alternative, or the plan goes well.
+    """Return how surely an action was better than its alternative, or the plan goes well.
 
     Raises:
-        Unanswered: the deed did not happen, or the record lacks it.
+        Unanswered: the action did not happen, or the record lacks it.
     """
     ride = scene.ride
     if event is None and scene.past is None:
@@ -164,7 +164,7 @@ def certain(scene: Asked, event: Event | None, *, negated: bool) -> Certainty:
     if event is not None and not choices.is_choice(event):
         found = Premise(_trace_at(scene), None)
         stops = planned(found.trace)[:1] == ("stop",)
-        if event.action in SPEEDS and not stops:  # no option of its own: it comes of the plan
+        if event.action in SPEEDS and not stops:  # no option of its own: it follows from the plan
             return certainty.of_plan(ride, found)
     else:
         found = _as_now(scene, event, premise(ride, subject(scene, event)))
@@ -172,7 +172,7 @@ def certain(scene: Asked, event: Event | None, *, negated: bool) -> Certainty:
 
 
 def _as_now(scene: Asked, event: Event | None, found: Premise) -> Premise:
-    """Take the last decision for what goes on and is asked of as now: it is decided again."""
+    """Take the last decision, if it chose again what goes on and is asked about as present."""
     deed, last = found.deed, scene.ride.latest
     if deed is None or deed.ended is not None or event is None or event.tense == "past":
         return found
@@ -185,7 +185,7 @@ def _in_order(rows: tuple[Belief, ...]) -> tuple[Belief, ...]:
 
 
 def _held(scene: Asked, vehicle: int, event: Event, trace: PlanTrace) -> float:
-    """Tell how probable conduct was for a decision, as when it is asked whether it comes."""
+    """Return the probability of conduct at a decision, as for the question whether it comes."""
     found = chance(scene, replace(event, actor=Vehicle(vehicle)), trace.sim_time)
     if found is not None:
         return found
@@ -193,10 +193,10 @@ def _held(scene: Asked, vehicle: int, event: Event, trace: PlanTrace) -> float:
 
 
 def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
-    """Tell what was believed of a vehicle, how it moved, and what came of it.
+    """Return what was believed of a vehicle, how the belief moved, and what the vehicle then did.
 
     Raises:
-        Unanswered: no decision expects anything of it.
+        Unanswered: no decision expects anything of the vehicle.
     """
     ride, at = scene.ride, scene.moment
     known = [t for t in ride.traces if prediction(t, vehicle) is not None]
@@ -228,13 +228,13 @@ def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
 
 
 def _done(scene: Asked, event: Event) -> tuple[Episode, ...]:
-    """Give where somebody did what was believed of it, if need be not for whom it was believed."""
+    """Return the episodes of an event; if there are none, those with any object."""
     found = scene.world.holds(event, 0.0, scene.now)
     return found or scene.world.holds(replace(event, object=None), 0.0, scene.now)
 
 
 def how_decide(question: HowDecide, scene: Asked) -> Answer:
-    """Tell what was compared at a decision, and on how many situations it rests.
+    """Return what was compared at a decision, and on how many situations that rests.
 
     Raises:
         Unanswered: what the question names did not happen; or there is too little evidence.
@@ -269,7 +269,7 @@ def _whom(scene: Asked, of: Proposition | None, event: Event | None) -> int | No
 
 
 def _owed(event: Event, scene: Asked) -> Priority | None:
-    """Give the right of way for which we gave way, or waited; None: it was not for that."""
+    """Return the right of way for which we gave way or waited; None: that was not the reason."""
     whom = vehicle_in(event.object)
     if event.action not in YIELDS | {"wait"} or not is_own(event.actor):
         return None
@@ -282,7 +282,7 @@ def _owed(event: Event, scene: Asked) -> Priority | None:
 
 
 def _because_of(event: Event, scene: Asked) -> int | None:
-    """Because of whom we chose to do so, or drove so.
+    """Return the vehicle because of which we chose to do so, or drove so.
 
     Raises:
         Unanswered: rollouts are needed.
@@ -303,7 +303,7 @@ def _because_of(event: Event, scene: Asked) -> int | None:
 
 
 def _moved(rows: list[Belief], chances: list[float], *, asked: bool) -> tuple[Belief, ...]:
-    """Return the beliefs where they moved, the first and the last."""
+    """Return the beliefs that moved, with the first and the last."""
     kept: list[int] = []
     for k, row in enumerate(rows):
         if kept and k < len(rows) - 1:
@@ -325,7 +325,7 @@ def _alike(one: Belief, other: Belief) -> bool:
 def _turning(
     rows: list[Belief], chances: list[float], *, asked: bool
 ) -> tuple[float, float] | None:
-    """Between which decisions [s] the belief moved most."""
+    """Return the times [s] of the decisions between which the belief moved most."""
     values = chances if asked else [r.expectations[0].probability for r in rows if r.expectations]
     steps = [abs(b - a) for a, b in pairwise(values)]
     best = max(range(len(steps)), key=lambda k: steps[k], default=None)
@@ -344,7 +344,7 @@ def _meanwhile(scene: Asked, vehicle: int, told: tuple[float, float]) -> Episode
 def _went(
     scene: Asked, vehicle: int, since: float, names: tuple[ActionName, ...]
 ) -> Episode | None:
-    """Return where a vehicle went after a time [s], or to which lane where that was asked about."""
+    """Return where a vehicle went after a time [s], or to which lane if that was asked about."""
     kinds = CHANGES if set(names) & set(CHANGES) else EXITS
     found = scene.world.episodes(Vehicle(vehicle), tuple(kinds), begin=since)
     return next((one for one in found if since <= one.begin <= since + FORESEEN), None)

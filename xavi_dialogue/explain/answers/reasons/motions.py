@@ -35,8 +35,8 @@ from xavi_dialogue.explain.history.nearing import speed_at, tellable
 from xavi_dialogue.explain.history.ride import chose
 
 SLOWING: tuple[ActionName, ...] = ("slow-down", "brake")
-#: What was done, by what it may be called; the first of several rows that has an episode counts,
-#: and from the second on the question did not call it what it was.
+#: By action that a question names: rows of actions that it may mean. The first row that has an
+#: episode counts; from the second one on, the question's name is not right.
 KINDS: dict[ActionName, tuple[tuple[ActionName, ...], ...]] = {
     "slow-down": (SLOWING, ("stop", "stand")),
     "brake": (SLOWING, ("stop", "stand")),
@@ -50,16 +50,16 @@ KINDS: dict[ActionName, tuple[tuple[ActionName, ...], ...]] = {
     "avoid": (SLOWING, ("stop", "stand")),
 }
 STILL: tuple[ActionName, ...] = ("stop", "stand")
-FREE = frozenset(("limit", "plan", "starting"))  # kinds of reasons by which nothing is in our way
+FREE = frozenset(("limit", "plan", "starting"))  # kinds of reasons for which nothing is in our way
 STANDING = 0.3  # [m/s]
-CREEPING = 2.5  # [m/s] down to which one has not stopped
-RISKY = 0.05  # risk of a collision by which driving on is worse where somebody is in the way too
-BEGUN = 0.3  # [s] after which the decision that led to it was in force
-WIDER = 4.0  # [s] around a moment in which what began or ended is meant by it
+CREEPING = 2.5  # [m/s] above which we have not stopped
+RISKY = 0.05  # minimum extra risk of driving on that counts if somebody is in the way
+BEGUN = 0.3  # [s] after a decision from which what it led to has begun
+WIDER = 4.0  # [s] within which episodes that begin belong to one moment
 
 
 def motion(event: Event, scene: Asked, *, asked: ActionName | None = None) -> Answer:
-    """Tell why we drove as an event says.
+    """Explain why we drove as an event says.
 
     Raises:
         Unanswered: we did not; or the record lacks it; or rollouts are needed.
@@ -78,7 +78,7 @@ def motion(event: Event, scene: Asked, *, asked: ActionName | None = None) -> An
 
 
 def along_lane(event: Event, scene: Asked) -> MotionReason | None:
-    """Tell that our lane runs to a side, where it is asked why we bore to it; None of others."""
+    """Return that our lane runs to a side, if the question is why we bore to it; else None."""
     if event.action != "swerve":
         return None
     made = scene.world.episodes(Ego(), ("swerve", "change-left", "change-right"))
@@ -90,20 +90,20 @@ def along_lane(event: Event, scene: Asked) -> MotionReason | None:
 
 
 def is_our_speed(of: Compares) -> bool:
-    """Tell whether our own speed is compared."""
+    """Check whether our own speed is compared."""
     right = isinstance(of.right, Measured) and is_own(of.right.thing)
     return of.left.attribute == "speed" and (is_own(of.left.thing) or right)
 
 
 def is_slowing(scene: Asked) -> bool:
-    """Tell whether we are slowing down, and still drive."""
+    """Check whether we are slowing down, and still drive."""
     found = scene.world.episodes(Ego(), SLOWING)
     speed = speed_at(scene.ride, scene.now)
     return any(e.end is None for e in found) and speed is not None and speed >= STANDING
 
 
 def standing_or_slow(scene: Asked, event: Event | None = None) -> Answer:
-    """Tell why we stand, where we do; else why we drive no faster.
+    """Explain why we stand, if we do; else why we drive no faster.
 
     Raises:
         Unanswered: the record lacks it; or rollouts are needed.
@@ -116,7 +116,7 @@ def standing_or_slow(scene: Asked, event: Event | None = None) -> Answer:
 
 
 def _time(scene: Asked, event: Event | None) -> float:
-    """When [s] a state is asked about: now in the present, or where what is asked of goes on."""
+    """Return when [s] the state holds that is asked about: now, if it is present or goes on."""
     if event is not None and event.tense == "present":
         return scene.now
     past = scene.past
@@ -127,7 +127,7 @@ def _time(scene: Asked, event: Event | None) -> float:
 
 
 def slow(scene: Asked, manner: Manner = "slowly", event: Event | None = None) -> Answer:
-    """Tell why we drive, or drove, no faster: the state, not slowing down.
+    """Explain why we drive, or drove, no faster: the state, not slowing down.
 
     Raises:
         Unanswered: the record lacks it; or rollouts are needed.
@@ -162,7 +162,7 @@ def slow(scene: Asked, manner: Manner = "slowly", event: Event | None = None) ->
 
 
 def _picking_up(scene: Asked, found: Slowness) -> Slowness:
-    """With picking up speed for the limit, where that is the reason and we are well below it."""
+    """Replace the limit as the only reason by picking up speed, if we are well below the limit."""
     causes = found.reasons.causes
     alone = all(cause.kind in ("limit", "plan") for cause in causes)
     motion = scene.ride.motion(EGO).until(found.deed.begin)
@@ -173,7 +173,7 @@ def _picking_up(scene: Asked, found: Slowness) -> Slowness:
 
 
 def _slowed_for(scene: Asked, found: Slowness) -> Slowness:
-    """With those for whom we have just slowed down, where nobody else makes us slow."""
+    """Replace the reasons by those for our last slowing down, if a vehicle is among them."""
     time = found.deed.begin
     slowing = scene.world.episodes(Ego(), (*SLOWING, "give-way"), time - when.RECENT, time)
     slowing = tuple(e for e in slowing if e.action in (*SLOWING, "give-way"))
@@ -189,7 +189,7 @@ def _slowed_for(scene: Asked, found: Slowness) -> Slowness:
 
 
 def fast(scene: Asked) -> Answer:
-    """Tell why we drive as fast as we do: who or what keeps us below the limit, else the limit.
+    """Explain why we drive as fast as we do: what keeps us below the limit, else the limit.
 
     Raises:
         Unanswered: the record lacks it; or rollouts are needed.
@@ -220,7 +220,7 @@ def fast(scene: Asked) -> Answer:
 
 
 def _held(scene: Asked) -> MotionReason | None:
-    """Tell why we do not drive at the limit; None where nothing is known to keep us from it."""
+    """Explain why we do not drive at the limit; None if nothing is known to keep us from it."""
     try:
         found = slow(scene)
     except Unanswered as unanswered:
@@ -235,7 +235,7 @@ def _held(scene: Asked) -> MotionReason | None:
 def _episode(
     scene: Asked, event: Event, kinds: tuple[ActionName, ...], *, present: bool
 ) -> Episode | None:
-    """The episode of some kinds that is asked about, of those about the object where there are."""
+    """Return the episode of some kinds that is asked about, if possible with the same object."""
     found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
     about = vehicle_in(event.object)
     if about is not None:
@@ -246,13 +246,13 @@ def _episode(
 
 
 def _preferring(found: list[Episode], kinds: tuple[ActionName, ...]) -> list[Episode]:
-    """Those in order of their end; of several that meet, the kind that is named first last."""
+    """Return episodes by their begin; of several close together, the kind named first is last."""
     rank = {kind: -k for k, kind in enumerate(kinds)}
     return sorted(found, key=lambda e: (round(e.begin / WIDER), rank[e.action], e.begin))
 
 
 def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premise: bool) -> Answer:
-    deed = replace(deed, action="speed-up") if named == "speed-up" else deed  # setting off is
+    deed = replace(deed, action="speed-up") if named == "speed-up" else deed  # or setting off
     reasons = driven_for(scene.ride, scene.world, deed, scene.moment)
     if deed.action in (*STILL, "give-way"):
         end = scene.moment if deed.end is None else deed.end
@@ -285,19 +285,19 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
 
 
 def _stops(scene: Asked, deed: Episode, named: ActionName) -> bool:
-    """Tell whether we brake for a stop that is asked about and is the decision in force."""
+    """Check whether we brake for a stop that is asked about and is the decision in force."""
     braking = deed.action in SLOWING and deed.end is None
     return named == "stop" and braking and chose(scene.ride.latest, "stop")
 
 
 def _before(scene: Asked) -> bool:
-    """Tell whether a moment is named that lies behind: "why not three seconds ago?"."""
+    """Check whether the question names a past moment: "why not three seconds ago?"."""
     named = scene.past
     return named is not None and named.said and named.end < scene.now - when.RECENT / 2.0
 
 
 def _halted(scene: Asked, deed: Episode, reasons: Reasons) -> float | None:
-    """Tell when, while slowing down already, it was decided to stop; None where it was not."""
+    """Return when [s] we decided to stop while already slowing down; None: we did not."""
     stops = chose(reasons.trace, "stop") and not chose(scene.ride.latest, "continue")
     later = reasons.trace.sim_time > deed.begin + BEGUN
     given_up = any(cause.kind == "given-up" for cause in reasons.causes)
@@ -305,7 +305,7 @@ def _halted(scene: Asked, deed: Episode, reasons: Reasons) -> float | None:
 
 
 def _speaks(contrast: Contrast, *, somebody: bool) -> bool:
-    """Whether what driving on would come to tells why we stop, rather than who is in our way."""
+    """Check whether the reason for a stop is what driving on leads to, not who is in our way."""
     risk = contrast.collision - contrast.fact_collision
     if contrast.decisive == "collision" or contrast.close:
         return risk >= (RISKY if somebody else RISK)
@@ -323,7 +323,7 @@ def _given_up(scene: Asked, deed: Episode) -> bool:
 
 
 def _state(scene: Asked, event: Event, named: ActionName) -> Answer:
-    """What goes on now where nothing of what is asked about does: driving slowly, or it is over."""
+    """Explain driving slowly, if what is asked about does not go on; else refuse."""
     speed = speed_at(scene.ride, scene.now)
     found = slowness(scene.ride, scene.world, scene.now)
     if found.is_slow and speed is not None and speed >= STANDING:
@@ -334,7 +334,7 @@ def _state(scene: Asked, event: Event, named: ActionName) -> Answer:
 
 
 def _denied(scene: Asked, event: Event, rows: tuple[tuple[ActionName, ...], ...]) -> Unanswered:
-    """Return the refusal where we did not drive so; with when we did, or what we did instead."""
+    """Return the refusal that we did not drive so, with when we did, or what we did instead."""
     for kinds in rows:
         others = scene.world.episodes(Ego(), kinds)
         near = when.pick(_loose(scene), others, lambda e: (e.begin, e.end))

@@ -1,7 +1,7 @@
-"""Nobody else: whether others than the causes told of a deed mattered for it.
+"""Nobody else: whether vehicles other than the causes that were stated mattered for an action.
 
-All others who were seen at the decision that explains the deed are taken away together, and the
-decision is made again. Where something else is done then, the nearest are tried one by one.
+All others that were seen at the decision that explains the action are removed together, and the
+decision is made again. If something else is done then, the nearest are tried one by one.
 """
 
 import math
@@ -15,11 +15,11 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.causes.driving.driving import Reasons
 from xavi_dialogue.explain.causes.driving.suppositions import happens_without, planned_without
 
-TRIED: Final = 3  # of the others, the nearest first, who are tried one by one where all matter
+TRIED: Final = 3  # others that are tried one by one, the nearest first, if they matter together
 
 
 def mattered(scene: Asked, found: Answer) -> Answer:
-    """Tell whether others than the causes of what we did mattered; a reason of no vehicle stays.
+    """Return whether vehicles other than the causes mattered; a reason without causes stays.
 
     Raises:
         Unanswered: the decision must be planned again first.
@@ -58,7 +58,7 @@ def _decision(scene: Asked, names: tuple[str, ...]) -> PlanTrace | None:
 def _matter(
     scene: Asked, found: ChoiceReason | MotionReason, trace: PlanTrace, others: tuple[int, ...]
 ) -> bool | None:
-    """Tell whether something else is done without the others; None where that is not known."""
+    """Check whether something else is done without the others; None if that is not known."""
     try:
         if isinstance(found, ChoiceReason):
             return not planned_without(scene.ride, trace, others).same

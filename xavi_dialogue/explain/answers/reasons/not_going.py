@@ -13,14 +13,14 @@ from xavi_dialogue.explain.answers.reference.reading import is_past
 from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.ride import planned
 
-#: Names for going somewhere, that ask for the way where a place or side is said.
+#: Names for going somewhere; with a place or side, the question is about the way.
 WAY = frozenset[ActionName](("go", "move", "head", "come", "pass"))
-STANDING = 0.3  # [m/s]
-AGO = 2.0  # [s] since when a giving way is still what keeps us from going
+STANDING = 0.3  # [m/s] below which we stand
+AGO = 2.0  # [s] after giving way in which it still keeps us from going
 
 
 def not_joining(event: Event, scene: Asked, instead: Event | None) -> Answer:
-    """Why we did not come in among others: the change of lanes, or going into the junction."""
+    """Explain why we did not join others: by changing lanes, or by going into a junction."""
     lane = event
     if event.action == "enter" and not isinstance(event.object, Junction | Exit):
         lane = structs.replace(event, action="merge", object=None)
@@ -35,7 +35,7 @@ def not_joining(event: Event, scene: Asked, instead: Event | None) -> Answer:
 
 
 def not_going(event: Event, scene: Asked) -> Answer:
-    """Return why we did not go: whom we stood or slowed for; else why we did otherwise."""
+    """Explain why we did not go: for whom we stood or slowed; else why we chose otherwise."""
     speed = speed_at(scene.ride, scene.moment)
     if not is_past(scene, event) and (speed is None or speed < STANDING):
         return motions.motion(Event("stand", tense="present"), scene)
@@ -59,18 +59,18 @@ def not_going(event: Event, scene: Asked) -> Answer:
 
 
 def tells_way(event: Event) -> bool:
-    """Check whether going is asked about as a way: round a junction, to a side, out of an exit."""
+    """Check whether the event is about a way to go: at a junction or exit, or to a side."""
     return isinstance(event.object, Junction | Exit) or bool(event.side or event.where)
 
 
 def _plans_straight(scene: Asked) -> bool:
-    """Check whether driving on is what is planned, so that asking why not is about standing."""
+    """Check whether we plan to drive on, so that a question why we do not is about our speed."""
     trace = scene.ride.at(scene.now)
     return trace is not None and planned(trace)[:1] == ("continue",)
 
 
 def moving_on(scene: Asked, where: object = None) -> Answer | None:
-    """Tell that we are moving, where it is taken for granted that we stand; None where we do."""
+    """Return that we are moving, for a question that presupposes that we stand; None if we do."""
     speed = scene.world.measure("speed", Ego(), scene.now)
     if where is not None or scene.past is not None or (speed.value or 0.0) < motions.CREEPING:
         return None

@@ -1,6 +1,6 @@
-"""Others: why another vehicle does or did something, or did not: who is in its way, and its goal.
+"""Others: why another vehicle does or did something, or did not.
 
-What drivers think is not known. What is stated is whom a vehicle gave way to or had in its way, as
+What drivers think is not known. Answers state to whom a vehicle gave way, or who was in its way, as
 far as its predicted ways show, and where we thought it was going.
 """
 
@@ -33,17 +33,17 @@ from xavi_dialogue.explain.history.nearing import speed_at, tellable, with_speed
 from xavi_dialogue.explain.history.ride import ROUNDING
 
 CHANGES: tuple[ActionName, ...] = ("change-left", "change-right", "merge", "enter", "pull-out")
-JUST = 4.0  # [s] for which we have only just moved in ahead of somebody
-EXPECTED = 0.3  # probability from which something may be said to be expected
+JUST = 4.0  # [s] for which we count as having just moved in ahead of somebody
+EXPECTED = 0.3  # minimum probability of what may be called expected
 CREEPING = 1.5  # [m/s]
-LONG = 3.0  # [s] from which one who stands may be parked
+LONG = 3.0  # [s] at a standstill from which a vehicle may be parked
 STILL = frozenset[ActionName](("stop", "stand", "wait", "give-way", "let-go", "block"))
 SLOWING = frozenset[ActionName](("slow-down", "brake"))
 GOING = frozenset[ActionName](("go", "move", "continue", "enter", "cross", "come", "pull-out"))
 PASSING = frozenset[ActionName](("overtake", "pass"))
-SAME = 1.0  # [m/s] up to which one is no faster
+SAME = 1.0  # [m/s] up to which a vehicle counts as no faster than us
 OPEN = frozenset[ActionName](("do", "happen", "signal", "see", "appear", "disappear", "block"))
-#: What a vehicle does instead, that answers why it did not do something.
+#: By action that a vehicle did not take: those that answer why not.
 INSTEAD: dict[ActionName, tuple[ActionName, ...]] = {
     "speed-up": ("slow-down", "brake", "stop", "stand"),
     "slow-down": ("speed-up", "go"),
@@ -56,7 +56,7 @@ INSTEAD: dict[ActionName, tuple[ActionName, ...]] = {
 
 
 def why(event: Event, scene: Asked, *, negated: bool) -> Answer:
-    """Tell why another vehicle did something, or did not.
+    """Explain why another vehicle did something, or did not.
 
     Raises:
         Unanswered: it did not, or did; or it was never seen.
@@ -75,7 +75,7 @@ def why(event: Event, scene: Asked, *, negated: bool) -> Answer:
 
 
 def slows(scene: Asked, vehicle: int) -> bool:
-    """Tell whether it is slowing down or stands, rather than driving slowly all the time."""
+    """Check whether a vehicle slows down or stands, rather than driving slowly all the time."""
     if setting_off(scene.ride, scene.now, vehicle):
         return False
     begin = scene.now - RECENT
@@ -83,7 +83,7 @@ def slows(scene: Asked, vehicle: int) -> bool:
 
 
 def slowly(scene: Asked, vehicle: int) -> Answer:
-    """Tell why it drives slowly, who does not slow down: who is in its way, if anybody."""
+    """Explain why a vehicle drives slowly without slowing down: who is in its way, if anybody."""
     speed = scene.world.measure("speed", Vehicle(vehicle), scene.now).value
     deed = Episode(Vehicle(vehicle), "move", scene.now, speed_to=speed)
     if setting_off(scene.ride, scene.now, vehicle):
@@ -94,10 +94,10 @@ def slowly(scene: Asked, vehicle: int) -> Answer:
 
 
 def believed(content: Proposition, scene: Asked) -> Answer:
-    """Tell what made us expect something of another vehicle.
+    """Return what made us expect something of another vehicle; for us, why we chose so.
 
     Raises:
-        Unanswered: it is about nobody else, or nothing was expected of it.
+        Unanswered: nothing was expected of the vehicle.
     """
     event = event_of(content)
     vehicle = None if event is None else check_seen(scene, event.actor)
@@ -107,7 +107,7 @@ def believed(content: Proposition, scene: Asked) -> Answer:
 
 
 def _standing(event: Event, scene: Asked, vehicle: int) -> Answer:
-    """Return why it does not go: it stands, or slows, and for whom; else it goes."""
+    """Explain why a vehicle does not go: why it stands or slows; else why not at all."""
     still = Event("stand", event.actor, tense=event.tense, time=event.time)
     try:
         return _asked(_braking(still, scene, vehicle), event)
@@ -122,7 +122,7 @@ def _asked(found: Answer, event: Event) -> Answer:
 
 
 def _braking(event: Event, scene: Asked, vehicle: int) -> Answer:
-    """Return why it brakes, stands or waits: who is in its way."""
+    """Explain why a vehicle brakes, stands or waits: who is in its way."""
     yielded = _yielded(event, scene, vehicle)
     if yielded is not None:
         return yielded
@@ -156,13 +156,13 @@ def _braking(event: Event, scene: Asked, vehicle: int) -> Answer:
 
 
 def _owes_us(scene: Asked, vehicle: int, begin: float, end: float) -> bool:
-    """Tell whether it had to let us go first while it slowed down or stood."""
+    """Check whether a vehicle had to let us go first while it slowed down or stood."""
     rule = rule_between(scene, vehicle, Window(begin, end))
     return rule is not None and rule[1] == "priority" and begin - LONG <= rule[0] <= end + LONG
 
 
 def _parked(scene: Asked, vehicle: int, standing: Episode) -> bool:
-    """Whether it has stood since it was first seen, and does not hold the brake, as who waits."""
+    """Check whether a vehicle has stood since it was first seen, and shows no lights."""
     first = scene.ride.motion(vehicle).time[:1]
     since = bool(first) and standing.begin <= first[0] + ROUNDING and standing.end is None
     trace = scene.ride.at(scene.moment, vehicle)
@@ -171,7 +171,7 @@ def _parked(scene: Asked, vehicle: int, standing: Episode) -> bool:
 
 
 def _yielded(event: Event, scene: Asked, vehicle: int) -> Answer | None:
-    """Tell whom it let go first, where it was seen to do that and was asked about then."""
+    """Return whom a vehicle let go first, if it was seen to do so at the time asked about."""
     if event.action not in YIELDS | STILL:
         return None
     found = _last(scene, vehicle, ("give-way", "wait"), event)
@@ -184,13 +184,13 @@ def _yielded(event: Event, scene: Asked, vehicle: int) -> Answer | None:
 
 
 def _hardly_moves(scene: Asked, vehicle: int) -> bool:
-    """Check whether it is so slow that it may be said to stand."""
+    """Check whether a vehicle is so slow that people may say that it stands."""
     speeds = scene.ride.motion(vehicle).until(scene.moment).speed
     return bool(speeds) and speeds[-1] < CREEPING
 
 
 def _deed(event: Event, scene: Asked, vehicle: int) -> Answer:
-    """Return why it did something else than brake: where it was going."""
+    """Explain why a vehicle did something other than braking: where it was going."""
     past = is_past(scene, event)
     begin, end = (0.0, scene.now) if scene.past is None else (scene.past.begin, scene.past.end)
     done = scene.world.holds(event, begin, end)
@@ -206,7 +206,7 @@ def _deed(event: Event, scene: Asked, vehicle: int) -> Answer:
 
 
 def _at_present(event: Event, scene: Asked, vehicle: int) -> Answer:
-    """Why it does what it does at the time: what that is, who is in its way, where it goes."""
+    """Explain what a vehicle is doing at a time: what that is, who is in its way, where it goes."""
     time = scene.moment
     under_way = scene.world.episodes(Vehicle(vehicle), begin=time - RECENT, end=time)
     wanted = [e for e in under_way if e.action == event.action]
@@ -219,7 +219,7 @@ def _at_present(event: Event, scene: Asked, vehicle: int) -> Answer:
 
 
 def _signalled(scene: Asked, vehicle: int, event: Event) -> Answer:
-    """Return what its indicator means.
+    """Return what a vehicle's indicator means.
 
     Raises:
         Unanswered: it does not indicate.
@@ -234,7 +234,7 @@ def _signalled(scene: Asked, vehicle: int, event: Event) -> Answer:
 
 
 def placed(of: Related, scene: Asked) -> Answer:
-    """Tell how another vehicle came to be where it is: who let whom go first, or went past whom.
+    """Return how another vehicle got where it is: who let the other go first, or passed it.
 
     Raises:
         Unanswered: it was never seen.
@@ -247,7 +247,7 @@ def placed(of: Related, scene: Asked) -> Answer:
 
 
 def _why_not(event: Event, scene: Asked, vehicle: int) -> Answer:
-    """Return why it did not do something: what it did instead, and what we expected of it."""
+    """Explain why a vehicle did not do something: what it did instead, and what we expected."""
     begin = scene.past.begin if scene.past is not None else 0.0
     end = scene.past.end if scene.past is not None else scene.now
     did = scene.world.holds(event, begin, end)
@@ -268,7 +268,7 @@ def _why_not(event: Event, scene: Asked, vehicle: int) -> Answer:
 
 
 def _pace(event: Event, scene: Asked, vehicle: int) -> MotionCause | None:
-    """Find that it is no faster than we are, which is why it does not go past us."""
+    """Return as the reason for not passing us that a vehicle is no faster; None: it is faster."""
     if event.action not in PASSING or not is_own(event.object or Ego()):
         return None
     time = scene.moment
@@ -304,7 +304,7 @@ def _told(
 
 
 def _came_in(scene: Asked, cause: MotionCause, time: float) -> MotionCause:
-    """Tell of us, who are in somebody's way, that we have only just moved in ahead of him."""
+    """Turn us as a leader into a cut-in, if we have only just moved in ahead of the vehicle."""
     if cause.vehicle != EGO or cause.kind != "leader":
         return cause
     moved = scene.world.episodes(Ego(), CHANGES, time - JUST, scene.now)
@@ -313,7 +313,7 @@ def _came_in(scene: Asked, cause: MotionCause, time: float) -> MotionCause:
 
 
 def _turns(goal: Belief | None) -> bool:
-    """Tell whether it was thought to be turning off."""
+    """Check whether a vehicle was expected to turn off or stop."""
     steps = goal.expectations[0].actions if goal is not None and goal.expectations else ()
     return any(step in ("exit-left", "exit-right", "stop") for step in steps)
 
@@ -338,7 +338,7 @@ def _chance(scene: Asked, vehicle: int, event: Event) -> float:
 
 
 def _denied(scene: Asked, vehicle: int, event: Event) -> Unanswered:
-    """Return the refusal where it did not do so: with when it did, or what it did instead."""
+    """Return the refusal that a vehicle did not do so, with when it did, or what it did then."""
     ever = scene.world.holds(event, 0.0, scene.now)
     if ever and scene.past is not None:
         return Unanswered(DidNotHappen(event, ever[-1:], elsewhen=ever[-1].begin))

@@ -12,17 +12,17 @@ from xavi_dialogue.explain.answers.reasons import others
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.reading import unwrapped
 
-#: By what we come in ahead of somebody.
+#: Actions by which we move in ahead of somebody.
 ENTRIES = frozenset[ActionName](
     ("change-left", "change-right", "merge", "enter", "pull-out", "exit-left", "exit-right")
 )
-BEFORE = 4.0  # [s] for which we have only just come in ahead of somebody
-SOON = 2.0  # [s] within which he who brakes for us does so after we begin
-REACH = 60.0  # [m] behind us up to which somebody brakes for us
+BEFORE = 4.0  # [s] for which we count as having just moved in ahead of somebody
+SOON = 2.0  # [s] after a braking begins, up to which our moving in is looked at
+REACH = 60.0  # [m] maximum distance of a vehicle that brakes for us
 
 
 def because_of_us(question: Why, scene: Asked) -> Answer:
-    """Tell whether it was for us that another vehicle braked or stopped, and for what else.
+    """Return whether another vehicle braked or stopped because of us, or else why.
 
     Raises:
         Unanswered: it did not brake, or was never seen.
@@ -49,7 +49,7 @@ def because_of_us(question: Why, scene: Asked) -> Answer:
 
 
 def _came_in(scene: Asked, vehicle: int, deed: Episode) -> bool:
-    """Tell whether it began to brake while or just after we came in ahead of it."""
+    """Check whether a vehicle began to brake while or just after we moved in ahead of it."""
     world, begin = scene.world, deed.begin
     entries = world.episodes(Ego(), ENTRIES, begin - BEFORE, begin + SOON)
     if not any(entry.begin <= begin for entry in entries):

@@ -30,28 +30,28 @@ from xavi_dialogue.explain.causes.plans.premise import is_open
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, HALTS
 from xavi_dialogue.explain.history.deeds import Deed
 
-#: What one does who goes on behind somebody, or lets him go first.
+#: Actions of going on behind somebody, or letting somebody go first.
 REFRAINS = HALTS | frozenset[ActionName](
     ("slow-down", "brake", "follow", "keep-distance", "keep-lane")
 )
-APART = 2.0  # [m] sideways from which somebody drives in another lane
-FRESH = 5.0  # [s] since when it is, though nothing says that staying behind is meant
-#: By which change of lanes a lane is left.
+APART = 2.0  # [m] minimum offset sideways of a vehicle in another lane
+FRESH = 5.0  # [s] after a change of lanes in which it is meant although nothing says so
+#: By lane: the change of lanes by which it is left.
 LEFT_BY: dict[str, MacroAction] = {
     "right": "change-left",
     "rightmost": "change-left",
     "left": "change-right",
     "leftmost": "change-right",
 }
-BESIDE = 5.0  # [m] sideways up to which somebody in front of us is on our road
-SLOWER = 0.5  # [m/s] from which somebody is slower than us
-#: Who has right of way, by the rule that holds towards a vehicle.
+BESIDE = 5.0  # [m] maximum offset sideways of a vehicle in front of us
+SLOWER = 0.5  # [m/s] by which a slower vehicle is slower than us
+#: By our rule towards a vehicle: who has right of way.
 WHO_FIRST: dict[str, Literal["ego", "vehicle"]] = {"priority": "ego", "give-way": "vehicle"}
-LATELY = 12.0  # [s] since when a change of lanes may be what was done instead of staying behind
+LATELY = 12.0  # [s] after a change of lanes that may have been done instead of staying behind
 
 
 def refrained(event: Event, scene: Asked) -> Answer:
-    """Tell why we did not wait, stop, slow down or stay behind: what we did instead decides.
+    """Explain why we did not wait, stop, slow down or stay behind, by what we did instead.
 
     Raises:
         Unanswered: the record lacks it; or rollouts are needed.
@@ -78,7 +78,7 @@ def refrained(event: Event, scene: Asked) -> Answer:
 
 
 def _is_over(event: Event, scene: Asked, crossed: Deed) -> bool:
-    """Tell whether stopping is asked of no junction and no time, and now or with it behind us."""
+    """Check whether a question about stopping is about now, not a junction that we crossed."""
     named = event.object is not None or event.where is not None or foil_subject(scene, event).span
     through = crossed.ended is None and is_past(scene, event)
     if event.action != "stop" or named or through:
@@ -88,13 +88,13 @@ def _is_over(event: Event, scene: Asked, crossed: Deed) -> bool:
 
 
 def _passed_by(event: Event, scene: Asked, change: Deed) -> bool:
-    """Tell whether slowing down is for whom we changed lanes for: staying behind it, then."""
+    """Check whether slowing down would be for the vehicle that we left behind by changing lanes."""
     slowing = event.action in ("slow-down", "brake")
     return slowing and leads(scene.world, vehicle_in(event.object), change.time)
 
 
 def _aside(event: Event, scene: Asked) -> ActionName | None:
-    """Find the change of lanes by which one would get behind whom one is asked to follow."""
+    """Find the change of lanes by which we would get behind the vehicle we are asked to follow."""
     vehicle = vehicle_in(event.object)
     look = None if vehicle is None else scene.world.look(vehicle, scene.moment)
     if event.action != "follow" or look is None or look.oncoming or abs(look.left) < APART:
@@ -111,7 +111,7 @@ def _change(scene: Asked) -> Deed | None:
 
 
 def _went(event: Event, scene: Asked, crossed: Deed) -> Answer:
-    """Why we went on at a junction: who had gone, was far or stood, or was not in our way."""
+    """Explain why we went on at a junction: who had gone, or was no reason to wait."""
     reason = going.went(Event("go", tense="past"), scene)
     if not isinstance(reason, GoReason):
         return _undone(event, scene)
@@ -132,16 +132,16 @@ def _went(event: Event, scene: Asked, crossed: Deed) -> Answer:
 
 
 def _counts(scene: Asked, one: CrossingVehicle, time: float) -> bool:
-    """Tell whether somebody whose way crossed ours may be told as a reason for not waiting.
+    """Check whether a vehicle whose way crossed ours may be stated in a reason for not waiting.
 
-    Who goes first by the rule is one only where a drive imagined reckons with it.
+    A vehicle with right of way may only if rollouts reckon with it.
     """
     yields = one.first != "vehicle" or one.gone
     return yields or reckoned_with(scene.ride, one.vehicle, time)
 
 
 def _done(event: Event, scene: Asked) -> Answer:
-    """We did just that: for whom, and why."""
+    """Explain that we did give way: for whom, and why."""
     answer = motions.motion(structs.replace(event, action="give-way", tense="past"), scene)
     if isinstance(answer, MotionReason):
         return structs.replace(answer, form="did")
@@ -149,7 +149,7 @@ def _done(event: Event, scene: Asked) -> Answer:
 
 
 def _undone(event: Event, scene: Asked) -> Answer:
-    """Return why we did not, where no junction and no other lane is in question."""
+    """Explain why we did not, if neither a junction nor another lane is meant."""
     vehicle = vehicle_in(event.object)
     if vehicle is not None and event.action in ("let-go", "give-way", "wait"):
         past = scene.past or Span(scene.now, scene.now)
@@ -173,7 +173,7 @@ def _undone(event: Event, scene: Asked) -> Answer:
 
 
 def _kept_speed(event: Event, vehicle: int, scene: Asked) -> Answer:
-    """Why we do not slow down for somebody: how far ahead it is, and whether it is slower."""
+    """Explain why we do not slow down for a vehicle: how far ahead it is, and whether slower."""
     at = scene.moment
     look = scene.world.look(vehicle, at)
     theirs = scene.world.measure("speed", Vehicle(vehicle), at).value
@@ -192,7 +192,7 @@ def _kept_speed(event: Event, vehicle: int, scene: Asked) -> Answer:
 
 
 def left_lane(event: Event, scene: Asked) -> Event | None:
-    """Find the change of lanes by which we left the lane in which we are asked to have stayed."""
+    """Find the change of lanes by which we left the lane that the question names."""
     lane = event.object
     if event.action != "keep-lane" or not isinstance(lane, Lane) or lane.which not in LEFT_BY:
         return None
@@ -202,14 +202,14 @@ def left_lane(event: Event, scene: Asked) -> Event | None:
 
 
 def is_refraining(event: Event) -> bool:
-    """Tell whether an event is one of waiting, slowing down or staying behind."""
+    """Check whether an event is one of waiting, slowing down or staying behind."""
     if event.action == "keep-lane":
         return not isinstance(event.object, Lane) or event.object.which == "own"
     return event.action in REFRAINS
 
 
 def not_passed(event: Event, scene: Asked) -> Answer | None:
-    """Tell why we stay behind a vehicle that we could overtake; None: we could not."""
+    """Explain why we stay behind a vehicle that we could overtake; None: we could not."""
     leader = vehicle_in(event.object)
     if event.action != "follow" or leader is None or is_past(scene, event):
         return None

@@ -1,4 +1,4 @@
-"""Signalling: why our own indicator is or was on: what it announces, and whether that came."""
+"""Signalling: why our own indicator is or was on, by what it announces and whether that came."""
 
 from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.answers import Answer, DidNotHappen, OwnSignal
@@ -8,16 +8,16 @@ from xavi_dialogue.domain.vocabulary import Side
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.history.ride import ROUNDING, planned
 
-#: What an indicator announces, the likeliest first.
+#: By side: the actions that an indicator announces, the likeliest first.
 ANNOUNCES: dict[Side, tuple[MacroAction, ...]] = {
     "left": ("change-left", "exit-left"),
     "right": ("change-right", "exit-right"),
 }
-ON = 1.0  # [s] since when an indicator that went out is still on for anyone who asks
+ON = 1.0  # [s] after an indicator went out in which questions may still call it on
 
 
 def why_signal(side: Side | None, scene: Asked, *, past: bool) -> Answer:
-    """Tell what our indicator announces or announced, and whether we did that then.
+    """Return what our indicator announces or announced, and whether we then did that.
 
     Raises:
         Unanswered: it was not on.
@@ -35,7 +35,7 @@ def why_signal(side: Side | None, scene: Asked, *, past: bool) -> Answer:
 
 
 def _aim(scene: Asked, shown: Episode) -> MacroAction | None:
-    """Return what was planned towards that side while the indicator was on, first of all."""
+    """Return the first action to that side that was planned while the indicator was on."""
     assert shown.side is not None
     end = scene.now if shown.end is None else shown.end
     aims = ANNOUNCES.get(shown.side, ())
@@ -50,7 +50,7 @@ def _aim(scene: Asked, shown: Episode) -> MacroAction | None:
 
 
 def _came(scene: Asked, shown: Episode, aim: MacroAction | None) -> bool | None:
-    """Check whether we did what the indicator announced; None where it may still come."""
+    """Check whether we did what the indicator announced; None if we still may."""
     if aim is None:
         return None
     end = scene.now if shown.end is None else shown.end

@@ -10,11 +10,15 @@ from xavi_dialogue.domain.reasons import Suspected
 def with_suspect(
     found: Answer, suspect: int | None, rival: int | None = None, *, alone: bool = False
 ) -> Answer:
-    """Tell of the vehicle that the question takes for the cause whether it is.
+    """Add whether the vehicle that the question takes for the cause is one.
 
-    Where it is one of the causes it goes first, so that it is the one that is spoken of. Of two
-    that are asked about, the one that is the cause, or is more of it. Where it is taken for the
-    only one, who or what else is.
+    If it is, it comes first, so that the answer is about it.
+
+    Args:
+        found: the reason.
+        suspect: the vehicle.
+        rival: another vehicle that the question names; the one that is more of a cause counts.
+        alone: the question takes it for the only cause, so others are stated, too.
     """
     if suspect is None or not isinstance(found, ChoiceReason | MotionReason):
         return found
@@ -37,7 +41,7 @@ def with_suspect(
     if isinstance(found, ChoiceReason):
         ahead = found.ahead
         if part == "none" and ahead is not None and ahead.vehicle == suspect:
-            ahead = None  # where it is decides nothing
+            ahead = None  # its place does not matter
         ranked = sorted(found.contrast.causes, key=lambda cause: cause.vehicle != suspect)
         against = replace(found.contrast, causes=tuple(ranked))
         told = replace(found, contrast=against, ahead=ahead)
@@ -47,9 +51,9 @@ def with_suspect(
 
 
 def with_suspects(found: Answer, suspects: tuple[int, ...], *, which: bool = False) -> Answer:
-    """Tell of several vehicles that the question takes for the cause whether all of them are.
+    """Add whether several vehicles that the question takes for the cause all are.
 
-    Where it is asked which of them is, or is more of it, that is told instead.
+    With `which`, the question is which of them is, or is more of a cause.
     """
     if not isinstance(found, ChoiceReason | MotionReason):
         return found
@@ -85,7 +89,7 @@ def blamed(found: ChoiceReason | MotionReason) -> list[int]:
 
 
 def _by_the_way(found: ChoiceReason) -> bool:
-    """Check whether who is in the lane that was left alone has no part in what decided."""
+    """Check whether the vehicle in the lane we did not take had no part in the decision."""
     ahead, against = found.ahead, found.contrast
     if ahead is None or ahead.kind not in ("lane-beside", "lane-ahead"):
         return False
@@ -94,7 +98,7 @@ def _by_the_way(found: ChoiceReason) -> bool:
 
 
 def causation_of(found: ChoiceReason | MotionReason) -> Causation | None:
-    """Give what was found of the vehicles on which a deed hangs."""
+    """Return what was found about the vehicles that an action depends on."""
     return found.causation if isinstance(found, MotionReason) else found.contrast.causation
 
 
@@ -104,15 +108,15 @@ def _jointly(found: ChoiceReason | MotionReason) -> tuple[int, ...]:
 
 
 def _unnamed(found: ChoiceReason | MotionReason) -> bool:
-    """Tell whether several are it together, of whom it is not known who is needed."""
+    """Check whether several are the cause together, but it is not known which are needed."""
     causation = causation_of(found)
     return causation is not None and not causation.minimal
 
 
 def _same_without(found: ChoiceReason | MotionReason, suspect: int) -> bool:
-    """Tell whether the same is done without a vehicle that speaks against the alternative.
+    """Check whether we do the same without a vehicle that speaks against the alternative.
 
-    Of several that are so together that is the same done without all of them.
+    For several that do so together, it is whether we do the same without all of them.
     """
     causation = causation_of(found)
     if not isinstance(found, ChoiceReason) or causation is None:
@@ -124,14 +128,14 @@ def _same_without(found: ChoiceReason | MotionReason, suspect: int) -> bool:
 
 
 def _alone(found: ChoiceReason | MotionReason) -> Suspected:
-    """Tell that one is the only cause, as far as planning again without it showed."""
+    """Return "alone" for the only cause if planning again showed that, else "main"."""
     causation = causation_of(found)
     tried = causation is not None and causation.kind in ("one", "pre-empted")
     return "alone" if tried else "main"
 
 
 def _road_too(found: ChoiceReason | MotionReason) -> bool:
-    """Tell whether something of the road is a reason beside a vehicle."""
+    """Check whether something in the road is a reason besides a vehicle."""
     return isinstance(found, MotionReason) and any(
         cause.vehicle is None and cause.kind != "plan" for cause in found.causes
     )
