@@ -1,4 +1,4 @@
-"""Conversations on disk: every turn, and the events of the rides.
+"""Conversations on disk, with every turn and the events of the rides.
 
 This module reads no clock; wall times are arguments, in seconds since 1970.
 """
@@ -44,7 +44,7 @@ CREATE TABLE owners (session TEXT PRIMARY KEY, digest TEXT NOT NULL)
 _MIGRATIONS = {
     1: "CREATE TABLE owners (session TEXT PRIMARY KEY, digest TEXT NOT NULL);"
     " ALTER TABLE turns ADD COLUMN request TEXT",
-    # What was understood is of another form: of a turn, text and reply are kept as they were.
+    # The form of what was understood has changed; only text and reply of a turn are kept.
     2: "UPDATE turns SET turn = json_object("
     "'text', json_extract(turn, '$.text'), 'reply', json_object("
     "'text', json_extract(turn, '$.reply.text'), 'kind', json_extract(turn, '$.reply.kind'),"
@@ -71,7 +71,7 @@ class NewTurn:
     wall_time: float  # [s]
     turn: Turn
     owner: str | None = None  # digest of the owner's token; None: open to all
-    request: str | None = None  # that it answered
+    request: str | None = None  # name of the request that it answered
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,13 +90,13 @@ New: TypeAlias = NewTurn | NewEvent
 class Store:
     """The file of all conversations of one user; several processes may use it at once.
 
-    Every method raises StoreError where the file cannot be used; then it has changed nothing. Where
-    that is for one session's sake, the error is Damaged and says how to forget the session, which
-    needs nothing of it to be read.
+    Every method raises StoreError if the file cannot be used; then it has changed nothing. If
+    only one session is unreadable, the error is Damaged and says how to forget the session, which
+    is possible without reading it.
     """
 
     def __init__(self, path: Path, *, patience: float = PATIENCE) -> None:
-        """Open the file, and make it where there is none.
+        """Open the file; create it if it does not exist.
 
         Args:
             path: the file.
@@ -137,9 +137,9 @@ class Store:
         """Return the turn, among the latest of a session, with which a request was answered.
 
         Args:
-            session: that it is of.
-            request: its name.
-            since: [s] wall time; earlier turns answered another of that name.
+            session: name of the session.
+            request: name of the request.
+            since: [s] wall time; earlier turns answered another request of that name.
         """
         sql = (
             "SELECT request, turn FROM turns WHERE session = ? AND wall_time >= ?"
@@ -154,12 +154,12 @@ class Store:
         return bool(self._file.rows("SELECT 1 FROM turns WHERE session = ? LIMIT 1", (session,)))
 
     def names(self) -> tuple[str, ...]:
-        """Of all sessions; none of their turns is read."""
+        """Return the names of all sessions, without reading their turns."""
         rows = self._file.rows("SELECT DISTINCT session FROM turns ORDER BY session")
         return tuple(known(self.path, name) for (name,) in rows)
 
     def sessions(self, name: str | None = None) -> tuple[Summary, ...]:
-        """Return all sessions, or that of a name, the one that was spoken in last at the end."""
+        """Return all sessions, or the one of a name, ordered by the time of the latest turn."""
         rows = self._file.rows(
             "SELECT name, count, first, last, scenario, seed, driven.sim_time, said.turn FROM"
             " (SELECT session AS name, count(*) AS count, min(wall_time) AS first,"
@@ -174,18 +174,18 @@ class Store:
         return tuple(Summary.of(self.path, row) for row in rows)
 
     def forget(self, session: str | None = None, before: float | None = None) -> int:
-        """Erase turns, and the rides that nobody speaks of any more.
+        """Erase turns, and the rides that no turn refers to any more.
 
         Args:
-            session: only of this one; None: of all.
+            session: erase turns of this session; None: of all.
             before: [s] wall time; None: all.
 
         Returns:
-            How many turns were erased; after that, neither these nor those that were erased before
-            are in the files any more.
+            The number of turns that were erased. The files no longer contain them, nor any that
+            were erased before.
 
         Raises:
-            Unpurged: they are erased, but still in the files: to be called again.
+            Unpurged: they are erased, but still in the files; call again.
         """
         whose, when = "session = ?", "wall_time < ?"
         limits = {whose: session, when: before}
@@ -216,16 +216,16 @@ class Store:
         """Purge erased data from the files, whichever process erased it.
 
         Raises:
-            Unpurged: something is left.
+            Unpurged: data is left.
         """
         self._file.purge()
 
     def expire(self, days: float, now: float) -> int:
-        """Erase turns that are older than some days; return how many there were."""
+        """Erase turns that are older than a number of days; return how many were erased."""
         return self.forget(before=now - days * DAY)
 
     def export(self, session: str | None = None) -> Iterator[str]:
-        """Turns and the events of their rides as lines of JSON; of one session, or all."""
+        """Yield turns, and the events of their rides, as lines of JSON; of one session, or all."""
         chosen, given = ("true", ()) if session is None else ("session = ?", (session,))
         sql = (
             "SELECT session, number, ride, wall_time, turn FROM turns"

@@ -1,4 +1,4 @@
-"""One SQLite file: checked when opened, written in transactions, erased for good.
+"""One SQLite file, which is checked when opened, and from which erased data is purged.
 
     StoreError
     ├── Damaged      not a database, not of this program, or broken
@@ -86,12 +86,12 @@ class Database:
         self._make()
         with self._translated():
             self._connection = sqlite3.connect(path, timeout=patience, isolation_level=None)
-        # One damaged byte spoils what it stands in and not all that is read with it.
+        # A damaged byte must spoil only its own value, not everything that is read with it.
         self._connection.text_factory = lambda text: text.decode(errors="surrogateescape")
         try:
             self._open({0: tables} | dict(migrations), version)
         except BaseException:
-            self._connection.close()  # and no more: it may belong to another program
+            self._connection.close()  # without a purge: it may belong to another program
             raise
 
     @contextlib.contextmanager
@@ -107,15 +107,15 @@ class Database:
                 yield self._connection
                 self._connection.execute("COMMIT")
             except BaseException:
-                if self._connection.in_transaction:  # a full disk ends it by itself
+                if self._connection.in_transaction:  # on a full disk SQLite has ended it already
                     self._connection.execute("ROLLBACK")
                 raise
 
     def rows(self, sql: str, arguments: Sequence[object] = ()) -> list[Row]:
-        """Yield the rows of a query.
+        """Return the rows of a query.
 
         Raises:
-            StoreError: it cannot be read.
+            StoreError: the file cannot be read.
         """
         with self._translated():
             return self._connection.execute(sql, arguments).fetchall()
@@ -126,7 +126,7 @@ class Database:
         Raises:
             Unwritable: it cannot be written there.
         """
-        # The log alone: after a checkpoint, the next to write would have to wait for the disk.
+        # Only the log is flushed: after a checkpoint the next writer would wait for the disk.
         try:
             log = os.open(f"{self.path}-wal", os.O_RDONLY)
         except FileNotFoundError:
@@ -148,15 +148,15 @@ class Database:
         """Purge deleted data from the files, whichever process deleted it.
 
         Raises:
-            Unpurged: something is left as long as somebody else reads, or the disk is full. The
-                next to open, purge or close the file sees to it.
+            Unpurged: data is left, because another process reads, or the disk is full. The next
+                process to open, purge or close the file purges it.
         """
         owed = self._owed()
         if owed is None:
             return
         erased, compacted = owed
         try:
-            if compacted < erased:  # else only the log is left, and would grow with every attempt
+            if compacted < erased:  # else only the log is left; every VACUUM would make it grow
                 self._compact(erased)
         except Unwritable as error:
             raise Unpurged(str(error)) from error
@@ -172,7 +172,7 @@ class Database:
                 file.execute("DROP TABLE owed")
 
     def _purge_in_passing(self) -> None:
-        """Purge the files if necessary and if no other process has to be waited for."""
+        """Purge the files if necessary, unless that would have to wait for another process."""
         with contextlib.suppress(StoreError):
             self.rows("PRAGMA busy_timeout = 0")
             self.purge()
@@ -184,7 +184,7 @@ class Database:
             file.execute("UPDATE owed SET compacted = max(compacted, ?)", (erased,))
 
     def _owed(self) -> tuple[int, int] | None:
-        """Return the number of deletions and of the latest purge; None: nothing to purge."""
+        """Return the number of deletions so far and when last compacted; None: nothing to purge."""
         if not self.rows("SELECT 1 FROM sqlite_master WHERE name = 'owed'"):
             return None
         rows = self.rows("SELECT erased, compacted FROM owed")
@@ -195,7 +195,7 @@ class Database:
         self.rows(f"PRAGMA max_page_count = {max(size // PAGE, 1)}")
 
     def close(self) -> None:
-        """Close the file, purged if that can be."""
+        """Close the file, after purging it if possible."""
         self._purge_in_passing()
         with self._translated():
             self._connection.close()
@@ -204,7 +204,7 @@ class Database:
         try:
             self.path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
             # Only a file that did not exist is opened here: closing one that is in use would
-            # take the locks of this process from it.
+            # release the locks that this process holds on it.
             os.close(os.open(self.path, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o600))
         except FileExistsError:
             pass
@@ -223,7 +223,7 @@ class Database:
                 if time.monotonic() > give_up or "locked" not in str(error):
                     raise
                 time.sleep(PAUSE)
-        with contextlib.suppress(OSError):  # the file of another user, with write permission
+        with contextlib.suppress(OSError):  # it may be another user's file that we may write
             self.path.chmod(0o600)
         with self.writing() as file:
             held = self._version(version)
@@ -240,8 +240,8 @@ class Database:
 
     def _set_up(self) -> None:
         self.rows("PRAGMA journal_mode = WAL")
-        # What is written outlives the process at once, and a power cut after `sync`: to wait for
-        # the disk itself takes several milliseconds each time.
+        # Written data survives a crash of the process at once, and a power cut after `sync`.
+        # Waiting for the disk at each write would take several milliseconds.
         self.rows("PRAGMA synchronous = NORMAL")
         self.rows("PRAGMA foreign_keys = ON")
         self.rows("PRAGMA secure_delete = ON")
@@ -274,7 +274,7 @@ class Database:
 
 
 def _plain(error: Exception) -> str:
-    """Return what an error says, without what cannot be printed."""
+    """Return the text of an error, with unprintable characters escaped."""
     return str(error).encode(errors="backslashreplace").decode()
 
 

@@ -1,7 +1,7 @@
-"""The lines that passengers typed, kept for the arrow keys, until they are to be forgotten.
+"""The lines that passengers typed, kept for the arrow keys until they are erased.
 
-With each stands when it was typed, and in which session: what was typed is forgotten with what was
-said, also where nothing came of it. A line of which the session is not known goes with any.
+Each line is stored with its time and session, so that it can be erased with the session, even if
+it led to no turn. A line of an unknown session is erased with any session.
 """
 
 import os
@@ -14,7 +14,7 @@ from pathlib import Path
 
 from prompt_toolkit.history import FileHistory, InMemoryHistory
 
-_ENTRIES = re.compile(rb"^(?=# )", re.MULTILINE)  # lines that were typed begin with a plus
+_ENTRIES = re.compile(rb"^(?=# )", re.MULTILINE)  # the head; typed lines begin with a plus
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class _Entry:
     session: str | None  # None: not known
 
     def within(self, session: str | None, before: datetime | None) -> bool:
-        """Check whether it was typed in a session, None being any, and before a moment, if any."""
+        """Check whether it was typed in a session and before a time; None: any."""
         if session is not None and self.session not in (None, session):
             return False
         return before is None or (self.time is not None and self.time < before)
@@ -56,7 +56,7 @@ class InputHistory(FileHistory):
 
 
 class UnsavedInputHistory(InMemoryHistory):
-    """Lines that are in no file."""
+    """Lines that are kept in memory only."""
 
     def forget(self) -> None:
         """Drop all of them."""
@@ -78,7 +78,7 @@ def erase(file: Path, session: str | None = None, before: datetime | None = None
 
     Args:
         file: the file; there may be none.
-        session: whose; None: everybody's.
+        session: the session to erase; None: all.
         before: local time; None: all.
 
     Raises:
@@ -108,7 +108,7 @@ def _entries(file: Path) -> Iterator[_Entry]:
 
 
 def _read(raw: bytes) -> _Entry:
-    """An entry; its head is such as `# 2026-11-21 16:42:10.5 sunday`, or lacks the session."""
+    """Parse an entry; its head is like `# 2026-11-21 16:42:10.5 sunday`, or lacks the session."""
     head = raw.partition(b"\n")[0].decode(errors="replace").split()
     day, hour, session, *_ = [*head[1:], "", "", ""]
     with suppress(ValueError):

@@ -1,8 +1,8 @@
-"""Recordings as MCAP files (https://mcap.dev/spec): the only place that knows the format.
+"""Recordings as MCAP files (https://mcap.dev/spec): the only module that knows the format.
 
-What has been written is whole at any time: behind the latest chunk stands an end without an
-index, which the next chunk overwrites. So a recorder that is killed leaves a file that can be
-opened. When it is closed the file gets its index.
+The file is complete at any time. The latest chunk is followed by an end without an index, which
+the next chunk overwrites, so a recorder that is killed leaves a file that can be opened. The index
+is written when the file is closed.
 """
 
 import errno
@@ -41,11 +41,11 @@ from xavi_dialogue.storage.recording_format import (
     schema_to_view,
 )
 
-CHUNK = MIB  # bytes of messages that are compressed together, at most
-MAX_RECORD = 64 * MIB  # bytes of any part that is read, also when unpacked
+CHUNK = MIB  # greatest number of bytes of messages that are compressed together
+MAX_RECORD = 64 * MIB  # greatest number of bytes of a part that is read, also when unpacked
 MAX_CHANNELS = 1000
 MAX_KEY = 512  # characters
-MAX_TIME = 2**63 - 1  # [ns] that every reader accepts
+MAX_TIME = 2**63 - 1  # [ns] greatest time that every reader accepts
 MAX_SEQUENCE = 2**32 - 1
 GZIP = "application/gzip"
 
@@ -62,7 +62,7 @@ ENDING = _ending()
 
 
 class _Spool(BytesIO):
-    """Written bytes that are not in the file yet; offsets count from the start of the file."""
+    """A buffer of bytes not in the file yet; offsets count from the start of the file."""
 
     taken = 0
 
@@ -79,7 +79,7 @@ class _Spool(BytesIO):
 
 
 class McapWriter:
-    """Writes a recording."""
+    """A writer of recordings."""
 
     def __init__(self, path: Path, version: str, *, overwrite: bool = False) -> None:
         """Create the file; only its owner may read it.
@@ -93,7 +93,7 @@ class McapWriter:
             FileThere: there is a file, and it must not be overwritten.
             Unwritable: the file cannot be created.
         """
-        self.size = 0  # bytes of the file, its end aside
+        self.size = 0  # bytes of the file without its end
         self.messages = 0
         self._path = path
         try:
@@ -111,7 +111,7 @@ class McapWriter:
         self.flush()
 
     def add(self, entry: Entry) -> bool:
-        """Write a message; return whether there was room for another key.
+        """Write a message; return False if there are too many keys for it.
 
         Raises:
             ValueError: messages of this key are not recorded.
@@ -151,7 +151,7 @@ class McapWriter:
             self._write(data, ENDING)
 
     def close(self) -> None:
-        """Write the rest and the index; a second time does nothing.
+        """Write the rest and the index; closing twice does nothing.
 
         Raises:
             Unwritable: see `flush`.
@@ -207,12 +207,12 @@ def _within(number: int, limit: int) -> int:
 
 
 def _made(path: Path, overwrite: bool) -> int:
-    """Return an empty file, readable by its owner alone.
+    """Create an empty file, readable by its owner alone, and return its descriptor.
 
     Raises:
         OSError: there is one already, or it cannot be created.
     """
-    # What is no file would have to be waited for, for a reader.
+    # O_NONBLOCK, because opening a pipe would wait for a reader.
     flags = os.O_CREAT | os.O_WRONLY | os.O_NONBLOCK | (0 if overwrite else os.O_EXCL)
     file = os.open(path, flags, 0o600)
     try:
@@ -234,7 +234,7 @@ def _write_at(file: int, place: int, data: bytes) -> None:
 
 
 class _Capped:
-    """A file that never reads more at once than a record may have."""
+    """A file that refuses to read more at once than a record may have."""
 
     def __init__(self, file: IO[bytes]) -> None:
         self._file = file
@@ -289,7 +289,7 @@ def _pieces(records: Iterator[McapRecord]) -> Iterator[Piece]:
         for outer in records:
             ended = ended or isinstance(outer, DataEnd)
             if ended:
-                continue  # what follows are copies, for readers that seek
+                continue  # only copies follow, for readers that seek
             for record in _inner(outer):
                 match record:
                     case Channel(id=number, topic=topic):

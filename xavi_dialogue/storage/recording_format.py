@@ -38,7 +38,7 @@ PROFILE = "xavi"
 NETWORK_ENDING = ".net.xml.gz"
 MIB = 1024 * 1024
 MAX_NETWORK = 64 * MIB  # bytes of a road network, unpacked
-MAX_PACKED = 8 * MIB  # and packed
+MAX_PACKED = 8 * MIB  # bytes of a road network, packed
 MAX_TAPE = 512 * MIB  # bytes of one car's messages that are held while they are played
 OVERHEAD = 512  # overhead in bytes of a message in memory
 EPSILON = 1e-6  # [s]
@@ -57,15 +57,15 @@ class RecordingError(RunFault):
 
 
 class NotARecording(RecordingError, UsageFault):
-    """No MCAP file, or not of this program."""
+    """The file is no MCAP file, or not of this program."""
 
 
 class NothingToPlay(RecordingError, UsageFault):
-    """No ride in it that can be played."""
+    """The recording has no ride that can be played."""
 
 
 class TooMuch(RecordingError, UsageFault):
-    """More than can be held while it is played."""
+    """The recording has more than memory may hold while it is played."""
 
 
 class FileThere(RecordingError, UsageFault):
@@ -106,7 +106,7 @@ Piece: TypeAlias = Entry | AttachedFile | Truncation
 
 
 def kind_of(key: str) -> type[Report | TurnReport] | None:
-    """Return the message that is recorded under a key; None: nothing is."""
+    """Return the type of message that is recorded under a key; None if there is none."""
     tail = key.split("/", 3)[-1]
     return next((kind for end, kind in RECORDED.items() if matches(end, tail)), None)
 
@@ -129,9 +129,9 @@ def unpacked(data: bytes) -> bytes | None:
 def schema_to_view(kind: type[msgspec.Struct]) -> dict[str, Any]:
     """Return a JSON Schema of a message that viewers of MCAP files can read.
 
-    They read a field's one `type`, and of lists what all items are. So fields that may be null,
-    and lists within lists, are left undeclared: all messages fit the schema, but so do others.
-    What they are exactly says `schema_of`.
+    They read a single `type` of a field, and a single type for the items of a list. Fields that
+    may be null, and lists within lists, are therefore left undeclared. All messages fit this
+    schema, but so do others; `schema_of` is exact.
     """
     schema = schema_of(kind, schema_name(kind))
     return {"$schema": schema["$schema"], **(_viewable(schema) or {})}
@@ -198,7 +198,7 @@ class RecordedMessages:
         return report.first or report.trace.trace_id
 
     def known(self, scene: SceneReport) -> tuple[int, int]:
-        """Count the traces and events that were sent before a scene."""
+        """Return the numbers of traces and events that were sent before a scene."""
         return (
             bisect_left(self.trace_numbers, scene.traces),
             bisect_left(self.event_numbers, scene.events),
@@ -233,15 +233,15 @@ class _Reading:
 
     tracks: dict[str, dict[str, _Track]] = field(default_factory=dict)
     networks: dict[str, list[bytes]] = field(default_factory=dict)
-    why: str | None = None  # the recording ends too early
+    why: str | None = None  # the reason why the recording ends too early, if it does
     size: int = 0  # bytes
 
     def take(self, piece: Piece, only: str | None) -> None:
-        """Take a piece of the recording in.
+        """Add a piece of the recording.
 
         Args:
-            piece: of it.
-            only: the car that matters; None: all do.
+            piece: the piece.
+            only: the car whose messages are kept; None: all.
         """
         match piece:
             case Entry(key=key):

@@ -1,4 +1,4 @@
-"""Resuming a stored conversation: finds its ride, and how far it had got."""
+"""Resuming of a stored conversation: the search for its ride and the time it had reached."""
 
 from dataclasses import dataclass
 from datetime import datetime
@@ -22,12 +22,12 @@ class ResumePoint:
     before: Summary | None = None  # None: it is new
 
     def place(self, asked: str | None) -> str:
-        """Return the scenario to drive: as asked, else that of before."""
+        """Return the scenario to drive: as asked, else as before, else the default."""
         known = None if self.before is None else self.before.scenario
         return asked or known or DEFAULT_SCENARIO
 
     def seed(self, asked: int | None, scenario: Scenario) -> int:
-        """The seed: as asked, else that of before in the same scenario, else the scenario's."""
+        """Return the seed: as asked, else as before in the same scenario, else the scenario's."""
         if asked is not None:
             return asked
         before = self.before
@@ -50,7 +50,7 @@ class ResumePoint:
 
         Args:
             at: see `moment`.
-            keeping: where turns are stored.
+            keeping: the store of turns; None: none.
         """
         if keeping is None:
             return "nothing of this conversation is kept"
@@ -74,11 +74,11 @@ def find(keeping: Retention | None, session: str) -> ResumePoint:
 
 
 def fresh(now: datetime, salt: str) -> ResumePoint:
-    """Make a name for a conversation, such as 20261121-164210-3f9c.
+    """Begin a conversation with a new name, such as 20261121-164210-3f9c.
 
     Args:
         now: the time.
-        salt: tells apart two that begin in the same second.
+        salt: distinguishes two that begin in the same second.
     """
     return ResumePoint(f"{now:%Y%m%d-%H%M%S}-{salt}")
 
@@ -89,5 +89,5 @@ def place_of(scenario: Scenario) -> str | None:
     if ours.resolve() == scenario.folder.resolve():
         return scenario.name
     place = scenario.place
-    # The name of a folder may be no valid text, which cannot be sent.
+    # The name of a folder may not be valid text; then it cannot be sent.
     return place if place.encode(errors="replace").decode() == place else None

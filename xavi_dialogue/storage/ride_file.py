@@ -21,7 +21,7 @@ class RideFileError(UsageFault):
 
 
 class _Line(msgspec.Struct, omit_defaults=True):
-    """One line: one of its fields is set, but `whatif` comes with `trace` or `failure`."""
+    """One line: one of the groups `scenario` to `halt`, `whatif` with its result, or a field."""
 
     scenario: str | None = None
     seed: int | None = None
@@ -29,13 +29,13 @@ class _Line(msgspec.Struct, omit_defaults=True):
     event: Event | None = None
     ended: float | None = None  # [s]
     whatif: str | None = None  # key of a request, see `key`
-    failure: str | None = None  # why nothing came of it
+    failure: str | None = None  # the reason why there is no plan
     trace: PlanTrace | None = None
 
 
 @dataclass
 class RecordedRide:
-    """All that a conversation about a ride needs."""
+    """The data of a ride that a conversation about it needs."""
 
     scenario: str
     seed: int
@@ -44,7 +44,7 @@ class RecordedRide:
     events: list[Event] = field(default_factory=list)
     ended: float | None = None  # [s]
     whatifs: dict[str, PlanTrace] = field(default_factory=dict)
-    failures: dict[str, str] = field(default_factory=dict)  # why there is no plan, by key
+    failures: dict[str, str] = field(default_factory=dict)  # reasons why there is no plan, by key
 
 
 def key(need: NeedRollout) -> str:

@@ -35,7 +35,7 @@ class Summary(msgspec.Struct, frozen=True):
 
     @classmethod
     def of(cls, path: Path, row: Row) -> Self:
-        """From the fields in order, with the last turn as JSON in place of its question.
+        """Make a summary of a row: the fields in order, but the last turn in JSON for `question`.
 
         Raises:
             Damaged: it cannot be read.
@@ -64,10 +64,10 @@ class _Asked(msgspec.Struct):
 
 
 def known(path: Path, name: object) -> str:
-    """Return the name of a session.
+    """Check the name of a session and return it.
 
     Raises:
-        Damaged: it is none.
+        Damaged: it is not a valid name.
     """
     try:
         return msgspec.convert(name, Name)
@@ -96,7 +96,7 @@ def checked(path: Path, session: str, fields: Mapping[str, object], kind: type[T
     """Check the fields of a session, so that they are safe to write.
 
     Raises:
-        Damaged: they are something else.
+        Damaged: they are not valid.
     """
     try:
         made = msgspec.convert(fields, kind)
@@ -107,10 +107,10 @@ def checked(path: Path, session: str, fields: Mapping[str, object], kind: type[T
 
 
 def decoded_owner(path: Path, session: str, text: object) -> str:
-    """Return the digest of a session's owner.
+    """Check the digest of a session's owner and return it.
 
     Raises:
-        Damaged: it is none.
+        Damaged: it is not a valid digest.
     """
     if not isinstance(text, str) or not re.fullmatch(r"[0-9a-f]{64}", text):
         raise _damaged(path, session, "no digest of an owner")

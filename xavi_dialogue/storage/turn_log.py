@@ -16,11 +16,11 @@ from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.storage.conversations import New, NewEvent, NewTurn, RideName, Store, fits
 from xavi_dialogue.storage.database import Damaged, NotStorable, StoreError, Unpurged, Unwritable
 
-MAX_PAST = 200  # turns of a session that are known of
+MAX_PAST = 200  # latest turns of a session that are loaded
 _LOG = logging.getLogger(__name__)
 NOBODY = "nobody"  # stands for the digest of an owner that cannot be read: no token has it
 REST = 10.0  # pause after a failed attempt, as a multiple of its time
-PATIENCE = 0.25  # [s] to wait for other writers: an answer has its deadline
+PATIENCE = 0.25  # [s] to wait for other writers, as answers have a deadline
 MAX_MISSED = 5000  # turns and events that wait to be written; the oldest are dropped first
 EXPIRED_EVERY = 3600.0  # [s]
 PURGED_EVERY = 10.0  # [s] while erased data is still in the files
@@ -28,7 +28,7 @@ PURGED_EVERY = 10.0  # [s] while erased data is still in the files
 
 @dataclass(frozen=True)
 class Retention:
-    """Where and how long turns are stored."""
+    """The file in which turns are stored, and for how many days."""
 
     path: Path
     days: int
@@ -36,7 +36,7 @@ class Retention:
 
 def default_path() -> Path:
     """Return the file of this user's conversations."""
-    # Deferred: few importers of this module need it.
+    # Imported late, since few importers of this module need it.
     from platformdirs import user_data_path
 
     return user_data_path("xavi-dialogue") / "dialogue.sqlite3"
@@ -48,7 +48,7 @@ def _nobody(_: str) -> None:
 
 @dataclass
 class TurnLog:
-    """The stored turns, while the file works; without a file, nothing is stored."""
+    """The store of turns; what cannot be written waits, and without a file nothing is stored."""
 
     keeping: Retention | None = None
     warn: Callable[[str], None] = _nobody
@@ -56,7 +56,7 @@ class TurnLog:
     _missed: list[New] = field(default_factory=list)  # not yet written
     _unforgotten: set[str] = field(default_factory=set)  # sessions that are still to be erased
     _unpurged: bool = False  # something is erased, and still in the files
-    _purged: float = 0.0  # [s] wall time of the latest attempt to do so
+    _purged: float = 0.0  # [s] wall time of the latest attempt to purge the files
     _failing: bool = False
     _again: float = 0.0  # [s] on the monotonic clock: when the file is tried again
     _unsynced: bool = False  # written, but not yet on the disk itself
@@ -79,7 +79,7 @@ class TurnLog:
         """Return the digest of a session's owner; None if it is open to all.
 
         Raises:
-            StoreError: that cannot be read.
+            StoreError: the owner cannot be read.
         """
         if self.keeping is None or session in self._unforgotten:
             return None
@@ -96,7 +96,7 @@ class TurnLog:
             raise
 
     def answered(self, session: str, request: str, since: float) -> Turn | None:
-        """The turn with which a request was answered since a wall time [s]; None: it was not."""
+        """Return the turn that answered a request since a wall time [s]; None if there is none."""
         if self.keeping is None or session in self._unforgotten:
             return None
         for new in self._missed:
@@ -115,7 +115,7 @@ class TurnLog:
         owner: str | None = None,
         request: str | None = None,
     ) -> None:
-        """Keep a turn, and all that was missed; in the file when this returns, if at all."""
+        """Write a turn to the file, and all that waits; if that fails, it is tried again later."""
         if self.keeping is None:
             return
         if fits(turn):
@@ -125,7 +125,7 @@ class TurnLog:
         self._write(self.keeping)
 
     def hear(self, ride: RideName, seq: int, wall_time: float, event: Event) -> None:
-        """Keep an event, with the next `tidy`."""
+        """Add an event, which the next `tidy` writes."""
         if self.keeping is not None:
             self._missed.append(NewEvent(ride, seq, wall_time, event))
             del self._missed[:-MAX_MISSED]
@@ -137,7 +137,7 @@ class TurnLog:
             now: wall time [s].
             idle: no passenger waits for an answer, so there is time for the disk.
         """
-        # A file that fails may take a while each time, for which nobody is to wait.
+        # Each attempt on a failing file may take a while; passengers must not wait for it.
         if self.keeping is None or (self._failing and not idle):
             return
         if self._missed or self._failing:
@@ -151,7 +151,7 @@ class TurnLog:
             self._fail(error)
 
     def forget(self, session: str) -> int | None:
-        """Erase a session; return the number of turns, or None if some are left for now."""
+        """Erase a session; return the number of turns, or None if data is left for now."""
         self._missed = [
             new for new in self._missed if isinstance(new, NewEvent) or new.session != session
         ]
@@ -191,10 +191,10 @@ class TurnLog:
 
     @contextmanager
     def _reading(self, keeping: Retention) -> Iterator[Store]:
-        """Open the file for reading: other writers do not block that once it is open.
+        """Open the file for reading; once it is open, other writers do not block this.
 
         Raises:
-            Unwritable: it cannot be opened, or is not tried yet.
+            Unwritable: it cannot be opened, or it is too early to try again.
         """
         if self._store is not None:
             yield self._store
@@ -207,7 +207,7 @@ class TurnLog:
         """Open the file; after an attempt that took long to fail, wait ten times as long.
 
         Raises:
-            Unwritable: it cannot be used, or is not tried yet.
+            Unwritable: it cannot be used, or it is too early to try again.
         """
         began = time.monotonic()
         if began < self._again:
@@ -217,7 +217,7 @@ class TurnLog:
                 self._store = Store(keeping.path, patience=PATIENCE)
             yield self._store
         except Unpurged:
-            raise  # it works
+            raise  # the file works
         except Unwritable:
             ended = time.monotonic()
             self._again = ended + REST * (ended - began)
@@ -250,7 +250,7 @@ class TurnLog:
     def _keep(self, store: Store) -> None:
         try:
             store.keep(self._missed)
-        except NotStorable:  # one of them, for which the others need not be lost
+        except NotStorable:  # one of them; the others need not be lost
             for new in self._missed:
                 try:
                     store.keep([new])
