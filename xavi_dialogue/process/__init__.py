@@ -1,1 +1,1 @@
-"""Shared by all processes: settings, logging, child processes, exit statuses."""
+"""Modules shared by all processes: settings, logging, child processes, exit statuses."""

@@ -1,7 +1,7 @@
 """Orders to a child process over its standard input.
 
-One order a line. The end of the input ends the process, so that none is left behind when its
-parent is gone, however that came about.
+Each line is one order. The end of the input ends the process, so that a child never outlives its
+parent.
 """
 
 import math
@@ -17,36 +17,36 @@ from xavi_dialogue.errors import XaviError
 from xavi_dialogue.process import scratch
 
 SHOWN = 40  # characters of a line that is no order
-PATIENCE = 5.0  # [s] that a process may take to end before it is killed
+PATIENCE = 5.0  # [s] after the end of the input, when the process is ended by force
 
 
 @dataclass(frozen=True, slots=True)
 class Pause:
-    """Halt where the ride is."""
+    """Halt the ride now."""
 
 
 @dataclass(frozen=True, slots=True)
 class Resume:
-    """Go on until further notice."""
+    """Continue the ride until another order."""
 
 
 @dataclass(frozen=True, slots=True)
 class Speed:
-    """Simulated seconds per second; 0 is as fast as possible."""
+    """Set the speed in simulated seconds per second; 0 is as fast as possible."""
 
     factor: float
 
 
 @dataclass(frozen=True, slots=True)
 class Until:
-    """Go on up to a time [s] and halt; None stands for the end of the first manoeuvre."""
+    """Continue up to a time [s] and halt; None stands for the end of the first manoeuvre."""
 
     time: float | None
 
 
 @dataclass(frozen=True, slots=True)
 class Seek:
-    """Go to a moment [s], also back; only a recording can."""
+    """Go to a moment [s], also an earlier one; only recordings can."""
 
     time: float
 
@@ -111,8 +111,8 @@ def listen(stream: IO[str], orders: Orders, refuse: Callable[[str], None] | None
     Args:
         stream: of lines.
         orders: the queue.
-        refuse: gets what is wrong with a line that is none; a newer parent may know more
-            orders, so that what it says is left at that.
+        refuse: is called with the fault of a line that is no order; the line is skipped, as a
+            newer parent may know more orders.
     """
 
     def follow() -> None:
@@ -132,7 +132,7 @@ def listen(stream: IO[str], orders: Orders, refuse: Callable[[str], None] | None
 
 
 class Signals:
-    """SIGTERM and SIGINT, once `quit_on_signals` listens to them."""
+    """The signals SIGTERM and SIGINT, after a call of `listen`."""
 
     def __init__(self) -> None:
         self._number = 0
@@ -145,11 +145,11 @@ class Signals:
 
     @property
     def status(self) -> int:
-        """The exit status of a process that ends for the one that came."""
+        """The exit status of a process that ends because of the signal that arrived."""
         return 128 + self._number
 
     def listen(self, orders: Orders, patience: float | None = None) -> None:
-        """Turn them into an order to quit.
+        """Turn the signals into an order to quit.
 
         Args:
             orders: to this process.

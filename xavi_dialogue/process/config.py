@@ -1,8 +1,8 @@
 """User settings: a file that sets options of commands.
 
-An option counts in this order: as it stands on the command line; as an environment variable says;
-as the file says; as it is by default. The file is TOML. An option at its top is for every command
-that has it, and one in a table for the command of that name:
+An option is taken from the command line, else from an environment variable, else from the file,
+else it has its default. The file is TOML. An option at the top level is for every command that has
+it, and one in a table is for the command of that name:
 
     vehicle = "shuttle-3"
 
@@ -26,7 +26,7 @@ class SettingsError(UsageFault):
 
 def default_path() -> Path:
     """Return the file of this user."""
-    # Deferred: few commands need it.
+    # Imported late, since few commands need it.
     from platformdirs import user_config_path
 
     return user_config_path("xavi-dialogue") / "config.toml"
@@ -37,7 +37,7 @@ def read(path: Path, options: Options) -> dict[str, dict[str, Any]]:
 
     Args:
         path: of the file.
-        options: all options: of every command, the name of each with its parameter.
+        options: of every command, all options by name, with their parameters.
 
     Raises:
         SettingsError: it cannot be read, or sets an unknown option.
@@ -83,8 +83,8 @@ def _check(path: Path, command: str, said: Mapping[str, Any], known: set[str]) -
 
 
 def _nearest(name: str, known: set[str]) -> str:
-    """The option that is written most alike, as a beginning of a sentence; empty: none is."""
-    # Deferred: few files have a mistake.
+    """Return the beginning of a sentence that names the most similar option; empty if none is."""
+    # Imported late, since few files have a mistake.
     from rapidfuzz.distance import OSA
 
     found = min(sorted(known), key=lambda one: OSA.distance(name, one))

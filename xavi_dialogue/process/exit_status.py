@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from xavi_dialogue.errors import XaviError
 
-if TYPE_CHECKING:  # the command line needs the numbers at once, and replies later or never
+if TYPE_CHECKING:  # the command line needs the numbers at once, but replies late or never
     from xavi_dialogue.dialogue.reply import Reply
 
 
@@ -20,10 +20,10 @@ class RunFault(XaviError, RuntimeError):
 class ExitStatus(IntEnum):
     """Exit statuses of `xavi`."""
 
-    ANSWERED = 0  # small talk and help too
+    ANSWERED = 0  # also small talk and help
     FAILED = 1  # an internal error, or a broken installation
     USAGE = 2
-    DECLINED = 3  # or asked back
+    DECLINED = 3  # also if the car asked back
     NOT_UNDERSTOOD = 4
     PLANNER_UNAVAILABLE = 5
     TIMED_OUT = 6

@@ -1,4 +1,4 @@
-"""Keeps long-lived objects out of garbage collections."""
+"""Exclusion of long-lived objects from garbage collections."""
 
 import gc
 from collections.abc import Iterator

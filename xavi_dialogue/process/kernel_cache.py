@@ -14,15 +14,15 @@ from pathlib import Path
 PLACE = "NUMBA_CACHE_DIR"  # environment variable, inherited by the processes that we start
 SOURCES = Path(__file__).parents[2] / "planner" / "kernels"
 BESIDE = SOURCES / "__pycache__"
-COMPILED = "njit("  # in a file that holds kernels; others hold their types alone
-LENT = "xavi-kernels-"  # prefix of a temporary folder that is deleted with the process
+COMPILED = "njit("  # text that only files with kernels contain
+LENT = "xavi-kernels-"  # prefix of a temporary folder that is deleted when the process ends
 
 
 def find_place() -> None:
     """Give numba a temporary cache folder if it would find none."""
     if place() is not None:
         return
-    with contextlib.suppress(OSError):  # without any place; commands that need none work on
+    with contextlib.suppress(OSError):  # commands that need no kernels still work
         os.environ[PLACE] = tempfile.mkdtemp(prefix=LENT)
         atexit.register(shutil.rmtree, os.environ[PLACE], ignore_errors=True)
 
@@ -35,7 +35,7 @@ def place() -> Path | None:
 
 
 def missing(folder: Path) -> tuple[str, ...]:
-    """The files with kernels of which none is compiled below a folder since they were changed."""
+    """Return the source files whose kernels are not cached in a folder since their last change."""
     return tuple(
         source.name
         for source in sorted(SOURCES.glob("[a-z]*.py"))

@@ -1,11 +1,11 @@
 """Logging of processes: one line per record on standard error.
 
-Code logs with `logging.getLogger(__name__)`, a short constant message, and values in `extra`. What
-a passenger said is in neither: values named like it are left out unless that is asked for, and of
-an exception its kind and place are stated, since its words may quote what was typed.
+Code logs with `logging.getLogger(__name__)`, a short constant message, and values in `extra`. The
+words of passengers are logged only if an option asks for that. Values with names in SPOKEN are left
+out, and an exception is logged by type and place, since its text may quote what was typed.
 
-Anyone who logs never waits for who reads: lines go through a queue that a thread empties, and what
-does not fit into it is counted and told later.
+Logging never waits for a slow reader: a thread writes the lines from a queue. Lines that do not
+fit into the queue are counted, and their number is logged later.
 """
 
 import contextlib
@@ -52,7 +52,7 @@ class LogOptions:
 
 
 class LineFormatter(logging.Formatter):
-    """Records as lines of at most MAX_LINE bytes, of printable ASCII; it never raises."""
+    """A formatter of lines with less than MAX_LINE bytes of printable ASCII; it never raises."""
 
     def __init__(self, telling: LogOptions) -> None:
         super().__init__()
@@ -95,7 +95,7 @@ class LineFormatter(logging.Formatter):
 
 
 class ThreadedHandler(logging.Handler):
-    """Writes lines to a stream on a thread; logging never waits and never fails."""
+    """A handler that writes lines to a stream on a thread; logging never waits and never fails."""
 
     def __init__(self, stream: TextIO, telling: LogOptions) -> None:
         super().__init__()
@@ -107,7 +107,7 @@ class ThreadedHandler(logging.Handler):
         self._writer.start()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Have a record written, or counted as lost."""
+        """Queue a record for writing, or count it as lost."""
         try:
             if self._lost:
                 told = logging.LogRecord(
@@ -129,7 +129,7 @@ class ThreadedHandler(logging.Handler):
 
     def _write(self) -> None:
         while (line := self._lines.get()) is not None:
-            # A reader that has gone must not stop the drive.
+            # A closed stream must not stop the ride.
             with contextlib.suppress(OSError, ValueError):
                 self._stream.write(line + "\n")
                 self._stream.flush()

@@ -1,7 +1,7 @@
 """Child processes that end when their parent does.
 
-Each listens on its standard input, whose other end only the parent holds: it closes with the
-parent, even when the parent is killed, and then the child ends (see control.listen).
+Each reads its standard input, whose other end only the parent holds. It closes when the parent
+ends, even if the parent is killed, and then the child ends (see child_commands.listen).
 """
 
 import contextlib
@@ -24,7 +24,7 @@ from xavi_dialogue.process.scratch import ScratchFolder
 TOP = Path(__file__).parents[2]  # the root of the packages, in a checkout or installed
 REMEMBERED = 20  # lines of a child's standard error
 ORDERLY = 3.0  # [s] that a child may take to end by itself
-FORCED = 1.0  # [s] and after SIGTERM
+FORCED = 1.0  # [s] that a child may take to end after SIGTERM
 WARNING = "xavi: warning: "  # the prefix of lines for the passenger
 
 
@@ -41,13 +41,13 @@ class Child:
         """Start the process.
 
         Args:
-            name: in messages: "the car".
+            name: for messages, such as "the car".
             arguments: of `xavi`; `--control` is added.
             warn: gets its warnings, on a thread.
         """
         self.name = name
         self.ordered = 0  # commands sent
-        # -P keeps the working directory off the path: it may hold packages of our names.
+        # -P keeps the working directory off the path: it may hold packages with the same names.
         command = [sys.executable, "-P", "-m", "xavi_dialogue", *arguments, "--control"]
         path = os.pathsep.join(filter(None, (str(TOP), os.environ.get("PYTHONPATH"))))
         self._scratch = ScratchFolder()
@@ -72,7 +72,7 @@ class Child:
 
     @property
     def pid(self) -> int:
-        """The process's number."""
+        """The id of the process."""
         return self._process.pid
 
     def order(self, order: child_commands.Order) -> int:
@@ -168,7 +168,7 @@ class RestartedChild:
 
     @property
     def pid(self) -> int:
-        """The number of the present process."""
+        """The id of the present process."""
         return self._child.pid
 
     def check(self) -> None:
@@ -188,7 +188,7 @@ class RestartedChild:
                 self._child = self._start()
 
     def kill(self) -> None:
-        """End the present process at once, and start no other."""
+        """End the present process at once, without a restart."""
         self.spare = 0
         self._child.kill()
 
@@ -229,7 +229,7 @@ class OptionalChild:
 
 
 def last_words(said: Sequence[str]) -> str:
-    """Return the last line that is no log and not empty; its log is written later than all else."""
+    """Return the last line that is neither empty nor a log line; empty if there is none."""
     return next((line for line in reversed(said) if line.strip() and not is_log(line)), "")
 
 

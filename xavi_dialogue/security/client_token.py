@@ -35,14 +35,14 @@ class Passenger:
 
 def default_path() -> Path:
     """Return the file of this user's secret."""
-    # Deferred: few commands need it.
+    # Imported late, since few commands need it.
     from platformdirs import user_state_path
 
     return user_state_path("xavi-dialogue") / "secret"
 
 
 def token_of(secret: bytes, session: str) -> str:
-    """The token of a conversation: HMAC-SHA256 (RFC 2104) of its name, as URL-safe base64."""
+    """Return the token of a conversation: HMAC-SHA256 (RFC 2104) of its name in URL-safe base64."""
     digest = hmac.new(secret, session.encode(), hashlib.sha256).digest()
     return base64.urlsafe_b64encode(digest).decode().rstrip("=")
 

@@ -1,6 +1,6 @@
 """Checks that a key fits its use before connecting, because a hub denies silently.
 
-Only certificates made by `xavi keys` are checked. A hub knows what others permit.
+Only certificates made by `xavi keys` are checked; the permissions of others are unknown here.
 
 BadLink
 └── WrongKey   the key is for something else
@@ -31,7 +31,7 @@ class WrongKey(BadLink):
 
 
 def holder(link: Link) -> Member | None:
-    """Return whose key a link uses; None if it has none, or one not made by `xavi keys`.
+    """Return the member whose key a link uses; None: no key, or one not made by `xavi keys`.
 
     Raises:
         BadLink: the configuration, or the certificate that it names, cannot be used.
@@ -41,7 +41,7 @@ def holder(link: Link) -> Member | None:
     path = certificate_of(link)
     if path is None:
         return None
-    # Deferred: a tenth of a second that only keys need.
+    # Imported late: it takes a tenth of a second, and only links with keys need it.
     from xavi_dialogue.bus.certificates import AUTHORITY, BadCertificate, read
 
     try:
@@ -71,7 +71,7 @@ def check(link: Link, doing: Doing) -> Member | None:
         See `holder`.
 
     Raises:
-        WrongKey: it is not.
+        WrongKey: it does not permit that.
         BadLink: see `holder`.
     """
     found = holder(link)

@@ -1,4 +1,4 @@
-"""`xavi keys`: makes certificates and Zenoh configurations for a bus with access control.
+"""`xavi keys`: certificates and Zenoh configurations for a bus with access control.
 
 KeysError
 ├── KeysExist     the folder has keys, which are not overwritten
@@ -57,7 +57,7 @@ class KeyOptions:
     """Options of making keys."""
 
     members: tuple[Member, ...]
-    hosts: tuple[str, ...]  # under which the hub is connected to
+    hosts: tuple[str, ...]  # names and addresses by which clients reach the hub
     listen: str  # endpoint of the hub
     connect: str  # the same, as seen by clients
     valid: timedelta
@@ -112,8 +112,8 @@ def material(order: KeyOptions, folder: Path, now: datetime) -> dict[str, bytes]
 
     Args:
         order: the options.
-        folder: where they will be; absolute.
-        now: from when on they are valid; with a zone.
+        folder: the absolute path where they will be.
+        now: start of their validity; with a time zone.
 
     Raises:
         BadHost: one of the hosts is neither a name nor an address.
@@ -161,7 +161,7 @@ def configuration(one: Member, order: KeyOptions, folder: Path) -> dict[str, Jso
 
 
 def _nested(settings: Mapping[str, object]) -> dict[str, Json]:
-    """Settings by their paths, as the tree that a file holds."""
+    """Turn settings by path into the tree that a file holds."""
     tree: dict[str, Json] = {}
     for path, value in settings.items():
         *parents, last = path.split("/")
@@ -175,7 +175,7 @@ def _nested(settings: Mapping[str, object]) -> dict[str, Json]:
 
 
 def keep(files: Mapping[str, bytes], folder: Path, *, force: bool = False) -> None:
-    """Write a folder of keys: all of it, or nothing.
+    """Write a folder of keys completely, or not at all.
 
     Args:
         files: by their names; those that end in `.key` are secret.
