@@ -1,4 +1,4 @@
-"""The processes behind a conversation: own ones, or those that others started."""
+"""The processes behind a conversation: started for it, or by others."""
 
 import threading
 from typing import Protocol

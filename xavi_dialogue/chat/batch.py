@@ -1,4 +1,4 @@
-"""The chat without a terminal: one line in, one answer out."""
+"""The chat without a terminal, which reads one line and writes one answer at a time."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ from xavi_dialogue.terminal.slash_commands import Command, CommandError
 from xavi_dialogue.transcripts.transcript import moment
 
 Write: TypeAlias = Callable[[str], None]
-SHOWN = 40  # characters of a line that is none
+SHOWN = 40  # characters of an invalid line that are shown
 WIDTH = 100  # columns of the list of /help
 HELP = (
     "A line is a question, a moment that moves time such as @ 8.0s, or one of these commands.\n"
@@ -29,7 +29,7 @@ HELP = (
 def reached(scene: SceneReport, wanted: float) -> float:
     """Return the time [s] that can be asked about after a recording went to `wanted`.
 
-    That is the wanted time, unless the recording stops before it: nothing is known of later times.
+    That is the wanted time, or the time of the scene if the recording stops before the wanted one.
     """
     return min(wanted, scene.sim_time) if scene.state == "paused" else wanted
 
@@ -41,13 +41,13 @@ class BatchChat:
     backend: Backend
     client: Client
     session_history: SessionHistory
-    write: Write  # takes answers
-    note: Write  # takes everything else
-    as_json: bool  # write replies as JSON
-    scene: SceneReport  # where the ride has halted
-    at: float | None  # [s] what questions are about; None: the time at which they are asked
-    live: bool = False  # the ride continues by itself
-    seeks: bool = False  # it is a recording, which can go to any moment
+    write: Write  # writes answers
+    note: Write  # writes everything else
+    as_json: bool  # whether replies are written as JSON
+    scene: SceneReport  # at which the ride has halted
+    at: float | None  # [s] that questions are about; None: the time at which they are asked
+    live: bool = False  # whether the ride continues by itself
+    seeks: bool = False  # whether it is a recording, which can go to any moment
 
     def take(self, raw: str) -> bool:
         """Handle a line; return whether to go on.
@@ -81,7 +81,7 @@ class BatchChat:
             at = reached(self.scene, at)
         elif not self.live and self.scene.sim_time < at and self.scene.state != "ended":
             self.scene = self.backend.drive(self.client, child_commands.Until(at), halt=True)
-        self.at = at  # only if the ride can go there: nothing is known of other times
+        self.at = at  # set only after the ride went there: other times are unknown
 
     def _ask(self, text: str) -> None:
         if len(text) > MAX_TEXT:
@@ -121,7 +121,7 @@ class BatchChat:
         return True
 
     def _tell_now(self, told: Callable[[SceneReport], str]) -> None:
-        """Describe the vehicles; only the latest scene is known."""
+        """Print a description of the latest scene, the only one that is known."""
         scene = self.client.scene if self.live and self.client.scene else self.scene
         if self.at is not None and self.at < scene.sim_time:
             self.note(f"this is how it is at {scene.sim_time:.1f} s")

@@ -39,7 +39,7 @@ from xavi_dialogue.nlg.context import SpeechContext, Style
 from xavi_dialogue.process.exit_status import RunFault
 
 DEADLINE = 10.0  # [s] for an answer
-GRACE = 0.5  # [s] transport of a reply
+GRACE = 0.5  # [s] allowed for the transport of a reply
 PATIENCE = 3.0  # [s] for requests that need no planning
 NONSENSE = "the dialogue service sent nonsense"
 REFUSED = "the dialogue service refused"
@@ -71,7 +71,7 @@ class Client:
         Args:
             bus: of the car and the service.
             keys: of the car.
-            session: that is talked in.
+            session: name of the conversation.
             on_event: gets events, on a thread of the bus.
             token: of the session, see security.client_token; None: open to all.
             share: whether others may read the session.
@@ -89,8 +89,8 @@ class Client:
     def now(self) -> float | None:
         """Return the latest time [s] that the passenger has seen; None before the first scene.
 
-        An event may be told before the scene that follows it is seen. Of a halted car, no such
-        scene can be waited for.
+        An event may be shown before the next scene is received. The time of the event counts too,
+        since a halted car sends no later scene to wait for.
         """
         scene, latest = self.scene, self._latest
         if scene is None:
@@ -108,10 +108,10 @@ class Client:
         style: Style = "passenger",
         request: str | None = None,
     ) -> None:
-        """Ask; `done` gets the reply, or the reason why there is none, on a thread of the bus.
+        """Send a question; `done` gets the reply or an error, on a thread of the bus.
 
-        A service that does not answer within the deadline counts as timed out.
-        If it rejects the question, or its answer cannot be read, the reply is in brackets.
+        If the service does not answer within the deadline, the reply says that it timed out. If the
+        service rejects the question, or its answer cannot be read, the reply is in brackets.
         """
         asked = AskRequest(
             request=request or new_request(),
@@ -149,7 +149,7 @@ class Client:
         self._bus.request(self._keys.of("@rpc/cancel"), pack(wanted), 1.0, lambda _: None)
 
     def probe(self) -> None:
-        """Check that the service answers anything at all; wait for it.
+        """Check that the service answers at all; wait for its reply.
 
         Raises:
             ServiceLost: it does not.
@@ -166,7 +166,7 @@ class Client:
         """Return the latest turns of the session, oldest first; waits for them.
 
         Args:
-            turns: at most so many, 1 to 100.
+            turns: greatest number of turns, 1 to 100.
 
         Raises:
             ServiceLost: there is no reply.
@@ -230,7 +230,7 @@ class Client:
             return
         with self._changed:
             if self.scene is not None and report.sim_time < self.scene.sim_time:
-                self._latest = None  # a recording went back, to before the latest scene
+                self._latest = None  # a recording went back to an earlier time
             self.scene = report
             self._changed.notify_all()
 
@@ -270,7 +270,7 @@ def _bracketed(text: str, reason: Reason, at: float | None) -> Reply:
 
 def _late(at: float | None, style: Style) -> Reply:
     """Make the reply of a service that missed its deadline."""
-    # Deferred: a service that hangs is rare, and sentences take a while to load.
+    # Imported late: a service that hangs is rare, and wording takes a while to load.
     from xavi_dialogue.nlg.say import say
 
     said = say(Unavailable("timed-out"), SpeechContext(style=style))
@@ -295,6 +295,6 @@ def _refusal(failure: Failure | None) -> str:
     if failure is None:
         return REFUSED
     detail = clean(failure.detail)
-    if failure.reason == "out-of-scope" and detail:  # self-explanatory
+    if failure.reason == "out-of-scope" and detail:  # the detail explains itself
         return detail
     return f"{REFUSED}: {detail or failure.reason}"

@@ -1,4 +1,4 @@
-"""The history of a session: list it, save it to a file, erase it."""
+"""The history of a session, which can be listed, saved to a file, and erased."""
 
 import os
 from collections.abc import Callable, Iterable, Iterator
@@ -36,7 +36,7 @@ class SessionHistory:
     forget_typed: Forget | None = None  # erases the input history on this machine
 
     def why(self) -> str:
-        """Return the question why: about the latest answer, else about the latest action."""
+        """Return the question "why?" about the latest answer, or else about the latest action."""
         return slash_commands.WHY if self._turns() else slash_commands.WHY_DONE
 
     def told(self) -> str:
@@ -47,12 +47,12 @@ class SessionHistory:
         """Write the turns to a new file.
 
         Args:
-            name: of the file; JSON lines where it ends in .jsonl, else a transcript. Empty: made
-                of the session's name and the time.
+            name: of the file: JSON lines if it ends in .jsonl, else a transcript. If empty, a name
+                is made from the session's name and the time.
             now: the time.
 
         Returns:
-            What was done, in words.
+            A note about what was done.
 
         Raises:
             CommandError: the session is empty, or the file exists or cannot be written.
@@ -121,7 +121,7 @@ def _file(name: str) -> Path:
 
 
 def _create(file: Path, text: str) -> None:
-    """Write a new file that only its owner can read, whole or not at all."""
+    """Write a new file that only its owner can read, completely or not at all."""
     try:
         made = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
         try:

@@ -1,4 +1,4 @@
-"""A conversation at this process's terminal, whatever it rests on."""
+"""A conversation at this process's terminal, over any backend."""
 
 import asyncio
 import os
@@ -17,7 +17,7 @@ from xavi_dialogue.chat.controller import ChatController
 from xavi_dialogue.chat.history import SessionHistory
 from xavi_dialogue.nlg.narration import RideNarrator
 
-if TYPE_CHECKING:  # a quarter of a second that only a terminal needs
+if TYPE_CHECKING:  # importing takes a quarter of a second, and only a terminal needs it
     from xavi_dialogue.storage.input_history import InputHistory, UnsavedInputHistory
 
 Write: TypeAlias = Callable[[str], None]
@@ -39,7 +39,7 @@ class Notices:
         (self._tell or warner(self._note))(text)
 
     def tell(self, text: str) -> None:
-        """Something that the passenger should know."""
+        """Write a note for the passenger."""
         (self._tell or self._note)(text)
 
     def on_event(self, report: EventReport) -> None:
@@ -51,14 +51,14 @@ class Notices:
 
 @dataclass(frozen=True)
 class InputHistoryOptions:
-    """Whether and how long typed lines are stored."""
+    """The file of typed lines, and for how long they are stored."""
 
     file: Path
-    days: int | None  # for so long; None: nothing is
+    days: int | None  # days for which lines are stored; None: they are not
 
 
 def warner(note: Write) -> Write:
-    """Takes warnings down as notes."""
+    """Return a function that writes warnings as notes."""
     return lambda text: note(f"warning: {text}")
 
 

@@ -1,4 +1,4 @@
-"""Car and service for one chat: started in order, stopped in order, none left behind."""
+"""The processes of car and service for one chat, which are started and stopped in order."""
 
 import socket
 import threading
@@ -96,7 +96,7 @@ class LocalBackend:
                 raise ChildFailed("the car is not heard of any more")
 
     def wait(self) -> None:
-        """To be called while something of the car is waited for.
+        """Check the processes; to be called repeatedly while waiting for the car.
 
         Raises:
             ChildFailed: see `check`; or the chat is over.
@@ -121,7 +121,7 @@ class LocalOptions:
     """Options of a local backend: recording and where notes go."""
 
     record: Path | None = None  # file that the ride is recorded in
-    overwrite: bool = False  # an existing file
+    overwrite: bool = False  # replace an existing file
     warn: Tell = lambda _: None  # gets the service's warnings, on a thread
     tell: Tell = lambda _: None  # gets notes for the passenger, on a thread
     over: threading.Event = field(default_factory=threading.Event)  # set: nothing is waited for
@@ -135,13 +135,13 @@ def start_local(
     keeping: Retention | None = None,
     options: LocalOptions | None = None,
 ) -> Iterator[LocalBackend]:
-    """Start service and car, the car waiting for the service; stop them in reverse.
+    """Start the service, then the car; stop them in reverse order.
 
     Args:
         scenario: name or folder.
         seed: of the ride.
         speed: simulated seconds per second; 0 is as fast as possible.
-        keeping: where and how long the service stores turns; None: not at all.
+        keeping: file in which the service stores turns, and for how long; None: not at all.
         options: recording and notes.
 
     Raises:
@@ -161,7 +161,7 @@ def start_processes(
     *,
     seeks: bool = False,
 ) -> Iterator[LocalBackend]:
-    """Yield the same with any command that reports and obeys like a car.
+    """Do the same as `start_local` with any command that acts like a car.
 
     Args:
         car: arguments of `xavi`; the endpoint to connect to is added.
@@ -179,7 +179,7 @@ def start_processes(
 
 
 def first_scene(backend: LocalBackend, client: Client) -> SceneReport:
-    """Wait for the first scene of the car; from then on it is restarted when it ends.
+    """Wait for the first scene of the car; from then on the car is restarted if it ends.
 
     Raises:
         ChildFailed: it did not start.
@@ -200,7 +200,7 @@ def _kept(keeping: Retention | None) -> list[str]:
 def _start(
     stack: ExitStack, car: Sequence[str], speed: float, kept: list[str], options: LocalOptions
 ) -> LocalBackend:
-    """Start the processes and connect, on a port that another process may take first."""
+    """Start the processes and connect; try another port if some process takes the first."""
     for attempt in range(1, ATTEMPTS + 1):
         endpoint = f"tcp/127.0.0.1:{_free_port()}"
         serve = ["serve", "--listen", endpoint, *kept]
@@ -251,7 +251,7 @@ def _await(recorder: Child, bus: ZenohBus, over: threading.Event) -> None:
 
 
 def _let_go(bus: ZenohBus, service: RestartedChild) -> None:
-    """Close the connection; to a service that hangs that would take long, so it is killed."""
+    """Close the connection; if that takes too long because the service hangs, kill the service."""
     closing = threading.Thread(target=bus.close, daemon=True)
     closing.start()
     closing.join(CLOSING)

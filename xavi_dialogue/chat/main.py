@@ -28,18 +28,18 @@ class ChatOptions:
     """The ride and the session of a chat."""
 
     scenario: str  # folder
-    name: str  # of the scenario
+    name: str  # name of the scenario, or of the recording
     seed: int
     passenger: Passenger
-    keeping: Retention | None = None  # where turns are stored; None: nowhere
-    resume: float | None = None  # [s] how far to drive before the first question
+    keeping: Retention | None = None  # store of turns; None: none
+    resume: float | None = None  # [s] time to drive to before the first question
     record: Path | None = None  # file that the ride is recorded in
-    overwrite: bool = False  # an existing file
-    played: tuple[str, ...] = ()  # arguments of `xavi` that play a recording of it
+    overwrite: bool = False  # replace an existing file
+    played: tuple[str, ...] = ()  # arguments of `xavi` that play a recording; (): drive
 
     @property
     def header(self) -> tuple[tuple[str, str], ...]:
-        """Of transcripts."""
+        """The header of transcripts."""
         if self.played:
             return (("recording", self.name),)
         return (("scenario", self.name), ("seed", str(self.seed)))

@@ -1,4 +1,4 @@
-"""A chat with a car and a service that others started: starts and stops no process."""
+"""A chat with a car and a service that others started; it starts and stops no process."""
 
 import threading
 import time
@@ -26,7 +26,7 @@ PATIENCE = 20.0  # [s] for a hub, a service and a car to talk with
 BRIEFLY = 5.0  # [s] the same for one question
 BACK = 15.0  # [s] for a service to come back
 POLL = 0.1  # [s]
-NAMED = 10  # cars that are named at most
+NAMED = 10  # greatest number of cars that are listed
 DECLINED = "Only the program that started the car sets its pace."
 GONE = "the car is not on the bus"
 
@@ -63,7 +63,7 @@ class NamesOnBus:
 
 @dataclass(frozen=True)
 class RemoteBackend:
-    """Vehicle and service of others; see Backend."""
+    """A vehicle and a service that others started; see Backend."""
 
     bus: ZenohBus
     vehicle: str
@@ -72,7 +72,7 @@ class RemoteBackend:
     paced: bool = False  # see Backend
 
     def check(self) -> None:
-        """Do nothing: what is missing may come back, so the conversation goes on."""
+        """Do nothing: a missing car or service may come back, so the conversation continues."""
 
     def recover(self, client: Client) -> bool:
         """See Backend."""
@@ -114,7 +114,7 @@ class RemoteCar:
 
     @property
     def header(self) -> tuple[tuple[str, str], ...]:
-        """Of transcripts."""
+        """The header of transcripts."""
         return (("vehicle", self.vehicle),)
 
 
@@ -122,7 +122,7 @@ class RemoteCar:
 def meet(
     there: RemoteCar, passenger: Passenger, patience: float, on_event: OnEvent | None = None
 ) -> Iterator[tuple[RemoteBackend, Client]]:
-    """Join car and service, waiting for them; they go on when this is over.
+    """Join a car and a service, and wait for both; they continue when the context ends.
 
     Args:
         there: the car.

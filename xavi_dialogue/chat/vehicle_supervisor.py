@@ -1,8 +1,8 @@
-"""Restarts the vehicle process of a chat and drives the same ride to where it was.
+"""Supervision of a chat's vehicle process, which is restarted and drives the same ride again.
 
-Scenario and seed determine a ride, so what was said of it still holds. A thread watches over the
-program, starts it anew, has it drive to the moment that was reached as fast as it can, and then
-on as the passenger last wished.
+Scenario and seed determine a ride, so earlier answers about it stay valid. A thread watches the
+process and restarts it. The car then drives to the time that was reached as fast as possible, and
+continues at the pace that the passenger last set.
 """
 
 import threading
@@ -17,7 +17,7 @@ from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.subprocesses import Child, ChildFailed
 from xavi_dialogue.terminal.slash_commands import CommandError
 
-SPARE = 3  # restarts
+SPARE = 3  # greatest number of restarts
 POLL = 0.2  # [s] between checks of the process
 PATIENCE = 90.0  # [s] without a scene after which a restarted car is given up
 AGAIN = "The car's program ended and is started again; the ride goes on."
@@ -28,7 +28,7 @@ STANDING = "the ride cannot go on; ask on"
 
 @dataclass(frozen=True, slots=True)
 class _WantedPace:
-    """How the passenger wants the ride to continue."""
+    """The pace at which the passenger wants the ride to continue."""
 
     speed: float  # simulated seconds per second; 0 is as fast as possible
     motion: child_commands.Order
@@ -51,17 +51,17 @@ class VehicleSupervisor:
     def __init__(
         self, start: Callable[[], Child], speed: float, tell: Callable[[str], None]
     ) -> None:
-        """Start it.
+        """Start the process.
 
         Args:
-            start: starts it; it waits for orders.
-            speed: at which it is started.
+            start: starts the process, which waits for orders.
+            speed: its initial speed; see `_WantedPace`.
             tell: gets notes for the passenger, on a thread.
         """
         self._start, self._child, self._tell = start, start(), tell
         self._wish = _WantedPace(speed, child_commands.Pause())
-        self._lock = threading.Lock()  # of all that follows
-        self._ready = True  # orders go to the program; else they are remembered
+        self._lock = threading.Lock()  # protects the attributes below
+        self._ready = True  # orders go to the process; otherwise they are remembered
         self._reached: float | None = None  # [s] time that the ride has to reach again
         self._before: str | None = None  # name of the ride that broke off
         self._lost: str | None = None  # why the car has ended for good
@@ -81,7 +81,7 @@ class VehicleSupervisor:
             self._keeper.start()
 
     def check(self) -> None:
-        """Check that it runs, before `follow` was called.
+        """Check that the process runs; call it before `follow`.
 
         Raises:
             ChildFailed: it has ended.
@@ -90,7 +90,7 @@ class VehicleSupervisor:
             self._child.check()
 
     def hope(self) -> None:
-        """Check that it runs or is being restarted.
+        """Check that the process runs or is being restarted.
 
         Raises:
             CommandError: it has ended for good.
@@ -99,7 +99,7 @@ class VehicleSupervisor:
             raise CommandError(self._lost)
 
     def order(self, order: child_commands.Order) -> None:
-        """Send a command: now, or as soon as the car is back where it was.
+        """Send a command now, or as soon as a restarted car has reached its former time.
 
         Raises:
             ChildFailed: it has ended and is not restarted.
@@ -133,7 +133,7 @@ class VehicleSupervisor:
 
     @property
     def catching_up(self) -> bool:
-        """Whether it is being restarted."""
+        """Whether the process is being restarted."""
         return not self._ready and self._lost is None
 
     def trouble(self) -> str:
@@ -176,7 +176,7 @@ class VehicleSupervisor:
                 self._child = child
 
     def _catch_up(self, client: Client) -> None:
-        """Drive to where the ride was, and then on as the passenger wishes.
+        """Drive to the time that the ride had reached, and then at the passenger's pace.
 
         Raises:
             ChildFailed: the car has ended again, or is silent.
