@@ -1,1 +1,1 @@
-"""Answers checked statement by statement against scenes and traces, without explain or nlg."""
+"""Checks of answers, statement by statement, against scenes and traces without explain or nlg."""

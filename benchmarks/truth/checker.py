@@ -1,4 +1,4 @@
-"""Check an answer sentence by sentence; say what no pattern covers."""
+"""Checks of an answer sentence by sentence, with a list of what no pattern covers."""
 
 import re
 from dataclasses import dataclass
@@ -35,15 +35,15 @@ CLAUSE = re.compile(r", (?:because|but|though|and|as) |: | because ")
 
 @dataclass(frozen=True)
 class Sentence:
-    """A sentence, and its clauses and figures that no pattern covers."""
+    """A sentence, with the clauses and figures in it that no pattern covers."""
 
     text: str
-    met: bool  # a pattern covers some of it
+    met: bool  # whether a pattern covers some of it
     unread: tuple[str, ...] = ()
 
     @property
     def understood(self) -> bool:
-        """Tell whether every clause and figure of it was held against the record."""
+        """Check whether every clause and figure in it was checked against the record."""
         return self.met and not self.unread
 
 
@@ -53,14 +53,14 @@ def checked(
     """Check an answer.
 
     Args:
-        ride: what was seen and decided, to its end.
-        now: [s] when it was asked.
-        question: its words.
+        ride: the whole ride as seen and decided.
+        now: [s] time at which the question was asked.
+        question: the words of the question.
         answer: the words of the answer.
-        decision: the decision that it tells of; without it, consequences go unchecked.
+        decision: the decision that the answer is about; None: consequences are not checked.
 
     Returns:
-        What is told wrongly, the sentences, and what is told of foils.
+        The wrong statements, the sentences, and the statements about foils.
     """
     text, found = mentions(answer, ride, now)
     faults: dict[tuple[str, str], Fault] = {}
@@ -84,7 +84,7 @@ def checked(
 
 
 def _unread(sentence: str, spans: list[tuple[int, int]]) -> tuple[str, ...]:
-    """Return the clauses of a sentence that no pattern meets, and the figures that none holds."""
+    """Return the clauses of a sentence that no pattern matches, and the figures outside of all."""
     cuts = [(m.start(), m.end()) for m in CLAUSE.finditer(sentence)]
     edges = [0, *(edge for cut in cuts for edge in cut), len(sentence)]
     clauses = zip(edges[::2], edges[1::2], strict=True)

@@ -1,4 +1,4 @@
-"""One sentence of an answer, in what it was said, and what patterns are given to check it."""
+"""One sentence of an answer with its context, and the patterns that check such sentences."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -12,7 +12,7 @@ from benchmarks.truth.ridden import Ridden
 from sim.scene import EGO
 
 KMH = 3.6
-CLOSE = 2.6  # [km/h] what a speed told may be off
+CLOSE = 2.6  # [km/h] greatest error of a stated speed
 NUMBERS = {
     "half a": 0.5, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7,
     "eight": 8, "nine": 9, "ten": 10, "eleven": 11, "twelve": 12,
@@ -24,15 +24,15 @@ WHO = r"(?P<who>V\d+|[Ww]e|I|[Ii]t)"
 
 @dataclass(frozen=True)
 class Said:
-    """A sentence: who is spoken of, when it was said, and of what time it tells."""
+    """A sentence with its context: question, time, vehicles mentioned, and earlier text."""
 
     ride: Ridden
     now: float
     question: str
     text: str  # with V0, V1, ... for vehicles
     mentions: tuple[Mention, ...]  # of the whole answer
-    before: str  # what was said before it
-    decision: Decision | None = None  # that the answer tells of, where it is known
+    before: str  # the earlier text of the answer
+    decision: Decision | None = None  # the decision that the answer is about, if known
 
     def who(self, name: str) -> tuple[int, ...]:
         """Return the vehicles that a name may stand for."""
@@ -64,13 +64,17 @@ class Said:
         return None
 
     def when(self, past: bool, text: str | None = None) -> tuple[float, float]:
-        """Return the interval [s] told: what a phrase names, or now, or what "did" means in it."""
+        """Return the interval [s] that is meant: now, or in the past, a stated or likely one."""
         if not past:
             return self.now - 0.15, self.now
         return self.told(text) or self.episode()
 
     def episode(self) -> tuple[float, float]:
-        """Return the interval that a past question is about: the braking, or all up to now."""
+        """Return the interval [s] that a question about the past means.
+
+        It is the time from shortly before the first halt, or the last braking, if the question is
+        about these; else all time up to now.
+        """
         if re.search(r"\b(stop|stand|wait)", self.question):
             held = [t for t in self.ride.span(0.0, self.now) if self.speeds("we", (t, t))[0] < 1.0]
             if held:
@@ -84,12 +88,12 @@ class Said:
     def some(
         self, who: str, span: tuple[float, float], holds: Callable[[int, float], bool]
     ) -> bool:
-        """Whether something holds of one whom a name may stand for, at a time of an interval."""
+        """Check whether a predicate holds for a vehicle that a name may mean, in an interval."""
         times = self.ride.span(*span) or [self.ride.times[self.ride.index(span[1])]]
         return any(holds(vehicle, time) for vehicle in self.who(who) for time in times)
 
     def speeds(self, who: str, span: tuple[float, float]) -> list[float]:
-        """Speeds [km/h] of whom a name may stand for in an interval."""
+        """Return the speeds [km/h], in an interval, of the vehicles that a name may mean."""
         times = self.ride.span(*span) or [self.ride.times[self.ride.index(span[1])]]
         states = (self.ride.state(v, time) for v in self.who(who) for time in times)
         return [KMH * state.speed for state in states if state is not None]
@@ -97,7 +101,7 @@ class Said:
 
 @dataclass(frozen=True)
 class Fault:
-    """A statement that the ride does not bear out."""
+    """A statement that is wrong by the record of the ride."""
 
     kind: str
     detail: str
@@ -105,11 +109,11 @@ class Fault:
 
 @dataclass(frozen=True)
 class Told:
-    """What is told of a foil: a term of the reward, that it is close, or that it is better."""
+    """A statement about a foil: a term of the reward, that it is close, or that it is better."""
 
     term: Term | Literal["close", "better"]
     foil: Actions
-    implied: bool = False  # it speaks of every other road, without naming one
+    implied: bool = False  # whether it is about every other road, without naming one
 
 
 Check = Callable[[Said, re.Match[str]], Iterator[Fault | Told]]
@@ -117,7 +121,7 @@ RULES: list[tuple[re.Pattern[str], Check]] = []
 
 
 def claim(*patterns: str) -> Callable[[Check], Check]:
-    """Have a function check what patterns find in a sentence."""
+    """Return a decorator that registers a check for what patterns find in a sentence."""
 
     def registered(check: Check) -> Check:
         RULES.extend((re.compile(pattern), check) for pattern in patterns)
@@ -127,10 +131,10 @@ def claim(*patterns: str) -> Callable[[Check], Check]:
 
 
 def near(told: float, found: list[float], off: float = CLOSE) -> bool:
-    """Check whether a value told lies within what was found, give or take."""
+    """Check whether a stated value lies in the range of the true ones, with a tolerance."""
     return bool(found) and min(found) - off <= told <= max(found) + off
 
 
 def rounded(found: list[float]) -> str:
-    """Show the range of values in the report."""
+    """Return the range of values as text for the report."""
     return f"{min(found):.1f}..{max(found):.1f}" if found else "never"

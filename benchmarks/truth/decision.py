@@ -1,4 +1,4 @@
-"""The decision that an answer tells of: fact and foil, with what either came to in the record."""
+"""The decision that an answer is about: fact and foil, with their outcomes in the record."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -12,18 +12,18 @@ from planner.record.trace import Action, Outcome, PlanTrace
 
 @dataclass(frozen=True)
 class Decision:
-    """A recorded decision, as it was and as it was planned again with further rollouts."""
+    """A recorded decision, with the plans made again from it with further rollouts."""
 
     trace: PlanTrace
     again: tuple[PlanTrace, ...] = ()
-    before: PlanTrace | None = None  # the decision in force at the question less one
+    before: PlanTrace | None = None  # the decision before the one in force at the question
     latest: PlanTrace | None = None  # the decision in force at the question
-    without: tuple[PlanTrace, ...] = ()  # it planned again with vehicles gone
+    without: tuple[PlanTrace, ...] = ()  # plans made again with vehicles removed
     asked: Actions = ()  # the foil that the question names
 
     @cached_property
     def records(self) -> tuple[Reckoning, ...]:
-        """Return what can be reckoned with: the decision, and each plan made again from it."""
+        """Return the decision, and each plan made again from it, for calculations."""
         return tuple(Reckoning(trace) for trace in (self.trace, *self.again))
 
     @property
@@ -32,9 +32,9 @@ class Decision:
         return self.records[0].plan
 
     def prefixes(self, kinds: Sequence[frozenset[Action]]) -> list[Actions]:
-        """Return what a phrase may mean as actions from the present on, nearest to it first.
+        """Return the sequences of actions that a phrase may mean, the most literal first.
 
-        What is not done at once may be done where the plan has gone on for a while.
+        An action that is not taken at once may be taken after the plan has continued for a while.
         """
         found: list[Actions] = []
         for depth in range(len(self.plan) + 1):
@@ -45,7 +45,7 @@ class Decision:
         return [one for one in found if one != self.plan[: len(one)]]
 
     def pairs(self, foil: Actions) -> Iterator[tuple[Side, Side]]:
-        """Yield fact and foil by each record and estimator, unpaired and by situation."""
+        """Yield fact and foil by record and estimator, each unpaired, then paired by situation."""
         for record in self.records:
             for fact, there in zip(record.chosen(), record.sides(foil), strict=False):
                 yield fact, there
@@ -54,7 +54,7 @@ class Decision:
                     yield both
 
     def foil_of(self, text: str) -> Actions | None:
-        """Return the foil that a phrase names; None where it was not tried or is the plan."""
+        """Return the foil that a phrase names; None if it was not tried."""
         kinds = acts(text)
         for depth in range(len(kinds), 0, -1):
             for prefix in self.prefixes(kinds[:depth]):
@@ -63,7 +63,7 @@ class Decision:
         return None
 
     def risks(self, prefix: Actions | None, struck: tuple[int, ...] = ()) -> list[float]:
-        """Return P(collision) of a plan, None being the one chosen, by record and estimator."""
+        """Return P(collision) of a plan by record and estimator; None is the plan chosen."""
         return self.chances("collision", prefix, struck)
 
     def chances(
@@ -80,20 +80,20 @@ class Decision:
         return found
 
     def drives(self) -> list[Side]:
-        """Return the plan by record and estimator."""
+        """Return the plan that was chosen, by record and estimator."""
         return [side for record in self.records for side in record.chosen()]
 
     def gains(self, foil: Actions) -> list[dict[Term, float]]:
         """Return the advantage [s] of the plan over a foil by term, by record and estimator.
 
-        Each is taken apart by the drives that arrive, and as the drives have it recorded.
+        Terms are calculated from the rollouts that arrive, and also as the rollouts record them.
         """
         pairs = list(self.pairs(foil))
         found = [gains(fact, there) for fact, there in pairs]
         return found + [one for pair in pairs if (one := recorded(*pair)) is not None]
 
     def values(self, foil: Actions) -> list[float]:
-        """Return the advantage [s] of the plan over a foil in all, by record and estimator."""
+        """Return the total advantage [s] of the plan over a foil, by record and estimator."""
         return [fact.value - there.value for fact, there in self.pairs(foil)]
 
     def rivals(self) -> Actions:

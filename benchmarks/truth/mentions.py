@@ -1,4 +1,4 @@
-"""Who is spoken of: vehicles named or described in the text of an answer."""
+"""Mentions of vehicles in the text of an answer, by name or by description."""
 
 import re
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ KINDS = {
     "bicycle": {"bicycle"},
 }
 SIDE = r"(?: on the (?:left|right))?"
-BESIDE = 10.0  # [m] ahead or behind up to which a vehicle may be called beside us
+BESIDE = 10.0  # [m] greatest distance ahead or behind at which a vehicle may be called beside us
 PLACE = (
     rf"(?: (?P<that>that (?:was|came|I saw last) )?(?P<place>ahead of us{SIDE}|behind us{SIDE}|"
     rf"(?:coming )?from the (?:left|right)|(?:coming )?towards us|on our (?:left|right)|"
@@ -33,14 +33,14 @@ class Mention:
     """A stretch of text that stands for a vehicle."""
 
     text: str
-    vehicles: tuple[int, ...]  # that it may stand for
+    vehicles: tuple[int, ...]  # vehicles that it may stand for
     place: str | None
-    past: bool  # the place is one of an earlier time
+    past: bool  # whether the place is that of an earlier time
     numbered: bool
 
 
 def mentions(text: str, ride: Ridden, now: float) -> tuple[str, list[Mention]]:
-    """Return the text with V0, V1, ... in place of what stands for vehicles, and these."""
+    """Return the text with mentions of vehicles replaced by V0, V1, ..., and the mentions."""
     known = {v: state for v, state in ride.known(now).items() if v != EGO}
     found: list[Mention] = []
     named: dict[tuple[str | None, str], int] = {}
@@ -69,7 +69,7 @@ def fits(state: VehicleState, colour: str | None, kind: str | None) -> bool:
 
 
 def placed(ride: Ridden, vehicle: int, place: str, time: float) -> bool:
-    """Check whether a vehicle is where a place word says, within what people would call so."""
+    """Check whether a vehicle is where a word of place says, in a generous sense."""
     seen = ride.offset(EGO, vehicle, time)
     if seen is None:
         return False

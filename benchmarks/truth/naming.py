@@ -1,4 +1,4 @@
-"""Which foil a statement is about, and how figures of the record are shown."""
+"""The foil that a statement is about, and the format of figures in reports."""
 
 import re
 
@@ -6,13 +6,13 @@ from benchmarks.truth.context import Said
 from benchmarks.truth.decision import Decision
 from benchmarks.truth.reckoning import Actions
 
-#: From where on a phrase tells of others.
+#: Begins the part of a phrase that is about other vehicles.
 OF_OTHERS = re.compile(r"\b(?:expect|chance|possible|(?<!now )think|thought|might)\w*\b")
 PERCENT = r"(?P<chance>(?:under |over )?\d+ %)"
 
 
 def foil_of(said: Said, match: re.Match[str]) -> tuple[Decision, Actions] | None:
-    """Find the decision and the foil that a statement is about: the nearest one named before it."""
+    """Find the decision and the foil that a statement is about: the last one named before it."""
     if said.decision is None:
         return None
     clause = re.split(r"[;:] ", said.text[: match.start()])[-1]
@@ -27,10 +27,10 @@ def foil_of(said: Said, match: re.Match[str]) -> tuple[Decision, Actions] | None
 
 
 def seconds(values: list[float]) -> str:
-    """Show values [s] in the report."""
+    """Return the range of values [s] as text for the report."""
     return f"{min(values):+.2f}..{max(values):+.2f} s" if values else "none"
 
 
 def percents(values: list[float]) -> str:
-    """Show probabilities in the report."""
+    """Return the range of probabilities as text for the report."""
     return f"{100 * min(values):.1f}..{100 * max(values):.1f} %" if values else "none"

@@ -1,4 +1,4 @@
-"""Phrases of answers: what names a macro action, how long it takes, how surely it is."""
+"""Phrases of answers that stand for macro actions, times and probabilities."""
 
 import re
 from functools import cache
@@ -36,13 +36,16 @@ ADVERBS = {
     "perhaps": (0.45, 0.65), "possibly": (0.15, 0.45), "": (0.99, 1.0),
 }  # fmt: skip
 ADVERB = rf"(?:(?P<adverb>{'|'.join(one for one in ADVERBS if one)}) )?"
-SLACK = 0.02  # of a probability, and of a time [s], at the bounds of what rounding leaves open
+SLACK = 0.02  # tolerance beyond rounding: of times [s], and of percentages and probabilities
 COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
           "eleven", "twelve")  # fmt: skip
 
 
 def acts(text: str) -> list[frozenset[Action]]:
-    """Find the macro actions that a phrase names, in order; moving back undoes a lane change."""
+    """Return the sets of macro actions that a phrase may mean, in order.
+
+    Moving back undoes a lane change.
+    """
     text = re.sub(r"\b(\w+ (?:left|right)) after (going straight on)", r"\2 and \1", text)
     found = [(m.start(), kinds) for p, kinds in ACTS for m in re.finditer(p, text, re.IGNORECASE)]
     found.sort(key=lambda one: one[0])
@@ -54,12 +57,12 @@ def acts(text: str) -> list[frozenset[Action]]:
 
 
 def count(word: str) -> int:
-    """Read a number that is spelt out or in digits, "a" being one."""
+    """Return the value of a number that is spelt out or in digits; "a" is one."""
     return 1 if word in ("a", "an") else COUNTS.index(word) if word in COUNTS else int(word)
 
 
 def is_time(told: str, value: float) -> bool:
-    """Tell whether a time told [s] is what a value [s] is rounded to: 3, 2.5 or half a second."""
+    """Check whether a stated time is a value [s] rounded, such as 3, 2.5 or half a second."""
     if told == "some time":
         return True
     if told.startswith("less"):
@@ -73,7 +76,7 @@ def is_time(told: str, value: float) -> bool:
 
 
 def is_chance(match: re.Match[str], value: float, group: str = "chance") -> bool:
-    """Tell whether a percentage told, in words such as "under 1 %", is that of a probability."""
+    """Check whether a stated percentage, such as "under 1 %", is that of a probability."""
     told = match[group].removesuffix(" %")
     if told.startswith("under "):
         return 100.0 * value < float(told.removeprefix("under ")) + 0.5
@@ -83,18 +86,18 @@ def is_chance(match: re.Match[str], value: float, group: str = "chance") -> bool
 
 
 def is_likely(adverb: str | None, value: float) -> bool:
-    """Tell whether an adverb is the word for a probability; without one it is next to certain."""
+    """Check whether an adverb fits a probability; None means next to certain."""
     low, high = ADVERBS[adverb or ""]
     return low - SLACK <= value <= high + SLACK
 
 
 def trusted(value: float, outcome: Outcome = "collision") -> float:
-    """Return what may be told of an outcome with a probability among rollouts.
+    """Return the probability of an outcome that an answer may state, given that among rollouts.
 
-    In a share of foils that was bounded by measurement the model of the rollouts is wrong; then
-    each outcome comes as often as it did then, or, where that is not recorded, as often as the
-    others. Both are recorded with the ranges that answers give. Where roads lead is no guess, and
-    told as the rollouts have it.
+    The rollouts' model is wrong for a share of foils, for which measurement gave a bound. In these
+    cases each outcome has its measured frequency, or if that is not recorded, all outcomes are
+    equally frequent. Both are recorded with the ranges that answers give. Where roads lead is
+    certain, so that outcome is stated as the rollouts have it.
     """
     known = _ranges()
     error, shares = float(known["model_error"]), known.get("unforeseen") or {}

@@ -1,7 +1,8 @@
-"""What a recorded decision says of plans, by its rollouts and the weights of the reward alone.
+"""Values of plans in a recorded decision, from its rollouts and the reward's weights alone.
 
-It shares no code with causal, explain or nlg. Situations that were never drawn make any mean over
-a plan an estimate; all three common estimators are had, and a figure told must agree with one.
+It shares no code with causal, explain or nlg. Since some situations were never drawn, any mean
+over a plan is an estimate. There are three common estimators, and a stated figure must agree with
+one of them.
 """
 
 import math
@@ -30,25 +31,25 @@ Estimator: TypeAlias = Literal["prior", "shared", "even"]
 
 ESTIMATORS: tuple[Estimator, ...] = ("prior", "shared", "even")
 COMFORT: tuple[Comfort, ...] = ("jerk", "angular-acceleration", "curvature")
-#: The reward as it is documented, for traces that do not record what it counts.
+#: The reward as documented, for traces that do not record their own.
 DOCUMENTED = Costs(
     {"time": 1.0, "jerk": 0.05, "angular-acceleration": 4.0, "curvature": 20.0},
     {"collision": 200.0, "dead": 150.0, "termination": 10.0},
     {"stop": 2.0, "change-left": 1.0, "change-right": 1.0},
 )
 OUTCOMES: dict[Outcome, Term] = {"collision": "collision", "dead": "dead", "termination": "late"}
-HIDDEN = "hidden {}"  # who might come unseen, by the index in the trace
-SUPPORT = 0.5  # of the best-known continuation's prior mass that one must have to be a candidate
+HIDDEN = "hidden {}"  # name of a phantom, by its index in the trace
+SUPPORT = 0.5  # least prior mass of a candidate, relative to the continuation with the most
 
 
 @dataclass(frozen=True)
 class Side:
-    """A plan followed to its end: its drives, one per distinct situation, with their weights."""
+    """A plan followed to its end: one rollout per distinct situation, with weights."""
 
     plan: Actions
     drives: tuple[tuple[Rollout, float], ...]  # weights sum to 1
     mass: float  # prior mass of the situations behind it
-    costs: Costs  # by which it was reckoned
+    costs: Costs  # of the reward
 
     @property
     def value(self) -> float:
@@ -56,7 +57,7 @@ class Side:
         return sum(weight * drive.reward for drive, weight in self.drives)
 
     def chance(self, outcome: Outcome, struck: tuple[int, ...] = ()) -> float:
-        """Return the probability of an outcome; of a collision, with one of those struck."""
+        """Return the probability of an outcome; `struck` limits whom a collision is with."""
         return sum(
             weight
             for drive, weight in self.drives
@@ -64,7 +65,7 @@ class Side:
         )
 
     def mean(self, component: Component) -> float | None:
-        """Return the mean time [s], or the mean cost [s] of a discomfort, of drives that arrive."""
+        """Return the mean time or the mean cost of a component [s], over rollouts that arrive."""
         weights = self.costs.weights
         known = [
             (weight, time if component == "time" else weights[component] * value * time)
@@ -77,18 +78,18 @@ class Side:
 
     @property
     def effort(self) -> float:
-        """Return the mean effort [s] that the actions of the drives cost by themselves."""
+        """Return the mean effort [s]: what the actions of the rollouts cost by themselves."""
         return sum(weight * self.effort_of(drive) for drive, weight in self.drives)
 
     def effort_of(self, drive: Rollout) -> float:
-        """Return what the actions of a drive cost by themselves [s]."""
+        """Return what the actions of a rollout cost by themselves [s]."""
         return sum(self.costs.effort.get(step.action, 0.0) for step in drive.actions)
 
 
 def recorded(fact: Side, foil: Side) -> dict[Term, float] | None:
-    """Take the advantage [s] of a plan over a foil apart as the drives have it recorded.
+    """Return the advantage [s] of a plan over a foil by term, as the rollouts record it.
 
-    None where a drive records no terms, as in traces of before they were.
+    None if a rollout records no terms, as in old traces.
     """
     if not all(drive.terms for side in (fact, foil) for drive, _ in side.drives):
         return None
@@ -105,10 +106,10 @@ def _recorded(side: Side, term: RewardTerm) -> float:
 
 
 def gains(fact: Side, foil: Side) -> dict[Term, float]:
-    """Take the advantage [s] of a plan over a foil apart into what one may be told of it.
+    """Return the advantage [s] of a plan over a foil by the terms that answers state.
 
-    An outcome other than arrival counts by how much more often the foil has it, times what it
-    costs beyond a drive that arrives; time and comfort by the drives that arrive on both sides.
+    An outcome other than arrival counts as the difference of its probabilities, times its cost
+    beyond that of a rollout that arrives. Time and comfort are those of rollouts that arrive.
     """
     arrives = min(fact.chance("done"), foil.chance("done"))
     found: dict[Term, float] = {"effort": foil.effort - fact.effort}
@@ -123,7 +124,7 @@ def gains(fact: Side, foil: Side) -> dict[Term, float]:
 
 
 def _usual(fact: Side, foil: Side) -> float:
-    """Return the mean cost [s] of the drives that arrive, on the first side that has some."""
+    """Return the mean cost [s] of the rollouts that arrive, on the first side that has some."""
     for side in (fact, foil):
         known = [
             (weight, -drive.reward) for drive, weight in side.drives if drive.outcome == "done"
@@ -143,14 +144,14 @@ def _excess(side: Side, outcome: Outcome, usual: float) -> float:
 
 
 def joint(drive: Rollout) -> Joint:
-    """Return the situation of a drive: what each vehicle does, how lights go, who comes unseen."""
+    """Return the situation of a rollout: samples of vehicles, traffic lights and phantoms."""
     others = sorted((s.vehicle, s.goal, s.trajectory) for s in drive.samples)
     hidden = sorted((HIDDEN.format(s.phantom), int(s.comes)) for s in drive.phantoms)
     return (*others, *sorted((s.controller, s.course) for s in drive.lights), *hidden)
 
 
 class Reckoning:
-    """One recorded decision, with its rollouts by the actions that they pass through."""
+    """One recorded decision, with its rollouts by the actions that they take."""
 
     def __init__(self, trace: PlanTrace) -> None:
         self.trace = trace
@@ -166,14 +167,14 @@ class Reckoning:
         return tuple(dict.fromkeys(r.actions[0].action for r in self.trace.rollouts if r.actions))
 
     def chosen(self) -> list[Side]:
-        """Return the plan as far as it was tried, by each estimator."""
+        """Return the plan, as far as it was tried, by each estimator."""
         for length in range(len(self.plan), 0, -1):
             if found := self.sides(self.plan[:length]):
                 return found
         return []
 
     def sides(self, prefix: Actions) -> list[Side]:
-        """Return a plan with its best continuation, by each estimator; none where not tried."""
+        """Return a plan with its best continuation, by each estimator; [] if not tried."""
         found: list[Side] = []
         for how in ESTIMATORS:
             plans = [plan for plan in self._ended if plan[: len(prefix)] == prefix]
@@ -186,7 +187,7 @@ class Reckoning:
         return found
 
     def paired(self, fact: Side, foil: Side) -> tuple[Side, Side] | None:
-        """Return both sides in the situations that were tried with both, by their prior."""
+        """Return both sides limited to the situations tried with both, weighted by their prior."""
         here = {joint(drive): drive for drive, _ in fact.drives}
         there = {joint(drive): drive for drive, _ in foil.drives}
         both = {key: self._prior(key) for key in here if key in there}
@@ -200,7 +201,7 @@ class Reckoning:
 
     @cached_property
     def situations(self) -> int:
-        """Count the distinct situations that were simulated."""
+        """Return the number of distinct situations that were simulated."""
         return len({joint(drive) for drive in self.trace.rollouts})
 
     @cached_property
@@ -245,7 +246,7 @@ class Reckoning:
         return math.prod(self._chances[one] for one in key)
 
     def _follow(self, plan: Actions, how: Estimator) -> Side | None:
-        """Follow a plan; at each depth the mass of what goes on is shared among what is known."""
+        """Follow a plan; share the mass that continues at each depth among known situations."""
         if self._reached[plan].keys() - self._ended[plan].keys():
             return None
         drives: list[tuple[Rollout, float]] = []
@@ -265,7 +266,10 @@ class Reckoning:
     def _shares(
         self, drawn: Mapping[Joint, int], mass: float, how: Estimator
     ) -> dict[Joint, float]:
-        """Share a mass among drawn situations: by prior, by Horvitz and Thompson, or by draws."""
+        """Share a mass among drawn situations by an estimator.
+
+        The estimators are by prior, by draws ("even"), and that of Horvitz and Thompson.
+        """
         draws = sum(drawn.values())
         if how == "even":
             return {key: mass * n / draws for key, n in drawn.items()}
@@ -282,6 +286,6 @@ class Reckoning:
 
 
 def _missed(prior: float, draws: int) -> float:
-    """Return the mass of undrawn situations for which a drawn one of that prior stands."""
+    """Return the mass of undrawn situations that a drawn one of this prior represents."""
     gone = (1.0 - min(prior, 1.0)) ** draws
     return prior * gone / (1.0 - gone) if gone < 1.0 else 0.0

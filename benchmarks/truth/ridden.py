@@ -1,4 +1,4 @@
-"""A ride as it was seen and decided: what statements are checked against.
+"""A ride as it was seen and decided, for checks of statements.
 
 It shares no code with explain or nlg. SI units; times are simulation seconds.
 """
@@ -17,12 +17,12 @@ from sim.scene import EGO, Point, VehicleState
 from xavi_dialogue.vehicle.episode import Moment, clock
 
 BRAKING = -0.5  # [m/s2]
-BREAK = 1.0  # [s] between two brakings that are stated as one
+BREAK = 1.0  # [s] greatest gap between brakings that count as one
 
 
 @dataclass(frozen=True)
 class Ridden:
-    """All moments of a ride, those after a question among them."""
+    """All moments of a ride, including those after a question."""
 
     moments: Sequence[Moment]
     times: Sequence[float]
@@ -33,7 +33,7 @@ class Ridden:
         return max(0, bisect_right(self.times, time + 1e-6) - 1)
 
     def state(self, vehicle: int, time: float) -> VehicleState | None:
-        """Return a vehicle as seen at a time; None out of view."""
+        """Return a vehicle as seen at a time [s]; None if it is out of view."""
         return self.moments[self.index(time)].scene.vehicles.get(vehicle)
 
     def span(self, start: float, end: float) -> list[float]:
@@ -42,7 +42,7 @@ class Ridden:
         return [time for time in inside if start - 0.11 <= time]
 
     def known(self, until: float) -> dict[int, VehicleState]:
-        """Everybody seen up to a time, as seen last."""
+        """Return all vehicles seen up to a time [s], each as last seen."""
         found: dict[int, VehicleState] = {}
         for moment in self.moments[: self.index(until) + 1]:
             found.update(moment.scene.vehicles)
@@ -55,17 +55,20 @@ class Ridden:
         return before[-1:] + within
 
     def place(self, vehicle: int, time: float) -> RoadPlace | None:
-        """Return where a vehicle is on the road by the decision in force."""
+        """Return the place of a vehicle on the road, by the decision in force."""
         trace = self.decided(time, time)[-1]
         return None if trace.road is None else trace.road.places.get(vehicle)
 
     def gap(self, one: int, other: int, time: float) -> float | None:
-        """Return the distance [m] between two bodies; None where one is out of view."""
+        """Return the distance [m] between two vehicles; None if one is out of view."""
         a, b = self.state(one, time), self.state(other, time)
         return None if a is None or b is None else apart(a, b)
 
     def offset(self, eye: int, other: int, time: float) -> tuple[float, float, float] | None:
-        """Centre of `other` ahead and left [m] of `eye`, and its relative heading [rad]."""
+        """Return how far [m] the centre of `other` is ahead and to the left of that of `eye`.
+
+        The third value is its relative heading [rad]. None if one is out of view.
+        """
         a, b = self.state(eye, time), self.state(other, time)
         if a is None or b is None:
             return None
@@ -92,7 +95,7 @@ class Ridden:
         return [(start, end) for start, end in found if end - start > 0.15]
 
     def turned(self, vehicle: int, start: float, end: float) -> float:
-        """Return how far [rad] the heading goes to and fro within an interval."""
+        """Return the range [rad] of a vehicle's heading within an interval."""
         states = [self.state(vehicle, time) for time in self.span(start, end)]
         seen = [state.heading for state in states if state is not None]
         turns = [math.remainder(b - a, math.tau) for a, b in pairwise(seen)]

@@ -1,4 +1,4 @@
-"""Whether an answer tells enough: reasons that carry the decision, risks, where it aims."""
+"""Checks of whether an answer is sufficient: reasons that outweigh others, risks, waypoint."""
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -11,7 +11,7 @@ from benchmarks.truth.reckoning import Actions, Term
 
 Check: TypeAlias = Literal["sign", "number", "reason", "risk", "waypoint"]
 CHECKS: tuple[Check, ...] = ("sign", "number", "reason", "risk", "waypoint")
-#: What kinds of faults say that a figure is wrong; those of `sufficient` name their check.
+#: The kinds of faults that mean a wrong figure.
 NUMBERS = frozenset({
     "arrival", "belief", "change of speed", "chance now", "chance then", "closest", "count",
     "delay", "distance", "distance driven", "effort of a foil", "highest speed", "limit",
@@ -22,8 +22,8 @@ NUMBERS = frozenset({
 SIGN = frozenset({"terms told favour the foil", "plan worse than the foil", "another foil",
                   "not close", "not better", "gain denied"})  # fmt: skip
 STEERING: frozenset[Term] = frozenset({"angular-acceleration", "curvature"})
-RISK = 0.01  # probability of a collision from which it has to be said
-EPSILON = 0.005  # [s] of a difference that is none
+RISK = 0.01  # least probability of a collision that an answer must state
+EPSILON = 0.005  # [s] greatest difference that counts as none
 RISKY = re.compile(r"\b(?:collision|collide\w*|crash\w*|hit)\b")
 ARRIVES = re.compile(r"\b(?:get|got|be|been|take|taken|arrive) (?:us )?there\b|destination")
 WAY = re.compile(r"way to (?:our|the) destination")
@@ -43,12 +43,12 @@ def check_of(fault: Fault) -> Check:
 
 
 def insufficient(text: str, told: Sequence[Told], decision: Decision) -> Iterator[Fault]:
-    """Yield what an answer to a question of reasons lacks.
+    """Yield what an answer to a question about reasons lacks.
 
     Args:
         text: of the answer.
-        told: what it tells of foils.
-        decision: that it is about, with the foil that was asked about.
+        told: its statements about foils.
+        decision: the decision that it is about, with the foil that was asked about.
     """
     did_that = DONE.search(text) is not None
     if decision.asked and not did_that and decision.plan[: len(decision.asked)] == decision.asked:
@@ -93,7 +93,7 @@ def _sign(
 def _meant(
     terms: Sequence[Term | Literal["close", "better"]], gain: Mapping[Term, float]
 ) -> set[Term]:
-    """The terms told; of steering, which is two in the reward, both where they go together."""
+    """Return the terms stated; steering stands for two if both have the same sign."""
     named = {term for term in gain if term in terms}
     if named & STEERING and gain["angular-acceleration"] * gain["curvature"] > 0.0:
         named |= STEERING
@@ -101,7 +101,7 @@ def _meant(
 
 
 def _no_term(decision: Decision) -> Iterator[Fault]:
-    """Check whether the plan is better, where the answer names only what was in the way."""
+    """Check that the plan is better, if the answer names only what was in the way."""
     whole = decision.values(decision.asked)
     if whole and max(whole) < -EPSILON:
         yield Fault("plan worse than the foil", f"{seconds(whole)} over {_named(decision.asked)}")
@@ -118,7 +118,7 @@ def _risks(text: str, foils: Sequence[Actions], decision: Decision) -> Iterator[
 
 
 def _same(asked: Actions, told: Actions) -> bool:
-    """Check whether two foils are one, but for going straight on at a junction or away from one."""
+    """Check whether two foils are the same, with or without a junction for going straight on."""
     straight = {"continue", "exit-straight"}
     return asked[-1] in told or bool({asked[-1], told[-1]} <= straight)
 

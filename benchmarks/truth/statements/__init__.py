@@ -1,1 +1,1 @@
-"""Statements of answers, by what they are about: what to check of each, by its wording."""
+"""Checks of the statements in answers, by subject; each is found by its wording."""

@@ -1,4 +1,4 @@
-"""Statements of who made us, and of what was expected of them when it was decided."""
+"""Statements about the vehicles that we acted for, and what was expected of them then."""
 
 import re
 from collections.abc import Iterator
@@ -12,16 +12,16 @@ from benchmarks.truth.statements.chances import chances
 from planner.record.trace import Action, HeldUp, PlanTrace
 from sim.scene import EGO
 
-STALE = 0.10  # probability by which a belief that is stated as held now may have changed
-SLOWS = 0.4  # [m/s] by which who slows down gets slower, at least
-NEAR = 1.5  # [s] about a time told in which something seen then counts
+STALE = 0.10  # greatest change of probability of a belief that is stated as held now
+SLOWS = 0.4  # [m/s] least loss of speed of a vehicle that slows down
+NEAR = 1.5  # [s] around a stated time, within which something seen counts
 WINDOW = 12.0  # [s] before a question about the past in which a reason may lie
 PERCENT = r"\((?P<chance>(?:under |over )?\d+ %)\)"
 NUMBER = rf"(?:{'|'.join(COUNTS[1:])}|\d+)"
 
 
 def window(said: Said, past: bool) -> tuple[float, float]:
-    """Return the interval [s] that a reason may be of: about the decision, or now."""
+    """Return the interval [s] that a reason may be from: from the decision on, up to now."""
     start = said.now if said.decision is None else said.decision.trace.sim_time
     if past:
         return min(start, said.now - WINDOW), said.now
@@ -29,7 +29,7 @@ def window(said: Said, past: bool) -> tuple[float, float]:
 
 
 def traces(said: Said, past: bool) -> list[PlanTrace]:
-    """Return the decisions that a reason may be of."""
+    """Return the decisions that a reason may be from."""
     return said.ride.decided(*window(said, past))
 
 
@@ -41,7 +41,7 @@ def traces(said: Said, past: bool) -> list[PlanTrace]:
     rf" (?P<act>[^(;.]*?)(?: {PERCENT}|(?=[;.,:])|$)",
 )
 def belief(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check a belief against that of the time told, and whether it still holds where it should."""
+    """Check a belief against that at the stated time, and whether it holds now if so stated."""
     decision = said.decision
     kinds = acts(match["act"])
     if decision is None:
@@ -63,7 +63,7 @@ def belief(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 
 def _old(decision: Decision) -> bool:
-    """Check whether a decision is more than one older than that in force."""
+    """Check whether a decision is older than the one before the decision in force."""
     return decision.before is not None and decision.trace.sim_time < decision.before.sim_time
 
 
@@ -75,7 +75,7 @@ def _nearest_named(said: Said, match: re.Match[str]) -> tuple[int, ...]:
 def _slows(
     said: Said, match: re.Match[str], decision: Decision, named: tuple[int, ...]
 ) -> Iterator[Fault]:
-    """Check that a vehicle that is expected to be slow is so in the drives that it holds up."""
+    """Check that a vehicle that is expected to be slow is so in the rollouts that it holds up."""
     told = re.search(r"(?:down to|at|to) about (\d+) km/h|from \d+ to (\d+) km/h", match["act"])
     stops = re.search(r"\bstop ahead of us", match["act"])
     joins = re.search(r"\bmove in ahead of us", match["act"])
@@ -94,7 +94,7 @@ def _slows(
 
 
 def held_up(decision: Decision) -> list[HeldUp]:
-    """Return who held us up in the drives of a decision, in all that was planned."""
+    """Return the hold-ups in all rollouts of a decision, and of plans made again from it."""
     return [h for record in decision.records for r in record.trace.rollouts for h in r.held_up]
 
 
@@ -103,7 +103,7 @@ def held_up(decision: Decision) -> list[HeldUp]:
     r"(?P<how>slowing down|standing still|about (?P<far>[\d.]+) metres? away)"
 )
 def yielded_to_none(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that one who goes first was far, slow or standing when we went."""
+    """Check that a vehicle with priority was far, slow or standing when we went."""
     who, span = said.who(match["who"]), window(said, True)
     yield from _priority(said, match[0], who, "vehicle")
     states = [s for v in who for t in said.ride.span(*span) if (s := said.ride.state(v, t))]
@@ -132,7 +132,7 @@ def gives_way_to_us(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"had let (?P<who>V\d+) go first",
 )
 def goes_first(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that another goes first: by the roads, or in what was simulated."""
+    """Check that another vehicle goes first, by the roads or in the rollouts."""
     yield from _priority(said, match[0], said.who(match["who"]), "vehicle")
 
 
@@ -164,7 +164,7 @@ def nobody_first(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?:ahead of us|in that lane)"
 )
 def slows_ahead(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that one slows down ahead: as seen, or in the drives that it holds up."""
+    """Check that a vehicle slows down ahead, as seen or in the rollouts that it holds up."""
     who = said.who(match["who"])
     held = [] if said.decision is None else [h for h in held_up(said.decision) if h.vehicle in who]
     if match["how"] == "moving in":
@@ -184,7 +184,7 @@ def slows_ahead(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?P<who>V\d+) (?P<be>is|was) (?:standing )?in our way")
 def in_the_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that one who was in our way held us up in some drive of the time told."""
+    """Check that a vehicle in our way held us up in some rollout around the stated time."""
     who = said.who(match["who"])
     known = traces(said, match["be"] == "was")
     held = {h.vehicle for t in known for r in t.rollouts for h in r.held_up}
@@ -194,7 +194,7 @@ def in_the_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"I know of nobody who (?:is|was) in our way")
 def nobody_in_the_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that nobody holds us up in any drive that was simulated of what was chosen."""
+    """Check that the plan has a rollout in which nobody holds us up."""
     if said.decision is None:
         return
     drives = [drive for side in said.decision.drives() for drive, weight in side.drives]
@@ -205,7 +205,7 @@ def nobody_in_the_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"no real alternative (?:now|then)|I (?:have|had) no real alternative")
 def no_alternative(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that nothing else could be done, stopping aside."""
+    """Check that nothing else could be done, except for stopping."""
     if said.decision is not None:
         others = [action for action in said.decision.rivals() if action != "stop"]
         if others:
@@ -217,7 +217,7 @@ def no_alternative(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"the others) around us might do, and chose the best: (?P<chosen>[^.]+)"
 )
 def method(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check how many options and others there were, and that what was chosen did best."""
+    """Check the numbers of options and of other vehicles, and which option was chosen."""
     decision = said.decision
     if decision is None:
         return
@@ -236,7 +236,7 @@ def method(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 
 def _meant(kinds: list[frozenset[Action]], decision: Decision) -> Iterator[Actions]:
-    """Yield the plan's own actions where each is one that the phrase may mean."""
+    """Yield the plan's first actions if they are those that the phrase may mean."""
     plan = decision.plan
     if len(plan) >= len(kinds) and all(a in k for a, k in zip(plan, kinds, strict=False)):
         yield plan[: len(kinds)]

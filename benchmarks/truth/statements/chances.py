@@ -1,4 +1,4 @@
-"""Statements of chances, and of the risk of a collision of what was or might have been done."""
+"""Statements about chances, and about the risk of collision of the plan or of a foil."""
 
 import math
 import re
@@ -12,7 +12,7 @@ CHANCE = r"(?P<under>under |over )?(?P<chance>\d+) %"
 
 
 def chances(trace: PlanTrace, vehicle: int, kinds: frozenset[str]) -> Iterator[float]:
-    """What a prediction gives a vehicle to act so [%], by goal, by way, and by first action."""
+    """Yield the predicted chances [%] that a vehicle acts in such a way: by goal and by actions."""
     for known in trace.predictions:
         if known.vehicle == vehicle:
             ways = [(g, w) for g in known.goals for w in g.trajectories]
@@ -29,7 +29,7 @@ def chances(trace: PlanTrace, vehicle: int, kinds: frozenset[str]) -> Iterator[f
 
 
 def told_as(match: re.Match[str], value: float, off: float = 1.1) -> bool:
-    """Tell whether a percentage told is that of a value [%]."""
+    """Check whether a stated percentage is that of a value [%]."""
     told = float(match["chance"])
     if match["under"] == "under ":
         return value < told + 0.5
@@ -43,10 +43,10 @@ def told_as(match: re.Match[str], value: float, off: float = 1.1) -> bool:
     rf"(?: right| left| straight on| to the \w+ lane)?) \({CHANCE}\)"
 )
 def expected(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Whether a vehicle is, or was, expected to act so with that chance."""
+    """Check that a vehicle is, or was, expected to act in this way with the stated chance."""
     kinds = acts(match["act"])
     if said.decision is not None:
-        return  # `blames` has it, by that decision
+        return  # `blames` checks it by that decision
     if not kinds or re.search(r"collision|collide", said.text):
         return
     past = bool(re.search(r"\b(expected|thought|would|was a chance|was possible)\b", said.text))
@@ -60,7 +60,7 @@ def expected(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(rf"chance that (?P<who>V\d+|it) (?:will|would) (?P<act>[^;:.]*?) (?:at|is|was) {CHANCE}")
 def chance_put(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check a chance that is put on what a vehicle will do."""
+    """Check the stated chance of what a vehicle will do."""
     kinds = acts(match["act"])
     if not kinds or re.search(r"\b(not|that|let|pull|cut)\b", match["act"]):
         return
@@ -76,7 +76,7 @@ def _few(values: list[float]) -> str:
 
 
 def risks(trace: PlanTrace, kinds: frozenset[str], struck: tuple[int, ...]) -> list[float]:
-    """Return how many [%] of the drives beginning so collide, all and with the vehicles named."""
+    """Return the shares [%] of rollouts with such actions that collide, by ways to count them."""
     found: list[float] = []
     first = [r for r in trace.rollouts if r.actions and r.actions[0].action in kinds]
     later = [r for r in trace.rollouts if kinds & {step.action for step in r.actions}]
@@ -93,7 +93,7 @@ def risks(trace: PlanTrace, kinds: frozenset[str], struck: tuple[int, ...]) -> l
 
 
 def _weighted(trace: PlanTrace, drives: list[Rollout]) -> float:
-    """The share [%] of collisions, each situation weighted with how probable it was predicted."""
+    """Return the share [%] of collisions, with situations weighted by predicted probability."""
     known = {p.vehicle: p.goals for p in trace.predictions}
     weights: dict[tuple[Sample, ...], float] = {}
     hits: dict[tuple[Sample, ...], list[bool]] = {}
@@ -117,9 +117,9 @@ def _as_planned(trace: PlanTrace) -> list[Rollout]:
     r"risk of a collision(?: with (?P<who>V\d+|it))?"
 )
 def risk_of_option(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check the risk of an option, by the drives of the decisions about that time."""
+    """Check the risk of an option by the rollouts of the decisions around that time."""
     if said.decision is not None:
-        return  # `consequences` has it, by that decision
+        return  # `hazards` checks it by that decision
     foil = re.split(r"because|though|, but", match["foil"])[-1]
     kinds = acts(foil)
     if not kinds:
@@ -155,7 +155,7 @@ def _risk(
     r" for what I (?P<be>did|do)\b"
 )
 def risk_of_plan(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check the risk of what was done, by the drives of the decisions about that time."""
+    """Check the risk of what was done by the rollouts of the decisions around that time."""
     if said.decision is not None:
         return
     past = match["be"] == "did"

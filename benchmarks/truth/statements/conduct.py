@@ -1,4 +1,4 @@
-"""Statements of giving way, lanes, manoeuvres and delays."""
+"""Statements about giving way, lanes, manoeuvres and delays."""
 
 import re
 from collections.abc import Iterator
@@ -13,7 +13,7 @@ from sim.scene import EGO
     r" (?P<whom>V\d+|us|it)\b"
 )
 def gives_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Whether one gives way: slow or braking, with the other near and not past."""
+    """Check that a vehicle gives way: slow or braking, with the other near and not past."""
     span = said.when(match["be"] == "was")
 
     def yields(vehicle: int, time: float) -> bool:
@@ -28,7 +28,7 @@ def gives_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 
 def _party(said: Said, vehicle: int, other: int, time: float) -> bool:
-    """Check whether another is near and still before the way of a vehicle."""
+    """Check whether another vehicle is ahead of a vehicle and near, and has not passed."""
     seen, theirs = said.ride.offset(vehicle, other, time), said.ride.offset(other, vehicle, time)
     if seen is None or theirs is None:
         return False
@@ -49,7 +49,7 @@ def we_wait(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"ready to give way(?: to (?P<whom>V\d+|it))?(?: that came from the \w+)? ?(?:at|to) ")
 def ready_to_give_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Whether a junction with a duty to give way was near."""
+    """Check that a junction with a duty to give way was near."""
     past = "had to" in said.text
     start, end = said.when(past)
 
@@ -68,7 +68,7 @@ def ready_to_give_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?P<who>V\d+) ha(?P<be>s|d) right of way, so I ha(?:ve|d) to give way",
 )
 def right_of_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check who goes first by the roads."""
+    """Check the statement of who goes first, by the roads."""
     first = "ego" if "yes" in match.groupdict() else "vehicle"
     past = "had" in match[0]
     traces = said.ride.decided(0.0 if past else said.now, said.now)
@@ -116,7 +116,7 @@ MANOEUVRES = {"moved to the left": "change-left", "moved to the right": "change-
 
 @claim(r"I (?P<did>moved to the left|moved to the right)(?: lane)?(?P<rest>[^.;]*)")
 def lane_change(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that we changed lanes so."""
+    """Check that we made the stated manoeuvre."""
     action, at = MANOEUVRES[match["did"]], said.told(match["rest"])
     start, end = (0.0, said.now) if at is None else (at[0] - 6.0, at[1] + 6.0)
     done = [e for e in said.ride.events if e.action == action and start <= e.sim_time <= end]
@@ -126,7 +126,7 @@ def lane_change(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"I (?P<did>braked|stopped)(?: hard)?(?P<rest> at \d+:\d\d| about [\w. ]+? seconds? ago)")
 def braked_at(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that we braked or stood at the time told."""
+    """Check that we braked or stood at the stated time."""
     at = said.told(match["rest"])
     if at is None:
         return
@@ -145,7 +145,7 @@ def braked_at(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"[Tt]hat made no difference to the time",
 )
 def delay_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Whether a delay told lies below all the time lost, and is not "none" of a long halt."""
+    """Check that a stated delay is below the time lost, and not "none" after a long halt."""
     lost, stood = 0.0, 0.0
     for a, b in zip(said.ride.span(0.0, said.now), said.ride.span(0.0, said.now)[1:], strict=False):
         state, place = said.ride.state(EGO, a), said.ride.place(EGO, a)
@@ -182,7 +182,7 @@ def nobody(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?:about )?(?P<time>\d+(?:\.\d+)?) seconds?, at (?P<clock>\d+:\d\d)")
 def arrival(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that a clock time fits the time to it."""
+    """Check that the clock time of the arrival fits the time until then."""
     minute, second = match["clock"].split(":")
     at = 60.0 * int(minute) + int(second)
     if not near(at, [said.now + float(match["time"])], 2.6):

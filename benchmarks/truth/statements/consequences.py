@@ -1,4 +1,4 @@
-"""Statements of what a foil would have cost: time, effort, comfort; that it was close."""
+"""Statements about the costs of a foil (time, effort, comfort), and that it was close."""
 
 import re
 from collections.abc import Iterator
@@ -19,9 +19,9 @@ NEEDS = (
     r"(?:(?P<count>a|\w+) (?:more )?(?P<noun>lane change|change|stop)s?(?: of lanes)?(?: more)?"
     r"|the effort)"
 )
-CLOSE = 1.0  # [s] up to which it is fair to say that there is little difference
-ROUND = 5.0  # [s] by which the time that is compared may be rounded
-NOTHING = 0.75  # [s] from which a gain is not nothing
+CLOSE = 1.0  # [s] greatest difference that may be called little
+ROUND = 5.0  # [s] greatest rounding error of the duration that is compared
+NOTHING = 0.75  # [s] from which on a gain is not nothing
 
 
 @claim(
@@ -49,7 +49,7 @@ def time_of_foil(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
 
 
 def _stretch(match: re.Match[str], decision: Decision) -> Iterator[Fault]:
-    """Check whether the drives take about as long as the answer says, and end at a waypoint."""
+    """Check that the rollouts take about as long as the answer says, and aim for a waypoint."""
     if not match["stretch"]:
         return
     known = [time for side in decision.drives() if (time := side.mean("time")) is not None]
@@ -65,7 +65,7 @@ def _stretch(match: re.Match[str], decision: Decision) -> Iterator[Fault]:
     rf"would (?:have )?(?P<how>spare(?:d)?) us {NEEDS}",
 )
 def effort_of_foil(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
-    """Check that a foil takes so many lane changes or stops more, and gains nothing if so told."""
+    """Check how many more lane changes or stops a foil takes, and that it gains nothing if so."""
     found = foil_of(said, match)
     if found is None:
         return
@@ -119,7 +119,7 @@ def close(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
 
 
 def effort_between(decision: Decision, foil: Actions) -> float:
-    """Return how much more effort [s] a foil takes, at most."""
+    """Return the greatest estimate of how much more effort [s] a foil takes."""
     return max((gain["effort"] for gain in decision.gains(foil)), default=0.0)
 
 

@@ -1,4 +1,4 @@
-"""Statements of what was done: manoeuvres, overtaking, going first, how far and fast."""
+"""Statements about actions: manoeuvres, overtaking, going first, distance and speed."""
 
 import math
 import re
@@ -21,14 +21,14 @@ DONE = {
     "turned left": ("exit-left",),
     "left the roundabout": EXITS,
 }
-HARD = -1.5  # [m/s2] a braking that nobody overlooks
-JUST = 3.0  # [s]
-NEARLY = 0.5  # [s] about a decision in which what is told of it was seen
+HARD = -1.5  # [m/s2] acceleration below which braking is obvious
+JUST = 3.0  # [s] before the question that count as "just now"
+NEARLY = 0.5  # [s] around a decision, within which its reasons were seen
 
 
 @claim(rf"I am (?P<how>{'|'.join(DOING)})")
 def under_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Whether the plan in force, or a little before, begins with that."""
+    """Check that the plan in force, or one shortly before, begins with the stated action."""
     action = DOING[match["how"]]
     traces = said.ride.decided(said.now - 1.5, said.now)
     if not any(action in [step.action for step in trace.plan[:2]] for trace in traces):
@@ -39,7 +39,7 @@ def under_way(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(rf"I (?P<how>{'|'.join(DONE)})(?P<rest> at \d+:\d\d| about [\w. ]+? seconds? ago)")
 def turned(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that we turned so at the time told."""
+    """Check that we made the stated turn at the stated time."""
     at = said.told(match["rest"])
     if at is None:
         return
@@ -53,7 +53,7 @@ def turned(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?P<who>I|V\d+) did not (?:brake|slow down)\.")
 def did_not_brake(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that nobody braked hard where it is denied."""
+    """Check that a vehicle did not brake hard, as stated."""
     who = said.who(match["who"])
     span = said.ride.span(said.now - JUST, said.now)
     states = [s for v in who for t in span if (s := said.ride.state(v, t)) is not None]
@@ -113,7 +113,7 @@ def extreme(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"I had to let (?P<who>V\d+) go first")
 def let_go(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Whether it ever had priority, or way was given to it, up to now."""
+    """Check that a vehicle had priority up to now, or that we gave way to it."""
     who = said.who(match["who"])
     gave = [e for e in said.ride.events if e.kind == "gave-way" and e.sim_time <= said.now]
     if any(e.vehicle in who for e in gave):
@@ -154,7 +154,7 @@ def follows(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"[Nn]o, there is no vehicle (?P<where>on our left|on our right|behind us|ahead of us)")
 def nobody_there(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Whether nobody is right beside us, or in our lane behind or ahead."""
+    """Check that nobody is right beside us, or in our lane behind or ahead."""
     for vehicle in said.ride.moments[said.ride.index(said.now)].scene.vehicles:
         seen = said.ride.offset(EGO, vehicle, said.now) if vehicle != EGO else None
         if seen is None:
@@ -178,7 +178,7 @@ def gap_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?P<who>V\d+) is (?P<speed>\d+) km/h (?P<how>faster|slower) than us")
 def faster_by(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check by how much a vehicle is faster or slower than us."""
+    """Check how much faster or slower than us a vehicle is."""
     ours = said.speeds("we", (said.now - 0.15, said.now))
     theirs = said.speeds(match["who"], (said.now - 0.15, said.now))
     sign = 1.0 if match["how"] == "faster" else -1.0
@@ -189,7 +189,7 @@ def faster_by(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?P<who>V\d+) (?:is|was) driving at only (?P<speed>\d+) km/h in that lane")
 def slow_in_that_lane(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that a vehicle is in a lane beside ours, and drives at the speed told."""
+    """Check that a vehicle is in a lane beside ours, and drives at the stated speed."""
     decided = said.now if said.decision is None else said.decision.trace.sim_time
     span = (decided - NEARLY, decided + NEARLY)
 

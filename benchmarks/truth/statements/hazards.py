@@ -1,4 +1,4 @@
-"""Statements of the risk of a collision: of a foil, and of the plan beside it."""
+"""Statements about the risk of a collision, of a foil and of the plan."""
 
 import re
 from collections.abc import Iterator
@@ -60,7 +60,7 @@ def own_risk(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
     rf"we would {ADVERB}(?:have collided|collide){STRUCK}(?: \({PERCENT}\))?",
 )
 def ends_in_a_collision(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
-    """Check that a foil most likely ends in a collision, with that vehicle."""
+    """Check that a foil ends in a collision with the stated probability."""
     found = foil_of(said, match)
     if found is None:
         return

@@ -1,4 +1,4 @@
-"""Statements of speeds, distances, places and standing still."""
+"""Statements about speeds, distances, places and standing still."""
 
 import math
 import re
@@ -14,7 +14,7 @@ FAR = r"(?:about )?(?P<far>\d+(?:\.\d+)?) metres?"
 
 
 def past(match: re.Match[str]) -> bool:
-    """Tell whether a statement is about the past."""
+    """Check whether a statement is about the past."""
     return match["be"] in ("was", "were")
 
 
@@ -34,7 +34,7 @@ def speed_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(rf"{WHO} {BE} driving ahead of us at {SPEED}")
 def sets_the_pace(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Whether who drives ahead, as a reason, is near, in our lane, and not much faster."""
+    """Check that a vehicle ahead, given as a reason, is near and not much faster than us."""
     if "because" not in said.text or not re.search(r"brak|slow|wait|stop|We are dr", said.text):
         return
 
@@ -56,7 +56,7 @@ def sets_the_pace(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     rf"{WHO} (?P<be>braked|sped up) from (?P<low>\d+) to (?P<high>\d+) km/h(?P<rest>[^;.]*)",
 )
 def change_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check a change of speed of anybody."""
+    """Check a vehicle's change of speed."""
     low, high = float(match["low"]), float(match["high"])
     rest = match.groupdict().get("rest") or ""
     if match["be"] in ("is", "are", "am"):
@@ -75,7 +75,7 @@ def change_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?:I am|we are) (?P<how>braking|speeding up) from (?P<low>\d+) to (?P<high>\d+) km/h")
 def own_change(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check our change of speed that is under way."""
+    """Check our present change of speed."""
     found = said.speeds("we", (said.now - 0.15, said.now))
     if not near(float(match["high"]), found):
         yield Fault("speed now", f"{match[0]}: {rounded(found)}")
@@ -139,7 +139,7 @@ def closest_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?P<way> in our way)?"
 )
 def stands(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that a vehicle stands, and in our way if stated."""
+    """Check that a vehicle stands, and that it is in our way if so stated."""
     span = said.when(past(match))
 
     def still(vehicle: int, time: float) -> bool:
@@ -191,7 +191,7 @@ def now_doing(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"\bV(?P<who>\d+)")
 def place_of(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Whether a vehicle is where its description says."""
+    """Check that a vehicle is where its description says."""
     mention = said.mentions[int(match["who"])]
     if mention.place is None or not mention.numbered:
         return
@@ -223,7 +223,7 @@ def place_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?:standing still|doing (?P<ours>\d+) km/h)"
 )
 def faster(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check a yes or no on who is faster, by the speeds told with it."""
+    """Check a yes or no about who is faster, by the speeds stated with it."""
     its, ours = int(match["its"] or 0), int(match["ours"] or 0)
     if (match["yes"] == "Yes") != (its > ours):
         yield Fault("yes and no", match[0])
@@ -234,7 +234,7 @@ def faster(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"and it is (?:only )?about (?P<far>[\d.]+) metres ahead"
 )
 def stopping(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check what we need to stop, and how far it is to there."""
+    """Check the speed from which we have to stop, and the distance to the vehicle."""
     if not near(float(match["speed"]), said.speeds("we", (said.now - 0.15, said.now))):
         yield Fault("speed now", match[0])
     gaps = [g for v in said.last() if (g := said.ride.gap(EGO, v, said.now)) is not None]
@@ -246,7 +246,7 @@ def stopping(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"because the speed limit (?:here )?(?P<be>is|was|allows) (?P<limit>\d+) km/h")
 def at_the_limit(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that a speed limit is why we drive so: that we are about at it."""
+    """Check that a speed limit, given as a reason, is about our speed."""
     ours = said.speeds("we", said.when(past(match)))
     if not near(float(match["limit"]), ours, 5.0):
         yield Fault("limit no reason", f"{match[0]}: {rounded(ours)}")
@@ -264,7 +264,7 @@ def limit_told(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"safe speed")
 def bend(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Whether the road bends where we slow down for it."""
+    """Check that the road bends where we slow down for a bend."""
     ahead = re.search(r"about (\d+) metres ahead", said.text)
     span = said.when("had to" in said.text or "took" in said.text)
     turns = []
@@ -278,7 +278,7 @@ def bend(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"(?P<count>one|two|three|four|five|six|seven|eight|nine|ten|eleven|twelve) vehicles?")
 def count_seen(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Count the vehicles in view."""
+    """Check the number of vehicles in view."""
     if not re.search(r"^I (?:can )?see", said.text):
         return
     visible = len(said.ride.moments[said.ride.index(said.now)].scene.vehicles) - 1

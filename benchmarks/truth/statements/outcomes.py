@@ -1,4 +1,4 @@
-"""Statements of where a foil leads: off the way, too late; and of the way itself."""
+"""Statements about outcomes of a foil (off the way, too late), and about the way."""
 
 import re
 from collections.abc import Iterator
@@ -11,10 +11,10 @@ from benchmarks.truth.reckoning import OUTCOMES, Term
 from planner.record.trace import Action, Outcome
 
 ROADS: tuple[Action, ...] = ("exit-left", "exit-right", "exit-straight", "continue-next-exit")
-LONGER = 1.0  # [s] by which another way is longer
+LONGER = 1.0  # [s] least difference by which another way is longer
 
 
-#: What takes longer than the time that is looked ahead.
+#: Words for taking longer than the planning horizon.
 BEYOND = (
     r"(?:more than (?P<horizon>\d+) seconds (?:to our destination|for the next stretch of our way)"
     r"|longer than the time that I look(?:ed)? ahead)"
@@ -23,7 +23,7 @@ BEYOND = (
 
 @claim(rf"would {ADVERB}(?:have taken|take) us {BEYOND}, and so would")
 def both_late(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that neither foil nor plan is through within the time that is looked ahead."""
+    """Check that neither foil nor plan arrives within the planning horizon."""
     found = foil_of(said, match)
     if found is None:
         return
@@ -43,7 +43,7 @@ def both_late(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?:(?P<horizon>\d+) seconds|the time that I look(?:ed)? ahead)",
 )
 def late(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
-    """Check that a foil is not through within the time that is looked ahead."""
+    """Check that a foil does not arrive within the planning horizon."""
     yield from _outcome(said, match, ("termination",))
     if said.decision is not None:
         yield from _looked(said.decision, match)
@@ -55,7 +55,7 @@ def late(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
     r"more than (?P<seconds>\d+) seconds? (?P<how>quicker)(?P<both>) than my choice",
 )
 def beyond(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
-    """Check which is late, and how long before the end of the time the other one arrives."""
+    """Check which side is late, and how long before the horizon's end the other one arrives."""
     yield from _outcome(said, match, ("termination",))
     found = foil_of(said, match)
     if found is None:
@@ -73,7 +73,7 @@ def beyond(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
 
 
 def _looked(decision: Decision, match: re.Match[str]) -> Iterator[Fault]:
-    """Check how far it is looked ahead."""
+    """Check the stated planning horizon."""
     known = decision.trace.settings.horizon
     if match["horizon"] and abs(float(match["horizon"]) - known) > 0.5:
         yield Fault("time looked ahead", f"{match[0]}: {known:g} s")
@@ -90,7 +90,7 @@ def _looked(decision: Decision, match: re.Match[str]) -> Iterator[Fault]:
     r"that (?:is|was) not the way to our destination(?P<adverb>)",
 )
 def off_the_way(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
-    """Check that a foil leads away from where the decision aims."""
+    """Check that a foil leads off the way to the decision's waypoint."""
     way = "way to" in match[0] or "off our way" in match[0]
     yield from _outcome(said, match, ("dead", "termination") if way else ("dead",))
 
@@ -107,7 +107,7 @@ def _outcome(
     values = [sum(one) for one in zip(*known, strict=True)] + [v for one in known for v in one]
     part = match.groupdict()
     if part.get("both") is not None:
-        return  # it is told which side has more of it, or that the roads have it so: `way_ahead`
+        return  # the sentence states the side with more of it, or is checked by `way_ahead`
     if outcomes == ("termination",):
         values = [trusted(value, "termination") for value in values]
     if part.get("chance"):
@@ -120,7 +120,7 @@ def _outcome(
 
 @claim(r"as we ha(?:ve|d) to (?P<next>[^,;.]*) next")
 def way_ahead(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that the way goes on as told at the next junction, or where the plan leads."""
+    """Check that the way continues as stated at the next junction, or as the plan does."""
     kinds = acts(match["next"])
     if said.decision is None or not kinds:
         return
@@ -148,7 +148,7 @@ def unsure(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
 
 @claim(r"that (?:is|was) the way to our destination")
 def the_way(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
-    """Check that whatever other road was tried leads away, or takes longer."""
+    """Check that every other road that was tried leads off the way, or takes longer."""
     decision = said.decision
     if decision is None:
         return

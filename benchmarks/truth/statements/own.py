@@ -1,4 +1,4 @@
-"""Statements of what we do, plan, did and did not do, as the record has it."""
+"""Statements about what we do, plan, did and did not do."""
 
 import re
 from collections.abc import Iterator
@@ -8,15 +8,15 @@ from benchmarks.truth.phrases import acts
 from planner.record.trace import Action
 from sim.scene import EGO
 
-ABOUT = 6.0  # [s] about a decision in which what it leads to is begun
-FALLEN = 0.3  # [m/s] by which a speed has fallen where one braked
-WINDOW = 25.0  # [s] before a question in which "I braked" may lie
-SLOW = 3.0  # [m/s] at which one waits, at most
+ABOUT = 6.0  # [s] before a decision, from which on other plans count too
+FALLEN = 0.3  # [m/s] least loss of speed by braking
+WINDOW = 25.0  # [s] before a question, within which "I braked" may lie
+SLOW = 3.0  # [m/s] greatest speed that counts as waiting
 CLAUSE = r"(?P<what>[^;:.]*?)(?=, (?:because|but|though|as|and)|[;:.]| because| to | then|$)"
 
 
 def plans(said: Said, before: float = ABOUT) -> list[Action]:
-    """Return what was planned about the decision told of, and what was carried out till now."""
+    """Return the actions planned around the decision and since, and those carried out so far."""
     start = said.now if said.decision is None else said.decision.trace.sim_time
     known = said.ride.decided(min(start, said.now) - before, said.now)
     done = [e.action for e in said.ride.events if e.sim_time <= said.now + 0.1]
@@ -29,7 +29,7 @@ def plans(said: Said, before: float = ABOUT) -> list[Action]:
     rf"^I (?:decided|had decided|had planned) (?P<not>not )?to {CLAUSE}",
 )
 def planned(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that what we do or plan is in the plan, and what we do not is not its next action."""
+    """Check that a stated action is planned, or that a denied one is not the plan's first."""
     kinds = acts(match["what"])
     if not kinds or said.decision is None:
         return
@@ -47,7 +47,7 @@ def planned(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"^I am (?P<what>going)(?= because)",
 )
 def did(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that what we did was planned or carried out by then."""
+    """Check that a stated action was planned or carried out."""
     kinds = acts(match["what"])
     if kinds and not any(action in kinds[0] for action in plans(said)):
         yield Fault("not done", match[0])
@@ -55,7 +55,7 @@ def did(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(rf"^I (?:did|could) not {CLAUSE}", rf"^[Ii]f I (?:had )?{CLAUSE}")
 def not_done(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that what we did not do, or might have done, is not what was decided."""
+    """Check that an action that we did not take is not the one decided on."""
     kinds = acts(match["what"])
     decision = said.decision
     if decision is not None and len(kinds) == 1 and decision.plan[0] in kinds[0]:
@@ -77,7 +77,7 @@ def slowed(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"there was no (?:junction|lane to the \w+|roundabout)[^.;]*", r"my car does not [^.;]*")
 def not_applicable(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that the reason why something could not be done is one that the planner recorded."""
+    """Check that the planner recorded the stated reason why an action was impossible."""
     known = [n.reason for t in said.ride.decided(0.0, said.now) for n in t.not_applicable]
     told = match[0].replace("there was", "there is")
     if not any(told == reason or reason in told for reason in known):
@@ -92,7 +92,7 @@ def not_applicable(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"^At (?P<clock>\d+:\d\d)(?P<ago>), I (?:simulated|decided|put the risk)",
 )
 def decided_when(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check the time at which it was decided."""
+    """Check the time of the decision."""
     if said.decision is None:
         return
     time = said.decision.trace.sim_time

@@ -1,4 +1,4 @@
-"""Statements of what it would have come to without a vehicle, by plans made again so."""
+"""Statements about the decision without a vehicle, checked by plans made again without it."""
 
 import re
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ OTHERS = (
 
 
 def tried(decision: Decision, who: tuple[int, ...]) -> list[PlanTrace]:
-    """Return the plans that were made again without just these vehicles."""
+    """Return the plans that were made again without exactly these vehicles."""
     return [
         trace
         for trace in decision.without
@@ -29,7 +29,7 @@ def tried(decision: Decision, who: tuple[int, ...]) -> list[PlanTrace]:
     r"(?P<who>V\d+) ma(?:kes|de) (?P<how>no difference)",
 )
 def decided_without(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that it was planned again without a vehicle, and had the stated result."""
+    """Check that the decision was planned again without a vehicle, with the stated result."""
     if said.decision is None:
         return
     known = tried(said.decision, said.who(match["who"]))
@@ -46,7 +46,7 @@ def decided_without(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"[Ww]ithout (?P<who>V\d+), (?P<other>V\d+) would (?:be|have been) in our way just as well",
 )
 def another_instead(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that another vehicle holds us up in what was planned without the first."""
+    """Check that another vehicle holds us up in the plan made again without the first."""
     if said.decision is None:
         return
     known = tried(said.decision, said.who(match["who"]))
@@ -59,7 +59,7 @@ def another_instead(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"[Nn]o other vehicle ma(?:kes|de) the difference to that, not even all of them together")
 def nobody_at_all(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that it was planned again without all others, and came to the same."""
+    """Check that the decision was planned again without all others, with the same result."""
     if said.decision is None:
         return
     known = [t for t in said.decision.without if t.what_if and t.what_if.gone]
@@ -76,7 +76,7 @@ def nobody_at_all(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"I would (?:have )?do(?:ne)? (?P<how>otherwise|the same, but with less reason)"
 )
 def several(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that it was planned again without so many vehicles, and had the stated result."""
+    """Check that the decision was planned again without this many vehicles, as stated."""
     if said.decision is None:
         return
     named = re.findall(r"V\d+|it", match["who"] or "")
@@ -95,7 +95,7 @@ def several(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(rf"{OTHERS}(?!, and)")
 def several_unnamed(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that it was planned again without three vehicles or more."""
+    """Check that the decision was planned again without three vehicles or more."""
     if said.decision is None:
         return
     if not any(t.what_if and len(t.what_if.gone) > 2 for t in said.decision.without):
@@ -108,7 +108,7 @@ def several_unnamed(said: Said, match: re.Match[str]) -> Iterator[Fault]:
     r"(?:otherwise|the same, but with less reason)",
 )
 def both(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that it was planned again without one of two vehicles by itself."""
+    """Check that the decision was planned again without one of two vehicles alone."""
     if said.decision is None:
         return
     named = {*said.who(match["who"]), *said.who(match["other"])}
@@ -118,7 +118,7 @@ def both(said: Said, match: re.Match[str]) -> Iterator[Fault]:
 
 @claim(r"[Ee]ither of them would have been enough, (?P<who>V\d+|it) or (?P<other>V\d+|it)")
 def either(said: Said, match: re.Match[str]) -> Iterator[Fault]:
-    """Check that without both of two vehicles it was planned again, and came to something else."""
+    """Check that the decision was planned again without both vehicles, with another result."""
     if said.decision is None:
         return
     pairs = product(said.who(match["who"]), said.who(match["other"]))
