@@ -1,1 +1,1 @@
-"""Causes named, beside rides without them."""
+"""Causes that answers name, compared with rides without these vehicles."""

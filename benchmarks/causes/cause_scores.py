@@ -1,4 +1,4 @@
-"""Scores of the causes named: precision, recall and F1, of an answer and of its rivals."""
+"""Scores of the causes that an answer and its rivals name: precision, recall and F1."""
 
 from collections.abc import Sequence
 
@@ -9,9 +9,9 @@ from benchmarks.figures import Aimed, aimed, at_least, in_columns, targets_table
 from benchmarks.worlds.values import KINDS, Family, Kind
 
 OURS, ALL = "ours", "all"
-NOBODY = 0  # what is named where nobody is; no vehicle but the ego has this name
-F1, LEAD = 0.9, 0.15  # targets: of ours, and above the better rival
-#: How a deed hangs on vehicles, as answers have it, by kind of world.
+NOBODY = 0  # stands for naming nobody; only the ego has this name
+F1, LEAD = 0.9, 0.15  # targets: F1 of our answers, and its lead over the better rival
+#: How an action depends on vehicles, as answers state it, by kind of world.
 TOLD: dict[Kind, tuple[str | None, ...]] = {
     "one": ("one",),
     "distractor": ("one",),
@@ -24,45 +24,45 @@ TOLD: dict[Kind, tuple[str | None, ...]] = {
 
 
 class Case(msgspec.Struct, frozen=True):
-    """One world: who matters, what was asked, and who is named."""
+    """One world, with its true causes, the question, and the causes named."""
 
     seed: int
     kind: Kind
     family: Family
     error: str | None = None  # of a world that failed
-    rejected: int = 0  # worlds drawn before that are not of their kind
-    causes: tuple[int, ...] = ()  # the deed hangs on these
-    others: int = 0  # vehicles that do not matter
+    rejected: int = 0  # worlds drawn before that were not of their kind
+    causes: tuple[int, ...] = ()  # vehicles that the action depends on
+    others: int = 0  # number of vehicles that do not matter
     asked: Deed = "continue"
-    at: float = 0.0  # [s] when it was asked
+    at: float = 0.0  # [s] time of the question
     claims: dict[str, tuple[int, ...]] = {}  # vehicles named, by us and by rivals
-    holds: dict[str, bool] = {}  # the deed vanishes without these, and stays with them alone
-    told: str | None = None  # how the deed hangs on them, by our answer
-    refused: str | None = None  # the reason, where there was no answer
-    seen: bool = True  # those that matter are in the decision that is explained
+    holds: dict[str, bool] = {}  # whether the action vanishes without these, and stays with them
+    told: str | None = None  # how the action depends on them, by our answer
+    refused: str | None = None  # the reason, if there was no answer
+    seen: bool = True  # whether the causes are in the decision that is explained
     replans: int = 0  # plans made again for the answer
-    took: float = 0.0  # [ms] for the answer, those included
+    took: float = 0.0  # [ms] time for the answer, including these plans
 
     @property
     def right(self) -> bool:
-        """Whether just those that matter are named."""
+        """Whether exactly the vehicles that matter are named."""
         return self.error is None and self.refused is None and self.claims[OURS] == self.causes
 
     @property
     def kind_right(self) -> bool:
-        """Whether the answer says rightly how it hangs on them: on one alone as on one."""
+        """Whether the answer states correctly how the action depends on the causes."""
         if self.refused is not None:
             return False
         return self.told in TOLD["one" if len(self.causes) == 1 else self.kind]
 
     @property
     def reproduce(self) -> str:
-        """The command that does it again."""
+        """The command that repeats this world."""
         return f"xavi bench causes --worlds 1 --seed {self.seed} --roads {self.family}"
 
 
 class Score(msgspec.Struct, frozen=True):
-    """How well vehicles are named; of several worlds, their counts are added up."""
+    """How well vehicles are named, with counts summed over worlds."""
 
     precision: float
     recall: float
@@ -78,17 +78,17 @@ class Row(msgspec.Struct, frozen=True):
     failed: int
     refused: int
     scores: dict[str, Score]
-    kind_right: float  # share of worlds in which the answer says how the deed hangs on them
+    kind_right: float  # share of worlds in which the answer states the right kind of dependence
 
 
 class CausesReport(Aimed, frozen=True, kw_only=True):
-    """What the benchmark found."""
+    """The results of the benchmark."""
 
     bench: str
     rows: tuple[Row, ...]
-    rejected: int  # worlds drawn that are not of their kind
-    replans: tuple[int, int]  # for an answer: median, most
-    latency: tuple[float, float]  # [ms] of an answer: median, most
+    rejected: int  # worlds drawn that were not of their kind
+    replans: tuple[int, int]  # for an answer: median, greatest
+    latency: tuple[float, float]  # [ms] of an answer: median, greatest
     cases: tuple[Case, ...]
 
     def table(self) -> str:
@@ -122,7 +122,7 @@ class CausesReport(Aimed, frozen=True, kw_only=True):
 
 
 def report(cases: Sequence[Case]) -> CausesReport:
-    """Put the worlds into numbers."""
+    """Return the scores of worlds."""
     names = list(dict.fromkeys(name for case in cases for name in case.claims))
     rows = [_row(k, [c for c in cases if c.kind == k], names) for k in KINDS]
     rows = [*(row for row in rows if row.worlds), _row(ALL, cases, names)]
@@ -149,9 +149,9 @@ def report(cases: Sequence[Case]) -> CausesReport:
 
 
 def score(cases: Sequence[Case], name: str) -> Score:
-    """Score who is named by us or a rival; naming nobody counts as naming one, of its own kind.
+    """Score the vehicles that we or a rival name; naming nobody counts as one claim.
 
-    A refusal of ours names nobody and is no such claim: it lowers recall alone.
+    A refusal of ours is no claim, so it only lowers recall.
     """
     hits = claimed = due = held = 0
     for case in cases:

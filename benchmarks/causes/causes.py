@@ -1,9 +1,10 @@
-"""`xavi bench causes`: whether those are named without whom the deed vanishes in SUMO.
+"""`xavi bench causes`: whether answers name the vehicles without which the action vanishes in SUMO.
 
-In each world our planner drives; the most marked deed is asked about (see `asking`). Who is a
-cause is found by driving the same world again without vehicles (see `removal`): a world counts
-only where the deed vanishes and stays as its kind has it, else the next one is drawn. The answer
-is scored by the vehicles that it names, and two cheap rivals beside it.
+Our planner drives in each world. The question is about the most marked action (see
+`deed_question`). Causes are found by driving the same world again without vehicles (see
+`removal`). A world counts only if the action vanishes and stays as the kind of world demands;
+otherwise the next one is drawn. The answer is scored by the vehicles that it names, as are two
+simple rivals.
 """
 
 import shutil
@@ -37,10 +38,10 @@ from xavi_dialogue.service.in_process import planner_for
 from xavi_dialogue.vehicle.episode import network_of
 
 EVERY = 5  # worlds between notes on progress
-LATELY = 4.0  # [s] before the moment asked about in which causes must have been seen
-TRIES = 25  # worlds drawn for one seed
+LATELY = 4.0  # [s] before the action, within which causes must have been seen
+TRIES = 25  # greatest number of worlds drawn for one seed
 
-#: Whether the deed vanishes without vehicles of the story; see `removal.agrees` for their order.
+#: Whether the action vanishes without vehicles of the story; see `removal.agrees` for their order.
 EXPECTED: dict[Kind, tuple[bool, ...]] = {
     "one": (True,),
     "both": (True, True, True),
@@ -55,7 +56,7 @@ Task = tuple[int, Family, str | None]
 
 
 class NoWorld(Exception):
-    """None of the worlds that were drawn is of its kind."""
+    """No world that was drawn is of its kind."""
 
 
 def measure(
@@ -69,12 +70,12 @@ def measure(
     """Drive worlds and ask about them.
 
     Args:
-        worlds: how many; the k-th has the seed `seed + k`.
+        worlds: number of worlds; the k-th has the seed `seed + k`.
         seed: of the first.
         family: of roads.
-        jobs: processes side by side.
+        jobs: number of parallel processes.
         keep: folder in which the scenario folders are left; None: they are not kept.
-        note: takes notes on progress.
+        note: is called with notes on progress.
     """
     folder = None if keep is None else str(keep)
     tasks: list[Task] = [(seed + k, family, folder) for k in range(worlds)]
@@ -87,7 +88,7 @@ def measure(
 
 
 def examine(task: Task) -> Case:
-    """Examine one world, by its seed; errors are in the result."""
+    """Examine one world by its seed; errors are part of the result."""
     seed, family, keep = task
     scratch = Path(tempfile.mkdtemp(prefix="xavi-world-"))
     folder = scratch / "world" if keep is None else Path(keep) / f"{kind_of(seed)}-{seed}"
@@ -106,7 +107,7 @@ def examine(task: Task) -> Case:
 
 
 def _examined(world: World, family: Family, scenario: Scenario) -> Case | None:
-    """Return what is asked and answered in a world; None where it is not of its kind."""
+    """Return the case of a world; None if the world is not of its kind."""
     network = network_of(scenario)
     whole = ride(scenario, network)
     alone = ride(without(world, scenario, world.others), network)
@@ -126,13 +127,13 @@ def _examined(world: World, family: Family, scenario: Scenario) -> Case | None:
 
 
 def _are_seen(world: World, whole: Ridden, asked: Question) -> bool:
-    """Tell whether the car sees all planted vehicles in a decision about the deed asked about."""
+    """Check whether a decision shortly before the action shows all planted vehicles."""
     near = [t for t in whole.traces if asked.moment - LATELY <= t.sim_time <= asked.moment]
     return any(all(one in trace.scene for one in world.planted) for trace in near)
 
 
 def _is_of_its_kind(world: World, deeds: Deeds) -> bool:
-    """Tell whether the deed hangs on whom the story has it hang on."""
+    """Check whether the action depends on the vehicles that the story intends."""
     alone = world.kind == "interactive" and len(world.planted) == 1
     kind: Kind = "one" if alone else world.kind
     besides = len(world.idle) if kind == "one" else 0
@@ -141,7 +142,7 @@ def _is_of_its_kind(world: World, deeds: Deeds) -> bool:
 
 
 def _answered(world: World, family: Family, network: Network, whole: Ridden, deeds: Deeds) -> Case:
-    """Ask, and score the answer beside the rivals."""
+    """Ask the question, and return the case with the claims of our answer and of the rivals."""
     asked = deeds.asked
     began = time.perf_counter()
     found, extra = ask(asked, whole, planner_for(network))

@@ -1,9 +1,9 @@
-"""Which deed of a ride is asked about, and the answer: one rule for every ride.
+"""The question about an action of a ride, chosen by one rule for every ride, and its answer.
 
-A lane change comes first, where the ego makes none when it drives the same way alone. Else, of
-the places where its speed had fallen, it is that where it is slowest against its drive alone:
-giving way, where it did so about then; stopping, where it stood; else slowing down. Where
-nothing of all this happened, the foil `continue` is asked about.
+First choice is a lane change that the ego does not make when it drives the same way alone. Second
+is the place where, after its speed had fallen, it is slowest relative to its drive alone: giving
+way if it did so about then, stopping if it stood, else slowing down. If nothing of this happened,
+the question is about the foil `continue`.
 """
 
 from bisect import bisect_left
@@ -34,18 +34,18 @@ Deed: TypeAlias = Literal[
     "change-left", "change-right", "give-way", "stop", "slow-down", "continue"
 ]
 
-SLOWER = 2.0  # [m/s] than alone, from which a deed is marked
-STANDING = 0.3  # [m/s]
-FALLEN = 1.5  # [m/s] from which a speed has fallen ...
-WITHIN = 10.0  # [s] ... and the time in which it has
-ABOUT = (6.0, 2.0)  # [s] before and after the slowest moment in which giving way belongs to it
-LATER = 2.0  # [s] after the slowest moment at which it is asked about
-ROUNDS = 8  # of planning again for one question, at most
+SLOWER = 2.0  # [m/s] least difference to the drive alone for a marked action
+STANDING = 0.3  # [m/s] below which the ego stands
+FALLEN = 1.5  # [m/s] least loss of speed ...
+WITHIN = 10.0  # [s] ... within this time
+ABOUT = (6.0, 2.0)  # [s] before and after the slowest moment, within which giving way counts
+LATER = 2.0  # [s] from the slowest moment to the question
+ROUNDS = 8  # greatest number of rounds of planning again for one question
 
 
 @dataclass(frozen=True, slots=True)
 class Ridden:
-    """A ride by our planner, to its end."""
+    """A complete ride by our planner."""
 
     ending: Ending
     traces: tuple[PlanTrace, ...]
@@ -60,7 +60,7 @@ class Ridden:
         return tuple(event.action for event in carried_out(self.events))
 
     def record(self, now: float) -> Record:
-        """Return what is known at a moment [s]."""
+        """Return the record at a time [s]."""
         traces = tuple(trace for trace in self.traces if trace.sim_time <= now)
         events = tuple(event for event in self.events if event.sim_time <= now)
         return Record(now, traces, events, ended=now >= self.time[-1])
@@ -68,20 +68,20 @@ class Ridden:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """A deed, and when it is asked about."""
+    """An action, and the time of the question about it."""
 
     deed: Deed
     now: float  # [s]
-    usual: bool = False  # it is done alone as well
+    usual: bool = False  # whether the ego also does it when alone
 
     @property
     def moment(self) -> float:
-        """When [s] it is most marked."""
+        """The time [s] at which the action is most marked."""
         return self.now - LATER
 
     @property
     def act(self) -> GroundedAct:
-        """The question as it is meant."""
+        """The question as a grounded act."""
         done = Happens(Doing(self.deed))
         return GroundedAct(Ask(Why(Not(done) if self.deed == "continue" else done)))
 
@@ -91,7 +91,7 @@ def ride(scenario: Scenario, network: Network) -> Ridden:
 
     Raises:
         SimulationError: SUMO is not installed or fails.
-        DriverError: the car cannot be driven on.
+        DriverError: the car cannot go on.
     """
     traces: list[PlanTrace] = []
     events: list[Event] = []
@@ -109,11 +109,11 @@ def ride(scenario: Scenario, network: Network) -> Ridden:
 
 
 def question(ridden: Ridden, alone: Ridden) -> Question:
-    """Return the deed that is most marked, by the rule above.
+    """Return the question about the most marked action, by the rule above.
 
     Args:
         ridden: the ride.
-        alone: that on the same roads without anybody else.
+        alone: the ride on the same roads without others.
     """
     usual = Counter(alone.manoeuvres)
     for event in carried_out(ridden.events):
@@ -133,7 +133,7 @@ def question(ridden: Ridden, alone: Ridden) -> Question:
 
 
 def slowing(ridden: Ridden, alone: Ridden) -> Question | None:
-    """Find where the ego has slowed down most, as it does alone; None where it does not."""
+    """Return the question about where the ego slowed down most; None if it did not clearly."""
     fall = [_lately(ridden, k) - ridden.speed[k] for k in range(len(ridden.speed))]
     inside = bisect_left(ridden.gone, alone.gone[-1])
     most = max(range(1, inside), key=lambda k: round(fall[k], 1), default=0)
@@ -164,7 +164,7 @@ def ask(
 
 
 def decision_of(ridden: Ridden, found: Answer | Refusal, now: float) -> PlanTrace:
-    """Return the decision that an answer rests on; the last one, where it names none."""
+    """Return the decision that an answer rests on; the last one if it names none."""
     evidence = evidence_of((found,))
     named = () if evidence is None else evidence.traces
     known = [trace for trace in ridden.traces if trace.sim_time <= now]
@@ -172,9 +172,9 @@ def decision_of(ridden: Ridden, found: Answer | Refusal, now: float) -> PlanTrac
 
 
 def _slowest(ridden: Ridden, alone: Ridden) -> int | None:
-    """Return the sample at which a ride is slowest against one alone at the same place.
+    """Return the sample at which a ride is slowest relative to the drive alone at that place.
 
-    Only those count at which the speed had fallen before; of equally slow ones the first does.
+    Only samples after a loss of speed count; of equally slow ones the first is taken.
     """
     free = np.interp(ridden.gone, alone.gone, alone.speed)
     loss = np.round(free - np.asarray(ridden.speed), 1)

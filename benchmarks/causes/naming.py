@@ -1,4 +1,4 @@
-"""Who is named: by an answer, and by rivals that count seconds or metres."""
+"""The vehicles named by an answer, and by rivals that compare seconds or metres."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -10,7 +10,7 @@ from xavi_dialogue.domain.evidence import Causation
 
 
 def named_by(found: Answer | Refusal) -> tuple[int, ...]:
-    """List the vehicles that an answer blames: all that it holds as causes."""
+    """Return the vehicles that an answer holds as causes."""
     if isinstance(found, MotionReason):
         named = [cause.vehicle for cause in found.causes if cause.vehicle is not None]
     elif isinstance(found, ChoiceReason):
@@ -24,20 +24,20 @@ def named_by(found: Answer | Refusal) -> tuple[int, ...]:
 
 
 def kind_told(found: Answer | Refusal) -> str | None:
-    """Tell how an answer has the deed hang on vehicles; None: it does not say."""
+    """Return how, by an answer, the action depends on vehicles; None if it does not say."""
     causation = causation_of(found)
     return None if causation is None else causation.kind
 
 
 def causation_of(found: Answer | Refusal) -> Causation | None:
-    """Return what an answer found by planning without vehicles."""
+    """Return the result of planning without vehicles that an answer holds, if any."""
     if isinstance(found, MotionReason):
         return found.causation
     return found.contrast.causation if isinstance(found, ChoiceReason) else None
 
 
 def longest(trace: PlanTrace) -> tuple[int, ...]:
-    """Name the vehicle that holds the ego up for most seconds in the rollouts of a decision."""
+    """Return the vehicle that holds the ego up longest in the rollouts of a decision."""
     seconds: dict[int, float] = {}
     for rollout in trace.rollouts:
         for held in rollout.held_up:
@@ -46,7 +46,7 @@ def longest(trace: PlanTrace) -> tuple[int, ...]:
 
 
 def nearest(trace: PlanTrace) -> tuple[int, ...]:
-    """Name the vehicle nearest to the ego in a decision."""
+    """Return the vehicle nearest to the ego in a decision."""
     here = trace.scene[EGO].position
     others = [vehicle for vehicle in trace.scene if vehicle != EGO]
     return tuple(sorted(others, key=lambda v: math.dist(trace.scene[v].position, here))[:1])

@@ -1,8 +1,8 @@
-"""Whether a deed vanishes in SUMO: the same world driven again by our planner without vehicles.
+"""Whether an action vanishes in SUMO when our planner drives the same world without vehicles.
 
-Driving slowly is compared place by place with driving alone. The deed vanishes where at most some
-of the speed that is lost about the place asked about is still lost; it stays where most of it is.
-What lies between is neither, and such a world is drawn again.
+Driving slowly is compared place by place with driving alone. The question is about some place; the
+action vanishes if only a small share of the speed lost there is still lost, and stays if most of
+it is. Anything between is neither, and such a world is drawn again.
 """
 
 from collections.abc import Callable, Collection
@@ -12,24 +12,24 @@ import numpy as np
 
 from benchmarks.causes.deed_question import Question, Ridden
 
-BEFORE, BEYOND, GRID = 25.0, 60.0, 2.0  # [m] of road about the place asked about, and steps
-VANISHED, STAYED = 0.35, 0.65  # share of the loss up to which, and from which, it is gone or there
-LEAST = 1.0  # [m/s] a loss that is none
+BEFORE, BEYOND, GRID = 25.0, 60.0, 2.0  # [m] of road before and beyond the place, and steps
+VANISHED, STAYED = 0.35, 0.65  # greatest share of the loss for vanishing, least for staying
+LEAST = 1.0  # [m/s] lower bound of the whole ride's loss, by which the share is computed
 
 
 @dataclass
 class Deeds:
-    """A deed of one ride, and rides without some vehicles."""
+    """An action of one ride, and rides without some vehicles."""
 
     asked: Question
     whole: Ridden
     alone: Ridden
     everybody: frozenset[int]
-    drive: Callable[[frozenset[int]], Ridden]  # without these
+    drive: Callable[[frozenset[int]], Ridden]  # drives without these vehicles
     _known: dict[frozenset[int], Ridden] = field(default_factory=dict)
 
     def vanishes(self, gone: Collection[int]) -> bool | None:
-        """Tell whether the deed vanishes without some vehicles; None: neither yes nor no."""
+        """Check whether the action vanishes without some vehicles; None: neither yes nor no."""
         other = self._without(frozenset(gone) & self.everybody)
         deed = self.asked.deed
         if deed in ("change-left", "change-right"):
@@ -41,9 +41,9 @@ class Deeds:
         return share <= VANISHED
 
     def holds(self, named: Collection[int]) -> bool:
-        """Tell whether the deed vanishes without those named, and stays with them alone.
+        """Check whether the action vanishes without those named, and stays with them alone.
 
-        Where nobody is named: whether it stays with nobody there.
+        If nobody is named, check whether it stays with nobody there.
         """
         rest = self.everybody - frozenset(named)
         return (not named or self.vanishes(named) is True) and self.vanishes(rest) is False
@@ -58,9 +58,9 @@ class Deeds:
         return self._known[gone]
 
     def _loss(self, ridden: Ridden) -> float:
-        """Return the most speed [m/s] lost against driving alone about the place asked about.
+        """Return the greatest loss of speed [m/s], relative to driving alone, around the place.
 
-        Where it is asked about what is done alone as well, against the highest speed there.
+        If the ego also acts so when alone, the loss is relative to the highest speed there.
         """
         places = np.arange(self._place - BEFORE, self._place + BEYOND, GRID)
         places = places[(places >= 0.0) & (places <= self.alone.gone[-1])]
@@ -78,14 +78,14 @@ class Deeds:
 def agrees(
     deeds: Deeds, planted: tuple[int, ...], idle: tuple[int, ...], expected: tuple[bool, ...]
 ) -> bool:
-    """Drive until it is clear whether a deed hangs on vehicles as is expected.
+    """Drive until it is clear whether an action depends on vehicles as expected.
 
     Args:
-        deeds: the deed, and its rides.
+        deeds: the action, and its rides.
         planted: the vehicles that are to matter.
-        idle: others in the story.
-        expected: whether the deed vanishes without each idle one, each planted one, and all
-            planted ones where they are several; where there are none, without everybody.
+        idle: other vehicles of the story.
+        expected: whether the action vanishes without each idle vehicle, each planted one, and all
+            planted ones if there are several; if there are none, without everybody.
     """
     rest = deeds.everybody - {*planted, *idle}
     if rest and deeds.vanishes(rest) is not False:

@@ -1,1 +1,1 @@
-"""Driving, beside SUMO's own driver."""
+"""Driving, compared with SUMO's own driver."""

@@ -1,4 +1,4 @@
-"""`xavi bench drive`: how safely and how fast we drive, beside SUMO's own driver."""
+"""`xavi bench drive`: how safely and how fast we drive, compared with SUMO's own driver."""
 
 from collections.abc import Callable, Sequence
 
@@ -21,21 +21,21 @@ from benchmarks.figures import (
 
 WORST = 20
 ARRIVING = 0.98  # target: share of the runs in which SUMO's driver arrives
-TAKING = 1.03  # target: times what SUMO's driver takes, in the mean
-SLOW = 1.05  # times what SUMO's driver takes
+TAKING = 1.03  # target: mean ratio to the time of SUMO's driver
+SLOW = 1.05  # ratio to the time of SUMO's driver from which on a run is slow
 EVERY = 25  # runs between notes on progress
 ALL = "all"
 
 
 class Tally(msgspec.Struct, frozen=True):
-    """The runs of one scenario, or all of them, in numbers."""
+    """Counts of the runs of one scenario, or of all of them."""
 
     scenario: str
     runs: int
-    failed: int  # broke off with an error
+    failed: int  # runs that ended with an error
     collisions: int  # runs in which the ego touched another vehicle
     caused: int  # runs in which it caused that
-    sumo_collisions: int  # the same for SUMO's driver
+    sumo_collisions: int  # runs in which SUMO's driver touched another vehicle
     sumo_caused: int
     avoidable: int  # runs in which the ego collides and SUMO's driver does not
     hard_brakes: int
@@ -44,9 +44,9 @@ class Tally(msgspec.Struct, frozen=True):
     sumo_provoked: int
     reached: int  # runs that reach the goal
     sumo_reached: int
-    reached_share: float | None  # of the runs in which SUMO's driver does; None of none
+    reached_share: float | None  # relative to the runs in which SUMO's driver does; None: none
     both: int  # runs in which both do
-    time_ratio: float | None  # mean of our time over that of SUMO's driver, where both do
+    time_ratio: float | None  # mean ratio of our time to that of SUMO's driver, where both do
     time_ratio_p90: float | None
 
 
@@ -60,14 +60,14 @@ class Bad(msgspec.Struct, frozen=True):
 
 
 class DriveReport(Aimed, frozen=True, kw_only=True):
-    """What the benchmark found."""
+    """The results of the benchmark."""
 
     bench: str
     figures: tuple[Figure, ...]  # decision times
     scenarios: tuple[Tally, ...]
     all: Tally
     worst: tuple[Bad, ...]
-    left_out: tuple[str, ...] = ()  # scenarios that cannot be driven for want of netconvert
+    left_out: tuple[str, ...] = ()  # scenarios that cannot be driven without netconvert
 
     def table(self) -> str:
         """Return the report for people."""
@@ -98,9 +98,9 @@ def measure(
 
     Args:
         scenarios: at least one.
-        runs: how many in all.
-        jobs: processes side by side.
-        note: takes notes on progress.
+        runs: total number.
+        jobs: number of parallel processes.
+        note: is called with notes on progress.
     """
     tasks = spread(scenarios, runs)
     done: list[Run] = []
@@ -112,7 +112,7 @@ def measure(
 
 
 def spread(scenarios: Sequence[str], runs: int) -> list[tuple[str, int]]:
-    """As many (scenario, seed) as runs are wanted, the same number of each, give or take one."""
+    """Return as many pairs of scenario and seed as runs are wanted, spread evenly."""
     each, rest = divmod(runs, len(scenarios))
     return [
         (name, seed)
@@ -122,7 +122,7 @@ def spread(scenarios: Sequence[str], runs: int) -> list[tuple[str, int]]:
 
 
 def report(runs: Sequence[Run]) -> DriveReport:
-    """Return the runs, counted by scenario in the order of their first run."""
+    """Return the results by scenario, in the order of their first run."""
     names = list(dict.fromkeys(run.scenario for run in runs))
     by_name = {name: [run for run in runs if run.scenario == name] for name in names}
     taken = {name: [ms for run in by_name[name] for ms in run.decisions] for name in names}
@@ -145,7 +145,7 @@ def report(runs: Sequence[Run]) -> DriveReport:
 
 
 def tally(name: str, runs: Sequence[Run]) -> Tally:
-    """Some runs in numbers; those that failed count as such alone."""
+    """Count some runs; those that failed are only counted as failed."""
     pairs = [(r.ours, r.sumo) for r in runs if r.ours is not None and r.sumo is not None]
     ours, sumo = [a for a, _ in pairs], [b for _, b in pairs]
     ratios = [a.time / b.time for a, b in pairs if arrived(a) and arrived(b) and b.time > 0.0]
@@ -190,7 +190,7 @@ def worst(runs: Sequence[Run]) -> tuple[Bad, ...]:
 
 
 def _badness(run: Run) -> tuple[int, float, str] | None:
-    """How bad (rank, then the lower the worse) and what happened; None where all went well."""
+    """Return a rank, an order within it (lower is worse), and what happened; None: all well."""
     ours, sumo = run.ours, run.sumo
     if ours is None or sumo is None:
         return 0, 0.0, run.error or "failed"

@@ -1,4 +1,4 @@
-"""Who caused a collision, and who made whom brake: read off scenes alone.
+"""The causes of collisions and hard brakes, determined from scenes alone.
 
 A collision is a moment at which the ego's box overlaps another's. The ego caused it, unless
 
@@ -8,8 +8,8 @@ A collision is a moment at which the ego's box overlaps another's. The ego cause
   had kept its lane: it neither changed lanes, nor stuck out of its lane, nor came from a
   junction where it had to give way.
 
-A hard brake of another vehicle is provoked by the ego where the ego was the nearest vehicle
-ahead of it, within fifty metres and the width of a lane to each side, as it began to brake.
+The ego provokes a hard brake of another vehicle if it is the nearest vehicle ahead of the other,
+within fifty metres and the width of a lane to each side, when the other begins to brake.
 """
 
 import math
@@ -21,9 +21,9 @@ from sim.scene import EGO, Scene, VehicleState
 STANDING = 0.1  # [m/s] below which a vehicle stands
 STOOD = 1.0  # [s] for which it must have stood
 KEPT = 3.0  # [s] for which it must have kept its lane
-ALIGNED = math.pi / 4  # [rad] difference of headings of one that follows
+ALIGNED = math.pi / 4  # [rad] greatest difference of headings of a vehicle that follows
 AHEAD = 50.0  # [m] within which a vehicle can make another brake
-ASIDE = 3.5  # [m] to the side of the other's centreline
+ASIDE = 3.5  # [m] greatest distance to the side of the vehicle that brakes
 EPSILON = 1e-6  # [s]
 
 
@@ -58,7 +58,7 @@ def follows(other: VehicleState, ego: VehicleState) -> bool:
 
 
 def intruded(scenes: Sequence[Scene], network: Network) -> bool:
-    """Check whether the ego came into its lane within the last seconds, or sticks out of it."""
+    """Check whether the ego moved into its lane in the last seconds, or sticks out of it."""
     places = [_place(network, scene.ego) for scene in _since(scenes, KEPT)]
     known = [(network.lanes[place.lane], place) for place in places if place is not None]
     if not known:

@@ -1,4 +1,4 @@
-"""One drive, watched scene by scene: collisions, hard brakes, arrival."""
+"""Observation of one drive, scene by scene: collisions, hard brakes, arrival."""
 
 from collections import deque
 from collections.abc import Iterator
@@ -23,13 +23,13 @@ Ended: TypeAlias = Literal["arrived", "collided", "left", "duration"]  # left: w
 class Hit(msgspec.Struct, frozen=True):
     """A collision of the ego."""
 
-    vehicle: int  # or somebody on foot
+    vehicle: int  # name of the vehicle or person
     time: float  # [s]
-    caused: bool  # by the ego; see `blame`
+    caused: bool  # whether by the ego; see `fault`
 
 
 class Drive(msgspec.Struct, frozen=True):
-    """What came of one drive."""
+    """The results of one drive."""
 
     ended: Ended
     time: float  # [s] when it ended
@@ -45,7 +45,7 @@ class Drive(msgspec.Struct, frozen=True):
 
 @dataclass
 class Observer:
-    """Takes the scenes of a drive, one after the other."""
+    """An observer of a drive, scene by scene."""
 
     network: Network
     goal: Goal
@@ -57,7 +57,7 @@ class Observer:
     _braking: frozenset[int] = frozenset()
 
     def see(self, scene: Scene) -> None:
-        """Take note of one scene."""
+        """Add one scene."""
         braking = frozenset(
             name for name, one in scene.vehicles.items() if one.acceleration < HARD_BRAKE
         )
@@ -74,7 +74,7 @@ class Observer:
             self._recent.popleft()
 
     def drive(self, ended: Ended) -> Drive:
-        """Return what came of the drive that ends with the latest scene."""
+        """Return the results of the drive, which ends with the latest scene."""
         time = self._recent[-1].time
         return Drive(ended, time, tuple(self.hits), self.hard_brakes, self.provoked)
 

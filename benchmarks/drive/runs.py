@@ -1,4 +1,4 @@
-"""Runs: a scenario with a seed, driven twice, by our planner and by SUMO's own driver."""
+"""Runs: a scenario with a seed, driven by our planner and by SUMO's own driver."""
 
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -32,7 +32,7 @@ Result = TypeVar("Result")
 
 
 class Decided(msgspec.Struct, frozen=True):
-    """What one decision took."""
+    """The time of one decision, and the number of others."""
 
     ms: float  # [ms] of wall time
     others: int  # in view
@@ -41,7 +41,7 @@ class Decided(msgspec.Struct, frozen=True):
 class Run(msgspec.Struct, frozen=True):
     """One scenario with one seed."""
 
-    scenario: str  # as it was asked for
+    scenario: str  # name or folder, as given
     seed: int
     ours: Drive | None = None
     sumo: Drive | None = None
@@ -50,12 +50,12 @@ class Run(msgspec.Struct, frozen=True):
 
     @property
     def reproduce(self) -> str:
-        """The command that drives it again."""
+        """The command that repeats the run."""
         return f"xavi drive --scenario {self.scenario} --seed {self.seed}"
 
 
 def run(task: tuple[str, int]) -> Run:
-    """Drive a scenario (name or folder) with a seed; errors are in the result."""
+    """Drive a scenario (name or folder) with a seed; errors are part of the result."""
     name, seed = task
     try:
         warm()
@@ -71,26 +71,27 @@ def run(task: tuple[str, int]) -> Run:
 
 
 def _overlook(_: Scene) -> None:
-    """Take no note of a scene."""
+    """Ignore a scene."""
 
 
 @cache
 def warm() -> None:
-    """Decide once, the first time in a process, so that no decision is timed that compiles."""
+    """Decide once per process, so that compiling is not part of the time of a decision."""
     warm_up(network_of(load(WARMING)))
 
 
 def by_sumo(world: Simulation, scenario: Scenario, network: Network, see: See = _overlook) -> Drive:
-    """Return the scenario with SUMO as driver of the ego; each scene is shown to `see`."""
+    """Drive a scenario with SUMO as driver of the ego; call `see` with each scene."""
     return _driven(world, scenario, network, lambda _: None, see)
 
 
 def by_planner(
     world: Simulation, scenario: Scenario, network: Network, seed: int, see: See = _overlook
 ) -> tuple[Drive, tuple[Decided, ...]]:
-    """Return the scenario with our planner, and what each decision took.
+    """Drive a scenario with our planner; call `see` with each scene.
 
-    Each scene is shown to `see`.
+    Returns:
+        The drive, and the time of each decision.
     """
     goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
     driver = Driver(network, goal, settings_of(scenario), seed)
@@ -115,7 +116,7 @@ def _driven(
     command: Callable[[Scene], Command | None],
     see: See,
 ) -> Drive:
-    """Drive to the goal, a collision, the end of the ego's route, or that of the time."""
+    """Drive until the goal, a collision, the end of the ego's route, or the end of the time."""
     observer = Observer(network, scenario.goal)
     scene = world.scene()
     with suppress(EgoGone):
@@ -141,9 +142,9 @@ def in_processes(
     """Yield the results in the order of the tasks, from processes of their own.
 
     Args:
-        function: of one task; a function of a module.
-        tasks: what to do.
-        jobs: how many processes work side by side.
+        function: works on one task; must be a function of a module.
+        tasks: the tasks.
+        jobs: number of parallel processes.
         died: the result of a task whose process dies.
     """
     rest = list(tasks)
@@ -154,7 +155,7 @@ def in_processes(
                 yield result
                 done += 1
         rest = rest[done:]
-        if rest:  # one of the next few killed its process: the first is tried by itself
+        if rest:  # one of the next few killed its process: the first is tried alone
             try:
                 yield from _pooled(function, rest[:1], 1)
             except BrokenProcessPool:
@@ -172,7 +173,7 @@ def _pooled(
             for future in futures:
                 yield future.result()
         except (KeyboardInterrupt, GeneratorExit):
-            for child in active_children():  # they would carry on with what they have begun
+            for child in active_children():  # they would go on with their tasks
                 child.terminate()
             raise
         finally:

@@ -1,1 +1,1 @@
-"""`xavi bench foreign`: driving on networks from elsewhere, beside SUMO's own driver."""
+"""`xavi bench foreign`: driving on other networks, compared with SUMO's own driver."""

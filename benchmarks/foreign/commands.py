@@ -60,9 +60,9 @@ def foreign(
 
     Args:
         wanted: folders to look in, names of networks, and seeds.
-        files: of results, and a folder for traffic that is made up.
-        jobs: processes side by side.
-        note: takes notes on progress.
+        files: file of results, and folder for traffic that is made up.
+        jobs: number of parallel processes.
+        note: is called with notes on progress.
     """
     from benchmarks.foreign.measure import measure
 

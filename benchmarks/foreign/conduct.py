@@ -1,4 +1,4 @@
-"""How a drive went beyond arrival and brakes: rules, comfort, distance to others, progress."""
+"""The conduct of a drive: rules, comfort, distance to others, progress."""
 
 import math
 from collections.abc import Sequence
@@ -14,23 +14,23 @@ from sim.scene import Scene
 
 
 class Conduct(msgspec.Struct, frozen=True):
-    """What came of one drive, beside `watch.Drive`."""
+    """The results of one drive in addition to `monitor.Drive`."""
 
-    lights: int  # traffic lights passed
-    reds: tuple[float, ...]  # [s] when one was passed on red
-    crossings: int  # driven over with somebody on foot on them
-    violated: tuple[float, ...]  # [s] when that was against the rule
-    limits: tuple[float, ...]  # [s] when a speed limit began to be violated
-    off_road: tuple[float, ...]  # [s] when the ego left the road
+    lights: int  # number of traffic lights passed
+    reds: tuple[float, ...]  # [s] times of passing one on red
+    crossings: int  # number driven over while somebody on foot was there
+    violated: tuple[float, ...]  # [s] times when that was against the rule
+    limits: tuple[float, ...]  # [s] times when violations of a speed limit began
+    off_road: tuple[float, ...]  # [s] times when the ego left the road
     comfort: float  # share of the pieces of the ride within bounds
-    time_to_collision: float  # the same
+    time_to_collision: float  # share of the pieces of the ride within bounds
     travelled: tuple[float, ...]  # [m] at 10 Hz
-    company: float  # others in view, on average
+    company: float  # average number of others in view
 
 
 @dataclass
 class Conducting:
-    """Takes the scenes of a drive, one after the other."""
+    """An observer of a drive, scene by scene."""
 
     network: Network
     step: float  # [s] between scenes
@@ -45,7 +45,7 @@ class Conducting:
         self._rules = Rules(self.network)
 
     def see(self, scene: Scene) -> None:
-        """Take note of one scene."""
+        """Add one scene."""
         self._rules.see(scene)
         if self._last is not None:
             self._way += math.dist(self._last.ego.position, scene.ego.position)
@@ -56,7 +56,7 @@ class Conducting:
         self._count += 1
 
     def conduct(self) -> Conduct:
-        """Return what came of the drive."""
+        """Return the results of the drive."""
         broken, egos = self._rules.broken(), [scene.ego for scene in self._scenes]
         company = sum(len(x.vehicles) + len(x.people) - 1 for x in self._scenes)
         return Conduct(
@@ -77,7 +77,7 @@ class Conducting:
         )
 
     def _off_lane(self) -> Sequence[bool]:
-        """Return whether the ego is in more than one lane or in a junction, scene by scene."""
+        """Return for each scene whether the ego is in more than one lane or in a junction."""
         found = []
         for scene in self._scenes:
             places = self.network.locate(scene.ego.position, scene.ego.heading)

@@ -1,4 +1,4 @@
-"""Driving the rides of `xavi bench foreign`; those driven already are taken from a file."""
+"""The rides of `xavi bench foreign`; those already driven are read from a file."""
 
 from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
@@ -26,17 +26,17 @@ def measure(
     """Drive on the networks in folders.
 
     Args:
-        folders: where to look; none: SUMO's distribution.
+        folders: folders to search; none: SUMO's distribution.
         names: of the sites to drive on; none: all.
         seeds: of the rides on each.
-        results: file of rides, one a line, to which each is added; those in it are not driven.
-        keep: where traffic that is made up stays.
-        jobs: processes side by side.
-        note: takes notes on progress.
+        results: file with one ride per line, which is extended; rides in it are not driven again.
+        keep: folder for traffic that is made up; None: it is not kept.
+        jobs: number of parallel processes.
+        note: is called with notes on progress.
 
     Raises:
         NetconvertMissing: no folder is given, and the distribution is not installed.
-        ForeignUnusable: the file holds something else than rides, or there is no site of a name.
+        ForeignUnusable: the file holds other things than rides, or there is no site of a name.
     """
     found, left_out = _sites(folders or [installed()], names)
     done = {} if results is None else read(results)
@@ -54,10 +54,10 @@ def measure(
 
 
 def read(results: Path) -> dict[tuple[str, int], Ridden]:
-    """Read a file of rides; there are none where there is no file.
+    """Read a file of rides; return none if there is no file.
 
     Raises:
-        ForeignUnusable: it holds something else.
+        ForeignUnusable: it holds other things.
     """
     if not results.exists():
         return {}

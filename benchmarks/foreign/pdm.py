@@ -1,4 +1,4 @@
-"""The score of NAVSIM's predictive driver model, of a whole ride.
+"""The score of NAVSIM's predictive driver model, applied to a whole ride.
 
 Formula, weights and bounds are those of NAVSIM's version 1 (Dauner et al., "NAVSIM: Data-Driven
 Non-Reactive Autonomous Vehicle Simulation and Benchmarking", NeurIPS 2024; docs/metrics.md and
@@ -6,10 +6,10 @@ pdm_scorer.py of github.com/autonomousvision/navsim):
 
     PDMS = NC DAC (5 EP + 5 TTC + 2 C) / 12
 
-There a scene lasts four seconds. Here a ride is cut into pieces of four seconds. NC (no collision
-that the ego caused) and DAC (always on the road) are 0 or 1 for the ride, TTC (time to collision
-within bounds) and C (comfort) are the shares of the pieces that keep to their bounds. EP is the
-progress of the slower driver when the faster one arrives, as a share of the way.
+In NAVSIM a scene lasts four seconds; here a ride is cut into pieces of four seconds. NC (no
+collision that the ego caused) and DAC (always on the road) are 0 or 1 for the ride. TTC (time to
+collision within bounds) and C (comfort) are the shares of the pieces that keep to their bounds. EP
+is the progress of a driver when the faster of two arrives, as a share of the way.
 """
 
 import math
@@ -29,10 +29,10 @@ Array = NDArray[np.float64]
 SAMPLE = 0.1  # [s] between states
 PIECE = 40  # samples of a piece
 WEIGHTS = {"progress": 5.0, "time_to_collision": 5.0, "comfort": 2.0}
-AHEAD = (0, 3, 6, 9)  # samples to which everybody's motion is looked ahead
+AHEAD = (0, 3, 6, 9)  # samples ahead for which everybody's motion is extrapolated
 STOPPED = 5e-3  # [m/s]
-IN_FRONT, BEHIND = math.radians(30.0), math.radians(150.0)  # of a bearing from the ego
-REACH = 30.0  # [m] within which others may be met
+IN_FRONT, BEHIND = math.radians(30.0), math.radians(150.0)  # bounds of bearings from the ego
+REACH = 30.0  # [m] within which the ego may meet others
 REAR = 1.0  # [m] from the rear bumper to the rear axle
 ACCELERATION = (-4.05, 2.40)  # [m/s2] along the heading
 LATERAL = 4.89  # [m/s2]
@@ -41,11 +41,11 @@ JERK, JERK_ALONG = 8.37, 4.13  # [m/s3]
 
 
 def score(*, collided: bool, off_road: bool, parts: dict[str, float]) -> float:
-    """Tell the score from 0 to 1.
+    """Return the score from 0 to 1.
 
     Args:
-        collided: by the ego's fault.
-        off_road: at any time.
+        collided: whether the ego caused a collision.
+        off_road: whether it was off the road at any time.
         parts: `progress`, `time_to_collision` and `comfort`, each from 0 to 1.
     """
     if collided or off_road:
@@ -54,12 +54,13 @@ def score(*, collided: bool, off_road: bool, parts: dict[str, float]) -> float:
 
 
 def progress(own: Sequence[float], other: Sequence[float]) -> float:
-    """Tell how far one driver is when the faster of two arrives, as a share of the way.
+    """Return how far a driver is when the faster of two arrives, as a share of the way.
 
     Args:
-        own: [m] travelled at each sample; the way is what the faster one has travelled in the end.
-        other: the same of the other driver, who began with it. Whoever does not arrive goes
-            on as long as it was watched.
+        own: [m] travelled at each sample; the length of the way is what the faster driver has
+            travelled in the end.
+        other: the same of the other driver, from the same start. For a driver that does not
+            arrive, the samples reach as far as it was observed.
     """
     if not own or not other:
         return 0.0
@@ -69,7 +70,7 @@ def progress(own: Sequence[float], other: Sequence[float]) -> float:
 
 
 def comfortable(speed: Array, acceleration: Array, heading: Array) -> float:
-    """Tell the share of pieces within the bounds of comfort, from states [N] at 10 Hz.
+    """Return the share of pieces within the bounds of comfort, from states [N] at 10 Hz.
 
     Args:
         speed: [m/s]
@@ -84,12 +85,12 @@ def comfortable(speed: Array, acceleration: Array, heading: Array) -> float:
 
 
 def in_time(scenes: Sequence[Scene], off_lane: Sequence[bool]) -> float:
-    """Tell the share of pieces in which nobody would be hit within 0.9 s at the ego's velocity.
+    """Return the share of pieces in which the ego would hit nobody within 0.9 s.
 
     Args:
         scenes: at 10 Hz.
-        off_lane: whether the ego is in more than one lane or in a junction, for each of them.
-            There it matters who is beside it, elsewhere who is before it.
+        off_lane: for each scene, whether the ego is in more than one lane or in a junction. There
+            vehicles beside it matter too, elsewhere only those in front.
     """
     close = [_close(scenes, k, off_lane[k]) for k in range(len(scenes))]
     kept = [not any(close[part]) for part in _pieces(len(scenes))]
@@ -97,7 +98,7 @@ def in_time(scenes: Sequence[Scene], off_lane: Sequence[bool]) -> float:
 
 
 def _pieces(count: int) -> list[slice]:
-    """Pieces of a ride; what is left over belongs to the last."""
+    """Return the pieces of a ride; a remainder belongs to the last one."""
     starts = list(range(0, max(count - PIECE, 0) + 1, PIECE))
     ends = [*starts[1:], count]
     return [slice(a, b) for a, b in zip(starts, ends, strict=True)] if count else []
@@ -154,7 +155,7 @@ def _moved(ego: VehicleState, seconds: float) -> VehicleState:
 
 
 def _matters(ego: VehicleState, other: VehicleState, off_lane: bool) -> bool:
-    """Check whether it is for the ego to keep clear of another."""
+    """Check whether the ego has to keep clear of another vehicle."""
     back = REAR - ego.length
     x = ego.position[0] + back * math.cos(ego.heading)
     y = ego.position[1] + back * math.sin(ego.heading)

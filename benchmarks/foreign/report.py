@@ -1,4 +1,4 @@
-"""What `xavi bench foreign` found, as one object or as tables."""
+"""The results of `xavi bench foreign`, as one object or as tables."""
 
 from collections.abc import Sequence
 
@@ -22,9 +22,9 @@ from benchmarks.foreign.tally import Tally, arrived, tally
 
 ALL = "all"
 WORST = 40
-CROWDS = ((3, 100.0), (12, 300.0), (40, 500.0))  # others in view at most, and [ms] for them
-ARRIVING = 0.98  # of the rides in which SUMO's driver does
-RATIO = 1.03  # of the time that SUMO's driver takes
+CROWDS = ((3, 100.0), (12, 300.0), (40, 500.0))  # greatest number of others, and bound [ms]
+ARRIVING = 0.98  # target: share of the rides in which SUMO's driver arrives
+RATIO = 1.03  # target: ratio to the time that SUMO's driver takes
 SLOW = 1.15
 
 
@@ -38,7 +38,7 @@ class Bad(msgspec.Struct, frozen=True):
 
 
 class ForeignReport(Aimed, frozen=True, kw_only=True):
-    """What the benchmark found."""
+    """The results of the benchmark."""
 
     bench: str = "foreign"
     figures: tuple[Figure, ...]
@@ -114,7 +114,7 @@ def _figures(rides: Sequence[Ridden]) -> tuple[Figure, ...]:
 
 
 def _by_crowd(rides: Sequence[Ridden]) -> dict[int, list[float]]:
-    """Return what decisions took [ms], by how many others there were at most."""
+    """Return the times [ms] of decisions, by the greatest number of others in view."""
     most = [*(most for most, _ in CROWDS), 1000]
     found: dict[int, list[float]] = {bound: [] for bound in most}
     for ride in rides:
@@ -128,7 +128,7 @@ def _p99(times: Sequence[float]) -> float | None:
 
 
 def worst(rides: Sequence[Ridden]) -> tuple[Bad, ...]:
-    """List the rides that went worst, the worst first."""
+    """Return the rides that went worst, the worst first."""
     judged = [(judgement, ride) for ride in rides if (judgement := _badness(ride)) is not None]
     judged.sort(key=lambda pair: (pair[0][0], pair[1].site, pair[1].seed))
     return tuple(
@@ -137,7 +137,7 @@ def worst(rides: Sequence[Ridden]) -> tuple[Bad, ...]:
 
 
 def _badness(ride: Ridden) -> tuple[int, str] | None:
-    """Return how bad (the lower the worse) and what happened; None where all went well."""
+    """Return a rank (lower is worse) and what happened; None if all went well."""
     ours, sumo = ride.ours, ride.sumo
     if ours is None or sumo is None:
         return 0, ride.error or "failed"
@@ -164,7 +164,7 @@ def _badness(ride: Ridden) -> tuple[int, str] | None:
 
 
 def _row(one: Tally) -> list[str]:
-    """Return what we did, and behind a slash what SUMO's driver did."""
+    """Return the cells of a row: our values, and after a slash those of SUMO's driver."""
     a, b = one.ours, one.sumo
     return [
         one.site,

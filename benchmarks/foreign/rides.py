@@ -1,8 +1,8 @@
-"""Rides through the middle of traffic: where the ego begins, and where it wants to go.
+"""Rides in the midst of traffic: the choice of start and destination.
 
-SUMO runs the configuration once without the ego. The way of one of its vehicles is taken over, from
-where it enters an edge to the end of another edge that it reaches half a minute or so later. Of
-all such ways one is drawn among those that lead through the most company.
+SUMO runs the configuration once without the ego. The ego gets the way of one of its vehicles, from
+where that enters an edge to the end of another edge that it reaches about half a minute later. One
+such way is drawn among those with the most vehicles near.
 """
 
 from collections.abc import Iterator, Sequence
@@ -23,12 +23,12 @@ from sim.setup.scenario import ScenarioError, load
 from sim.setup.source import Added
 from sim.setup.survey import Stay, Trail, survey
 
-WATCHED = 240.0  # [s] of a configuration, from its begin
-LASTING = (25.0, 100.0)  # [s] that the vehicle took for the way
-ROOM = 15.0  # [m] the shortest edge to begin or to end on
-CROWDED = 0.25  # share of the ways, those with the most company, among which one is drawn
-ENOUGH = 4  # ways at least that are drawn from
-TRIED = 5  # of them, where SUMO has no way for the ego
+WATCHED = 240.0  # [s] for which a configuration is observed, from its begin
+LASTING = (25.0, 100.0)  # [s] least and greatest duration of a way
+ROOM = 15.0  # [m] least length of the edge to begin or to end on
+CROWDED = 0.25  # share of the ways, with the most vehicles near, among which one is drawn
+ENOUGH = 4  # least number of ways to draw from
+TRIED = 5  # ways that are tried, as SUMO may have none for the ego
 
 
 class NoRide(Exception):
@@ -37,28 +37,28 @@ class NoRide(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Chosen:
-    """A ride."""
+    """A ride that was chosen."""
 
     place: str  # to load it from as a scenario
-    refused: tuple[str, ...]  # why configurations of the site were passed over
+    refused: tuple[str, ...]  # reasons why configurations of the site were skipped
 
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """Where a ride can lead."""
+    """A way that a ride can take."""
 
     begin: float  # [s] of SUMO's clock
     edges: tuple[str, ...]
-    company: float  # vehicles near whoever drove along it, on average
+    company: float  # average number of vehicles near the one that drove along it
 
 
 def ride(site: Site, seed: int, folder: Path) -> Chosen:
     """Choose a ride.
 
     Args:
-        site: where.
+        site: the site.
         seed: of the traffic and of the choice.
-        folder: where traffic that is made up is written.
+        folder: folder for traffic that is made up.
 
     Raises:
         NoRide: the network cannot be read, or no car drives there.
@@ -86,7 +86,7 @@ def ride(site: Site, seed: int, folder: Path) -> Chosen:
 
 
 def _configurations(site: Site, seed: int, folder: Path, reasons: list[str]) -> Iterator[Path]:
-    """Yield the site's own configurations; then one with traffic that is made up."""
+    """Yield the site's own configurations, then one with traffic that is made up."""
     yield from (Path(file) for file in site.configurations)
     net = Path(site.network)
     try:
@@ -131,7 +131,7 @@ def _length(network: Network, edge: str) -> float:
 
 
 def _drawn(ways: Sequence[Way], network: Network, draw: Random) -> list[Way]:
-    """Some of the ways with the most company whose end a car can get to, in the order drawn."""
+    """Draw some of the ways with the most vehicles near whose end a car can reach."""
     ranked = sorted(ways, key=lambda way: (-way.company, way.begin, way.edges))
     pool = ranked[: max(ENOUGH, round(CROWDED * len(ranked)))]
     draw.shuffle(pool)

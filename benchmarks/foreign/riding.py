@@ -1,4 +1,4 @@
-"""One ride of `xavi bench foreign`: by SUMO's own driver, then by our planner in the same seed."""
+"""One ride of `xavi bench foreign`, by SUMO's own driver and by our planner with the same seed."""
 
 import tempfile
 import time
@@ -19,8 +19,8 @@ from sim.setup.scenario import Scenario, load
 from sim.sumo import Simulation
 from xavi_dialogue.vehicle.episode import network_of
 
-LONGEST = 240.0  # [s] of a ride
-PATIENCE = (2.0, 90.0)  # times what SUMO's driver takes, and [s] beyond, that we are watched for
+LONGEST = 240.0  # [s] greatest duration of a ride
+PATIENCE = (2.0, 90.0)  # limit of our time: factor on that of SUMO's driver, and [s] added
 
 
 class Task(msgspec.Struct, frozen=True):
@@ -32,28 +32,28 @@ class Task(msgspec.Struct, frozen=True):
 
 
 class Driven(msgspec.Struct, frozen=True):
-    """What came of one driver."""
+    """The results of one driver."""
 
     drive: Drive
     conduct: Conduct
 
 
 class Ridden(msgspec.Struct, frozen=True):
-    """What came of a ride."""
+    """The results of a ride."""
 
     site: str
     seed: int
     place: str | None = None  # to load it from; None: there is no ride
-    refused: tuple[str, ...] = ()  # configurations that were passed over
+    refused: tuple[str, ...] = ()  # reasons why configurations were skipped
     ours: Driven | None = None
     sumo: Driven | None = None
     error: str | None = None  # of a ride that failed
     decisions: tuple[Decided, ...] = ()
-    start_up: float | None = None  # [s] from the place to the first scene
+    start_up: float | None = None  # [s] from loading the place to the first scene
 
     @property
     def reproduce(self) -> str:
-        """The command that drives it again."""
+        """The command that repeats the ride."""
         if self.place is None:
             return ""
         file, _, wishes = self.place.partition("?")
@@ -61,7 +61,7 @@ class Ridden(msgspec.Struct, frozen=True):
 
 
 def rode(task: Task) -> Ridden:
-    """Choose a ride and drive it; errors are in the result."""
+    """Choose a ride and drive it; errors are part of the result."""
     name, seed = task.site.name, task.seed
     with _folder(task) as folder:
         try:
@@ -79,7 +79,7 @@ def rode(task: Task) -> Ridden:
 
 @contextmanager
 def _folder(task: Task) -> Iterator[Path]:
-    """Yield where traffic that is made up goes."""
+    """Yield the folder for traffic that is made up."""
     part = Path(task.site.name) / str(task.seed)
     if task.keep is not None:
         yield Path(task.keep) / part

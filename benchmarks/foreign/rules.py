@@ -1,13 +1,13 @@
 """Rules of the road that a drive keeps or breaks: traffic lights, crossings, limits, the road.
 
-- A light is passed where the ego's front comes to the end of its lane before a link that the
-  light controls; it is passed on red where it shows red in that step and in the one before.
-- A crossing is violated where the ego's front comes onto it while somebody on foot is there, who
-  may cross by its light, if it has one, and is in the ego's way now or, as they walk, within two
+- A light is passed when the ego's front comes to the end of its lane before a link that the
+  light controls; it is passed on red if it shows red in that step and in the one before.
+- A crossing is violated if the ego's front comes onto it while somebody on foot is there who may
+  cross by its light, if it has one, and who is in the ego's way now or, by walking on, within two
   seconds.
-- A limit is violated where the ego drives 0.5 m/s above it for half a second. Where several
-  lanes may be the ego's, inside a junction, the highest limit counts.
-- The ego is off the road where a corner of its box is on no lane that vehicles may use and in no
+- A limit is violated if the ego drives 0.5 m/s above it for half a second. If the ego may be on
+  any of several lanes, inside a junction, the highest limit counts.
+- The ego is off the road if a corner of its box is on no lane that vehicles may use and in no
   junction.
 """
 
@@ -22,17 +22,17 @@ from sim.roads.network import Crossing, Lane, Link, Location, Network, cumulativ
 from sim.scene import LightState, PersonState, Point, Scene, Signal
 
 RED = (LightState.RED, LightState.RED_AMBER)
-PAST = 0.3  # [m] beyond its line from which a light counts as passed
-SAME = 0.5  # [m] by which lanes that may all be the ego's differ in distance
-OVER = 0.5  # [m/s] above a limit
-HELD = 0.5  # [s] for which that lasts
-MOVING = 0.5  # [m/s] from which the ego does not wait
-BESIDE = 1.0  # [m] between the ego's side and somebody who is in its way
-SOON = 2.0  # [s]
-WALKING = 0.3  # [m/s]
-REACH = 60.0  # [m] from a crossing's middle at most
-SHOULDER = 0.3  # [m] beside a lane that still is the road
-AROUND = 3.0  # [m] around the lanes inside a junction that is the junction
+PAST = 0.3  # [m] beyond its line, from which on a light counts as passed
+SAME = 0.5  # [m] greatest difference of the distances to lanes that may be the ego's
+OVER = 0.5  # [m/s] least excess of speed above a limit
+HELD = 0.5  # [s] least duration of the excess
+MOVING = 0.5  # [m/s] speed from which on the ego does not wait
+BESIDE = 1.0  # [m] from the ego's side, within which somebody is in its way
+SOON = 2.0  # [s] within which somebody who walks on must be in the ego's way
+WALKING = 0.3  # [m/s] least speed towards the ego of somebody who walks on
+REACH = 60.0  # [m] greatest distance from a crossing's middle
+SHOULDER = 0.3  # [m] beside a lane that still belong to the road
+AROUND = 3.0  # [m] around the lanes inside a junction that belong to the junction
 ON_FOOT = frozenset({"pedestrian"})
 
 
@@ -40,17 +40,17 @@ ON_FOOT = frozenset({"pedestrian"})
 class Broken:
     """The times [s] at which rules were broken."""
 
-    lights: int  # that were passed
+    lights: int  # number of lights passed
     reds: tuple[float, ...]
-    crossings: int  # that were driven over while somebody on foot was there
+    crossings: int  # number driven over while somebody on foot was there
     violated: tuple[float, ...]
     limits: tuple[float, ...]
-    off_road: tuple[float, ...]  # when it began
+    off_road: tuple[float, ...]  # when leaving the road
 
 
 @dataclass
 class _Passing:
-    """A lane's end that was passed, before it is known by which link."""
+    """The passing of a lane's end while the link taken is not known yet."""
 
     lane: Lane
     time: float
@@ -59,7 +59,7 @@ class _Passing:
 
 @dataclass
 class Rules:
-    """Takes the scenes of a drive, one after the other."""
+    """An observer of a drive, scene by scene."""
 
     network: Network
     _reds: list[float] = field(default_factory=list)
@@ -68,11 +68,11 @@ class Rules:
     _violated: list[float] = field(default_factory=list)
     _limits: list[float] = field(default_factory=list)
     _off: list[float] = field(default_factory=list)
-    _lane: Lane | None = None  # the last one outside of junctions
+    _lane: Lane | None = None  # the last lane outside of junctions
     _passing: _Passing | None = None
     _red: frozenset[Signal] = frozenset()
     _over: Crossing | None = None
-    _fast: float | None = None  # [s] since when above the limit
+    _fast: float | None = None  # [s] time since which the ego is above the limit
     _was_off: bool = False
 
     def __post_init__(self) -> None:
@@ -80,7 +80,7 @@ class Rules:
         self._middles = np.array(middles).reshape(-1, 2)
 
     def see(self, scene: Scene) -> None:
-        """Take note of one scene."""
+        """Add one scene."""
         places = self._places(scene)
         self._see_light(scene, places)
         self._see_crossing(scene)
@@ -91,7 +91,7 @@ class Rules:
         self._was_off = off
 
     def broken(self) -> Broken:
-        """Return what was broken so far."""
+        """Return the violations so far."""
         waiting = self._passing
         if waiting is not None and self._may_be_red(waiting):
             self._reds.append(waiting.time)
@@ -141,7 +141,7 @@ class Rules:
         return ranked[0][1] if ranked else None
 
     def _may_be_red(self, passing: _Passing) -> bool:
-        """Check whether every link from where the ego went in was red, as the drive ends inside."""
+        """Check whether all links from the ego's lane were red, if the drive ends in a junction."""
         controls = [link.control for link in self.network.links_from(passing.lane.id)]
         return bool(controls) and all(control in passing.red for control in controls)
 
@@ -171,7 +171,7 @@ class Rules:
             self._fast = scene.time
         elif math.isfinite(self._fast) and scene.time - self._fast >= HELD:
             self._limits.append(self._fast)
-            self._fast = math.inf  # counted
+            self._fast = math.inf  # the violation is counted
 
     def _is_off(self, scene: Scene, places: tuple[Location, ...]) -> bool:
         if any(self.network.lanes[x.lane].internal for x in places):
@@ -186,7 +186,7 @@ class Rules:
         return False
 
     def _lanes_at(self, corner: Point) -> Iterator[tuple[Lane, Location]]:
-        """Yield the lanes of vehicles near a place, whichever way they lead."""
+        """Yield the lanes of vehicles near a place, in any direction."""
         for place in self.network.locate(corner, 0.0, 6.0, math.pi):
             yield self.network.lanes[place.lane], place
         for place in self.network.locate_aside(corner, 0.0, 6.0, math.pi):

@@ -1,4 +1,4 @@
-"""Networks found in folders: those of SUMO configurations, SUMO nets, and OpenDRIVE maps."""
+"""A search for networks in folders: SUMO configurations, SUMO nets, and OpenDRIVE maps."""
 
 import hashlib
 import xml.etree.ElementTree as ET
@@ -12,20 +12,20 @@ from sim.setup.configuration import ENDINGS
 
 NETS = (".net.xml", ".net.xml.gz")
 MAPS = (".xodr",)
-NET_OPTIONS = ("net-file", "net", "n")  # as a configuration may name its network
+NET_OPTIONS = ("net-file", "net", "n")  # options by which a configuration may name its network
 VALUES = ("value", "v")
 
 
 class Site(msgspec.Struct, frozen=True):
-    """A network, and the configurations that let others drive there."""
+    """A network, and the configurations with traffic on it."""
 
     name: str
     network: str  # file
-    configurations: tuple[str, ...] = ()  # files; without any that works, traffic is made
+    configurations: tuple[str, ...] = ()  # files; if none works, traffic is made up
 
 
 class LeftOut(msgspec.Struct, frozen=True):
-    """What was found and cannot be driven in."""
+    """A site or configuration that was found and cannot be driven in."""
 
     name: str
     why: str
@@ -44,7 +44,7 @@ def sites(folder: Path) -> tuple[tuple[Site, ...], tuple[LeftOut, ...]]:
     """Find the networks in a folder and those below it, each once, by name.
 
     Returns:
-        The networks, and configurations whose network is not there.
+        The networks, and the configurations whose network is missing.
     """
     folder = folder.resolve()
     used: dict[Path, list[Path]] = {}
@@ -60,7 +60,7 @@ def sites(folder: Path) -> tuple[tuple[Site, ...], tuple[LeftOut, ...]]:
 
 
 def net_of(configuration: Path) -> Path | str:
-    """Return the network that a configuration names, or why there is none."""
+    """Return the network that a configuration names, or the reason why there is none."""
     try:
         root = ET.parse(configuration).getroot()
     except (ET.ParseError, OSError) as error:
@@ -93,14 +93,14 @@ def _files(folder: Path, endings: tuple[str, ...]) -> list[Path]:
 
 
 def _name(file: Path, folder: Path) -> str:
-    """Return the path from the folder on, without its ending."""
+    """Return the path relative to the folder, without its ending."""
     name = str(file.relative_to(folder)) if file.is_relative_to(folder) else file.name
     endings = sorted((*ENDINGS, *NETS, *MAPS), key=len, reverse=True)
     return name.removesuffix(next(x for x in endings if name.endswith(x)))
 
 
 def _short(name: str, names: Iterable[str]) -> str:
-    """Return the last parts of a path that no other ends with."""
+    """Return the shortest end of a path that no other path has."""
     parts = name.split("/")
     for count in range(1, len(parts)):
         end = "/".join(parts[-count:])

@@ -1,4 +1,4 @@
-"""The rides on one network, or on all of them, in numbers."""
+"""Counts of the rides on one network, or on all of them."""
 
 from collections.abc import Sequence
 
@@ -10,21 +10,21 @@ from benchmarks.foreign.riding import Driven, Ridden
 
 
 class Counted(msgspec.Struct, frozen=True):
-    """What one driver did in some rides."""
+    """Counts of what one driver did in some rides."""
 
     arrived: int
     collisions: int  # rides that ended in one
-    caused: int  # by it
+    caused: int  # collisions that it caused
     lights: int  # traffic lights passed
-    reds: int  # of them on red
-    crossings: int  # driven over with somebody on foot on them
-    violated: int  # of them against the rule
+    reds: int  # lights passed on red
+    crossings: int  # driven over while somebody on foot was there
+    violated: int  # crossings driven over against the rule
     limits: int  # times that a speed limit was violated
     off_road: int  # rides in which it left the road
     hard_brakes: int
     provoked: int  # hard brakes of others
     comfort: float | None  # share of the time within bounds
-    score: float | None  # as `pdm` says
+    score: float | None  # see `pdm`
 
 
 class Tally(msgspec.Struct, frozen=True):
@@ -32,13 +32,13 @@ class Tally(msgspec.Struct, frozen=True):
 
     site: str
     rides: int
-    loaded: int  # rides that there were
-    failed: int  # broke off with an error
+    loaded: int  # rides that could be chosen
+    failed: int  # rides that ended with an error
     ours: Counted
     sumo: Counted
     missed: int  # rides in which SUMO's driver arrives and we do not
-    time_ratio: float | None  # our time over SUMO's driver's, all rides together in which both do
-    company: float | None  # others in view, on average
+    time_ratio: float | None  # our total time over that of SUMO's driver, where both arrive
+    company: float | None  # average number of others in view
     decision_p50: float | None  # [ms]
     decision_p99: float | None  # [ms]
     start_up: float | None  # [s] mean
@@ -73,7 +73,7 @@ def arrived(driven: Driven) -> bool:
 
 
 def score(own: Driven, other: Driven) -> float:
-    """Tell the score of one driver beside another in the same ride."""
+    """Return the score of one driver, given another in the same ride."""
     parts = {
         "progress": pdm.progress(own.conduct.travelled, other.conduct.travelled),
         "time_to_collision": own.conduct.time_to_collision,
@@ -84,7 +84,7 @@ def score(own: Driven, other: Driven) -> float:
 
 
 def _counted(pairs: Sequence[tuple[Driven, Driven]]) -> Counted:
-    """Return one driver's doings; the other stands beside it in each pair."""
+    """Return the counts of the first driver of each pair, given the second."""
     drives, conducts = [a.drive for a, _ in pairs], [a.conduct for a, _ in pairs]
     return Counted(
         arrived=sum(arrived(a) for a, _ in pairs),

@@ -1,4 +1,4 @@
-"""Traffic made up for a network that comes without any: SUMO's randomTrips, and a configuration."""
+"""Random traffic for a network that has none: SUMO's randomTrips, and a configuration."""
 
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -7,21 +7,21 @@ from sim.roads.netconvert import ConversionFailed, random_trips
 from sim.roads.netfile import read_network
 from sim.roads.network import Network
 
-CARS = 500.0  # that depart in an hour for each km of lanes
-MOST, LEAST = 2400.0, 400.0  # an hour
-BICYCLES, PEOPLE = 0.1, 0.4  # of them, for each car
-LASTS = 300.0  # [s] for which they depart
+CARS = 500.0  # cars that depart per hour and km of lanes
+MOST, LEAST = 2400.0, 400.0  # bounds of the cars per hour
+BICYCLES, PEOPLE = 0.1, 0.4  # number for each car
+LASTS = 300.0  # [s] during which they depart
 NAME = "foreign"
-SHORTEST = 80.0  # [m] of a trip as the crow flies
+SHORTEST = 80.0  # [m] least length of a trip in a straight line
 
 
 def made_up(net: Path, seed: int, folder: Path) -> Path:
-    """Write a configuration with traffic at random.
+    """Write a configuration with random traffic.
 
     Args:
         net: the .net.xml file.
         seed: of the traffic.
-        folder: where the files go; it need not exist.
+        folder: folder for the files; it need not exist.
 
     Returns:
         The configuration.
@@ -38,7 +38,7 @@ def made_up(net: Path, seed: int, folder: Path) -> Path:
             more = ("--pedestrians",) if kind == "pedestrian" else ("--vehicle-class", kind)
             try:
                 routes.append(_trips(net, folder, name, share * cars, seed, *more))
-            except ConversionFailed:  # too little of the network is theirs for any trip
+            except ConversionFailed:  # the network has too little room for trips of this class
                 continue
     return _configuration(net, folder, routes)
 
@@ -57,7 +57,7 @@ def _kilometres(network: Network) -> float:
 
 
 def _for(network: Network, kind: str) -> bool:
-    """Whether a network has lanes of their own for a class, or crossings for people on foot."""
+    """Check whether a network has separate lanes for a class, and crossings for people on foot."""
     if kind == "pedestrian" and not network.crossings:
         return False
     return any(kind in lane.permits for lane in network.other_lanes.values())

@@ -1,1 +1,1 @@
-"""Reasons told, beside the decisions that they explain."""
+"""Stated reasons, compared with the decisions that they explain."""

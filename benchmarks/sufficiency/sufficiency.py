@@ -1,7 +1,7 @@
-"""`xavi bench sufficiency`: whether the reasons told carry the decision, figure by figure.
+"""`xavi bench sufficiency`: whether stated reasons justify the decision, figure by figure.
 
-An independent reader (see `truth`) holds the text of answers against the record of the decision.
-Beside our figure stands a rival that gives the reason of another decision of the same ride.
+An independent reader (see `truth`) checks the text of answers against the record of the decision.
+A rival, which gives the reason of another decision of the same ride, is measured for comparison.
 """
 
 from collections import Counter
@@ -16,17 +16,17 @@ from benchmarks.sufficiency.sufficiency_judging import Judged, Read, read
 from benchmarks.truth.sufficient import CHECKS
 
 WORST = 12  # examples that are shown of each check, and sentences that were not understood
-READ = 95.0  # [%] of sentences to be understood
-EASY = 50.0  # [%] of the rival's answers that may pass
+READ = 95.0  # target: least [%] of sentences that are understood
+EASY = 50.0  # target: greatest [%] of the rival's answers that pass
 
 
 class Row(msgspec.Struct, frozen=True):
-    """Answers of one group: how many pass, and how many fail each check."""
+    """The answers of one group, with the numbers that pass and that fail each check."""
 
     group: str
     asked: int
     declined: int
-    answers: int  # the rest, which were judged
+    answers: int  # the others, which were judged
     passed: float | None  # [%] of the answers
     failed: dict[str, int]  # answers by check
     sentences: int
@@ -46,29 +46,29 @@ class Example(msgspec.Struct, frozen=True):
 
 
 class Unread(msgspec.Struct, frozen=True):
-    """A sentence that was not understood, with what of it was not, and how often."""
+    """A sentence that was not understood, with the parts concerned, and how often it occurs."""
 
     text: str
     count: int
 
 
 class SufficiencyReport(Aimed, frozen=True, kw_only=True):
-    """What the benchmark found."""
+    """The results of the benchmark."""
 
     bench: str
     scenarios: tuple[Row, ...]
     kinds: tuple[Row, ...]
     all: Row
     rival: Row
-    same: int  # answers that the rival gives in the very same words, which it is not scored for
-    lone: int  # answers for which it finds no other
+    same: int  # answers of the rival in exactly our words, which are not scored
+    lone: int  # answers for which the rival finds no other
     worst: tuple[Example, ...]
     uncovered: tuple[Unread, ...]
     failed: tuple[str, ...]
-    left_out: tuple[str, ...] = ()  # scenarios that cannot be driven for want of netconvert
+    left_out: tuple[str, ...] = ()  # scenarios that cannot be driven without netconvert
 
     def table(self) -> str:
-        """Lay the report out for people."""
+        """Return the report for people."""
         rows = (*self.scenarios, *self.kinds, self.all, self.rival)
         note = f"of the rival's, {self.same} in the very same words and {self.lone} without another"
         parts = [_table(rows), note + " are left out", targets_table(self.targets)]
@@ -97,9 +97,9 @@ def measure(
         scenarios: at least one.
         seeds: of each.
         every: 1 for each decision of a ride, 2 for every other one, ...
-        jobs: processes side by side.
-        note: takes notes on progress.
-        left_out: scenarios that cannot be driven for want of netconvert.
+        jobs: number of parallel processes.
+        note: is called with notes on progress.
+        left_out: scenarios that cannot be driven without netconvert.
     """
     tasks = [(name, seed, every) for seed in seeds for name in scenarios]
     found: list[Read] = []
@@ -114,7 +114,7 @@ def _died(task: tuple[str, int, int]) -> Read:
 
 
 def report(found: Sequence[Read]) -> SufficiencyReport:
-    """Put the answers that were judged into numbers."""
+    """Return the results over the answers that were judged."""
     ours = [one for ride in found for one in ride.ours]
     names = dict.fromkeys(ride.scenario for ride in found)
     rival = row("rival", [one for ride in found for one in ride.rival])
@@ -164,7 +164,7 @@ def row(group: str, judged: Sequence[Judged]) -> Row:
 
 
 def worst(judged: Sequence[Judged]) -> tuple[Example, ...]:
-    """Choose one example of each way to fail, those that are most frequent first in each check."""
+    """Return one example of each way to fail, the most frequent first in each check."""
     found: dict[tuple[str, str], list[tuple[Judged, str]]] = {}
     for one in judged:
         for wrong in one.wrong:
@@ -182,7 +182,7 @@ def worst(judged: Sequence[Judged]) -> tuple[Example, ...]:
 
 
 def uncovered(judged: Sequence[Judged]) -> tuple[Unread, ...]:
-    """List the sentences that were not understood, the most frequent first."""
+    """Return the sentences that were not understood, the most frequent first."""
     counted = Counter(text for one in judged for text in one.uncovered)
     ranked = sorted(counted.items(), key=lambda pair: (-pair[1], pair[0]))
     return tuple(Unread(text, number) for text, number in ranked)

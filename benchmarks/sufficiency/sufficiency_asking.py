@@ -1,4 +1,4 @@
-"""What `xavi bench sufficiency` asks: questions over plan and foils at recorded decisions."""
+"""The questions of `xavi bench sufficiency`, about plan and foils at recorded decisions."""
 
 from collections.abc import Sequence
 from typing import Literal, TypeAlias
@@ -14,7 +14,7 @@ from xavi_dialogue.vehicle.episode import Moment, clock, network_of, start
 
 Kind: TypeAlias = Literal["why", "why-not", "instead", "what-if", "how"]
 KINDS: tuple[Kind, ...] = ("why", "why-not", "instead", "what-if", "how")
-#: Of each action: its base form, participle, simple past and gerund.
+#: The base form, participle, simple past and gerund of each action.
 WORDS: dict[Action, tuple[str, str, str, str]] = {
     "continue": ("stay in your lane", "stayed in your lane", "stayed in your lane", "driving on"),
     "change-left": ("move to the left lane", "moved to the left lane", "moved to the left lane",
@@ -29,10 +29,10 @@ WORDS: dict[Action, tuple[str, str, str, str]] = {
                            "continued to the next exit", "continuing to the next exit"),
     "stop": ("stop", "stopped", "stopped", "stopping"),
 }  # fmt: skip
-#: Going on, where what was chosen is no change of lanes.
+#: The words for `continue` if the action that was chosen is no lane change.
 AHEAD = ("go straight on", "gone straight on", "went straight on", "going straight on")
-#: With a foil: its kind, and the question over base, participle, past and gerund of the foil,
-#: and base and gerund of the plan's first action.
+#: Questions with a foil: the kind, and the text with base, participle, past and gerund of the
+#: foil, and base and gerund of the plan's first action.
 OF_FOIL: tuple[tuple[Kind, str], ...] = (
     ("why-not", "Why don't you {base}?"),
     ("why-not", "Why did you not {base}?"),
@@ -68,11 +68,11 @@ class Answered(msgspec.Struct, frozen=True):
     text: str
     kind: str  # answer, refusal or clarification
     trace_id: str | None  # of the decision that the answer names
-    again: tuple[PlanTrace, ...] = ()  # plans that were made again so far
+    again: tuple[PlanTrace, ...] = ()  # plans made again so far
 
 
 class Asked(msgspec.Struct, frozen=True):
-    """A ride with all that was asked and answered on it."""
+    """A ride with all questions asked on it, and their answers."""
 
     scenario: str
     seed: int
@@ -81,7 +81,7 @@ class Asked(msgspec.Struct, frozen=True):
 
 
 def questions(trace: PlanTrace) -> list[Put]:
-    """Word the questions about a decision: of its plan, and of each first action not chosen."""
+    """Return the questions about a decision: its plan, and each first action not chosen."""
     plan = trace.plan[0].action
     base, _, _, gerund = WORDS[plan]
     fact = {"fact_base": base, "fact_gerund": gerund}
@@ -97,7 +97,7 @@ def questions(trace: PlanTrace) -> list[Put]:
 
 
 def asked(scenario: str, seed: int, every: int) -> Asked:
-    """Drive a scenario to its end, and ask at every so many of its decisions.
+    """Drive a scenario to its end, and ask at every n-th of its decisions (`every`).
 
     Raises:
         SimulationError: SUMO is not installed or fails.
@@ -111,7 +111,7 @@ def asked(scenario: str, seed: int, every: int) -> Asked:
 
 
 def answers(moments: Sequence[Moment], network: Network, every: int) -> list[Answered]:
-    """Answer the questions at every so many decisions of a ride, each as if it were the first."""
+    """Answer the questions at every n-th decision of a ride, each as if it were the first."""
     conversation = Conversation(make_pipeline(), planner_for(network))
     found: list[Answered] = []
     decisions = 0

@@ -1,4 +1,4 @@
-"""Judging: each answer read beside its decision, and beside it one with another's reason."""
+"""Judging of each answer against its decision, and of a rival with another decision's reason."""
 
 import re
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ FIGURE = re.compile(r"\d+(?:\.\d+)?")
 
 
 class Wrong(msgspec.Struct, frozen=True):
-    """Something that an answer tells wrongly, or leaves out."""
+    """Something that an answer states wrongly, or leaves out."""
 
     check: Check
     kind: str
@@ -27,7 +27,7 @@ class Wrong(msgspec.Struct, frozen=True):
 
 
 class Judged(msgspec.Struct, frozen=True):
-    """An answer, what is wrong with it, and what of it was not understood."""
+    """An answer, with its faults and the sentences that were not understood."""
 
     scenario: str
     seed: int
@@ -42,24 +42,24 @@ class Judged(msgspec.Struct, frozen=True):
 
     @property
     def passed(self) -> bool:
-        """Tell whether nothing is wrong with it."""
+        """Check whether nothing is wrong with the answer."""
         return not self.wrong
 
 
 class Read(msgspec.Struct, frozen=True):
-    """The answers of one ride and those of the rival; or why there are none."""
+    """The answers of one ride and those of the rival, or the reason why there are none."""
 
     scenario: str
     seed: int
     ours: tuple[Judged, ...] = ()
-    rival: tuple[Judged, ...] = ()  # whose text differs from ours
-    same: int = 0  # answers for which another decision has the very same text
-    lone: int = 0  # answers of which no other decision has one to give
+    rival: tuple[Judged, ...] = ()  # those whose text differs from ours
+    same: int = 0  # answers for which the other decision has exactly the same text
+    lone: int = 0  # answers for which no other decision offers one
     error: str | None = None
 
 
 def read(task: tuple[str, int, int]) -> Read:
-    """Judge the answers of one ride; errors are in the result."""
+    """Judge the answers of one ride; errors are part of the result."""
     scenario, seed, every = task
     try:
         return judged(asked(scenario, seed, every))
@@ -68,7 +68,7 @@ def read(task: tuple[str, int, int]) -> Read:
 
 
 def judged(ride: Asked) -> Read:
-    """Judge the answers of a ride, and those that have the reason of another decision."""
+    """Judge the answers of a ride, and the rival's, with the reason of another decision."""
     seen = ridden(ride.moments)
     ours = tuple(_judge(ride, seen, one, one.text) for one in ride.answers)
     rng = Random(f"sufficiency/{ride.scenario}/{ride.seed}")
@@ -88,9 +88,9 @@ def judged(ride: Asked) -> Read:
 
 
 def donor(one: Answered, among: Sequence[Answered], rng: Random) -> Answered | None:
-    """Draw an answer to the same words that tells of another decision of the same ride.
+    """Draw an answer to the same words about another decision of the same ride.
 
-    Where nothing else was asked in the same words, one to the same kind of question is drawn.
+    If there is none, draw one to the same kind of question.
     """
     others = [
         other for other in among
@@ -102,7 +102,7 @@ def donor(one: Answered, among: Sequence[Answered], rng: Random) -> Answered | N
 
 
 def decision_of(seen: Ridden, one: Answered) -> Decision | None:
-    """Find the decision that an answer names, with the plans that were made again from it."""
+    """Return the decision that an answer names, with the plans made again from it."""
     known = [trace for trace in seen.traces if trace.sim_time <= one.at + 1e-6]
     everything = (*known, *one.again)
     named = next((trace for trace in everything if trace.trace_id == one.trace_id), None)
@@ -118,7 +118,7 @@ def decision_of(seen: Ridden, one: Answered) -> Decision | None:
 
 
 def _further(other: PlanTrace, trace: PlanTrace) -> bool:
-    """Check whether a plan made again is the decision as it was, with further rollouts."""
+    """Check whether a plan made again is the same decision with further rollouts only."""
     change = other.what_if
     if change is None or other.sim_time != trace.sim_time:
         return False
@@ -148,7 +148,7 @@ def _judge(ride: Asked, seen: Ridden, one: Answered, text: str) -> Judged:
 
 
 def _shown(sentence: Sentence) -> str:
-    """Return a sentence as a pattern of what was not understood: figures and vehicles left open."""
+    """Return a sentence and its parts not understood, with figures and vehicles left open."""
     text = FIGURE.sub("#", VEHICLE.sub("V", sentence.text))
     rest = "; ".join(FIGURE.sub("#", VEHICLE.sub("V", one)) for one in sentence.unread)
     return f"{text} [{rest or 'all of it'}]"
