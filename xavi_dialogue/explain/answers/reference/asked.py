@@ -1,4 +1,4 @@
-"""Asked: an act in its setting, as every explainer gets it.
+"""Asked: an act in its setting, the input of every explainer.
 
 An explainer is `def name(question: <type of question>, scene: Asked) -> Answer`; it raises
 `Unanswered` with a refusal or with the request to plan again.
@@ -26,19 +26,19 @@ class Asked:
 
     ride: Ride
     world: World
-    span: Span | None  # the part of the ride that it is about; None: tense decides
+    span: Span | None  # the part of the ride that the act is about; None: tense decides
     act: GroundedAct
 
     @property
     def now(self) -> float:
-        """When it was asked [s]."""
+        """The time of the question [s]."""
         return self.ride.now
 
     @property
     def past(self) -> Span | None:
-        """The part of the ride so far that it is about; None where nothing says so.
+        """The part of the ride so far that the act is about; None if nothing says so.
 
-        One that was only inferred and lasts up to now is the present.
+        A part that was only inferred and lasts up to now is the present: None.
         """
         found = when.past(self.span)
         if found is not None and not found.said and found.end >= self.now - when.ROUNDING:
@@ -47,17 +47,17 @@ class Asked:
 
     @property
     def moment(self) -> float:
-        """The instant that it is about [s]: the middle of its span, else now."""
+        """The instant that the act is about [s]: the middle of its span, else now."""
         return when.moment_of(self.span, self.now)
 
     def meets(self, begin: float, end: float | None) -> bool:
-        """Tell whether something from `begin` to `end` [s] lies in the span, at least in part."""
+        """Check whether something from `begin` to `end` [s] overlaps the span."""
         return when.meets(self.span, begin, end)
 
     def pick(self, items: Sequence[Item], bounds: Callable[[Item], when.Bounds]) -> Item | None:
-        """Choose, of what happened, oldest first, the one asked about: the latest that fits.
+        """Choose the one of several items, oldest first, that is asked about: the latest that fits.
 
-        Where the span was only inferred and nothing fits, the nearest to it; None where the
-        passenger said when, and there was nothing then.
+        If nothing fits, it is the nearest to a span that was only inferred, and None if the
+        passenger said when.
         """
         return when.pick(self.span, items, bounds)

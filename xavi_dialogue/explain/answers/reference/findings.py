@@ -1,4 +1,4 @@
-"""Findings: what came of weighing a proposition against the record."""
+"""Findings: the results of checking propositions against the record."""
 
 from dataclasses import dataclass, replace
 
@@ -8,12 +8,12 @@ from xavi_dialogue.domain.answers import Answer, Beliefs, Priority, Verdict
 from xavi_dialogue.domain.facts import Belief, Fact, Gap, Measure
 from xavi_dialogue.domain.terms import Proposition
 
-EXPECTED = 0.5  # probability from which something is expected
+EXPECTED = 0.5  # minimum probability of what is expected
 
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """Whether a proposition holds, and what bears it out, is so instead, or hides it."""
+    """Whether a proposition holds, and what supports it, holds instead, or hides it."""
 
     holds: bool | None
     facts: tuple[Fact, ...] = ()
@@ -21,10 +21,10 @@ class Finding:
     believed: tuple[Belief, ...] = ()
     mistaken: bool = False
     probability: float | None = None
-    answer: Answer | None = None  # one of another type that says it better
+    answer: Answer | None = None  # an answer of another type that fits better
 
     def negated(self) -> "Finding":
-        """Give the finding of the contrary."""
+        """Return the finding for the negated proposition."""
         probability = None if self.probability is None else 1.0 - self.probability
         holds = None if self.holds is None else not self.holds
         answer: Answer | None = self.answer if isinstance(self.answer, Beliefs) else None
@@ -35,7 +35,7 @@ class Finding:
     def verdict(
         self, that: Proposition, *, claim: bool = False, challenge: bool = False
     ) -> Verdict:
-        """Give the finding as an answer."""
+        """Return the finding as an answer."""
         return Verdict(
             that, self.holds, self.facts, self.gap, claim, challenge,
             self.believed, self.mistaken, self.probability,
@@ -43,12 +43,12 @@ class Finding:
 
 
 def unknown(gap: Gap, *facts: Fact) -> Finding:
-    """Say that nothing can be known, for a reason."""
+    """Return the finding that nothing can be known, for a reason."""
     return Finding(None, facts, gap)
 
 
 def expected(probability: float | None, *facts: Fact, believed: tuple[Belief, ...] = ()) -> Finding:
-    """Tell what is still to come, by how probable it is."""
+    """Return the finding about what is still to come, by its probability."""
     if probability is None:
         return Finding(None, facts, "in-future", believed)
     return Finding(probability >= EXPECTED, facts, None, believed, probability=probability)

@@ -1,4 +1,4 @@
-"""Foils: what the ego did not do, as a question names it, and where it could have done it."""
+"""Foils: what the ego did not do, as a question names it, and when it could have done it."""
 
 from typing import Literal
 
@@ -49,7 +49,7 @@ MANOEUVRES = frozenset[ActionName]((*CHANGES, *TURNS, "stop", "overtake", "exit-
 
 
 class Did(Unanswered):
-    """What is asked about is what we did, are doing or plan to do."""
+    """The refusal that what is asked about is what we did, are doing or plan to do."""
 
     def __init__(
         self,
@@ -67,7 +67,7 @@ class Did(Unanswered):
 def foil_at(
     event: Event, scene: Asked, deed: Event | None = None
 ) -> tuple[Premise, tuple[MacroAction, ...]]:
-    """Find the decision at which something could have been done, and what that is to the planner.
+    """Find the decision at which something could have been done, and its macro actions.
 
     Raises:
         Did: it is what was done, or is being done.
@@ -101,10 +101,10 @@ def foil_at(
 
 
 def at_turn(scene: Asked, names: tuple[ActionName, ...], *, past: bool) -> Premise | None:
-    """Find the choice of a turn against which another way is asked about.
+    """Find the choice of a turn for a question about another way.
 
-    About the past that is the last turn made; where none was, and of what is to come, it is the
-    next one planned. None where no other way is asked about, or there is no such turn.
+    For the past it is the last turn made. If there was none, and for what is to come, it is the
+    next one planned. None if the question is not about a way, or there is no such turn.
     """
     if not set(names) <= set(EXITS):
         return None
@@ -127,9 +127,10 @@ def at_turn(scene: Asked, names: tuple[ActionName, ...], *, past: bool) -> Premi
 
 
 def _open_since(scene: Asked, deed: Deed, names: tuple[ActionName, ...]) -> bool:
-    """Tell whether something is asked of a decision after a deed, where no time is said.
+    """Check whether a question without a time is about a decision after an action.
 
-    So it is if it was open after that deed, and is what was done there, or could not be done there.
+    It is, if what it names was possible after the action, and is the action itself, or was not
+    possible in its place.
     """
     if scene.past is not None and scene.past.said:
         return False
@@ -149,9 +150,10 @@ def _is_open(scene: Asked, trace: PlanTrace, names: tuple[ActionName, ...]) -> b
 def _before_stop(
     scene: Asked, trace: PlanTrace, names: tuple[ActionName, ...], node: Actions
 ) -> Actions:
-    """Take the turn that is planned after a stop as asked about in place of that stop.
+    """Return the node before a stop, for a question about the turn that is planned after it.
 
-    The plan itself is no contrast. Another way, or a turn that is not open yet, is asked at `node`.
+    The plan itself is no contrast. For another way, or a turn that is not possible yet, it is
+    `node`.
     """
     turn = planned(trace)[len(node)]
     if "stop" not in node or not any(same(name, turn) for name in names):
@@ -163,9 +165,10 @@ def _before_stop(
 def _at_deed(
     scene: Asked, event: Event, names: tuple[ActionName, ...], *, past: bool
 ) -> Premise | None:
-    """Find the choice of the deed that a question speaks of by what was not done.
+    """Find the choice of the action that a question means by what was not done.
 
-    Retention the lane is what the last change of lanes did not; earlier or later is what was done.
+    Keeping the lane means the last change of lanes. Doing something earlier or later means what
+    was done.
     """
     if event.action == "keep-lane":
         names = CHANGES
@@ -177,7 +180,7 @@ def _at_deed(
 
 
 def earlier_exit(event: Event, scene: Asked) -> tuple[Premise, tuple[MacroAction, ...]] | None:
-    """Find the decision to go past an exit of a roundabout, where that exit is asked about."""
+    """Find the decision to go past an exit of a roundabout, if the question is about that exit."""
     if event.action == "continue-next-exit":  # the exit named is the one that it goes on to
         return None
     named = isinstance(event.object, Exit) and event.object.rank is not None
@@ -195,9 +198,9 @@ def earlier_exit(event: Event, scene: Asked) -> tuple[Premise, tuple[MacroAction
 
 
 def settled(scene: Asked, event: Event) -> tuple[ActionName, ...]:
-    """Name what is asked about, with the side that the record settles where none is said.
+    """Return the names of what is asked about; without a side, the record settles it.
 
-    A turn is the one planned. A foil is to the side that was possible; both where both were.
+    A turn is the one planned. A foil is to the side that was possible, or to both.
     """
     names = names_of(event)
     if names == ("overtake",):
@@ -215,7 +218,7 @@ def settled(scene: Asked, event: Event) -> tuple[ActionName, ...]:
 
 
 def check_undone(scene: Asked, event: Event, names: tuple[ActionName, ...]) -> None:
-    """Decline to say why not, where it is what we did; driving on is not held against it.
+    """Refuse a question why we did not do what we did; driving on does not count.
 
     Raises:
         Did: we did it, or are doing it.
@@ -238,7 +241,7 @@ def check_undone(scene: Asked, event: Event, names: tuple[ActionName, ...]) -> N
 
 
 def check_kept(scene: Asked, event: Event) -> None:
-    """Decline to say why we did not keep our lane, where no change of lanes is done or begun.
+    """Refuse a question why we did not keep our lane, if we did not change lanes.
 
     Raises:
         Did: we keep the lane, or kept it then.
@@ -258,7 +261,7 @@ def check_kept(scene: Asked, event: Event) -> None:
 
 
 def _chosen(scene: Asked, deed: Deed) -> Premise | None:
-    """Find the decision for a deed; None where it is not recorded."""
+    """Find the decision for an action; None if it is not recorded."""
     try:
         return Premise(scene.ride.choice_of(deed), deed)
     except Unanswered:
@@ -268,7 +271,7 @@ def _chosen(scene: Asked, deed: Deed) -> Premise | None:
 def named_foil(
     scene: Asked, instead: Event | None, found: Premise
 ) -> tuple[MacroAction, ...] | None:
-    """Express the contrast that a question draws in what the planner chooses from."""
+    """Return the foil that a question names, in macro actions; None if it names none."""
     if instead is None:
         return None
     names = tuple(name for step in sequence(instead) for name in settled(scene, step)[:1])

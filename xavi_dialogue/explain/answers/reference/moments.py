@@ -21,7 +21,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.causes.vehicles.when import LEEWAY
 
 UNSAID = Unsaid()
-RECENT = 6.0  # [s] before now that "just now" and "then" reach back to where nothing was said
+RECENT = 6.0  # [s] before now to which an indefinite "ago" reaches back
 SHORT = 1.5  # [s] up to which a stretch counts as an instant
 
 
@@ -40,16 +40,16 @@ class Window:
 
     @property
     def middle(self) -> float:
-        """[s] half-way."""
+        """The middle [s]."""
         return (self.begin + self.end) / 2.0
 
     def widened(self, by: float = LEEWAY) -> "Window":
-        """Give the stretch with what lies close by."""
+        """Return the stretch with a margin on both sides."""
         return Window(self.begin - by, self.end + by, self.said)
 
 
 def window(asked: Asked, time: Time = UNSAID, tense: str = "past") -> Window:
-    """Give the stretch that a term is about; where nothing says so, the ride so far or now."""
+    """Return the stretch that a term is about; if nothing says so, the ride so far or now."""
     named = _named(asked, time)
     if named is not None:
         return named
@@ -62,7 +62,7 @@ def window(asked: Asked, time: Time = UNSAID, tense: str = "past") -> Window:
 
 
 def instant(asked: Asked, time: Time = UNSAID, tense: str = "present") -> float:
-    """Give the moment [s] that a term is about: now, where nothing says another."""
+    """Return the moment [s] that a term is about: now, unless something says another."""
     named = _named(asked, time)
     if named is None and asked.past is None:
         return asked.now
@@ -71,7 +71,7 @@ def instant(asked: Asked, time: Time = UNSAID, tense: str = "present") -> float:
 
 
 def is_past(asked: Asked, time: Time, tense: str) -> bool:
-    """Tell whether a term is about what lies behind and not about now."""
+    """Check whether a term is about the past and not about now."""
     named = _named(asked, time)
     found = named if named is not None else (None if asked.past is None else window(asked))
     if found is not None and found.end < asked.now - SHORT:
@@ -80,7 +80,7 @@ def is_past(asked: Asked, time: Time, tense: str) -> bool:
 
 
 def is_ahead(asked: Asked, time: Time, tense: str) -> bool:
-    """Tell whether a term is about what is still to come."""
+    """Check whether a term is about what is still to come."""
     if isinstance(time, Next | Within):
         return True
     if isinstance(time, At | Between) or asked.past is not None:
@@ -89,7 +89,7 @@ def is_ahead(asked: Asked, time: Time, tense: str) -> bool:
 
 
 def was_said(asked: Asked, time: Time) -> bool:
-    """Tell whether the passenger named the time."""
+    """Check whether the passenger named the time."""
     found = _named(asked, time)
     return found is not None or (asked.past is not None and asked.past.said)
 

@@ -1,4 +1,4 @@
-"""Naming: the vehicles that a term stands for, and refusals where there is none of that name."""
+"""Naming: the vehicles that a term stands for, and refusals if there are none of that name."""
 
 from typing import TypeAlias
 
@@ -20,29 +20,29 @@ from xavi_dialogue.domain.vocabulary import Kind
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 
 Somebodies: TypeAlias = tuple[Somebody, ...]
-#: Kinds that passengers mean any vehicle by.
+#: Kinds by which passengers mean any motor vehicle.
 ANY: frozenset[Kind] = frozenset(("vehicle", "car"))
 #: Kinds that nobody calls a car.
 NO_CAR: frozenset[Kind] = frozenset(("pedestrian", "bicycle", "bike", "wheelchair", "scooter"))
 
 
 def number(thing: Thing | None) -> int | None:
-    """Give the number of another vehicle; None for all else."""
+    """Return the number of a vehicle; None for all else."""
     return thing.number if isinstance(thing, Vehicle) else None
 
 
 def is_building(thing: object) -> bool:
-    """Tell whether it is a building, behind which nobody can be seen."""
+    """Check whether a thing is a building, behind which nobody can be seen."""
     return isinstance(thing, Feature) and thing.kind == "building"
 
 
 def is_us(thing: Thing | None) -> bool:
-    """Tell whether it is our car, or whoever sits in it."""
+    """Check whether a thing is our car, or a passenger in it."""
     return isinstance(thing, Ego | Passenger)
 
 
 def somebodies(asked: Asked, thing: Thing | None, at: float) -> Somebodies:
-    """Give the road users that a term stands for at a time [s]; nobody where it is a place.
+    """Return the road users that a term stands for at a time [s]; none for a place.
 
     Raises:
         Unanswered: a vehicle of that number was never seen.
@@ -60,10 +60,10 @@ def somebodies(asked: Asked, thing: Thing | None, at: float) -> Somebodies:
 
 
 def known(asked: Asked, thing: Vehicle, at: float) -> Vehicle:
-    """Give a vehicle that has been seen.
+    """Return a vehicle if it has been seen.
 
     Raises:
-        Unanswered: it has not.
+        Unanswered: it has not been seen.
     """
     if thing.number not in asked.world.vehicles:
         raise Unanswered(NoSuchVehicle(thing, at, looks(asked, asked.world.in_view(at), at)))
@@ -73,7 +73,7 @@ def known(asked: Asked, thing: Vehicle, at: float) -> Vehicle:
 def of_kind(
     asked: Asked, vehicles: tuple[int, ...], kind: Kind, at: float, *, strict: bool = False
 ) -> tuple[int, ...]:
-    """Keep those of a kind; "car" is taken for any motor vehicle unless `strict`."""
+    """Return the vehicles of a kind; "car" means any motor vehicle unless `strict`."""
     if kind == "vehicle":
         return vehicles
     found = ((v, asked.world.look(v, at)) for v in vehicles)
@@ -83,19 +83,19 @@ def of_kind(
 
 
 def looks(asked: Asked, vehicles: tuple[int, ...], at: float) -> tuple[Look, ...]:
-    """Give the vehicles as they are seen at a time [s], those never seen left out."""
+    """Return the vehicles as they are seen at a time [s], without those never seen."""
     found = (asked.world.look(v, at) for v in vehicles)
     return tuple(look for look in found if look is not None)
 
 
 def look_of(asked: Asked, thing: Thing | None, at: float) -> Look | None:
-    """Tell how a vehicle is seen at a time [s]; None for all else."""
+    """Return a vehicle as it is seen at a time [s]; None for all else."""
     name = number(thing)
     return None if name is None else asked.world.look(name, at)
 
 
 def first_look(asked: Asked, vehicle: int, at: float) -> Look | None:
-    """Give a vehicle at a time [s]; where it had not come into view yet, as it was first seen."""
+    """Return a vehicle as it is seen at a time [s], or first seen if that was later."""
     found = asked.world.look(vehicle, at)
     if found is not None:
         return found
@@ -104,7 +104,7 @@ def first_look(asked: Asked, vehicle: int, at: float) -> Look | None:
 
 
 def check_sense(thing: Thing | None) -> None:
-    """Refuse what has no sense here.
+    """Refuse a thing that makes no sense here.
 
     Raises:
         Unanswered: the words name nothing that the car knows.
@@ -114,5 +114,5 @@ def check_sense(thing: Thing | None) -> None:
 
 
 def nobody(thing: Thing | None) -> bool:
-    """Tell whether a term was found to fit no vehicle."""
+    """Check whether a term was found to fit no vehicle."""
     return isinstance(thing, Nobody)

@@ -14,21 +14,21 @@ from xavi_dialogue.explain.answers.reference.moments import Window, was_said, wi
 from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, known, number
 from xavi_dialogue.explain.causes.vehicles.when import LEEWAY
 
-PAUSE = 0.5  # [s] between two of one kind, by which the second is another one
+PAUSE = 0.5  # [s] between two episodes of one kind, from which they are different ones
 CHANGED: frozenset[ActionName] = frozenset(("change-left", "change-right"))
-INSIDE = 1.0  # [s] of a stretch of the ride from which on something is of it
-GOING = 0.5  # [s] since when something still counts as going on
+INSIDE = 1.0  # [s] of overlap from which an episode belongs to a stretch of the ride
+GOING = 0.5  # [s] after its end in which something still counts as going on
 TOLD = 2  # episodes that are stated in place of what did not happen
-#: What goes on most of the time, and is stated only where nothing else is there.
+#: Actions that go on most of the time, and are stated only if there is nothing else.
 PLAIN: frozenset[ActionName] = frozenset(
     ("continue", "move", "follow", "keep-lane", "keep-distance", "approach", "head", "see", "come",
      "appear", "disappear", "signal", "go")
 )  # fmt: skip
-#: What is of our seeing a vehicle rather than of its driving.
+#: Actions that concern our seeing a vehicle rather than its driving.
 SIGHT: tuple[ActionName, ...] = ("see", "appear", "disappear", "signal")
-#: What we do for somebody who crosses our way.
+#: Actions that we take for somebody who crosses our way.
 SLOWED: tuple[ActionName, ...] = ("slow-down", "brake", "stop")
-#: What else an event may be told by, where there is none of its own name.
+#: By action: those that may stand for it if there is no episode of its own name.
 OTHERWISE: dict[ActionName, tuple[ActionName, ...]] = {
     "let-go": ("give-way", "wait"),
     "exit-right": ("leave",),
@@ -53,10 +53,10 @@ FAMILIES: tuple[frozenset[ActionName], ...] = (
 
 
 def occasions(asked: Asked, event: Event) -> tuple[Episode, ...]:
-    """Find all that was such an event in the ride so far, oldest first.
+    """Find the episodes of the ride so far that an event describes, oldest first.
 
     Raises:
-        Unanswered: it is of a vehicle that was never seen.
+        Unanswered: the event is about a vehicle that was never seen.
     """
     for action in (event.action, *_otherwise(event)):
         found = _held(asked, replace(event, action=action))
@@ -66,7 +66,7 @@ def occasions(asked: Asked, event: Event) -> tuple[Episode, ...]:
 
 
 def _while_let_go(asked: Asked, event: Event) -> tuple[Episode, ...]:
-    """Find our slowing for others that were crossing our way meanwhile, or that we let go first."""
+    """Find our slowing for vehicles that crossed our way meanwhile, or that we let go first."""
     if event.action not in SLOWED or not is_us(event.actor) or event.object is None:
         return ()
     others = [v for v in _each(asked, event.object) if isinstance(v, Vehicle)]
@@ -81,7 +81,7 @@ def _while_let_go(asked: Asked, event: Event) -> tuple[Episode, ...]:
 
 
 def _otherwise(event: Event) -> tuple[ActionName, ...]:
-    """Give other names of what an event may be: who leaves a roundabout turns right."""
+    """Return other actions that an event may mean: leaving a roundabout is turning right."""
     if event.action == "turn" and event.side == "left":
         return ()
     if event.action == "leave" and event.object == Junction("roundabout"):
@@ -106,7 +106,7 @@ def _held(asked: Asked, event: Event) -> list[Episode]:
 
 
 def _seen(asked: Asked, event: Event) -> list[Episode]:
-    """Give our seeing of a vehicle: from when it came into view to when it was seen last."""
+    """Return our seeing of a vehicle, from when it came into view to when it was seen last."""
     vehicle = number(event.object)
     first = None if vehicle is None else first_look(asked, vehicle, asked.world.begin)
     if vehicle is None or first is None:
@@ -117,13 +117,13 @@ def _seen(asked: Asked, event: Event) -> list[Episode]:
 
 
 def within(asked: Asked, event: Event, stretch: Window) -> tuple[Episode, ...]:
-    """Keep those occasions that lie in a stretch of the ride, at least in part."""
+    """Return the occasions of an event that overlap a stretch of the ride."""
     near = stretch.widened() if stretch.instant else stretch
     return tuple(e for e in occasions(asked, event) if overlaps(asked, e, near))
 
 
 def occasion(asked: Asked, event: Event) -> Episode | None:
-    """Choose the one asked about: the last within its time; the nearest where none was said."""
+    """Choose the occasion asked about: the last in its time; if no time was said, the nearest."""
     every = occasions(asked, event)
     about = window(asked, event.time, event.tense)
     if event.tense in ("present", "future") and about.end >= asked.now:
@@ -139,10 +139,10 @@ def occasion(asked: Asked, event: Event) -> Episode | None:
 
 
 def taken_place(asked: Asked, event: Event) -> Episode:
-    """Give the occasion that is asked about.
+    """Return the occasion that is asked about.
 
     Raises:
-        Unanswered: it did not take place, with what did.
+        Unanswered: the event did not take place; with what did.
     """
     found = occasion(asked, event)
     if found is None:
@@ -153,7 +153,7 @@ def taken_place(asked: Asked, event: Event) -> Episode:
 def did_not_happen(
     asked: Asked, event: Event, answer: Answer | None = None, planned: float | None = None
 ) -> Unanswered:
-    """Refuse a question that takes for granted what did not happen, with what did."""
+    """Return the refusal of a question about what did not happen, with what did."""
     about = window(asked, event.time, event.tense)
     lost = next((g for g in asked.ride.gaps if g[0] <= about.end and g[1] >= about.begin), None)
     others = instead(asked, event, about)
@@ -167,7 +167,7 @@ def did_not_happen(
 
 
 def instead(asked: Asked, event: Event, about: Window) -> tuple[Episode, ...]:
-    """Tell what the actor of an event did then: what is most like it, in order of time."""
+    """Return what the actor of an event did then: what is most like it, in order of time."""
     seen = () if event.action in SIGHT else SIGHT
     mine = [
         e
@@ -188,22 +188,22 @@ def instead(asked: Asked, event: Event, about: Window) -> tuple[Episode, ...]:
 
 
 def nearest(asked: Asked, episodes: Sequence[Episode], about: Window) -> Episode:
-    """Give the episode closest to a stretch of the ride; of several, the last."""
+    """Return the episode closest to a stretch of the ride; of several, the last."""
     return min(episodes, key=lambda e: (away(asked, e, about), -e.begin))
 
 
 def away(asked: Asked, episode: Episode, about: Window) -> float:
-    """Tell how far [s] an episode lies from a stretch of the ride."""
+    """Return how far [s] an episode lies from a stretch of the ride."""
     return max(about.begin - _end(asked, episode), episode.begin - about.end, 0.0)
 
 
 def overlaps(asked: Asked, episode: Episode, about: Window) -> bool:
-    """Tell whether an episode lies in a stretch of the ride, at least in part."""
+    """Check whether an episode overlaps a stretch of the ride."""
     return episode.begin <= about.end + 1e-6 and _end(asked, episode) >= about.begin - 1e-6
 
 
 def belongs(asked: Asked, episode: Episode, about: Window) -> bool:
-    """Tell whether an episode is of a stretch of the ride and does not only end or begin in it."""
+    """Check whether an episode belongs to a stretch, and does not only begin or end in it."""
     if about.instant:
         return overlaps(asked, episode, about)
     inside = min(_end(asked, episode), about.end) - max(episode.begin, about.begin)
@@ -211,7 +211,7 @@ def belongs(asked: Asked, episode: Episode, about: Window) -> bool:
 
 
 def merged(asked: Asked, episodes: Iterable[Episode]) -> tuple[Episode, ...]:
-    """Count episodes of one event once: what runs on or lies within another is part of it."""
+    """Return the episodes without those that continue or lie within another one."""
     found: list[Episode] = []
     for episode in sorted(episodes, key=lambda e: (e.begin, -_end(asked, e))):
         last = next((e for e in reversed(found) if e.actor == episode.actor), None)
@@ -221,9 +221,9 @@ def merged(asked: Asked, episodes: Iterable[Episode]) -> tuple[Episode, ...]:
 
 
 def _is_after(asked: Asked, one: Episode, other: Episode) -> bool:
-    """Tell whether one has ended before another begins; lane changes may follow at once.
+    """Check whether one episode ended before another begins; lane changes may follow at once.
 
-    One to the other side is never part of the first, though it may begin before that one is over.
+    A lane change to the other side is never part of the first one, even if they overlap.
     """
     if {one.action, other.action} == CHANGED:
         return True
@@ -232,17 +232,17 @@ def _is_after(asked: Asked, one: Episode, other: Episode) -> bool:
 
 
 def duration(asked: Asked, episode: Episode) -> float:
-    """Tell how long [s] it lasted, or has lasted so far."""
+    """Return how long [s] an episode lasted, or has lasted so far."""
     return max(_end(asked, episode) - episode.begin, 0.0)
 
 
 def _parted(one: Episode, other: Episode) -> bool:
-    """Tell whether two that overlap concern different vehicles."""
+    """Check whether two episodes concern different vehicles."""
     return one.object is not None and other.object is not None and one.object != other.object
 
 
 def _apart(asked: Asked, episodes: Iterable[Episode]) -> list[Episode]:
-    """Leave out those that only say another one again: a braking within a slowing down."""
+    """Return episodes without those that repeat an earlier one: braking within slowing down."""
     found: list[Episode] = []
     for one in episodes:
         same = (
@@ -271,7 +271,7 @@ def _actor(thing: Thing) -> Ego | Vehicle | None:
 
 
 def _singles(asked: Asked, event: Event) -> list[Event]:
-    """Give the event for each of several actors and objects."""
+    """Return the event for each of its actors and objects."""
     actors = _each(asked, event.actor)
     objects = [event.object] if event.object is None else _each(asked, event.object)
     return [replace(event, actor=a, object=o) for a in actors for o in objects if a != o]

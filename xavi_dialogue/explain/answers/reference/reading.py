@@ -1,4 +1,4 @@
-"""Reading: what a question asks about, taken out of its propositions."""
+"""Reading: what a question is about, according to its propositions."""
 
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import CannotSay, NoSuchVehicle
@@ -29,7 +29,7 @@ from xavi_dialogue.explain.causes.vehicles.actions import names_of
 
 
 def unwrapped(of: Proposition | None) -> tuple[Proposition | None, bool]:
-    """Take negations off a proposition, and tell whether it is negated."""
+    """Return a proposition without negations, and whether it is negated; of several, the first."""
     negated = False
     while isinstance(of, Not | Both):
         if isinstance(of, Not):
@@ -57,29 +57,29 @@ def event_of(of: Proposition | None) -> Event | None:
 
 
 def is_own(thing: Thing | None) -> bool:
-    """Tell whether a thing is our car; so it is where none is said."""
+    """Check whether a thing is our car, as is assumed if none is named."""
     return thing is None or isinstance(thing, Ego | Passenger) or thing == Vehicle(EGO)
 
 
 def vehicle_in(thing: Thing | Proposition | None) -> int | None:
-    """Tell the number of another vehicle; the first of several."""
+    """Return the number of another vehicle; of several, the first."""
     return next(iter(numbers_in(thing)), None)
 
 
 def numbers_in(thing: Thing | Proposition | None) -> tuple[int, ...]:
-    """Tell the numbers of other vehicles."""
+    """Return the numbers of other vehicles."""
     if isinstance(thing, Vehicle) and thing.number != EGO:
         return (thing.number,)
     return thing.numbers if isinstance(thing, Vehicles) else ()
 
 
 def somebody(vehicle: int) -> Somebody:
-    """Tell whom a number names."""
+    """Return the road user with a number."""
     return Ego() if vehicle == EGO else Vehicle(vehicle)
 
 
 def check_seen(scene: Asked, thing: Thing | Proposition | None) -> int | None:
-    """Tell the number of another vehicle that has been seen; None for all else.
+    """Return the number of another vehicle that has been seen; None for all else.
 
     Raises:
         Unanswered: nobody of that number or description was ever seen.
@@ -93,14 +93,14 @@ def check_seen(scene: Asked, thing: Thing | Proposition | None) -> int | None:
 
 
 def looks(scene: Asked) -> tuple[Look, ...]:
-    """Tell who is in view at the time asked about."""
+    """Return the vehicles in view at the time asked about."""
     at = scene.moment
     found = (scene.world.look(v, at) for v in scene.world.in_view(at))
     return tuple(look for look in found if look is not None)
 
 
 def subject(scene: Asked, event: Event | None) -> Subject:
-    """Read which deed of ours a question names, and whether it is about the past."""
+    """Return which action of ours a question names, and whether it is about the past."""
     if event is None:
         return Subject(None, (), True, scene.span)
     past = event.tense in ("past", "perfect") or scene.past is not None
@@ -110,9 +110,9 @@ def subject(scene: Asked, event: Event | None) -> Subject:
 
 
 def foil_subject(scene: Asked, event: Event | None) -> Subject:
-    """Read when a question about what was not done is about, where it names no deed.
+    """Return the time that a question about what was not done is about, if it names no action.
 
-    A time that was inferred from what was asked before counts only where the question refers back.
+    A time inferred from earlier questions counts only if the question refers back.
     """
     span = scene.span
     inferred = span is not None and not (span.said or span.ahead or scene.act.leaned)
@@ -120,14 +120,14 @@ def foil_subject(scene: Asked, event: Event | None) -> Subject:
 
 
 def is_past(scene: Asked, event: Event | None) -> bool:
-    """Tell whether a question is about what lies behind."""
+    """Check whether a question is about the past."""
     if event is not None and event.tense == "present" and isinstance(event.time, Now):
         return False
     return scene.past is not None or event is None or event.tense in ("past", "perfect")
 
 
 def check_able(event: Event) -> None:
-    """Decline what no car of this kind can do.
+    """Refuse what no car of this kind can do.
 
     Raises:
         Unanswered: it cannot be done.
@@ -137,6 +137,6 @@ def check_able(event: Event) -> None:
 
 
 def manner_of(event: Event | None, *wanted: Manner) -> Manner | None:
-    """Tell which of some manners an event has."""
+    """Return which of some manners an event has."""
     found = () if event is None else event.manner
     return next((manner for manner in found if manner in wanted), None)
