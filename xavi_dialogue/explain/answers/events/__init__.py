@@ -1,1 +1,1 @@
-"""What happened, what was believed and decided, and how the ride is stated."""
+"""What happened, what was believed and decided, and summaries of the ride."""

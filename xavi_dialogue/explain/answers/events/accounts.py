@@ -45,10 +45,10 @@ from xavi_dialogue.explain.answers.ride.delays import for_whom
 from xavi_dialogue.explain.answers.ride.mistakes import mistakes
 from xavi_dialogue.explain.answers.ride.places import gone, time_to_go
 
-TOLD = 6  # episodes of a summary at most
-APPROACH = 4.0  # [s] between what belongs to one junction
-LEADING = 5.0  # [s] before the last thing that happened which belongs to it
-LISTED = 40  # of a list
+TOLD = 6  # maximum number of episodes in a summary
+APPROACH = 4.0  # [s] maximum time between episodes at one junction
+LEADING = 5.0  # [s] before the last episode in which others belong to it
+LISTED = 40  # maximum number of episodes in a list
 MACROS: frozenset[ActionName] = frozenset(
     ("change-left", "change-right", "exit-left", "exit-right", "exit-straight",
      "continue-next-exit", "stop")
@@ -57,8 +57,8 @@ _SLOWING = ("slow-down", "brake", "stop", "stand", "wait", "give-way")
 _WAITING = {"give-way", "wait"}
 _SHIFTING = ("cut-in", "change-left", "change-right")
 _HALTS = ("wait", "stop", "stand")
-BRIEF = 0.8  # [s] of a halt below which it is not told
-DEED = 2.0  # weight from which something is stated of another vehicle
+BRIEF = 0.8  # [s] duration below which a halt is not stated
+DEED = 2.0  # minimum weight of an episode of another vehicle
 #: How much an episode matters in a summary.
 WEIGHT: dict[ActionName, float] = {
     "collide": 20.0, "nearly-collide": 12.0, "arrive": 6.0, "give-way": 6.0, "cut-in": 6.0,
@@ -70,7 +70,7 @@ WEIGHT: dict[ActionName, float] = {
 
 
 def listing(question: Listing, asked: Asked) -> Answer:
-    """List things of a sort, with times where they have them; `causal` tells options and reasons.
+    """Return the list of things that is asked for, except for options and reasons (`causal`).
 
     Raises:
         Unanswered: there is nothing of the sort in the record.
@@ -98,7 +98,7 @@ def listing(question: Listing, asked: Asked) -> Answer:
 
 
 def _of_kind(asked: Asked, event: Event, about: Window) -> Happenings:
-    """List all that was such an event in a stretch of the ride."""
+    """Return the list of the episodes in a stretch of the ride that an event describes."""
     found = tuple(for_whom(asked, e) for e in occasions(asked, event) if belongs(asked, e, about))
     if not found and event.action == "brake":
         return _of_kind(asked, replace(event, action="slow-down"), about)
@@ -106,7 +106,7 @@ def _of_kind(asked: Asked, event: Event, about: Window) -> Happenings:
 
 
 def summarise(question: Summarise, asked: Asked) -> Answer:
-    """Tell what mattered of the ride, an interval, a vehicle, or an episode.
+    """Return what mattered of the ride, an interval, a vehicle, or an episode.
 
     Raises:
         Unanswered: the episode did not happen.
@@ -130,7 +130,7 @@ def summarise(question: Summarise, asked: Asked) -> Answer:
 
 
 def _with_approach(asked: Asked, about: Window) -> Window:
-    """Add to the stretch of a junction how we waited or slowed down on the way to it."""
+    """Extend the stretch of a junction by our waiting or slowing down before it."""
     begin = about.begin
     halts: tuple[ActionName, ...] = ("give-way", "wait", "stop", "stand", "brake")
     for episode in reversed(asked.world.episodes(Ego(), halts, end=about.begin)):
@@ -141,7 +141,7 @@ def _with_approach(asked: Asked, about: Window) -> Window:
 
 
 def summary(asked: Asked, about: Thing | None, time: Window, *, ride: bool = False) -> Happenings:
-    """Give the episodes that matter of a stretch of the ride, of all of it, or of a vehicle."""
+    """Return the episodes that matter of a stretch of the ride, of all of it, or of a vehicle."""
     near = time.widened(2.0) if time.instant else time
     begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
     vehicle = number(about)
@@ -168,7 +168,7 @@ def summary(asked: Asked, about: Thing | None, time: Window, *, ride: bool = Fal
 
 
 def _before(asked: Asked, at: float) -> list[Episode]:
-    """Give what happened last before a time [s]: the last episode, and what led up to it."""
+    """Return what happened last before a time [s]: the last episode, and what led up to it."""
     earlier = [e for e in asked.world.account(asked.world.begin, at) if e.begin <= at]
     last = max((e.begin for e in earlier), default=at)
     return [e for e in earlier if e.begin >= last - LEADING]
@@ -194,12 +194,12 @@ def _weight(asked: Asked, episode: Episode) -> float:
 
 
 def _same(asked: Asked, one: Episode, other: Episode) -> bool:
-    """Tell whether two are one thing: of one actor at one time, slowing down or stopping."""
+    """Check whether two episodes say the same: one actor, overlapping times, similar actions."""
     both = any(one.action in alike and other.action in alike for alike in (_SLOWING, _SHIFTING))
     if one.object != other.object and {one.action, other.action} <= _WAITING:
         return False
     if {one.action, other.action} & {"give-way"} and {one.action, other.action} & {"brake"}:
-        both = False  # for whom, and how much
+        both = False  # one says for whom, one how much
     return (
         one.actor == other.actor
         and (both or one.action == other.action)
@@ -208,13 +208,13 @@ def _same(asked: Asked, one: Episode, other: Episode) -> bool:
 
 
 def _deeds(asked: Asked, vehicle: int, begin: float, end: float) -> list[Episode]:
-    """Give what a vehicle did in a stretch of the ride; where nothing matters of it, all."""
+    """Return what a vehicle did in a stretch of the ride; if nothing matters, everything."""
     every = asked.world.episodes(actor=Vehicle(vehicle), begin=begin, end=end)
     return [e for e in every if WEIGHT.get(e.action, 0.0) >= DEED] or list(every)
 
 
 def _of_ride(asked: Asked, begin: float, end: float) -> tuple[Measure, ...]:
-    """Tell how long and how far it was, how fast at most, and how long it still takes."""
+    """Return the duration, distance and highest speed of the ride, and the time still to go."""
     world = asked.world
     time = Measure("duration", Ego(), begin, value=end - begin, until=end, extreme="total")
     driven = world.measure("distance-driven", Ego(), end)
@@ -238,7 +238,7 @@ def _listed(asked: Asked, of: str, actor: Thing | None, about: Window) -> tuple[
 
 
 def _vehicles(asked: Asked, about: Window, whom: Thing | None) -> Identified:
-    """Tell who is in view; over a stretch of the ride, all who were seen in it."""
+    """Return the vehicles in view; for a stretch of the ride, all that were seen in it."""
     world = asked.world
     if about.end - about.begin <= SHORT or asked.past is None:
         numbers, at = world.in_view(asked.moment), asked.moment
@@ -257,7 +257,7 @@ def _vehicles(asked: Asked, about: Window, whom: Thing | None) -> Identified:
 
 
 def _beliefs(asked: Asked, question: Listing, about: Window) -> Answer:
-    """Tell what we expect of a vehicle and how it moved; or of all in view, each with a look."""
+    """Return what we expect of a vehicle and how that changed; or of all vehicles in view."""
     vehicle = number(question.about)
     if vehicle is not None:
         found: Beliefs = history_of(asked, vehicle, None, question.time)
@@ -270,7 +270,7 @@ def _beliefs(asked: Asked, question: Listing, about: Window) -> Answer:
 
 
 def _mistakes(asked: Asked, thing: Thing | None, about: Window) -> Verdict:
-    """Tell what we expected of others that came otherwise."""
+    """Return our expectations of others that turned out wrong."""
     found = mistakes(asked, number(thing), about)
     return Verdict(
         Is("wrong", thing if thing is not None else Ego(), tense="perfect"), bool(found),
@@ -286,7 +286,7 @@ def _actor(asked: Asked, thing: Thing | None) -> Thing | None:
 
 
 def taking_part(asked: Asked, episodes: Sequence[Episode]) -> tuple[Look, ...]:
-    """Give each vehicle that takes part, as it was seen when its first episode began."""
+    """Return each vehicle that takes part, as it was seen when its first episode began."""
     first: dict[int, float] = {}
     for episode in episodes:
         for thing in (episode.actor, episode.object):

@@ -9,12 +9,12 @@ from xavi_dialogue.explain.answers.reference.findings import Finding
 from xavi_dialogue.explain.answers.reference.moments import is_ahead
 from xavi_dialogue.explain.answers.ride.places import to_go, told
 
-NEARLY = 10.0  # [s] before we are there from which on we are nearly there
+NEARLY = 10.0  # [s] before arrival in which we are nearly there
 AT_HAND = 150.0  # [m] likewise
 
 
 def arrived(asked: Asked, event: Event) -> Finding:
-    """Tell whether we are there, or are going to be."""
+    """Check whether we have arrived, or are going to."""
     if is_ahead(asked, event.time, event.tense) and not asked.ride.arrived:
         found = foreseen(asked, event)
         facts = told(to_go(asked, asked.now))

@@ -1,4 +1,4 @@
-"""Beliefs: what was believed of a vehicle at a time, how that moved and why, what came of it."""
+"""Beliefs: what was believed of a vehicle at a time, how and why that changed, what it then did."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -37,12 +37,12 @@ from xavi_dialogue.explain.answers.reference.occasions import occasion, occasion
 from xavi_dialogue.explain.answers.ride.priority import right_of_way
 
 UNSAID = Unsaid()
-LIKELY = 0.5  # probability from which something was expected
-MOVED = 0.08  # by which a probability has moved
+LIKELY = 0.5  # minimum probability of what was expected
+MOVED = 0.08  # minimum change of a probability that has moved
 
 
 def how_sure(question: HowSure, asked: Asked) -> Answer:
-    """Tell how probable something was or is, for the car.
+    """Return how probable something was or is, for the car.
 
     Raises:
         Unanswered: the record has no belief of it.
@@ -79,13 +79,13 @@ def how_sure(question: HowSure, asked: Asked) -> Answer:
 
 
 def ruled(asked: Asked, of: Related) -> Priority | None:
-    """Tell who goes first, where the rule of the road settles it; None where it does not."""
+    """Return who goes first by the rules of the road; None if they do not settle it."""
     told = right_of_way(asked, of.thing, of.to, Window(asked.now, asked.now))
     return told if told.rule in ("priority", "give-way") else None
 
 
 def _under_way(asked: Asked, event: Event, time: Time) -> Verdict | None:
-    """Tell that somebody does so now, which needs no chance; None: it does not."""
+    """Return that somebody does so now, which needs no probability; None: nobody does."""
     if event.tense == "past" or instant(asked, time, "present") < asked.now - SHORT:
         return None
     found = occasion(asked, replace(event, tense="present"))
@@ -95,7 +95,7 @@ def _under_way(asked: Asked, event: Event, time: Time) -> Verdict | None:
 
 
 def beliefs_of(asked: Asked, event: Event, time: Time = UNSAID) -> Beliefs:
-    """Tell what was believed of conduct that is asked about.
+    """Return what was believed of the conduct that is asked about.
 
     Raises:
         Unanswered: the vehicle was never seen, or nothing was believed of it.
@@ -105,10 +105,10 @@ def beliefs_of(asked: Asked, event: Event, time: Time = UNSAID) -> Beliefs:
 
 
 def history_of(asked: Asked, vehicle: int, event: Event | None, time: Time = UNSAID) -> Beliefs:
-    """Give the beliefs of a vehicle where they moved, with that of the time asked about.
+    """Return the beliefs about a vehicle that changed, with that of the time asked about.
 
     Raises:
-        Unanswered: nothing was ever believed of it.
+        Unanswered: nothing was ever believed of the vehicle.
     """
     world = asked.world
     at = asked_time(asked, event, time)
@@ -136,12 +136,12 @@ def history_of(asked: Asked, vehicle: int, event: Event | None, time: Time = UNS
 
 
 def foreknown(asked: Asked, event: Event, time: Time) -> Finding:
-    """Tell whether conduct was expected before it came, since when, and what came."""
+    """Check whether conduct was expected before it came, since when, and what came."""
     vehicle = number(event.actor) or 0
-    then = event.modal == "would"  # "were you sure it would turn": whether it has done so since
+    then = event.modal == "would"  # "were you sure it would turn": it may have done so since
     lately = replace(event, tense="past", modal=None, time=Unsaid()) if then else event
     came = occasion(asked, lately)
-    event = replace(event, manner=())  # no prediction tells how hard somebody brakes
+    event = replace(event, manner=())  # no prediction has how hard a vehicle brakes
     about = window(asked, time)
     said = asked.past is not None or not isinstance(time, Unsaid)
     at = instant(asked, time, "past") if said else asked.now
@@ -165,9 +165,9 @@ def foreknown(asked: Asked, event: Event, time: Time) -> Finding:
 
 
 def held_since(asked: Asked, event: Event, at: float) -> tuple[float | None, float | None]:
-    """Tell since when [s] something was held to be likely up to a time [s], and what it was before.
+    """Return since when [s] an event was likely up to a time [s], and its probability before.
 
-    None where it was likely from the first on, or not at all.
+    None if it was likely from the first on, or not at all.
     """
     vehicle = number(event.actor) or 0
     since, before = None, None
@@ -183,7 +183,7 @@ def held_since(asked: Asked, event: Event, at: float) -> tuple[float | None, flo
 
 
 def since_when(asked: Asked, event: Event) -> Beliefs:
-    """Tell since when conduct of a vehicle has been held to be more likely than not.
+    """Return since when conduct of a vehicle has been believed more likely than not.
 
     Raises:
         Unanswered: the vehicle was never seen, or nothing was believed of it.
@@ -202,7 +202,7 @@ def since_when(asked: Asked, event: Event) -> Beliefs:
 
 
 def asked_time(asked: Asked, event: Event | None, time: Time) -> float:
-    """Give the time [s] that is asked about: said, or just before it came, or the last one."""
+    """Return the time [s] asked about: as said, else when a past event last began, else now."""
     if is_ahead(asked, time, "present"):
         return asked.now
     at = instant(asked, time, "past")
@@ -217,7 +217,7 @@ def asked_time(asked: Asked, event: Event | None, time: Time) -> float:
 def moved(
     asked: Asked, vehicle: int, event: Event | None, every: Sequence[Belief]
 ) -> tuple[tuple[Belief, ...], tuple[tuple[float, float], ...]]:
-    """Give the beliefs where they moved, and the probability over time that moved."""
+    """Return the beliefs that changed, and the probability over time [s]."""
     kept: list[Belief] = []
     curve: list[tuple[float, float]] = []
     for belief in every:
@@ -233,7 +233,7 @@ def moved(
 
 
 def steepest(curve: Sequence[tuple[float, float]]) -> tuple[float, float] | None:
-    """Tell between which times [s] a probability moved most; None where it hardly did."""
+    """Return the times [s] between which a probability moved most; None if it hardly did."""
     pairs = list(pairwise(curve))
     one = max(pairs, key=lambda pair: abs(pair[1][1] - pair[0][1]), default=None)
     if one is None or abs(one[1][1] - one[0][1]) < MOVED:
@@ -242,7 +242,7 @@ def steepest(curve: Sequence[tuple[float, float]]) -> tuple[float, float] | None
 
 
 def time_of(of: Proposition | None) -> Time:
-    """Give the time within a proposition."""
+    """Return the time within a proposition."""
     match of:
         case Happens(event=event):
             return event.time
@@ -264,7 +264,7 @@ def _top(belief: Belief) -> tuple[str, ...]:
 
 
 def _conduct(asked: Asked, vehicle: int, span: tuple[float, float]) -> Episode | None:
-    """Tell what the vehicle was doing while the belief moved most, that it had not done before."""
+    """Return the last action of the vehicle while the belief moved most, or just before."""
     found = asked.world.episodes(actor=Vehicle(vehicle), begin=span[0] - SHORT, end=span[1])
     plain = (
         "move", "continue", "keep-lane", "follow", "see", "come", "appear", "disappear", "approach",
@@ -283,7 +283,7 @@ def _vehicle_in(of: Proposition | None) -> int | None:
 
 
 def least_sure(asked: Asked, at: float) -> int | None:
-    """Give the vehicle of which the decision at a time [s] is least sure."""
+    """Return the vehicle about which the decision at a time [s] is least sure."""
     found = [
         (belief.expectations[0].probability, vehicle)
         for vehicle in asked.world.in_view(at)

@@ -22,18 +22,18 @@ from xavi_dialogue.explain.causes.vehicles.actions import CHANGES
 from xavi_dialogue.explain.facts.traffic_lights import shown_at
 from xavi_dialogue.explain.history.ride import planned
 
-MOVED = 0.15  # by which a probability has to move to be stated
-EVEN = 0.5  # probability from which an expectation is stated
-TOLD = 2  # beliefs that are stated
-BEFORE = 0.01  # [s]
+MOVED = 0.15  # minimum change of a probability that is stated
+EVEN = 0.5  # minimum probability of an expectation that is stated
+TOLD = 2  # maximum number of beliefs that are stated
+BEFORE = 0.01  # [s] before a decision, when the one before was in force
 NEAR = 60.0  # [m] ahead of us within which a new road user is stated
-LEAD = 4.0  # [s] before a decision from which on what changes around us may matter to it
-BACK = 20.0  # [s] before now that a change of plan may lie that is asked about
-AFTER = 0.5  # [s] after a decision in which what we do is still of it
+LEAD = 4.0  # [s] before a decision in which changes around us may matter to it
+BACK = 20.0  # [s] before now in which a change of plan may be asked about
+AFTER = 0.5  # [s] after a decision in which what we do belongs to it
 
 
 def decided_at(asked: Asked, at: float) -> Decided:
-    """Tell what the last decision up to a time [s] came to.
+    """Return what the last decision up to a time [s] chose.
 
     Raises:
         Unanswered: there was none.
@@ -45,7 +45,7 @@ def decided_at(asked: Asked, at: float) -> Decided:
 
 
 def _told(plan: tuple[Action, ...]) -> tuple[Action, ...]:
-    """Keep what matters of a plan: its first step, and the first turn or lane change."""
+    """Return what matters of a plan: its first step, and the first turn or lane change."""
     moves = [a for a in plan if a not in ("continue", "stop")]
     if plan and plan[0] == "continue" and moves:
         return tuple(moves[:1])
@@ -53,7 +53,7 @@ def _told(plan: tuple[Action, ...]) -> tuple[Action, ...]:
 
 
 def _driving(asked: Asked, at: float) -> tuple[Episode, ...]:
-    """Tell for whom we slowed down at a time, if for anybody."""
+    """Return our slowing down or waiting for somebody at a time [s], if there was any."""
     found = asked.world.episodes(Ego(), ("give-way", "wait", "brake"), at, at + AFTER)
     known = sorted(found, key=lambda e: (e.action == "brake", -e.begin))
     return tuple(known[:1])
@@ -67,15 +67,15 @@ def _trace(asked: Asked, at: float) -> PlanTrace:
 
 
 def _rest(before: PlanTrace, after: PlanTrace) -> bool:
-    """Tell whether a plan is the one of before, as far as that is not carried out yet."""
+    """Check whether a plan is the earlier one, or what remains or a beginning of it."""
     old, new = planned(before), planned(after)
     return old == new or old[1:] == new or old[: len(new)] == new
 
 
 def changed(question: Changed, asked: Asked) -> Answer:
-    """Tell what was different at the end of a stretch of the ride from its beginning.
+    """Return what was different at the end of a stretch of the ride from its beginning.
 
-    Where no stretch is named, that is about the last change of plan, else the last seconds.
+    If no stretch is named, it is that of the last change of plan, else the last seconds.
 
     Raises:
         Unanswered: there was no decision at one of them.
@@ -92,7 +92,7 @@ def changed(question: Changed, asked: Asked) -> Answer:
 
 
 def last_change(asked: Asked, since: float) -> Altered | None:
-    """Tell of the last change of plan since a time [s] what was different by then, if any."""
+    """Return what was different at the last change of plan since a time [s], if there was one."""
     until = asked.now if asked.past is None or not asked.past.said else asked.past.end
     for one in reversed(asked.world.episodes(Ego(), ("change-plan",), since, until)):
         before, after = _trace(asked, one.begin - BEFORE), _trace(asked, one.begin)
@@ -103,7 +103,7 @@ def last_change(asked: Asked, since: float) -> Altered | None:
 
 
 def why_changed(asked: Asked, found: Altered) -> ChoiceReason | None:
-    """Tell why a new plan was better than the old one; None where nothing is known of that.
+    """Explain why a new plan was better than the old one; None if that is not known.
 
     Raises:
         Unanswered: rollouts are needed.
@@ -128,7 +128,7 @@ def why_changed(asked: Asked, found: Altered) -> ChoiceReason | None:
 
 
 def altered(asked: Asked, begin: float, end: float) -> Altered:
-    """Tell what was different at one time [s] from another, and around us a little before.
+    """Return what was different at one time [s] from another, also around us a little before.
 
     Raises:
         Unanswered: there was no decision at one of them.
@@ -156,7 +156,7 @@ def _distance(look: Look) -> float:
 
 
 def _moved(asked: Asked, begin: float, end: float) -> tuple[tuple[Belief, Belief], ...]:
-    """List what was believed before and after, where it moved, the most first."""
+    """Return the beliefs before and after that changed, the largest change first."""
     found: list[tuple[float, Belief, Belief]] = []
     for vehicle in asked.world.in_view(end):
         old, new = asked.world.belief(vehicle, begin), asked.world.belief(vehicle, end)

@@ -40,18 +40,18 @@ from xavi_dialogue.explain.answers.ride.onward import other_exit
 from xavi_dialogue.explain.answers.sight.sight import comes, sees
 from xavi_dialogue.explain.history.thresholds import MOVING
 
-#: What is asked of somebody who is about to do it: "is he pulling out?"
+#: Actions that "is he pulling out?" may mean as still to come.
 INTENDED: tuple[ActionName, ...] = ("pull-out", "let-go", "give-way", "enter", "cross")
 CHANGES: frozenset[ActionName] = frozenset(("change-left", "change-right", "change-lane"))
-RECENT = 2.0  # [s] for which it may still be told what somebody who is hidden is going to do
+RECENT = 2.0  # [s] for which the last view of a vehicle still counts as the present
 SPEEDS = HALTS | YIELDS | frozenset(("slow-down", "speed-up", "brake", "go", "move"))
 
 
 def happens(of: Happens, asked: Asked) -> Finding:
-    """Weigh that an event happened, happens or will happen.
+    """Check whether an event happened, happens or will happen.
 
     Raises:
-        Unanswered: it is of a vehicle that was never seen.
+        Unanswered: the event is about a vehicle that was never seen.
     """
     event = of.event
     naming.somebodies(asked, event.actor, asked.now)
@@ -78,7 +78,7 @@ def happens(of: Happens, asked: Asked) -> Finding:
 
 
 def _moves(asked: Asked, event: Event) -> Finding | None:
-    """Tell whether somebody is going: everybody in motion is."""
+    """Check whether somebody is going, as everybody in motion is; None for other events."""
     plain = event.action in ("go", "move") and event.object is None and event.side is None
     if not plain or event.modal is not None or event.where is not None or event.manner:
         return None
@@ -102,7 +102,7 @@ def _moves(asked: Asked, event: Event) -> Finding | None:
 
 
 def _moved(asked: Asked, event: Event) -> Finding | None:
-    """Tell that somebody went who was in motion then, or is out of sight; None of others."""
+    """Return that somebody went who was in motion then, or is out of view; else None."""
     if naming.number(event.actor) is None and not naming.is_us(event.actor):
         return None
     if occasion(asked, event) is not None:
@@ -116,13 +116,13 @@ def _moved(asked: Asked, event: Event) -> Finding | None:
 
 
 def _all_the_way(event: Event) -> bool:
-    """Tell whether "do we stay in this lane all the way?" asks of what is still to come."""
+    """Check whether an event is still to come, as in "do we stay in this lane all the way?"."""
     kept = event.action in ("keep-lane", "continue") and naming.is_us(event.actor)
     return kept and event.tense == "present" and isinstance(event.time, WholeRide)
 
 
 def _intended(asked: Asked, event: Event) -> bool:
-    """Tell whether "is he turning off?" asks of somebody what he has not begun: what comes."""
+    """Check whether a present event has not begun, and so is to come: "is he turning off?"."""
     if event.tense != "present" or not isinstance(event.time, Unsaid | Now):
         return False
     if naming.is_us(event.actor) and event.action == "stop":
@@ -139,16 +139,16 @@ def _intended(asked: Asked, event: Event) -> bool:
 
 
 def _has_been(asked: Asked, event: Event) -> Finding:
-    """Tell what happened, or goes on: with the episode, or with what the actor did instead."""
+    """Check whether an event happened or goes on: with its episode, or what was done instead."""
     found = occasion(asked, event)
     about = window(asked, event.time, event.tense)
     if found is not None and found.action == "cross" and event.tense in ("present", "perfect"):
         over = found.end is not None and found.end < asked.now - RECENT
         holds = over == (event.tense == "perfect")
-        return Finding(holds, (found,))  # who still crosses is not yet across
+        return Finding(holds, (found,))  # while it crosses, it is not yet across
     if found is not None:
         spent = Window(found.begin, found.begin)
-        halts = event.action in HALTS  # who goes straight on may stop on his way
+        halts = event.action in HALTS  # stopping does not contradict going straight on
         wrong = None if halts else wrong_belief(asked, event, spent, came=True)
         believed = () if wrong is None else (wrong,)
         return Finding(True, (found,), None, believed, wrong is not None)
@@ -167,7 +167,7 @@ def _has_been(asked: Asked, event: Event) -> Finding:
 
 
 def _how_hard(asked: Asked, event: Event) -> tuple[Fact, ...]:
-    """Tell how hard somebody braked who did not brake hard."""
+    """Return how hard somebody braked who did not brake hard."""
     if event.action not in ("brake", "slow-down") or "hard" not in event.manner:
         return ()
     manner = tuple(m for m in event.manner if m != "hard")
@@ -179,7 +179,7 @@ def _how_hard(asked: Asked, event: Event) -> tuple[Fact, ...]:
 
 
 def _to_come(asked: Asked, event: Event) -> Finding:
-    """Tell what is to come: by the plan of ours, or by what is believed of the other."""
+    """Check whether an event is to come: by our plan, or by what we believe of another vehicle."""
     now = asked.now
     present = with_fields(event, tense="present")
     under_way = occasion(asked, present)
@@ -230,7 +230,7 @@ def _to_come(asked: Asked, event: Event) -> Finding:
 
 
 def _collides(asked: Asked, event: Event) -> Finding:
-    """Tell whether there was a collision, nearly was one, or may be."""
+    """Check whether there was a collision, nearly was one, or may be."""
     one, other = naming.number(event.actor), naming.number(event.object)
     if one is not None and other is not None:
         return apart(asked, event)
@@ -253,7 +253,7 @@ def _collides(asked: Asked, event: Event) -> Finding:
 
 
 def _blocks(asked: Asked, event: Event) -> Finding:
-    """Tell whether we stood inside a junction."""
+    """Check whether we stood inside a junction."""
     about = window(asked, event.time, event.tense)
     stood = [
         e
@@ -271,7 +271,7 @@ def _blocks(asked: Asked, event: Event) -> Finding:
 
 
 def _lost(asked: Asked, event: Event, about: Window) -> Finding | None:
-    """Tell that it cannot be known, as it was not in view or the record has a hole there."""
+    """Return that an event is not known, as its actor was out of view or the record has a gap."""
     for begin, end in asked.ride.gaps:
         if begin <= about.end and end >= about.begin:
             return unknown("gap-in-record")
@@ -290,7 +290,7 @@ def _lost(asked: Asked, event: Event, about: Window) -> Finding | None:
 
 
 def _was_to_tell(asked: Asked, event: Event) -> bool:
-    """Tell whether the vehicle has since done what tells where it went."""
+    """Check whether a vehicle has done anything that shows where it went."""
     vehicle = naming.number(event.actor)
     if vehicle is None:
         return False
@@ -306,7 +306,7 @@ def _was_to_tell(asked: Asked, event: Event) -> bool:
 
 
 def _under_way(asked: Asked, event: Event, about: Window) -> tuple[Episode, ...]:
-    """Tell what the actor is about at that time."""
+    """Return what the actor of an event is doing at that time."""
     who = naming.somebodies(asked, event.actor, about.end)
     near = about.widened(0.5)
     speed = asked.world.measure("speed", who[0], about.end).value if who else None
@@ -319,7 +319,7 @@ def _under_way(asked: Asked, event: Event, about: Window) -> tuple[Episode, ...]
 
 
 def _speeds(asked: Asked, event: Event, about: Window) -> tuple[Measure, ...]:
-    """Give the speed of the actor, where the event is about how fast it drives."""
+    """Return the speed of the actor, if the event is about how fast it drives."""
     who = naming.somebodies(asked, event.actor, about.end)
     if event.action not in SPEEDS or not who:
         return ()
@@ -327,5 +327,5 @@ def _speeds(asked: Asked, event: Event, about: Window) -> tuple[Measure, ...]:
 
 
 def happened(asked: Asked, event: Event) -> bool:
-    """Tell whether there was such an event at any time so far."""
+    """Check whether there was such an event at any time so far."""
     return bool(occasions(asked, event))

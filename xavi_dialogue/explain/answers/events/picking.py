@@ -1,4 +1,4 @@
-"""Picking: which of several vehicles is meant, by how it is set apart from the others."""
+"""Picking: which of several vehicles is meant, by what sets it apart from the others."""
 
 from collections.abc import Callable
 
@@ -23,13 +23,13 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, expected
 from xavi_dialogue.explain.answers.reference.naming import ANY, look_of, somebodies
 
-LIKELY = 0.5  # probability from which one of several counts as going to do something
-STEADY = 0.3  # [m/s2] below which a speed is held
-LATELY = 10.0  # [s] for which one that was lost from view may still be around
+LIKELY = 0.5  # minimum probability of what one of several vehicles is going to do
+STEADY = 0.3  # [m/s2] below which a speed counts as constant
+LATELY = 10.0  # [s] for which a vehicle that was lost from view may still be near
 
 
 def extreme_of(thing: Thing, seen: tuple[Look, ...]) -> tuple[Look, ...]:
-    """Keep the nearest, fastest, biggest of them, where the description wants one."""
+    """Return the nearest, fastest or biggest of several, if the description asks for that."""
     wanted = thing.extreme if isinstance(thing, Described) else None
     if wanted is None or not seen:
         return seen
@@ -44,7 +44,7 @@ def extreme_of(thing: Thing, seen: tuple[Look, ...]) -> tuple[Look, ...]:
 
 
 def lately_lost(asked: Asked, look: Look) -> bool:
-    """Tell whether a vehicle is hidden, or was lost a short while ago."""
+    """Check whether a vehicle is hidden, or was lost from view a short while ago."""
     if look.in_view or look.seen is None:
         return False
     shown = asked.world.measure("visibility", Vehicle(look.vehicle), asked.now)
@@ -52,7 +52,7 @@ def lately_lost(asked: Asked, look: Look) -> bool:
 
 
 def owed_by_other(such: Proposition) -> Happens | None:
-    """Take "who has right of way over vehicle 2" for whom it gives way to; None: else."""
+    """Read "who has right of way over vehicle 2" as to whom it gives way; None for all else."""
     match such:
         case Related("has-priority-over", Wanted() | Described(), Vehicle() as by):
             pass
@@ -64,7 +64,7 @@ def owed_by_other(such: Proposition) -> Happens | None:
 
 
 def likeliest(asked: Asked, event: Event) -> Finding:
-    """Tell what is to come of any of several vehicles: the likeliest of them counts."""
+    """Check whether any of several vehicles will do something; the likeliest of them counts."""
     actor = event.actor
     if isinstance(actor, Nobody):  # "will anybody let us in?"
         of = actor.described
@@ -85,12 +85,12 @@ def likeliest(asked: Asked, event: Event) -> Finding:
 
 
 def is_to_come(such: Proposition) -> bool:
-    """Tell whether it is asked what somebody is going to do, not what the rule is."""
+    """Check whether a proposition is about what somebody is going to do, not about the rule."""
     return isinstance(such, Happens) and such.event.tense == "future" and such.event.modal is None
 
 
 def in_line(such: Related, seen: tuple[Look, ...], asked: Asked, at: float) -> tuple[Look, ...]:
-    """Choose of those in front of or behind another vehicle who is in its lane."""
+    """Return the vehicles in front of or behind another one that are not in other lanes."""
     of = look_of(asked, such.to, at)
     straight = such.relation in ("ahead-of", "behind")
     if not straight or of is None or of.bearing.startswith("crossing"):
@@ -107,7 +107,7 @@ def in_line(such: Related, seen: tuple[Look, ...], asked: Asked, at: float) -> t
 
 
 def spent(asked: Asked, episode: Episode, at: float) -> bool:
-    """Tell whether a change of speed is over, though the record has not yet closed it."""
+    """Check whether a change of speed is over, although the record has not yet ended it."""
     if episode.action not in ("speed-up", "slow-down", "brake"):
         return False
     rate = asked.world.measure("acceleration", episode.actor, at).value

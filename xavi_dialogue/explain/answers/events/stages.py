@@ -12,18 +12,18 @@ from xavi_dialogue.explain.answers.reference.occasions import PLAIN, occasion
 from xavi_dialogue.explain.answers.ride.places import time_to_go
 from xavi_dialogue.explain.history.thresholds import MOVING, STANDING
 
-STUCK = 5.0  # [s] at a standstill from which one is stuck
+STUCK = 5.0  # [s] at a standstill from which a vehicle is stuck
 
 
 def actor(of: Is) -> Thing:
-    """Tell whose state it is: ours where nobody is named."""
+    """Return whose state is meant; ours if nobody is named."""
     if of.thing is not None:
         return of.thing
     return Ego() if of.event is None else of.event.actor
 
 
 def still(of: Is, asked: Asked) -> Finding:
-    """Tell whether somebody stands, or moves."""
+    """Check whether somebody stands, or moves."""
     about = window(asked, of.time, of.tense)
     past = is_past(asked, of.time, of.tense)
     if past and not about.instant:
@@ -38,7 +38,7 @@ def still(of: Is, asked: Asked) -> Finding:
 
 
 def over(of: Is, asked: Asked) -> Finding:
-    """Tell whether what is spoken of is over."""
+    """Check whether what the question refers to is over."""
     vehicle = number(of.thing)
     found = None if of.event is None else occasion(asked, of.event)
     if found is not None:
@@ -64,12 +64,12 @@ def over(of: Is, asked: Asked) -> Finding:
 
 
 def late(of: Is, asked: Asked) -> Finding:
-    """Tell whether we are late: no record has a time by which we are to be there."""
+    """Return that it is not known whether we are late: no record has a time of appointment."""
     return unknown("unknown-plans", *known(time_to_go(asked, asked.now)))
 
 
 def stuck(of: Is, asked: Asked) -> Finding:
-    """Tell whether somebody has been standing for long."""
+    """Check whether somebody has been standing for long."""
     who = actor(of)
     event = Event("stand", who, time=of.time, tense="present")
     found = occasion(asked, event)
