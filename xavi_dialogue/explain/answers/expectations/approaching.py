@@ -1,4 +1,4 @@
-"""Approaching: how close a vehicle is going to come, by our plan and by what is expected of it."""
+"""Approaching: how close a vehicle will come, by our plan and by what is expected of it."""
 
 import math
 from collections.abc import Sequence
@@ -16,11 +16,11 @@ from xavi_dialogue.explain.facts.bodies import at_least, distance
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import planned, prediction
 
-STRIDE = 0.3  # [m] below which two places tell no heading
+STRIDE = 0.3  # [m] minimum distance of two places that give a heading
 
 
 def foreseen_closeness(asked: Asked, vehicle: int) -> Closeness | None:
-    """Tell how close a vehicle comes if all goes as planned and expected; None: not known."""
+    """Return how close a vehicle comes if all goes as planned and expected; None: not known."""
     trace = asked.ride.at(asked.now, vehicle)
     here, there = (asked.world.states.state(one, asked.now) for one in (EGO, vehicle))
     if trace is None or here is None or there is None:
@@ -36,7 +36,7 @@ def foreseen_closeness(asked: Asked, vehicle: int) -> Closeness | None:
 
 
 def _course(trace: PlanTrace, vehicle: int) -> tuple[Motion, TrajectoryPrediction] | None:
-    """Give our line under the plan, and with it the likeliest way of a vehicle simulated so."""
+    """Return our line in a rollout of the plan, and the vehicle's way in it, the likeliest one."""
     known, ours = prediction(trace, vehicle), lines(trace)
     plan = planned(trace)[:1]
     found: list[tuple[float, int, int, TrajectoryPrediction]] = []
@@ -63,7 +63,7 @@ def _closest(
     way: TrajectoryPrediction,
     begin: float,
 ) -> tuple[float, float] | None:
-    """Give the smallest distance [m] of both bodies from a time [s] on, and when [s] that is."""
+    """Return the smallest distance [m] of both bodies from a time [s] on, and when [s] that is."""
     best: tuple[float, float] | None = None
     for k in range(min(len(ours.position), len(way.path))):
         time = trace.sim_time + k * SAMPLE_PERIOD
@@ -79,7 +79,7 @@ def _closest(
 
 
 def _at(state: VehicleState, path: Sequence[Point], k: int) -> VehicleState:
-    """Give a vehicle as it is at a sample of its course, heading along it."""
+    """Return the state of a vehicle at a sample of its course, heading along it."""
     x, y = path[k]
     before = (p for p in reversed(path[:k]) if math.dist(p, path[k]) >= STRIDE)
     last = next(before, None)

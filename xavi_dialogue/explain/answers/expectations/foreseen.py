@@ -24,14 +24,14 @@ from xavi_dialogue.explain.causes.plans.contrast import factual
 from xavi_dialogue.explain.history.motion import branches_off, foresees
 from xavi_dialogue.explain.history.ride import Unanswered, prediction
 
-EXPECTED = 0.5  # probability from which something was expected
-MOVING = 1.0  # [m/s] by which a vehicle that goes gains speed
-OPEN = 0.1  # probability from which an answer adds another alternative
-CLEAR = 0.6  # from which one may be said to have been wrong
-BEFORE = 10.0  # [s] before an event that a prediction of it can be from
-SOLE = 0.95  # prior from which a road was the only one considered
+EXPECTED = 0.5  # minimum probability of what was expected
+MOVING = 1.0  # [m/s] minimum speed, or gain in speed, of a vehicle that goes
+OPEN = 0.1  # minimum probability of another alternative that an answer adds
+CLEAR = 0.6  # minimum probability of a belief that may have been wrong
+BEFORE = 10.0  # [s] before an event in which it may have been predicted
+SOLE = 0.95  # minimum prior of a road that was the only one considered
 
-#: The macro actions that an action of a question is foreseen by, sides apart.
+#: By action of a question without a side: the macro actions that predict it.
 TURNING: tuple[Action, ...] = ("exit-left", "exit-right", "exit-straight", "continue-next-exit")
 MEANINGS: dict[ActionName, tuple[Action, ...]] = {
     "continue": ("continue", "exit-straight"),
@@ -47,13 +47,13 @@ MEANINGS: dict[ActionName, tuple[Action, ...]] = {
 }
 HALTS: frozenset[ActionName] = frozenset(("stop", "stand", "wait"))
 STARTS: frozenset[ActionName] = frozenset(("go", "move", "pull-out", "enter", "cross"))
-#: What is meant of somebody who does so before us.
+#: Actions that mean a vehicle goes ahead of us.
 CROSSING: frozenset[ActionName] = frozenset(("pull-out", "enter", "cross"))
 YIELDS: frozenset[ActionName] = frozenset(("give-way", "let-go", "wait"))
 
 
 def chance(asked: Asked, event: Event, at: float) -> float | None:
-    """Tell how probable it was at a time [s] that a vehicle does something; None: unknown."""
+    """Return how probable it was at a time [s] that a vehicle does something; None: unknown."""
     vehicle = number(event.actor)
     if vehicle is None:
         return None
@@ -82,9 +82,9 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
 
 
 def unconsidered(asked: Asked, event: Event, at: float) -> Bound | None:
-    """Tell of a turn or exit that a decision up to a time [s] left out of account; None: else.
+    """Return that a decision up to a time [s] did not consider a turn or exit; else None.
 
-    What a vehicle has done by then is behind it, and was no longer considered.
+    What a vehicle had done by then does not count: it is not predicted any more.
     """
     vehicle = number(event.actor)
     trace = None if vehicle is None else asked.ride.at(at, vehicle)
@@ -101,12 +101,12 @@ def unconsidered(asked: Asked, event: Event, at: float) -> Bound | None:
 
 
 def is_behind(asked: Asked, event: Event, at: float) -> bool:
-    """Tell whether what was done is asked of as past, or is no longer foreseen."""
+    """Check whether an event is asked about as past, or is no longer predicted."""
     return event.tense == "past" or chance(asked, event, at) is None
 
 
 def _ignored(known: VehiclePrediction, event: Event) -> bool:
-    """Tell whether only the road ahead was considered, where a turn or exit is asked about."""
+    """Check whether an event is a turn or exit, and only the road ahead was considered."""
     names = macros(event)
     if not names or not set(names) <= set(TURNING):
         return False
@@ -116,7 +116,7 @@ def _ignored(known: VehiclePrediction, event: Event) -> bool:
 
 
 def _alongside(asked: Asked, event: Event, vehicle: int, at: float) -> Event:
-    """Take "pull out" and "cut in" of who drives the same way for a change to our side."""
+    """Read "pull out" and "cut in" of a vehicle that drives our way as a change of lanes."""
     look = asked.world.look(vehicle, at)
     if event.action not in ("pull-out", "cut-in") or look is None or look.speed < MOVING:
         return event
@@ -132,7 +132,10 @@ def _alongside(asked: Asked, event: Event, vehicle: int, at: float) -> Event:
 
 
 def _meeting_us(trace: PlanTrace, way: TrajectoryPrediction, event: Event) -> bool | None:
-    """Tell whether a predicted way leads before us, behind us or into our road, where asked."""
+    """Check whether a predicted way leads before us, behind us or into our road, as the event says.
+
+    None for all other events, or if that is not known.
+    """
     ours = event.object is None or is_us(event.object)
     if event.action == "enter" and event.object == Road("own"):
         return into_our_road(trace, way)
@@ -145,7 +148,7 @@ def _meeting_us(trace: PlanTrace, way: TrajectoryPrediction, event: Event) -> bo
 
 
 def foretells(way: TrajectoryPrediction, event: Event) -> bool | None:
-    """Tell whether a predicted way contains an event; None where ways tell nothing of such."""
+    """Check whether a predicted way contains an event; None if ways do not show such events."""
     action = sided(event)
     if action in YIELDS:
         return _yields(way.held_up, event) or (action == "wait" and foresees(way, "stop"))
@@ -169,14 +172,14 @@ def foretells(way: TrajectoryPrediction, event: Event) -> bool | None:
 
 
 def _on_branch(event: Event) -> bool | None:
-    """Tell whether an event is what comes where a road branches off; None: that tells nothing."""
+    """Check whether taking a road that branches off is the event; None: that does not show it."""
     if event.action == "leave":
         return True
     return False if event.action in ("continue", "exit-straight", "keep-lane") else None
 
 
 def contains(actions: tuple[ActionName, ...], event: Event) -> bool | None:
-    """Tell whether actions are of such an event; leaving means at the next exit. None: unknown."""
+    """Check whether actions contain an event; leaving means at the next exit. None: unknown."""
     names = macros(event)
     if sided(event) != event.action or event.action != "leave":
         return any(step in names for step in actions) if names else None
@@ -184,7 +187,7 @@ def contains(actions: tuple[ActionName, ...], event: Event) -> bool | None:
 
 
 def macros(event: Event) -> tuple[Action, ...]:
-    """Give the macro actions that an event stands for, its side considered; () for all else."""
+    """Return the macro actions that an event stands for, with its side; () for all else."""
     action = sided(event)
     if action in MEANINGS:
         return MEANINGS[action]
@@ -193,7 +196,7 @@ def macros(event: Event) -> tuple[Action, ...]:
 
 
 def sided(event: Event) -> ActionName:
-    """Give the action with the side that was said put into it."""
+    """Return the action of an event with its side, such as "exit-left" for turning left."""
     if event.action in ("turn", "leave") and event.side is not None:
         sides: dict[str, ActionName] = {
             "left": "exit-left", "right": "exit-right", "straight": "exit-straight"
@@ -207,12 +210,12 @@ def sided(event: Event) -> ActionName:
 
 
 def matches(expected: Expectation, event: Event) -> bool | None:
-    """Tell whether an expectation is of such an event; None where its actions do not tell."""
+    """Check whether an expectation contains an event; None if its actions do not show that."""
     return contains(expected.actions, event)
 
 
 def besides(belief: Belief | None, event: Event) -> tuple[Expectation, ...]:
-    """Give what else than an event is likely by a belief, likeliest first."""
+    """Return what is likely by a belief other than an event, likeliest first."""
     names = macros(event)
     if not names or "stop" in names:
         return ()  # where it goes is no alternative to whether it stops
@@ -222,17 +225,17 @@ def besides(belief: Belief | None, event: Event) -> tuple[Expectation, ...]:
 
 
 def wrong_belief(asked: Asked, event: Event, about: Window, came: bool) -> Belief | None:
-    """Give the last belief up to an event that it contradicts: what was expected was not what came.
+    """Return the last belief that an event contradicts: what was expected was not what came.
 
     Args:
         asked: the act and its setting.
         event: what came, or what was asked about and did not come.
-        about: when.
-        came: whether it did.
+        about: when it came or would have come.
+        came: whether it came.
     """
     vehicle = number(event.actor)
     if vehicle is None or not macros(event) or event.action in ("overtake", "pass"):
-        return None  # who drives past in his own lane was not foreseen to leave it
+        return None  # passing in its own lane contradicts no expected lane change
     known = asked.world.beliefs(vehicle, max(about.begin - BEFORE, asked.world.begin), about.end)
     for belief in reversed(known):
         first = belief.expectations[0] if belief.expectations else None
@@ -245,7 +248,7 @@ def wrong_belief(asked: Asked, event: Event, about: Window, came: bool) -> Belie
 
 
 def came_of(asked: Asked, vehicle: int, since: float) -> Episode | None:
-    """Tell what a vehicle did first after a time [s] that tells where it went."""
+    """Return the first action of a vehicle after a time [s] that shows where it went."""
     ways: tuple[ActionName, ...] = (
         "exit-left",
         "exit-right",
@@ -260,7 +263,7 @@ def came_of(asked: Asked, vehicle: int, since: float) -> Episode | None:
 
 
 def is_open(asked: Asked, belief: Belief) -> bool:
-    """Tell whether it is yet to be seen where a vehicle goes, as when it only changed lanes."""
+    """Check whether it is still open where a vehicle goes, as when it only changed lanes."""
     came = came_of(asked, belief.vehicle, belief.time)
     look = asked.world.look(belief.vehicle, asked.now)
     undecided = came is None or came.action in ("change-left", "change-right")
@@ -268,7 +271,7 @@ def is_open(asked: Asked, belief: Belief) -> bool:
 
 
 def collision_chance(asked: Asked, at: float, vehicle: int | None = None) -> float | None:
-    """Tell how probable a collision was under the plan at a time [s]; None: too little is known."""
+    """Return how probable a collision was under the plan at a time [s]; None: not known."""
     trace = asked.ride.at(at)
     if trace is None or not trace.plan:
         return None
@@ -280,7 +283,7 @@ def collision_chance(asked: Asked, at: float, vehicle: int | None = None) -> flo
 
 
 def simulated(asked: Asked, at: float, vehicle: int | None = None) -> tuple[int, int]:
-    """Tell in how many situations the plan at a time [s] was simulated, and how many collided."""
+    """Return in how many situations the plan at a time [s] was simulated, and how many collided."""
     trace = asked.ride.at(at)
     if trace is None or not trace.plan:
         return 0, 0
@@ -293,6 +296,6 @@ def simulated(asked: Asked, at: float, vehicle: int | None = None) -> tuple[int,
 
 
 def _yields(stretches: tuple[HeldUp, ...], event: Event) -> bool:
-    """Tell whether it gives way on such a way: to the object, or to us where none is said."""
+    """Check whether a vehicle gives way in some stretches: to the object, or by default to us."""
     whom = EGO if event.object is None or is_us(event.object) else number(event.object)
     return any(s.how == "right-of-way" and s.vehicle == whom for s in stretches)

@@ -1,4 +1,4 @@
-"""Plans: what the ego is going to do, when, and how long that takes, read off its rollouts."""
+"""Plans: what the ego is going to do, when, and how long that takes, by its rollouts."""
 
 import math
 from collections.abc import Callable
@@ -27,18 +27,18 @@ from xavi_dialogue.explain.causes.vehicles.course import Expected, begins, expec
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import planned
 
-#: What is told to be under way before what comes next.
+#: Actions that are stated as under way before what comes next.
 MOVES: frozenset[Action] = frozenset(
     ("change-left", "change-right", "exit-left", "exit-right", "exit-straight")
 )
 AHEAD: tuple[Attribute, ...] = ("turn", "exit-number", "distance", "time-to-go")
-STANDSTILL = 8.0  # [s] within which braking that ends in standing is a stop
-REGAINED = 0.5  # [m/s] by which one is faster again after slowing down
+STANDSTILL = 8.0  # [s] maximum time from braking to a standstill for it to be a stop
+REGAINED = 0.5  # [m/s] above the lowest speed, from which the ego is faster again
 Mark = Callable[[Rollout, Motion], float | None]
 
 
 def plan_ahead(asked: Asked, *, measures: bool = True) -> PlanAhead:
-    """Tell what the ego does next, with what it comes to on its way."""
+    """Return what the ego does next, with what it comes to on its way."""
     ride, world = asked.ride, asked.world
     if ride.arrived or not ride.traces:
         return PlanAhead((), arrived=ride.arrived)
@@ -73,7 +73,7 @@ def steps(asked: Asked) -> tuple[tuple[Action, float], ...]:
 
 
 def current_plan(asked: Asked) -> tuple[PlanTrace, Intervention] | None:
-    """Give the last decision, and what comes of its plan; None: too little evidence."""
+    """Return the last decision, and the results of its plan; None: too little evidence."""
     if not asked.ride.traces:
         return None
     trace = asked.ride.latest
@@ -84,12 +84,12 @@ def current_plan(asked: Asked) -> tuple[PlanTrace, Intervention] | None:
 
 
 def foreseen(asked: Asked, event: Event) -> Expected | None:
-    """Tell when the ego does something under its plan; None where no rollout shows it doing so."""
+    """Return when the ego does something under its plan; None if no rollout shows that."""
     return _read(asked, _mark(event))
 
 
 def is_halting(asked: Asked) -> bool:
-    """Tell whether the ego brakes, and stands still soon under its plan."""
+    """Check whether the ego brakes, and stands still soon under its plan."""
     if occasion(asked, Event("brake", tense="present")) is None:
         return False
     found = foreseen(asked, Event("stop"))
@@ -98,12 +98,12 @@ def is_halting(asked: Asked) -> bool:
 
 
 def moving_on(asked: Asked) -> Expected | None:
-    """Tell when the ego, which stands, drives on."""
+    """Return when the ego, which stands, drives on."""
     return _read(asked, moves_on)
 
 
 def horizon(asked: Asked) -> float | None:
-    """Tell up to when [s] the plan is known."""
+    """Return up to when [s] the plan is known."""
     known = current_plan(asked)
     if known is None:
         return None
@@ -111,7 +111,7 @@ def horizon(asked: Asked) -> float | None:
 
 
 def slowest_ahead(asked: Asked) -> float | None:
-    """Tell to what speed [m/s] the ego slows down next under its plan; None: it is not known."""
+    """Return the speed [m/s] that the ego slows down to next under its plan; None: not known."""
     known = current_plan(asked)
     if known is None:
         return None
@@ -126,7 +126,7 @@ def slowest_ahead(asked: Asked) -> float | None:
 
 
 def _first_low(motion: Motion, now: float) -> float:
-    """Give the speed [m/s] down to which a line slows before it picks up speed again."""
+    """Return the lowest speed [m/s] of a line before it picks up speed again."""
     inside = motion.within(now, math.inf)
     low = motion.speed[inside[0] if inside else -1]
     for k in inside:
@@ -142,7 +142,7 @@ def _read(asked: Asked, mark: Mark) -> Expected | None:
 
 
 def _mark(event: Event) -> Mark:
-    """Tell what tells that an event begins in a rollout."""
+    """Return a function that finds when [s] an event begins in a rollout."""
     action, names = sided(event), macros(event)
     if action in YIELDS:
         return lambda rollout, _: next(

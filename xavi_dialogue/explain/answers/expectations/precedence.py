@@ -1,4 +1,4 @@
-"""Precedence: who comes first where ways meet, as foreseen; on a ring, at a red light."""
+"""Precedence: who comes first where ways meet, as predicted; roundabouts and red lights ahead."""
 
 import math
 from collections.abc import Sequence
@@ -13,18 +13,18 @@ from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import planned
 
 MEETING: Final = 2.0  # [m] within which two lines meet
-MOVING: Final = 0.5  # [m/s] from which a vehicle drives along its line
-TURNED: Final = math.radians(35.0)  # up to which a direction counts as the same
-BESIDE: Final = 9.0  # [m] sideways up to which somebody is on our road
-SHORTLY: Final = 4.0  # [s] before us within which somebody passes in front of us
-SAME_PLACE: Final = 3.0  # [m] by which a junction and its light differ in distance
-AHEAD: Final = 15.0  # [m] of our way that tell how our road runs
+MOVING: Final = 0.5  # [m/s] above which a vehicle moves along its line
+TURNED: Final = math.radians(35.0)  # [rad] maximum difference of directions that count as the same
+BESIDE: Final = 9.0  # [m] maximum offset sideways of a vehicle on our road
+SHORTLY: Final = 4.0  # [s] maximum time before us at which a vehicle passes in front of us
+SAME_PLACE: Final = 3.0  # [m] maximum difference of the distances of a junction and its light
+AHEAD: Final = 15.0  # [m] length of our way that gives the direction of our road
 
 First: TypeAlias = Literal["we", "they", "nobody"]
 
 
 def first(trace: PlanTrace, way: TrajectoryPrediction) -> First | None:
-    """Tell who is first where our ways meet; nobody where they do not. None: it is not known."""
+    """Return who is first where our ways meet; nobody if they do not. None: not known."""
     ours = planned_line(trace)
     if ours is None or not way.path or not way.speed:
         return None
@@ -38,7 +38,7 @@ def first(trace: PlanTrace, way: TrajectoryPrediction) -> First | None:
 
 
 def before_us(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
-    """Tell whether a way leads shortly before us past a place of ours; None: it is not known."""
+    """Check whether a way crosses ours shortly before we get there; None: not known."""
     ours = planned_line(trace)
     if ours is None or not way.path or not way.speed:
         return None
@@ -50,7 +50,7 @@ def before_us(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
 
 
 def into_our_road(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
-    """Tell whether a way leads into the road that we are on; None: it is not known."""
+    """Check whether a way leads into the road that we are on; None: not known."""
     ours = planned_line(trace)
     if ours is None or len(way.path) < 2:
         return None
@@ -65,7 +65,7 @@ def into_our_road(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
 
 
 def planned_line(trace: PlanTrace) -> Motion | None:
-    """Return the line that goes farthest of those that drive as planned."""
+    """Return the longest line among the rollouts that begin as planned."""
     plan, known = planned(trace)[:1], lines(trace)
     fitting = [
         known[r.index]
@@ -77,7 +77,7 @@ def planned_line(trace: PlanTrace) -> Motion | None:
 
 
 def _reached(ours: Motion, place: Point) -> float | None:
-    """Return when [s] we pass a place; None where our line does not lead past it."""
+    """Return when [s] we pass a place; None if our line does not lead past it."""
     best = min((_apart(a, b, place), k) for k, (a, b) in enumerate(pairwise(ours.position)))
     return ours.time[best[1]] if best[0] <= MEETING else None
 
@@ -92,7 +92,7 @@ def _apart(a: Point, b: Point, place: Point) -> float:
 
 
 def _direction(points: Sequence[Point]) -> float | None:
-    """In which direction points lead; None where they stay in one place."""
+    """Return the direction [rad] in which points lead; None if they stay in one place."""
     if len(points) < 2 or math.dist(points[0], points[-1]) < MOVING:
         return None
     (ax, ay), (bx, by) = points[0], points[-1]
@@ -100,19 +100,19 @@ def _direction(points: Sequence[Point]) -> float | None:
 
 
 def at_ring(road: RoadFacts | None) -> bool:
-    """Tell whether the next junction is that of a roundabout, or we are on one."""
+    """Check whether the next junction is that of a roundabout, or we are on one."""
     coming = road is not None and bool(road.route) and road.route[0].kind == "roundabout"
     return coming or on_ring(road)
 
 
 def on_ring(road: RoadFacts | None) -> bool:
-    """Tell whether we are on a roundabout, where those who come to it have to wait."""
+    """Check whether we are on a roundabout, where those who come to it have to wait."""
     place = None if road is None else road.places.get(EGO)
     return place is not None and place.roundabout
 
 
 def red_ahead(road: RoadFacts | None) -> bool:
-    """Tell whether the next junction on our way has a light, and that is red for us."""
+    """Check whether the next junction on our way has a light that is red for us."""
     if road is None or not road.lights or not road.route:
         return False
     next_one = abs(road.lights[0].distance - road.route[0].distance) < SAME_PLACE

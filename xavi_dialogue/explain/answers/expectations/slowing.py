@@ -23,7 +23,7 @@ SLOWER = 1.5  # [m/s] by which we must slow down for passengers to call it slowe
 
 
 def slowing(asked: Asked, event: Event) -> Slowing | None:
-    """Tell whether we stop or slow down, and whether for those asked about; None: not asked.
+    """Return whether we stop or slow down, and for those asked about; None: not asked.
 
     Also None if no rollout is known, or if nobody is named and we stop or slowing is asked about.
     """
@@ -55,7 +55,7 @@ def slowing(asked: Asked, event: Event) -> Slowing | None:
 
 
 def _yields(asked: Asked) -> bool:
-    """Tell whether we have to give way to somebody at the next junction, or where roads merge."""
+    """Check whether we have to give way to somebody at the next junction, or where roads merge."""
     road = asked.world.road(asked.now)
     if road is None:
         return False
@@ -73,7 +73,7 @@ def _others(asked: Asked, thing: Thing | None) -> tuple[int, ...]:
 
 
 def _held(asked: Asked, vehicle: int) -> float:
-    """Tell in what share of the rollouts foreseen a vehicle or person holds us up."""
+    """Return the share of the rollouts of our plan in which a vehicle or person holds us up."""
     known = current_plan(asked)
     if known is None:
         return 0.0
@@ -86,7 +86,7 @@ def _held(asked: Asked, vehicle: int) -> float:
 
 
 def _order(asked: Asked, others: tuple[int, ...]) -> First | None:
-    """Tell who comes first where our ways meet, by the likeliest of each; None: they differ."""
+    """Return who comes first where our ways meet, by the likeliest for each; None: they differ."""
     trace = asked.ride.latest
     found = {_likeliest_order(trace, vehicle) for vehicle in others}
     if len(found) > 1:
