@@ -1,7 +1,7 @@
-"""Lights: who answers questions about traffic lights.
+"""Lights: which function answers a question about a traffic light.
 
-Who asks of a thing that is a traffic light is answered here, whatever the form of the question;
-why we stopped for one is stated with the other reasons.
+Questions about a traffic light are answered here, whatever their form. Only the question why we
+stopped for one is answered with the other reasons.
 """
 
 from collections.abc import Callable
@@ -48,7 +48,7 @@ Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
 
 def explainer(act: object, scene: Asked) -> Explainer | None:
-    """Find who answers an act about a traffic light; None where it is about none."""
+    """Find the function that answers an act about a traffic light; None if it is about none."""
     if isinstance(act, Claim):
         if of_another(act.that):
             return lights_seen.unseen_claim
@@ -90,7 +90,7 @@ def _asked(found: Explainer) -> Explainer:
 
 
 def _of_fact(question: object) -> Explainer | None:
-    """Return who answers what a light is, was, where it is, or why it is so."""
+    """Return the function that answers what a light shows or showed, where it is, or why."""
     match question:
         case HowMuch(Measured(attribute="colour" | "kind", thing=Feature(kind="light"))):
             return _asked(lights_seen.colour)

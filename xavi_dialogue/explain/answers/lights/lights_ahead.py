@@ -1,6 +1,7 @@
 """Lights ahead: when a traffic light is, or was, expected to change.
 
-What is to come is a belief, told with its range: the courses that the planner drew from.
+What is to come is a belief. It is stated with its range, which comes from the courses that the
+planner drew from.
 """
 
 from typing import Any
@@ -17,11 +18,11 @@ from xavi_dialogue.explain.facts.episodes.light_waits import holds
 from xavi_dialogue.explain.facts.traffic_lights import SAID, foreseen, meant, shown_at
 from xavi_dialogue.explain.history.traffic_lights import stretches
 
-LATELY = 20.0  # [s] since when a change of a light is what was expected
+LATELY = 20.0  # [s] after a change of a light in which a question means that change
 
 
 def concerns(of: Proposition | None) -> bool:
-    """Tell whether a proposition is about what a light shows or turns to."""
+    """Check whether a proposition is about what a light shows or turns to."""
     of, _ = unwrapped(of)
     match of:
         case Has(attribute="colour", thing=Feature(kind="light")):
@@ -32,7 +33,7 @@ def concerns(of: Proposition | None) -> bool:
 
 
 def wanted_of(of: Proposition | None) -> tuple[Feature, LightColour | None]:
-    """Find the light, and what it is said to show."""
+    """Return the light of a proposition, and the colour that it is said to show."""
     of, _ = unwrapped(of)
     match of:
         case Has(value=value, thing=Feature() as light):
@@ -44,7 +45,7 @@ def wanted_of(of: Proposition | None) -> tuple[Feature, LightColour | None]:
 
 
 def is_to_come(of: Proposition | None, scene: Asked) -> bool:
-    """Tell whether it is asked what a light will show, or that it is about to change."""
+    """Check whether a proposition is about what a light will show, or its change to come."""
     if not concerns(of):
         return False
     inner, _ = unwrapped(of)
@@ -57,23 +58,23 @@ def is_to_come(of: Proposition | None, scene: Asked) -> bool:
 
 
 def is_change(of: Proposition | None) -> bool:
-    """Tell whether a proposition is that a light changes."""
+    """Check whether a proposition is that a light changes."""
     inner, _ = unwrapped(of)
     return concerns(of) and isinstance(inner, Happens) and inner.event.action == "turn-colour"
 
 
 def when(question: When, scene: Asked) -> Answer:
-    """Tell when a light is expected to change."""
+    """Return when a light is expected to change."""
     return _forecast(question.of, scene, "when")
 
 
 def coming(question: Whether, scene: Asked) -> Answer:
-    """Tell whether a light is expected to change soon."""
+    """Return whether a light is expected to change soon."""
     return _forecast(question.that, scene, "whether")
 
 
 def how_sure(question: HowSure, scene: Asked) -> Answer:
-    """Tell how sure we are that a light changes."""
+    """Return how sure we are that a light changes."""
     return _forecast(question.of, scene, "how-sure")
 
 
@@ -91,12 +92,12 @@ def _forecast(of: Proposition | None, scene: Asked, asked: Any) -> Answer:
 
 
 def how_known(question: HowKnow, scene: Asked) -> Answer:
-    """Tell on what grounds a light is expected to change."""
+    """Return the forecast by which a light is expected to change."""
     return _forecast(question.of, scene, "when")
 
 
 def expected(question: Any, scene: Asked) -> Answer:
-    """Tell what was expected of a light before it changed last; else what is expected now."""
+    """Return what was expected of a light before it changed last, else what is expected now."""
     believed = question.that if isinstance(question, Whether) else question.of
     assert isinstance(believed, Believed)
     light, wanted = wanted_of(believed.content)

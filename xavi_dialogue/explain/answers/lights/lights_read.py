@@ -1,4 +1,4 @@
-"""Lights read: what a question says of a traffic light, and the moment that it asks about."""
+"""Lights read: what a question says about a traffic light, and which moment it is about."""
 
 from sim.scene import Signal
 from xavi_dialogue.domain.terms import (
@@ -25,12 +25,12 @@ GOING = frozenset(("go", "move", "continue", "exit-straight"))
 
 
 def things(of: object) -> tuple[object, ...]:
-    """List who acts in an event, and upon what."""
+    """Return the actor and the object of an event."""
     return (of.actor, of.object) if isinstance(of, Event) else ()
 
 
 def of_showing(of: object) -> tuple[Feature, LightColour | None] | None:
-    """Return the light of which it is said that it shows, or turns to, a colour."""
+    """Return the light that is said to show or turn to a colour, and the colour."""
     match of:
         case Has(attribute="colour", value=value, thing=Feature(kind="light") as light):
             return light, SAID.get(value)
@@ -57,7 +57,7 @@ def passing(of: Proposition | None) -> Event | None:
 
 
 def may_pass(of: Proposition | None) -> bool:
-    """Tell whether it is asked if we could or should pass a light."""
+    """Check whether a proposition is that we could or should pass a light."""
     inner, _ = unwrapped(of)
     if not isinstance(inner, Happens) or not is_own(inner.event.actor):
         return False
@@ -67,7 +67,7 @@ def may_pass(of: Proposition | None) -> bool:
 
 
 def of_another(that: Proposition | None) -> bool:
-    """Whether it is said that another vehicle passed a light: of whom that is not recorded."""
+    """Check whether a proposition is that another vehicle passed a light, which is not recorded."""
     of, _ = unwrapped(that)
     if not isinstance(of, Happens) or is_own(of.event.actor) or of.event.action not in PASSING:
         return False
@@ -75,7 +75,7 @@ def of_another(that: Proposition | None) -> bool:
 
 
 def stated(that: Proposition | None) -> Proposition | None:
-    """Return what is said of a light, where facts tell whether it is so."""
+    """Return what is said about a light, if facts show whether it is so."""
     of, _ = unwrapped(that)
     match of:
         case Has() | Happens() if of_showing(of) is not None:
@@ -88,14 +88,14 @@ def stated(that: Proposition | None) -> Proposition | None:
 
 
 def alike(one: Shown, wanted: LightColour) -> bool:
-    """Tell whether a light showed what is said, red and amber being red."""
+    """Check whether a light showed a colour; red and amber together count as red."""
     return one.colour == wanted or (wanted == "red" and one.colour == "red-amber")
 
 
 def moment(of: object, scene: Asked, light: Feature) -> tuple[float, bool]:
-    """Return the moment [s] asked about, and whether it lies behind.
+    """Return the moment [s] asked about, and whether it is in the past.
 
-    Spoken of in the past with no time said, it is when we passed the last light's line.
+    In the past tense without a time, it is when we passed the line of the last light.
     """
     tense = getattr(of, "tense", None) or getattr(getattr(of, "event", None), "tense", "present")
     span = scene.past

@@ -43,29 +43,29 @@ from xavi_dialogue.explain.history.traffic_lights import passings, stretches
 
 
 def unseen(question: Whether, scene: Asked) -> Answer:
-    """Tell that it is not recorded how another vehicle passed a light."""
+    """Return that it is not recorded how another vehicle passed a light."""
     del scene
     return Verdict(question.that, None, gap="not-recorded")
 
 
 def unseen_claim(act: Claim, scene: Asked) -> Answer:
-    """Tell the same to who says that it did."""
+    """Return the same in reply to a claim."""
     del scene
     return Verdict(act.that, None, gap="not-recorded", claim=True)
 
 
 def claimed(act: Claim, scene: Asked) -> Answer:
-    """Hold a claim about a light against what was seen of it."""
+    """Check a claim about a light against what was seen of it."""
     return _judged(act.that, scene, claim=True)
 
 
 def whether(question: Whether, scene: Asked) -> Answer:
-    """Tell whether a light shows or showed something, or was there."""
+    """Return whether a light shows or showed something, or was there."""
     return _judged(question.that, scene, claim=False)
 
 
 def _judged(that: Proposition, scene: Asked, *, claim: bool) -> Answer:
-    """Hold what is said of a light against what was seen of it."""
+    """Check what is said about a light against what was seen of it."""
     of, negated = unwrapped(that)
     event = passing(that)
     if event is not None:
@@ -124,7 +124,7 @@ def _asked_of(question: HowMuch | Doing) -> tuple[object, ...]:
 
 
 def colour(question: HowMuch | Doing, scene: Asked) -> Answer:
-    """Tell what a light shows or showed."""
+    """Return what a light shows or showed."""
     light = light_in(*_asked_of(question)) or Feature("light")
     time, past = moment(getattr(question, "of", question), scene, light)
     one = shown_at(scene.ride, light, time)
@@ -134,23 +134,23 @@ def colour(question: HowMuch | Doing, scene: Asked) -> Answer:
 
 
 def _others(scene: Asked, light: Feature, time: float, *, past: bool) -> LightTold:
-    """Tell that it is not known what a light showed to others, beside what ours did."""
+    """Return that it is not known what a light showed, with what ours did if it is another's."""
     own = None if light.of is None else shown_at(scene.ride, Feature("light"), time)
     return LightTold("colour", past=past, time=time, whose=light.of, own=own)
 
 
 def seen_any(question: Which, scene: Asked) -> Answer:
-    """Tell which light was seen: the one on our way."""
+    """Return the light that was seen: the one on our way."""
     return _seen(Exists(Feature("light")), scene, negated=False)
 
 
 def ours(question: Which, scene: Asked) -> Answer:
-    """Return who has green: that is known of us alone."""
+    """Return what the light shows to us, as only that is known."""
     return LightTold("colour", shown_at(scene.ride, Feature("light"), scene.now), time=scene.now)
 
 
 def where(question: Any, scene: Asked) -> Answer:
-    """Tell how far ahead a light is, or when we passed it."""
+    """Return how far ahead a light is, or when we passed it."""
     of = question.thing if isinstance(question, Identify) else question.of
     light = light_in(of, getattr(of, "thing", None), getattr(of, "to", None)) or Feature("light")
     one = shown_at(scene.ride, light, scene.now)
@@ -158,7 +158,7 @@ def where(question: Any, scene: Asked) -> Answer:
 
 
 def count(question: HowMany, scene: Asked) -> Answer:
-    """Tell how many lights we have passed."""
+    """Return how many lights we have passed."""
     every = tuple(crossed(scene.ride, one) for one in passings(scene.ride))
     wanted = colour_of(light_in(question.of, *things(question.of)))
     found = every
@@ -171,7 +171,7 @@ def count(question: HowMany, scene: Asked) -> Answer:
 
 
 def when(question: When, scene: Asked) -> Answer:
-    """Return when it came to show a colour: the last time up to the moment asked about."""
+    """Return when a light turned to a colour, last up to the moment asked about."""
     found = of_showing(question.of)
     tense = getattr(question.of, "tense", "past")
     one = shown_at(scene.ride, found[0], scene.now) if found is not None else None
@@ -181,7 +181,7 @@ def when(question: When, scene: Asked) -> Answer:
 
 
 def how_long(question: HowLong, scene: Asked) -> Answer:
-    """Tell for how long a light has shown something, or did."""
+    """Return how long a light has shown something, or did."""
     return _stretch(question.of, scene, "how-long")
 
 
@@ -202,7 +202,7 @@ def _stretch(of: object, scene: Asked, asked: Any) -> Answer:
 
 
 def how_known(question: HowKnow, scene: Asked) -> Answer:
-    """Tell how we know what a light shows: it is seen."""
+    """Return how we know what a light shows: we see it."""
     found = of_showing(question.of)
     light = found[0] if found is not None else Feature("light")
     time, past = moment(question.of, scene, light)
@@ -210,7 +210,7 @@ def how_known(question: HowKnow, scene: Asked) -> Answer:
 
 
 def why(question: Why, scene: Asked) -> Answer:
-    """Tell that we see what a light shows, and not why."""
+    """Return that we see what a light shows, but not why."""
     of, _ = unwrapped(question.of)
     found = of_showing(of)
     light = found[0] if found is not None else Feature("light")
@@ -219,7 +219,7 @@ def why(question: Why, scene: Asked) -> Answer:
 
 
 def why_passed(question: Why, scene: Asked) -> Answer:
-    """Tell how we passed a light, of which it is asked why we did."""
+    """Return how we passed a light, for the question why we did."""
     event = passing(question.of)
     assert event is not None
     found = _passed(event, scene, claim=False)
@@ -227,7 +227,7 @@ def why_passed(question: Why, scene: Asked) -> Answer:
 
 
 def _passed(event: Event, scene: Asked, *, claim: bool) -> LightPassed:
-    """Hold how we passed a light against what is said of it: by default, that it was red."""
+    """Check what is said about our passing a light against how we passed it."""
     light = light_in(event.object, None if event.where is None else event.where.to)
     wanted = colour_of(light)
     past = scene.past

@@ -1,7 +1,7 @@
-"""Lights supposed: what if a light had shown another thing, and why we do not turn on red.
+"""Lights supposed: what if a light had shown something else, and why we do not turn on red.
 
-The decision at which it would have mattered is planned again with what the light is supposed to
-show for good.
+The decision at which it would have mattered is planned again, with the light showing for good what
+it is supposed to show.
 """
 
 from typing import Any, Literal
@@ -25,7 +25,7 @@ from xavi_dialogue.explain.facts.traffic_lights import light_in, meant, shown_at
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, planned
 from xavi_dialogue.explain.history.traffic_lights import ahead, passings
 
-STANDING = 0.3  # [m/s]
+STANDING = 0.3  # [m/s] below which we stand
 STATES: dict[LightColour, str] = {
     "red": LightState.RED.value, "amber": LightState.AMBER.value, "green": LightState.GREEN.value,
     "red-amber": LightState.RED_AMBER.value, "off": LightState.OFF.value,
@@ -38,7 +38,7 @@ TURNS: dict[str, Literal["left", "right", "straight"]] = {
 
 
 def supposed(question: WhatIf, scene: Asked) -> Answer:
-    """Tell what would have been, or would be, had a light shown something else, or stayed so.
+    """Return what would have happened, or would, if a light had shown something else, or did.
 
     Raises:
         Unanswered: no decision knows the light; or it must be planned again first.
@@ -80,7 +80,7 @@ def supposed(question: WhatIf, scene: Asked) -> Answer:
 
 
 def _would(then: Question | None, *, waits: bool) -> bool | None:
-    """Return the reply where it is asked whether we would have stopped then, or driven on."""
+    """Return the reply to whether we would have stopped then, or driven on; None: not asked."""
     event = event_of(then.that) if isinstance(then, Whether) else None
     if event is None or not is_own(event.actor):
         return None
@@ -98,16 +98,17 @@ def _meant_colour(wanted: LightColour | None, now: Shown | None, *, negated: boo
 
 
 def _is_open(now: Shown | None, wanted: LightColour) -> bool:
-    """Check whether what is supposed in the past tense may still come: "if it stayed red"."""
+    """Check whether a supposition in the past tense is about what goes on: "if it stayed red"."""
     return now is not None and now.end is None and now.colour == wanted
 
 
 def _decision(
     scene: Asked, light: Feature, wanted: LightColour, *, past: bool
 ) -> tuple[PlanTrace, Signal | None]:
-    """Return the decision at which it would have mattered, and the light.
+    """Return the decision at which the supposition would have mattered, and the light.
 
-    Supposed green, that is the first at which it held us; else the last before we passed it.
+    For a light that is supposed green, it is the first at which the light held us; else the last
+    before we passed it.
     """
     ride = scene.ride
     time = scene.moment if past else scene.now
@@ -131,7 +132,7 @@ def _decision(
 
 
 def _held(again: PlanTrace, signal: Signal) -> bool:
-    """Check whether the light holds us under what would then be planned."""
+    """Check whether the light holds us under the new plan."""
     found = held_at(again, EGO)
     if found is not None and found[0] == signal:
         return True
@@ -143,7 +144,7 @@ def _held(again: PlanTrace, signal: Signal) -> bool:
 
 
 def _passing(ride: Ride, trace: PlanTrace, again: PlanTrace, signal: Signal) -> float | None:
-    """Return when [s] we would have passed the line, in the drives that are planned then."""
+    """Return when [s] we would have passed the line, in the mean of the new plan's rollouts."""
     far = [x.distance for x in ahead(ride, trace.sim_time) if _signal(x) == signal]
     if not far:
         return None
@@ -174,13 +175,13 @@ def _signal(light: Any) -> Signal:
 
 
 def turn_on_red(of: Proposition | None) -> Event | None:
-    """Find the turn of ours of which it is asked why it is not made on red."""
+    """Find the turn of ours that the question says we do not make on red."""
     inner, negated = unwrapped(of)
     return turns_on_red(inner) if negated else None
 
 
 def turns_on_red(of: Proposition | None) -> Event | None:
-    """Find a turn of ours on red: that we make it, or that it is allowed."""
+    """Find the turn of ours on red that a proposition says we make, or may make."""
     match of:
         case Happens(event=event) | Is(state="allowed", event=Event() as event) if is_own(
             event.actor
@@ -194,12 +195,12 @@ def turns_on_red(of: Proposition | None) -> Event | None:
 
 
 def why_not_turn(question: Why, scene: Asked) -> Answer:
-    """Tell why we do not turn on red: what the light on our way shows, and which way that is."""
+    """Explain why we do not turn on red: what the light on our way shows, and where that leads."""
     return _turning(turn_on_red(question.of), scene)
 
 
 def whether_turn(question: Whether, scene: Asked) -> Answer:
-    """Tell whether we may turn on red, likewise."""
+    """Return whether we may turn on red, by the same facts."""
     return _turning(turns_on_red(unwrapped(question.that)[0]), scene)
 
 

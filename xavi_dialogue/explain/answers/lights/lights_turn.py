@@ -1,4 +1,4 @@
-"""Lights and turns: whether it is our turn to go, where a traffic light holds us."""
+"""Lights and turns: whether it is our turn to go while a traffic light holds us."""
 
 from typing import Final
 
@@ -39,13 +39,13 @@ GOING: Final = frozenset[ActionName](
         "exit-straight",
     )
 )
-NEAR: Final = 60.0  # [m] up to a red light that we come to
+NEAR: Final = 60.0  # [m] maximum distance of a red light that is about to hold us
 ONWARD: Final = frozenset[ActionName](("go", "move", "enter", "cross", "continue"))
 MAY: Final = frozenset(("can", "could", "might", "should"))
 
 
 def held(asked: Asked) -> LightTold | None:
-    """Tell of the light that holds us now, or is about to; None where none does."""
+    """Return the light that holds us now, or is about to; None if none does."""
     one = shown_at(asked.ride, Feature("light"), asked.now)
     near = next(iter(ahead(asked.ride, asked.now)), None)
     waits = holding(asked.ride, EGO, asked.now, asked.now) is not None
@@ -56,7 +56,7 @@ def held(asked: Asked) -> LightTold | None:
 
 
 def is_turn(that: Proposition, scene: Asked) -> bool:
-    """Tell whether it is asked if it is our turn to go, while a light holds us."""
+    """Check whether a proposition is that it is our turn to go, while a light holds us."""
     of, negated = unwrapped(that)
     ours = False
     match of:
@@ -70,7 +70,7 @@ def is_turn(that: Proposition, scene: Asked) -> bool:
 
 
 def whether(question: Whether, scene: Asked) -> Answer:
-    """Tell that it is not our turn.
+    """Return that it is not our turn.
 
     Raises:
         AssertionError: no light holds us; see `is_turn`.
@@ -82,7 +82,7 @@ def whether(question: Whether, scene: Asked) -> Answer:
 
 
 def goes_now(supposed: Proposition, then: Question | None, scene: Asked) -> bool:
-    """Tell whether it is supposed that we go on now, while a light holds us."""
+    """Check whether the supposition is that we go on now, while a light holds us."""
     of, negated = unwrapped(supposed)
     beside = unwrapped(then.that)[0] if isinstance(then, Whether) else None
     if not isinstance(of, Happens) or negated or not isinstance(beside, Exists | None):
@@ -95,7 +95,7 @@ def goes_now(supposed: Proposition, then: Question | None, scene: Asked) -> bool
 
 
 def not_yet(question: WhatIf, scene: Asked) -> Answer:
-    """Tell that the light does not let us go.
+    """Return that the light does not let us go.
 
     Raises:
         AssertionError: no light holds us; see `goes_now`.
@@ -107,6 +107,6 @@ def not_yet(question: WhatIf, scene: Asked) -> Answer:
 
 
 def _is_going(event: Event) -> bool:
-    """Tell whether it is our going on, now, before nobody in particular."""
+    """Check whether an event is our going on now, with no object."""
     now = event.tense == "present" and event.object is None
     return is_own(event.actor) and event.action in GOING and now

@@ -18,33 +18,33 @@ from xavi_dialogue.explain.facts.episodes.waiting import top_holders
 from xavi_dialogue.explain.history.thresholds import NEAR, STANDING
 
 How = Literal["safe", "dangerous", "close", "hit", "room", "grounds"]
-#: Who has to let the other one go first by a rule.
+#: By our rule towards a vehicle: who has to let the other go first.
 _YIELDS: dict[str, Literal["we", "they"]] = {"give-way": "we", "priority": "they"}
-FADING = 0.3  # [m/s] by which what lies further back counts as further away
-NEARER = 0.5  # [m] by which a vehicle was nearer at another time
+FADING = 0.3  # [m/s] by which what was longer ago counts as further away
+NEARER = 0.5  # [m] minimum by which a vehicle was nearer at another time
 ON_FOOT = 30.0  # [m] within which people on foot in front of us matter
-URGENT = 10.0  # [s] beyond which a time to collision says nothing
-TIGHT = 1.5  # [s] of time to a collision from which on it was tight
+URGENT = 10.0  # [s] maximum time to a collision that matters
+TIGHT = 1.5  # [s] time to a collision below which it was tight
 
 
 def closeness(
     asked: Asked, vehicle: int | None, about: Window, how: How, *, past: bool = True
 ) -> Closeness:
-    """Tell how close a vehicle came in a stretch of the ride, or the one that came closest.
+    """Return how close a vehicle came in a stretch of the ride, or the one that came closest.
 
     Args:
         asked: the act and its setting.
-        vehicle: the one asked about; None: whichever came closest.
+        vehicle: the one asked about; None: the one that came closest.
         about: the stretch of the ride.
         how: what was asked.
-        past: whether it is asked of what lies behind; else of now and what is to come.
+        past: whether the question is about the past; else about now and what is to come.
     """
     near = about.widened() if about.instant else about
-    seen = near if past else Window(asked.now, asked.now)  # a present tense speaks of now
+    seen = near if past else Window(asked.now, asked.now)  # the present tense means now
     fading = 0.0 if seen.said else FADING
     risk = _risk(asked, about, vehicle) if past else collision_chance(asked, asked.now, vehicle)
     if not past and vehicle is None and how in ("safe", "dangerous") and risk is not None:
-        first = _let_first(asked)  # who is nearest may have nothing to do with it
+        first = _let_first(asked)  # the nearest vehicle may not matter
         walker = None if first else _on_foot(asked)
         far = None if walker is None else closest_approach(asked, walker, seen)
         return Closeness(walker, far, None, risk, how, about.end, past, giving=first)
@@ -63,7 +63,7 @@ def closeness(
 
 
 def with_somebody(asked: Asked, about: Window) -> Window:
-    """Give the stretch that is meant by "that" where somebody came near us: it, else the ride."""
+    """Return the stretch that "that was close" means: this one if somebody was near, else all."""
     near = about.widened()
     who = nearest_vehicle(asked, near)
     least = None if who is None else closest_approach(asked, who, near).value
@@ -71,7 +71,7 @@ def with_somebody(asked: Asked, about: Window) -> Window:
 
 
 def _nearer(asked: Asked, then: Measure, who: int, vehicle: int | None) -> Measure | None:
-    """Give the closest approach so far, of the same vehicle or, where none is named, of another."""
+    """Return the closest approach so far, if it was nearer; without a name, of any vehicle."""
     ride = Window(asked.world.begin, asked.now)
     apart = vehicle is None and then.value is not None and then.value > NEAR
     other = nearest_vehicle(asked, ride) if apart else None
@@ -81,14 +81,14 @@ def _nearer(asked: Asked, then: Measure, who: int, vehicle: int | None) -> Measu
 
 
 def _risk(asked: Asked, about: Window, vehicle: int | None) -> float | None:
-    """Give the highest risk of a collision that the decisions in a stretch of the ride foresaw."""
+    """Return the highest risk of a collision for the decisions in a stretch of the ride."""
     inside = [t.sim_time for t in asked.ride.traces if about.begin < t.sim_time <= about.end]
     found = (collision_chance(asked, at, vehicle) for at in (about.begin, *inside))
     return max((risk for risk in found if risk is not None), default=None)
 
 
 def _tightest(asked: Asked, about: Window) -> int | None:
-    """Name whom we could have hit soonest in a stretch of the ride, where that was very soon."""
+    """Return the vehicle that we could have hit soonest, if that was very soon; else None."""
     times = ((v, shortest_time(asked, v, about)) for v in asked.world.vehicles)
     short = [(m.value, v) for v, m in times if m is not None and m.value is not None]
     least, who = min(short, default=(URGENT, None))
@@ -96,7 +96,7 @@ def _tightest(asked: Asked, about: Window) -> int | None:
 
 
 def assured(asked: Asked, vehicle: int | None) -> Closeness:
-    """Tell why no collision is expected: what is expected of a vehicle, and what was simulated.
+    """Return why no collision is expected: what is expected of a vehicle, and what was simulated.
 
     Args:
         asked: the act and its setting.
@@ -120,7 +120,7 @@ def assured(asked: Asked, vehicle: int | None) -> Closeness:
 
 
 def closest_approach(asked: Asked, vehicle: int, about: Window) -> Measure:
-    """Give the smallest distance between a vehicle and us in a stretch of the ride."""
+    """Return the smallest distance between a vehicle and us in a stretch of the ride."""
     world = asked.world
     begin, end = max(about.begin, world.begin), min(about.end, asked.now)
     if end - begin <= SHORT / 10.0:
@@ -129,7 +129,7 @@ def closest_approach(asked: Asked, vehicle: int, about: Window) -> Measure:
 
 
 def shortest_time(asked: Asked, vehicle: int, about: Window) -> Measure | None:
-    """Give the shortest time to a collision in a stretch of the ride, where it was ever short."""
+    """Return the shortest time to a collision in a stretch of the ride, if it was ever short."""
     begin, end = max(about.begin, asked.world.begin), min(about.end, asked.now)
     found = asked.world.extreme("time-to-collision", Ego(), "lowest", begin, end, Vehicle(vehicle))
     short = found.value is not None and found.value <= URGENT
@@ -137,21 +137,21 @@ def shortest_time(asked: Asked, vehicle: int, about: Window) -> Measure | None:
 
 
 def _let_first(asked: Asked) -> tuple[int, ...]:
-    """Name whom we are about to let go first."""
+    """Return the vehicles that we are about to let go first."""
     trace = asked.world.states.trace(asked.now)
     held = () if trace is None else top_holders(asked.world.states, trace, EGO)
     return tuple(vehicle for vehicle, how in held if how == "right-of-way")
 
 
 def _level(asked: Asked) -> tuple[int, ...] | None:
-    """Name those in view who are not behind us yet; None where there are none."""
+    """Return the vehicles in view that are not behind us yet; None if there are none."""
     looks = (asked.world.look(vehicle, asked.now) for vehicle in asked.world.in_view(asked.now))
     found = (look.vehicle for look in looks if look is not None and look.ahead > -look.length)
     return tuple(found) or None
 
 
 def _on_foot(asked: Asked) -> int | None:
-    """Name the person on foot who is nearest in front of us, where one is near."""
+    """Return the nearest person on foot in front of us; None if nobody is near."""
     looks = (asked.world.look(vehicle, asked.now) for vehicle in asked.world.vehicles)
     ahead = [
         (look.distance, look.vehicle)
@@ -164,13 +164,13 @@ def _on_foot(asked: Asked) -> int | None:
 def nearest_vehicle(
     asked: Asked, about: Window, fading: float = 0.0, among: tuple[int, ...] | None = None
 ) -> int | None:
-    """Give the vehicle that came closest to us in a stretch of the ride.
+    """Return the vehicle that came closest to us in a stretch of the ride.
 
     Args:
         asked: the act and its setting.
         about: the stretch of the ride.
-        fading: [m/s] by which what lies further back counts as further away.
-        among: the only ones to choose from; None: all.
+        fading: [m/s] by which what was longer ago counts as further away.
+        among: the vehicles to choose from; None: all.
     """
     vehicles = asked.world.vehicles if among is None else among
     found = ((v, closest_approach(asked, v, about)) for v in vehicles)

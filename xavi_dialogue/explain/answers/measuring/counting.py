@@ -42,10 +42,10 @@ CHANGES: frozenset[str] = frozenset(("change-left", "change-right", "change-lane
 
 
 def how_many(question: HowMany, asked: Asked) -> Answer:
-    """Tell how many there are or were, or how often something happened.
+    """Return how many there are or were, or how often something happened.
 
     Raises:
-        Unanswered: it is of what the record does not hold.
+        Unanswered: the record does not hold what is asked about.
     """
     if isinstance(question.of, Event):
         event = question.of
@@ -62,7 +62,7 @@ def how_many(question: HowMany, asked: Asked) -> Answer:
 
 
 def _events(asked: Asked, event: Event) -> Counted:
-    """Tell how often: each time counted once, over the stretch asked about or the whole ride."""
+    """Return how often an event happened, in the stretch asked about or the whole ride."""
     about = window(asked, event.time)
     event = replace(event, object=_named(event.object))
     if event.tense != "present" and about.instant:
@@ -76,7 +76,7 @@ def _events(asked: Asked, event: Event) -> Counted:
 
 
 def _straight_over(asked: Asked, episode: Episode) -> bool:
-    """Tell whether a roundabout was left the way it was entered: no turn, as passengers count."""
+    """Check whether we went straight over a roundabout, which passengers do not count as a turn."""
     place = episode.place
     if not isinstance(place, Junction) or place.form != "roundabout" or place.time is None:
         return False
@@ -90,7 +90,7 @@ def _straight_over(asked: Asked, episode: Episode) -> bool:
 
 
 def _changes_left(asked: Asked, event: Event) -> Answer:
-    """Tell which lane changes our plan still holds; where it has none, that we make none."""
+    """Return the lane changes that our plan still has, or that it has none."""
     ahead = plan_ahead(asked, measures=False)
     if any(action in CHANGES for action, _ in ahead.steps):
         return ahead
@@ -99,7 +99,7 @@ def _changes_left(asked: Asked, event: Event) -> Answer:
 
 
 def _named(thing: Thing | None) -> Thing | None:
-    """Leave out an object that stands for anybody: how often it was done for anybody counts."""
+    """Return an object, or None if it stands for anybody, so that all occasions count."""
     return None if isinstance(thing, Nobody | Everyone) else thing
 
 
@@ -123,7 +123,7 @@ def _things(asked: Asked, of: Thing) -> Answer:
 
 
 def _users(asked: Asked, of: Everyone) -> Counted:
-    """Tell how many are in view, or were over a stretch of the ride."""
+    """Return how many road users are in view, or were over a stretch of the ride."""
     past = asked.past
     long = past is not None and past.end - past.begin > SHORT
     if past is None or not long:
@@ -141,7 +141,7 @@ def _users(asked: Asked, of: Everyone) -> Counted:
 
 
 def _junctions(asked: Asked, of: Exit | Junction) -> Answer:
-    """Tell how many junctions are ahead, or which exit of how many we take."""
+    """Return how many junctions are ahead, or which exit of how many we take."""
     road = asked.world.road(asked.moment)
     if road is None:
         raise Unanswered(NotRecorded("not-recorded", of, about="count"))

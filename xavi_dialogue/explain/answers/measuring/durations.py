@@ -1,4 +1,4 @@
-"""Durations: how long something lasted, how long one waited, and what a manoeuvre cost."""
+"""Durations: how long something lasted, how long somebody waited, and what a manoeuvre cost."""
 
 from msgspec.structs import replace
 
@@ -35,21 +35,21 @@ from xavi_dialogue.explain.answers.reference.reading import numbers_in
 from xavi_dialogue.explain.answers.ride.places import time_to_go
 from xavi_dialogue.explain.history.thresholds import STANDING
 
-SOON = 3.0  # [s] within which one is about to stop
-LATELY = 15.0  # [s] since when what held us up is still spoken of
-CREEPING = 4.0  # [s] between two halts at one place
-PAUSE = 3.0  # [s] between two slowings that make one
-TRAILED = 80.0  # [m] up to which somebody ahead of us slows us down
-ASIDE = 2.5  # [m] sideways up to which he is in our lane
-JOINED = 0.5  # [s] between what belongs together
-#: What costs time.
+SOON = 3.0  # [s] maximum time to a stop that we are about to make
+LATELY = 15.0  # [s] after a hold-up in which a question may be about it
+CREEPING = 4.0  # [s] maximum time between two halts at one place
+PAUSE = 3.0  # [s] maximum time between two slowings that count as one
+TRAILED = 80.0  # [m] maximum distance of a vehicle ahead that slows us down
+ASIDE = 2.5  # [m] maximum offset sideways of a vehicle in our lane
+JOINED = 0.5  # [s] maximum time between episodes that belong together
+#: Actions that cost time.
 HELD: tuple[ActionName, ...] = ("slow-down", "brake", "wait", "stop", "stand", "give-way")
 HALTED: tuple[ActionName, ...] = ("wait", "stand", "stop")
 WAITS: tuple[ActionName, ...] = ("wait", "stand", "stop", "give-way")
 
 
 def event_lasting(event: Event, asked: Asked) -> Answer:
-    """Tell how long something lasted, has lasted so far, or is expected to last.
+    """Return how long something lasted, has lasted so far, or is expected to last.
 
     Raises:
         Unanswered: it did not happen.
@@ -77,7 +77,7 @@ def event_lasting(event: Event, asked: Asked) -> Answer:
 
 
 def _halts(asked: Asked, event: Event, found: Episode) -> list[Episode]:
-    """List the halts of ours that belong to one: with a little creeping between, or of the ride."""
+    """List our halts that belong to one, with a little creeping between; or all of the ride."""
     if not is_us(event.actor) or event.object is not None or event.action not in HALTS:
         return []
     every = asked.world.episodes(actor=Ego(), actions=HALTED)
@@ -95,7 +95,7 @@ def _halts(asked: Asked, event: Event, found: Episode) -> list[Episode]:
 
 
 def lasting(asked: Asked, episode: Episode, event: Event | None = None) -> Happenings:
-    """Tell how long an episode lasted; of one that goes on, also what is still expected."""
+    """Return how long an episode lasted; if we still stand, also how long that is to last."""
     value = Measure(
         "duration", episode.actor, episode.begin, value=round(duration(asked, episode), 2),
         until=episode.end, at_least=episode.end is None or episode.begin <= asked.world.begin,
@@ -112,7 +112,7 @@ def lasting(asked: Asked, episode: Episode, event: Event | None = None) -> Happe
 
 
 def remaining_wait(asked: Asked) -> Measure:
-    """Tell how long our car still stands, by its plan; at least so long, where it does not tell."""
+    """Return how long our car still stands, by its plan; a lower bound if no end is in it."""
     now, found = asked.now, moving_on(asked)
     if found is not None and found.share >= 0.5:
         low, middle, high = (
@@ -129,7 +129,7 @@ def remaining_wait(asked: Asked) -> Measure:
 
 
 def waited(asked: Asked, who: Thing, whom: Thing | None, about: Window) -> Measure:
-    """Tell how long somebody stood in a stretch of the ride, or for another vehicle."""
+    """Return how long somebody stood in a stretch of the ride, or for another vehicle."""
     if about.instant:
         about = Window(asked.world.begin, asked.now)
     actor: Thing = Ego() if is_us(who) else who
@@ -145,13 +145,13 @@ def waited(asked: Asked, who: Thing, whom: Thing | None, about: Window) -> Measu
 
 
 def stands(asked: Asked) -> bool:
-    """Tell whether our car stands now."""
+    """Check whether our car stands now."""
     motion = asked.ride.motion(EGO)
     return bool(motion.speed) and motion.speed[-1] < STANDING
 
 
 def halted(asked: Asked) -> bool:
-    """Tell whether our car stands, waits, or is about to come to a halt."""
+    """Check whether our car stands, waits, or is about to come to a halt."""
     if _waits(asked):
         return True
     found = foreseen(asked, Event("stop"))
@@ -159,13 +159,13 @@ def halted(asked: Asked) -> bool:
 
 
 def _waits(asked: Asked) -> bool:
-    """Tell whether our car stands, or is about to wait."""
+    """Check whether our car stands, waits or gives way."""
     on = asked.world.episodes(actor=Ego(), actions=WAITS)
     return stands(asked) or any(e.end is None for e in on)
 
 
 def _standing(asked: Asked, event: Event) -> Episode | None:
-    """Give a wait of another name: standing is giving way or stopping to a passenger."""
+    """Return a wait under another name: to passengers, giving way or stopping is standing, too."""
     for action in WAITS:
         if action != event.action:
             other = Event(action, event.actor, event.object, time=event.time, tense=event.tense)
@@ -179,7 +179,7 @@ def _halted(asked: Asked, episode: Episode) -> bool:
 
 
 def _ride_time(asked: Asked, event: Event) -> Answer:
-    """Tell how long the ride still takes, or has taken."""
+    """Return how long the ride still takes, or has taken."""
     if event.action == "arrive" or is_ahead(asked, event.time, event.tense):
         return Measures((time_to_go(asked, asked.now),))
     world, about = asked.world, window(asked, event.time)
@@ -196,7 +196,7 @@ def _lost(asked: Asked, about: Window) -> bool:
 
 
 def cost_of(asked: Asked, event: Event | None, about: Window) -> Measure:
-    """Tell what an episode of ours cost in time, with all the slowing and waiting around it.
+    """Return what an episode of ours cost in time, with all the slowing and waiting around it.
 
     Raises:
         Unanswered: there was none.
@@ -217,7 +217,7 @@ def cost_of(asked: Asked, event: Event | None, about: Window) -> Measure:
 
 
 def held_for(asked: Asked, other: Thing) -> Event:
-    """Name what we did last for another vehicle that held us up."""
+    """Return what we did last for another vehicle that held us up."""
     found = asked.world.episodes(Ego(), HELD, object=other)
     trailed = asked.world.episodes(Ego(), ("follow",), object=other)
     named = found or trailed
@@ -227,7 +227,7 @@ def held_for(asked: Asked, other: Thing) -> Event:
 
 
 def total_cost(asked: Asked, other: Vehicle, about: Window) -> Measure:
-    """Tell what all slowing and waiting for somebody cost in a stretch of the ride, together."""
+    """Return what all slowing and waiting for a vehicle cost in a stretch of the ride."""
     deeds = [
         *asked.world.episodes(Ego(), HELD, object=other),
         *(e for e in _slowed_behind(asked, other) if not _at_light(asked, e)),
@@ -247,7 +247,7 @@ def total_cost(asked: Asked, other: Vehicle, about: Window) -> Measure:
 
 
 def compared_costs(question: Which, asked: Asked) -> Measures:
-    """Tell what each of several cost us in time, the most first: in the time named, else in all."""
+    """Return the time that each of several cost us, most first: in the time named, else in all."""
     numbers = dict.fromkeys(n for of in (question.thing, *question.among) for n in numbers_in(of))
     left = question.such.left if isinstance(question.such, Compares) else None
     about = Window(asked.world.begin, asked.now)
@@ -258,14 +258,14 @@ def compared_costs(question: Which, asked: Asked) -> Measures:
 
 
 def _at_light(asked: Asked, deed: Episode) -> bool:
-    """Tell whether it was a traffic light that we slowed down or stood for."""
+    """Check whether we slowed down or stood for a traffic light."""
     end = asked.now if deed.end is None else deed.end
     found = asked.world.episodes(Ego(), WAITS, deed.begin - JOINED, end + JOINED)
     return any(isinstance(e.object, Feature) for e in found)
 
 
 def _slowed_behind(asked: Asked, other: Thing) -> list[Episode]:
-    """List when we slowed down or stood behind others with somebody ahead of them in our lane."""
+    """List our slowing or standing behind others while a vehicle was ahead in our lane."""
     vehicle = number(other)
     if vehicle is None:
         return []
@@ -281,7 +281,7 @@ def _slowed_behind(asked: Asked, other: Thing) -> list[Episode]:
 
 
 def lost(asked: Asked, deed: Episode) -> Measure | None:
-    """Tell how much time [s] the slowing and waiting cost of which a deed of ours is a part."""
+    """Return the time [s] that slowing and waiting cost, around an episode of ours."""
     deed = replace(deed, begin=_since(asked, deed))
     end = asked.now if deed.end is None else deed.end
     part = asked.world.episodes(Ego(), HELD, deed.begin - JOINED, end + JOINED)
@@ -291,7 +291,7 @@ def lost(asked: Asked, deed: Episode) -> Measure | None:
 
 
 def _since(asked: Asked, deed: Episode) -> float:
-    """Tell since when [s] we had slowed down again and again, with hardly a pause."""
+    """Return since when [s] we had slowed down again and again, with hardly a pause."""
     begin = deed.begin
     for one in sorted(asked.world.episodes(Ego(), HELD), key=lambda e: -e.begin):
         if one.end is not None and one.begin < begin <= one.end + PAUSE:

@@ -10,11 +10,11 @@ from xavi_dialogue.explain.answers.ride.delays import for_whom
 from xavi_dialogue.explain.answers.ride.priority import rule_between
 from xavi_dialogue.explain.history.thresholds import MOVING, NEAR
 
-AFTER = 2.0  # [s] from a braking within which somebody may still come near
+AFTER = 2.0  # [s] after braking in which the vehicle may still come near
 
 
 def braked_hard(asked: Asked, vehicle: int | None, about: Window) -> tuple[Episode, ...]:
-    """List who braked hard in a stretch of the ride: we, or one that had right of way over us.
+    """List hard braking in a stretch of the ride: ours, or of vehicles with right of way over us.
 
     Args:
         asked: the act and its setting.
@@ -31,7 +31,7 @@ def braked_hard(asked: Asked, vehicle: int | None, about: Window) -> tuple[Episo
 
 
 def _had_to(asked: Asked, braking: Episode) -> bool:
-    """Tell whether somebody brakes near us who has right of way over us, while we drive."""
+    """Check whether a vehicle near us brakes that has right of way over us, while we drive."""
     if not isinstance(braking.actor, Vehicle):
         return False
     end = asked.now if braking.end is None else braking.end

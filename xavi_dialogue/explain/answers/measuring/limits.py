@@ -12,14 +12,14 @@ from xavi_dialogue.explain.answers.reference.findings import Finding, known, unk
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, instant, window
 from xavi_dialogue.explain.answers.reference.naming import is_us, somebodies
 
-OVER = 0.5  # [m/s] above the limit that is no more than rounding
-SOON = 5.0  # [s] within which we are about to slow down
+OVER = 0.5  # [m/s] above the limit that does not count
+SOON = 5.0  # [s] before slowing down that we are about to begin
 SLOWING: tuple[ActionName, ...] = ("slow-down", "brake")
 SLOW = 0.6  # share of the limit below which a vehicle is slow
 
 
 def within_limit(asked: Asked, thing: Thing, at: float, *, allowed: bool) -> Finding:
-    """Tell whether somebody keeps to the limit, or drives faster than it."""
+    """Check whether a vehicle keeps to the limit (`allowed`), or drives faster."""
     who = (somebodies(asked, thing, at) or (Ego(),))[0]
     speed = asked.world.measure("speed", who, at)
     limit = asked.world.measure("limit", who, at)
@@ -31,7 +31,7 @@ def within_limit(asked: Asked, thing: Thing, at: float, *, allowed: bool) -> Fin
 
 
 def fast(of: Is, asked: Asked) -> Finding:
-    """Tell whether somebody is fast, over the limit, or slow, far below it."""
+    """Check whether a vehicle is fast, over the limit, or slow, far below it."""
     at = instant(asked, of.time, of.tense)
     about = window(asked, of.time, of.tense)
     if of.state == "fast" and of.tense in ("past", "perfect") and not about.instant:
@@ -48,7 +48,7 @@ def fast(of: Is, asked: Asked) -> Finding:
 
 
 def _ever_fast(asked: Asked, thing: Thing, about: Window) -> Finding:
-    """Tell whether somebody was over the limit at its fastest in a stretch of the ride."""
+    """Check whether a vehicle was over the limit at its fastest in a stretch of the ride."""
     who = (somebodies(asked, thing, about.end) or (Ego(),))[0]
     fastest = asked.world.extreme("speed", who, "highest", about.begin, about.end)
     limit = asked.world.measure("limit", who, fastest.time)
@@ -59,14 +59,14 @@ def _ever_fast(asked: Asked, thing: Thing, about: Window) -> Finding:
 
 
 def slowing(asked: Asked) -> tuple[Episode, ...]:
-    """Give our braking that is under way, without the speed that it will have led to."""
+    """Return our slowing down that is under way, without its speeds."""
     found = asked.world.episodes(actor=Ego(), actions=SLOWING)
     going = [e for e in found if e.end is None and e.begin <= asked.now]
     return tuple(structs.replace(e, speed_from=None, speed_to=None) for e in going[-1:])
 
 
 def _whose(of: Is) -> Thing:
-    """Tell whose speed it is: ours where nobody is named."""
+    """Return whose speed is meant; ours if nobody is named."""
     if of.thing is not None:
         return of.thing
     return Ego() if of.event is None else of.event.actor

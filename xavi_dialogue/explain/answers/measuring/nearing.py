@@ -16,18 +16,18 @@ from xavi_dialogue.explain.answers.reference.naming import is_us, look_of, numbe
 from xavi_dialogue.explain.answers.reference.occasions import occasion
 from xavi_dialogue.explain.answers.ride.priority import priority_at, rule_between
 
-BESIDE: Final = 2.0  # [m] sideways from which somebody is in another lane
-ALONG: Final = ("ahead", "behind", "beside")  # how the bearing of who drives our way begins
+BESIDE: Final = 2.0  # [m] minimum offset sideways of a vehicle in another lane
+ALONG: Final = ("ahead", "behind", "beside")  # how bearings begin of vehicles that drive our way
 BEFORE_US: Final = ("cross", "pull-out")
-POSSIBLE: Final = 0.1  # probability from which it is stated that it may do so by the rule
-SINCE: Final = 1.0  # [s] over which distances are compared to tell whether somebody comes closer
-ASIDE_IN: Final = 0.6  # [s] over which places are compared to tell whether it drives sideways
-ASIDE: Final = 0.2  # [m] by which it has moved sideways then
-CLOSER: Final = 0.2  # [m] by which he is closer then
+POSSIBLE: Final = 0.1  # minimum probability from which the rule is stated as well
+SINCE: Final = 1.0  # [s] between the distances that show whether a vehicle comes closer
+ASIDE_IN: Final = 0.6  # [s] between the places that show whether a vehicle drives sideways
+ASIDE: Final = 0.2  # [m] minimum movement sideways in that time
+CLOSER: Final = 0.2  # [m] minimum by which a vehicle has come closer in that time
 
 
 def nears(asked: Asked, event: Event) -> Finding | None:
-    """Tell whether we are going to reach somebody in front: by how fast we both are now."""
+    """Check whether we are going to reach a vehicle in front, by both speeds now."""
     look = look_of(asked, event.object, asked.now) if event.object is not None else None
     if event.action not in ("approach", "pass") or look is None or not look.in_view:
         return None
@@ -38,7 +38,7 @@ def nears(asked: Asked, event: Event) -> Finding | None:
 
 
 def past_leader(asked: Asked, event: Event) -> Event:
-    """Take going past somebody who drives ahead in our lane for overtaking: it has to leave it."""
+    """Read passing a vehicle that drives ahead in our lane as overtaking: we have to leave it."""
     look = look_of(asked, event.object, asked.now) if event.object is not None else None
     if event.action != "pass" or not is_us(event.actor) or look is None or not look.in_view:
         return event
@@ -49,7 +49,7 @@ def past_leader(asked: Asked, event: Event) -> Event:
 
 
 def settled(asked: Asked, event: Event, going: tuple[Fact, ...]) -> Finding | None:
-    """Tell what is to come by how both drive now, or by who comes first; None of all else."""
+    """Check what is to come by how both drive now, or by who comes first; None for all else."""
     return (
         passes(asked, event)
         or stays(asked, event, going)
@@ -59,7 +59,7 @@ def settled(asked: Asked, event: Event, going: tuple[Fact, ...]) -> Finding | No
 
 
 def moves_over(asked: Asked, event: Event) -> Finding | None:
-    """Tell that somebody changes lanes who indicates to that side and drives sideways."""
+    """Return that a vehicle changes lanes, if it indicates to that side and drives sideways."""
     side = {"change-left": "left", "change-right": "right", "change-lane": event.side}
     if event.action not in side:
         return None
@@ -74,9 +74,9 @@ def moves_over(asked: Asked, event: Event) -> Finding | None:
 
 
 def passes(asked: Asked, event: Event) -> Finding | None:
-    """Tell whether somebody in another lane is about to pass us: by how fast we both are.
+    """Check whether a vehicle in another lane is about to pass us, by both speeds.
 
-    None where it drives in our lane, or another way.
+    None if it drives in our lane, or another way.
     """
     look = look_of(asked, event.actor, asked.now)
     if event.action not in ("pass", "overtake") or look is None or not look.in_view:
@@ -95,9 +95,9 @@ def passes(asked: Asked, event: Event) -> Finding | None:
 
 
 def comes_before(asked: Asked, event: Event) -> Finding | None:
-    """Tell whether somebody is going to cross our way before us, and who has right of way.
+    """Check whether a vehicle is going to cross our way before us, and who has right of way.
 
-    None where that is not asked, or neither is known.
+    None if that is not asked, or neither is known.
     """
     vehicle = number(event.actor)
     ours = event.object is None or is_us(event.object)
@@ -118,7 +118,7 @@ def comes_before(asked: Asked, event: Event) -> Finding | None:
 
 
 def closes(asked: Asked, event: Event) -> Finding | None:
-    """Tell whether somebody comes closer to us just now: by how far away it is and was."""
+    """Check whether a vehicle is coming closer to us, by how far away it is and was."""
     timely = event.tense == "present" and isinstance(event.time, Unsaid | Now)
     ours = is_us(event.actor)
     whom, other = (event.object, None) if ours else (event.actor, event.object)
@@ -134,7 +134,7 @@ def closes(asked: Asked, event: Event) -> Finding | None:
 
 
 def stays(asked: Asked, event: Event, going: tuple[Fact, ...]) -> Finding | None:
-    """Tell whether somebody who stands stays there until we are past: he does who lets us go."""
+    """Return that a standing vehicle stays there until we are past, if it lets us go; else None."""
     if event.action not in ("stand", "stop", "wait") or not going:
         return None
     yields = asked.world.episodes(actor=event.actor, actions=("give-way", "wait"))
@@ -143,14 +143,14 @@ def stays(asked: Asked, event: Event, going: tuple[Fact, ...]) -> Finding | None
 
 
 def _speeds(asked: Asked, look: Look) -> tuple[tuple[Measure, ...], float | None]:
-    """Give our speed and that of another vehicle, and ours alone [m/s]."""
+    """Return the speeds of ours and another vehicle as measures, and the value of ours [m/s]."""
     both = (asked.world.measure("speed", who, asked.now) for who in (Ego(), Vehicle(look.vehicle)))
     found = known(*both)
     return found, next((m.value for m in found if isinstance(m.thing, Ego)), None)
 
 
 def keeps(asked: Asked, event: Event) -> Finding | None:
-    """Tell that we keep a distance to the vehicle that we follow: how far it is ahead."""
+    """Return that we keep a distance to the vehicle that we follow, with the gap; else None."""
     ours = event.action == "keep-distance" and is_us(event.actor)
     found = occasion(asked, event) if ours and event.tense in ("present", "perfect") else None
     if found is None or found.end is not None or (asked.past is not None and asked.past.said):
@@ -160,7 +160,7 @@ def keeps(asked: Asked, event: Event) -> Finding | None:
 
 
 def trails(asked: Asked, event: Event) -> Finding | None:
-    """Tell that somebody behind us goes our way, who is too far behind to be following us."""
+    """Return that a vehicle drives our way too far behind us to be following us; else None."""
     look = look_of(asked, event.actor, asked.now)
     timely = event.tense == "present" and isinstance(event.time, Unsaid | Now)
     if event.action != "follow" or not timely or look is None or not look.in_view:

@@ -1,4 +1,4 @@
-"""Summits: the hardest, closest, slowest, most dangerous moment of the ride, and what it was."""
+"""Peak moments: the hardest, closest, slowest, most dangerous moment of the ride."""
 
 from collections.abc import Callable, Mapping
 
@@ -18,9 +18,9 @@ from xavi_dialogue.explain.answers.reference.naming import first_look, number
 from xavi_dialogue.explain.answers.reference.occasions import duration, merged, overlaps
 from xavi_dialogue.explain.answers.ride.delays import for_whom, held_up
 
-AROUND = 1.0  # [s] about a moment within which what we did belongs to it
-SHORTEST = 3.0  # [s] of time to a collision from which on it was not dangerous
-#: What tells most of a moment comes first.
+AROUND = 1.0  # [s] around a moment in which what we did belongs to it
+SHORTEST = 3.0  # [s] maximum time to a collision that was dangerous
+#: Actions that describe a moment, the most telling first.
 TELLING: tuple[ActionName, ...] = (
     "collide", "nearly-collide", "give-way", "wait", "let-go", "merge", "change-left",
     "change-right", "overtake", "pass", "exit-left", "exit-right", "exit-straight", "enter",
@@ -32,10 +32,10 @@ HALTING: tuple[ActionName, ...] = ("stand", "stop", "wait")
 
 
 def peak(question: Peak, asked: Asked) -> Answer:
-    """Tell the moment at which something was at its most.
+    """Return the moment at which something was at its most.
 
     Raises:
-        Unanswered: it is of a vehicle that was never seen.
+        Unanswered: the question is about a vehicle that was never seen.
     """
     about = window(asked, question.time)
     if about.instant:
@@ -47,7 +47,7 @@ def peak(question: Peak, asked: Asked) -> Answer:
 
 
 def _several(question: Peak, asked: Asked, about: Window) -> Happenings:
-    """List the times at which something was at its most, in order of time, and for whom."""
+    """Return the times at which something was at its most, in order of time, and for whom."""
     actions, rank = RANKS[question.of]
     every = asked.world.episodes(Ego(), actions, about.begin, about.end)
     found = merged(asked, [e for e in every if e.action in actions])
@@ -58,7 +58,7 @@ def _several(question: Peak, asked: Asked, about: Window) -> Happenings:
 
 
 def _drop(asked: Asked, deed: Episode) -> float:
-    """Tell by how much [m/s] we slowed down."""
+    """Return by how much [m/s] we slowed down."""
     del asked
     if deed.speed_from is None or deed.speed_to is None:
         return 0.0
@@ -66,18 +66,18 @@ def _drop(asked: Asked, deed: Episode) -> float:
 
 
 def _peak(asked: Asked, deed: Episode) -> float:
-    """Tell how hard [m/s2] we braked."""
+    """Return how hard [m/s2] we braked."""
     del asked
     return deed.peak or 0.0
 
 
 def _loss(asked: Asked, deed: Episode) -> float:
-    """Tell how much time [s] a slowing down cost, until we were as fast again."""
+    """Return how much time [s] slowing down cost, until we were as fast again."""
     return asked.world.delay(deed).value or 0.0
 
 
 def _at(asked: Asked, of: str, measure: Measure, vehicle: int | None = None) -> PeakMoment:
-    """Give a moment by what was measured then."""
+    """Return the moment of a measure, with what we did then."""
     deeds = deeds_at(asked, measure.time)
     if vehicle is not None:
         deeds = tuple(e for e in deeds if e.object == Vehicle(vehicle))
@@ -101,7 +101,7 @@ def _closest(of: str, asked: Asked, about: Window) -> PeakMoment:
 
 
 def _dangerous(of: str, asked: Asked, about: Window) -> PeakMoment:
-    """Give the moment with the least time to react; else when we had to mind others most."""
+    """Return the moment with the least time to react, else when we had to mind others most."""
     times = ((v, shortest_time(asked, v, about)) for v in asked.world.vehicles)
     short = [(m.value, v, m) for v, m in times if m is not None and m.value is not None]
     if short:
@@ -127,7 +127,7 @@ def _braking(of: str, asked: Asked, about: Window) -> PeakMoment:
 
 
 def _slowing(of: str, asked: Asked, about: Window) -> PeakMoment:
-    """Give the slowing down in which we lost most speed."""
+    """Return the slowing down in which we lost most speed."""
     found = asked.world.episodes(Ego(), SLOWING, about.begin, about.end)
     if not found:
         return PeakMoment(of)
@@ -137,7 +137,7 @@ def _slowing(of: str, asked: Asked, about: Window) -> PeakMoment:
 
 
 def _losing(of: str, asked: Asked, about: Window) -> PeakMoment:
-    """Give the slowing down that cost most time, and all who held us up in it."""
+    """Return the slowing down that cost most time, and all who held us up in it."""
     found = asked.world.episodes(Ego(), SLOWING, about.begin, about.end)
     costs = [(asked.world.delay(e), e) for e in found]
     told = [(m, e) for m, e in costs if m.value]
@@ -152,7 +152,7 @@ def _losing(of: str, asked: Asked, about: Window) -> PeakMoment:
 
 
 def _waiting(of: str, asked: Asked, about: Window) -> PeakMoment:
-    """Give the longest time that we stood, else that we gave way."""
+    """Return the longest time that we stood, else that we gave way."""
     for actions in (HALTING, YIELDING):
         every = asked.world.episodes(Ego(), actions, about.begin, about.end)
         found = [e for e in every if e.action in actions]
@@ -163,12 +163,12 @@ def _waiting(of: str, asked: Asked, about: Window) -> PeakMoment:
 
 
 def _hardest(of: str, asked: Asked, about: Window) -> PeakMoment:
-    """Give where we had to mind most others at once, else where it was most dangerous."""
+    """Return when we had to mind most others at once, else when it was most dangerous."""
     return _minding(of, asked, about) or _dangerous(of, asked, about)
 
 
 def _minding(of: str, asked: Asked, about: Window) -> PeakMoment | None:
-    """Give where we gave way to most others at once, else where we changed lanes among others."""
+    """Return when we gave way or changed lanes with most others involved; None: never."""
     yields = asked.world.episodes(Ego(), YIELDING, about.begin, about.end)
     moves = asked.world.episodes(Ego(), ("change-left", "change-right"), about.begin, about.end)
     known = [e for e in (*yields, *moves) if e.action != "wait" or isinstance(e.object, Vehicle)]
@@ -179,7 +179,7 @@ def _minding(of: str, asked: Asked, about: Window) -> PeakMoment | None:
 
 
 def _minded(asked: Asked, deed: Episode) -> int:
-    """Count those to whom we gave way at about the time of a deed."""
+    """Return a rank of an episode by the number of vehicles to which we gave way around it."""
     return len(_partners(asked, deed)) * 2 + (deed.action in YIELDING)
 
 
@@ -192,7 +192,7 @@ def _partners(asked: Asked, deed: Episode) -> tuple[int, ...]:
 
 
 def _of_deed(asked: Asked, of: str, deed: Episode) -> PeakMoment:
-    """Give the moment of a deed, with all on whose account it was."""
+    """Return the moment of an episode, with all vehicles that it was for."""
     seen = (first_look(asked, v, deed.begin) for v in _partners(asked, deed))
     looks: tuple[Look, ...] = tuple(look for look in seen if look is not None)
     rest = tuple(e for e in deeds_at(asked, deed.begin) if e != deed)
@@ -200,7 +200,7 @@ def _of_deed(asked: Asked, of: str, deed: Episode) -> PeakMoment:
     return PeakMoment(of, deed.begin, (deed, *rest), length, looks)
 
 
-#: What is ranked where several are asked for, and by what.
+#: By what is asked: the actions that are ranked if several are wanted, and their rank.
 RANKS: Mapping[str, tuple[tuple[ActionName, ...], Callable[[Asked, Episode], float]]] = {
     "slowing": (SLOWING, _drop),
     "braking": (SLOWING, _peak),

@@ -22,20 +22,20 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import Finding, known
 from xavi_dialogue.explain.answers.reference.naming import somebodies
 
-#: What is held against each other, and whether more of it wins.
+#: By what is asked: the attribute that is compared, and whether more of it comes first.
 BY: Mapping[str, tuple[Attribute, bool]] = {
     "speed": ("speed", True), "time": ("speed", True), "size": ("size", True),
     "distance": ("distance", False),
 }  # fmt: skip
 
-SAME = 0.6  # up to which difference two values are the same
+SAME = 0.6  # maximum difference of two values that count as the same
 
 
 def rivals(question: Compare, asked: Asked, *, by: bool = False) -> Answer:
-    """Tell which of several is faster, nearer or bigger, with the value of each; `by` how much.
+    """Return which of several is faster, nearer or bigger, with the values; `by`: how much.
 
     Raises:
-        Unanswered: it is not road users that are compared by what can be measured.
+        Unanswered: these are not road users, or not compared by what can be measured.
     """
     at = asked.moment
     things = [
@@ -71,7 +71,7 @@ def rivals(question: Compare, asked: Asked, *, by: bool = False) -> Answer:
 
 
 def _in_line(question: Compare, things: Sequence[Ego | Vehicle], asked: Asked, at: float) -> Answer:
-    """Tell who of two is ahead of the other; else where each of them is."""
+    """Return which of two is ahead of the other, else where each of them is."""
     one, other = things[0], things[1]
     for first, second in ((one, other), (other, one)):
         if asked.world.relation("ahead-of", first, second, at):
