@@ -68,7 +68,7 @@ def _nearer(
 
 @dataclass(frozen=True, slots=True)
 class Following:
-    """Two vehicles of which one is behind the other on one line."""
+    """One vehicle behind another on one line."""
 
     behind: int
     ahead: int

@@ -6,7 +6,7 @@ import math
 STANDING = 0.14  # [m/s] below which a vehicle stands
 MOVING = 1.0  # [m/s] from which a vehicle that stood is under way again
 CHANGED = 1.5  # [m/s] minimum change of a speed that counts
-BEGINNING = 0.4  # [m/s] likewise, of a change that is going on at the end of the record
+BEGINNING = 0.4  # [m/s] minimum for a change that is going on at the end of the record
 WAVER = 0.15  # [m/s] variation of speed that does not end a stretch of slowing down
 TREND_TIME = 1.0  # [s] over which a trend is judged
 TREND = 0.4  # [m/s2] minimum acceleration of a trend

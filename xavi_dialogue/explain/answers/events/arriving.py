@@ -10,7 +10,7 @@ from xavi_dialogue.explain.answers.reference.moments import is_ahead
 from xavi_dialogue.explain.answers.ride.places import to_go, told
 
 NEARLY = 10.0  # [s] before arrival in which we are nearly there
-AT_HAND = 150.0  # [m] likewise
+AT_HAND = 150.0  # [m] maximum distance at which we are nearly there
 
 
 def arrived(asked: Asked, event: Event) -> Finding:

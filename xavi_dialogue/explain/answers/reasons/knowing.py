@@ -140,7 +140,7 @@ def how_sure(question: HowSure, scene: Asked) -> Answer:
 
 
 def _stays(event: Event, vehicle: int, scene: Asked) -> bool:
-    """Check whether a vehicle stands that is asked about as standing; the reason answers that."""
+    """Check whether a question is if a vehicle that stands stays; its reason answers that."""
     here = event.action in HALTS and event.modal != "would" and not is_past(scene, event)
     return here and scene.ride.motion(vehicle).trend == "standing"
 

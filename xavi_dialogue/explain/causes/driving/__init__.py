@@ -1,1 +1,1 @@
-"""Why the ego drove so: who or what slowed it, held it or let it go."""
+"""Reasons for how the ego drove: who or what slowed it, held it or let it go."""

@@ -33,7 +33,7 @@ class Crossing:
 
     vehicle: int
     ours: float  # [s] had we not waited
-    theirs: float  # [s] as recorded or foreseen
+    theirs: float  # [s] as recorded or predicted
 
     @property
     def ahead(self) -> float:

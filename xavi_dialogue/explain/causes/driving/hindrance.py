@@ -107,7 +107,7 @@ def lit_too(
 
 
 def _within(start: float, end: float) -> Callable[[HeldUp], bool]:
-    """Return a check whether a stretch lies between two times [s], give or take, or overlaps."""
+    """Return a check whether a stretch overlaps two times [s], with some leeway on both sides."""
     low, high = start - LEEWAY, end + LEEWAY
     return lambda stretch: stretch.since <= high and stretch.until >= low
 

@@ -36,7 +36,7 @@ from xavi_dialogue.explain.history.ride import Ride, Unanswered
 SLOW = 0.85  # share of the limit below which driving is slow
 AT_LIMIT = 0.93  # share of the limit from which the ego drives at it
 HEADWAY = 5.0  # [s] within which somebody in front sets the pace
-NEAR = 12.0  # [m] likewise, however slow we are
+NEAR = 12.0  # [m] minimum of that distance, however slow we are
 ASIDE = 2.0  # [m] maximum offset sideways of somebody in front of us
 AROUND = 3.0  # [s] of the plan that count as now
 

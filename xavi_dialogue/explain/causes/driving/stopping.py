@@ -64,7 +64,7 @@ def stopping(states: States, vehicle: int, time: float, *, in_lane: bool) -> Sto
 
 
 def _joining(seen: Offset, speed: float, pace: float) -> Stopping:
-    """Estimate for a vehicle that moves in ahead of us and drives on: we need to be no faster."""
+    """Return the result for a vehicle that moves in ahead of us and drives on."""
     closing = max(speed - pace, 0.0)
     gap = seen.ahead - seen.clear
     kind: Kind = "joins" if stopping_distance(closing) <= gap else "short"
@@ -72,14 +72,14 @@ def _joining(seen: Offset, speed: float, pace: float) -> Stopping:
 
 
 def _behind(speed: float, leader: float, gap: float) -> Stopping:
-    """Estimate for braking behind a leader that brakes as hard as anybody can."""
+    """Return the result for braking behind a leader that brakes as hard as anybody can."""
     needed = stopping_distance(speed)
     left = gap + leader * leader / (2.0 * EMERGENCY) - needed
     return Stopping("room" if left > 0.0 else "short", speed, needed, gap, left)
 
 
 def _across(seen: Offset, ours: VehicleState, other: VehicleState) -> Stopping:
-    """Estimate for a vehicle that comes into our way straight from where it is now."""
+    """Return the result for a vehicle that comes into our way straight from where it is now."""
     across = (ours.length + other.width) / 2.0  # from the side, it takes up its width of our way
     room = max(seen.ahead - across, 0.0)
     needed = stopping_distance(ours.speed)

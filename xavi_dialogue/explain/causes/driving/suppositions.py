@@ -56,7 +56,7 @@ class Supposed:
     prior: float | None  # probability of what is supposed, as it was believed
     contrast: Contrast
     model: CausalModel  # of the supposed world
-    proxy: MacroAction | None = None  # what was supposed instead, where that could not be
+    proxy: MacroAction | None = None  # what was supposed instead, if the action itself could not be
 
     @property
     def same(self) -> bool:
@@ -225,7 +225,7 @@ def _acting(
     if len(steps) == 1 and steps[0] not in (
         *CHANGES,
         "continue-next-exit",
-    ):  # where it goes, however it gets there
+    ):  # a goal, whatever the way to it
         need = NeedRollout(trace_id=trace.trace_id, vehicle=vehicle, goal=steps[0])
     again = ride.supposed(trace, need)
     if again is not None:

@@ -49,7 +49,7 @@ def light_causes(
     yielded = deed.action == "give-way" and isinstance(deed.object, Vehicle)
     hold = None if yielded or deed.action not in HELD else holding(ride, EGO, deed.begin, end)
     if hold is not None and deed.end is None and not hold.goes_on and at > hold.end + ROUNDING:
-        last = ride.at(at)  # it lets us go by now: who stands before us still holds us
+        last = ride.at(at)  # it lets us go by now, but a vehicle before us still holds us
         queue = () if last is None else tuple(_queue(world, last))
         if last is not None and queue:
             return with_speeds(ride, queue, at), last

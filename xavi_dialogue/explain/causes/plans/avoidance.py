@@ -128,7 +128,7 @@ def _ways(ride: Ride, trace: PlanTrace, occurs: Occurs) -> list[_Way] | None:
 
 
 def _risk(plan: Intervention, occurs: Occurs, known: Mapping[int, Motion]) -> float | None:
-    """Return the probability that it happens under a plan; None where too little is recorded."""
+    """Return the probability of a mishap under a plan; None if too little is recorded."""
     bad = total = 0.0
     for result, weight in zip(plan.results, plan.weights, strict=True):
         there = occurs(result.rollout, known.get(result.rollout.index))

@@ -191,7 +191,7 @@ def _turning(motion: Motion, start: float, end: float) -> float:
 
 
 class Headings(Sequence[float]):
-    """The heading [rad] at each position of a line, worked out when it is first asked for."""
+    """The heading [rad] at each position of a line, computed when it is first needed."""
 
     def __init__(self, path: tuple[Point, ...]) -> None:
         """Headings along a line of positions [m]."""

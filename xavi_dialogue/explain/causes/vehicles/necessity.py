@@ -262,7 +262,7 @@ class _Tests:
 
 
 def _again(other: CausalModel, wanted: Intervention | Actions) -> Intervention | None:
-    """Return the same plan, or at least its first action, in another model; None if thin."""
+    """Return the same plan, or at least its first action, in a model; None: too little evidence."""
     plan = wanted.plan if isinstance(wanted, Intervention) else wanted
     for length in dict.fromkeys((len(plan), 1)):
         found = other.intervene(plan[:length])

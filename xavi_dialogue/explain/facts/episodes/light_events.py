@@ -19,7 +19,7 @@ PASSING = frozenset[ActionName](("pass", "cross", "enter", "leave"))
 HELD = frozenset[ActionName](
     ("wait", "stop", "stand", "brake", "slow-down", "give-way", "block", "follow")
 )
-JUST = 1.0  # [s] by which a change may precede the time asked about
+JUST = 1.0  # [s] tolerance of the time that is asked about
 
 
 def light_of(event: Event) -> Feature | None:

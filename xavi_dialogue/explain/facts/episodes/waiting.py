@@ -187,7 +187,7 @@ def _stood_for(states: States, vehicle: int, still: Episode) -> Iterator[Episode
 def _let_us_go(states: States, vehicle: int, still: Episode) -> Iterator[Episode]:
     """Yield the last part of a standstill in which the ego has right of way.
 
-    None if predictions show already that the vehicle waits for us.
+    Nothing, if predictions show already that the vehicle waits for us.
     """
     end = _end(states, still)
     traces = [t for t in states.ride.traces if still.begin <= t.sim_time <= end]

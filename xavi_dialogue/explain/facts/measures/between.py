@@ -48,7 +48,7 @@ def _following(asked: Asked) -> tuple[Following | None, Asked]:
 
 
 def gap(asked: Asked) -> Measure:
-    """Return the gap along the way between two vehicles of which one is behind the other."""
+    """Return the gap along the way, if one vehicle is behind the other."""
     found, asked = _following(asked)
     return asked.none("not-applicable") if found is None else asked.found(round(found.gap, 1))
 
