@@ -1,4 +1,4 @@
-"""What the realiser is stated besides the answer, and what it hands back."""
+"""Context: what the realiser gets besides the answer, and what it returns."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -8,31 +8,31 @@ from xavi_dialogue.domain.facts import Look
 
 Style: TypeAlias = Literal["passenger", "paper"]
 Detail: TypeAlias = Literal["less", "usual", "more", "simpler"]
-#: How a vehicle looks at a time: by a function, or by a table for tests and stored turns.
+#: The look of a vehicle at a time, from a function, or from a table for tests and stored turns.
 Looks: TypeAlias = Callable[[int, float], Look | None] | Mapping[tuple[int, float], Look]
-#: Causes that were stated: vehicles with what was expected of them.
+#: Causes that were stated: vehicles with what they were expected to do.
 Told: TypeAlias = frozenset[tuple[int, tuple[str, ...]]]
 
 
 @dataclass(frozen=True, slots=True)
 class SpeechContext:
-    """The situation in which an answer is given. Two equal contexts give equal words."""
+    """The situation in which an answer is worded. Equal contexts give equal words."""
 
     style: Style = "passenger"
     now: float = 0.0  # [s] simulation time
     looks: Looks = field(default_factory=dict)
     named: frozenset[int] = frozenset()  # vehicles that this conversation has named already
     detail: Detail = "usual"
-    then: bool = False  # the time asked about was named, and lies behind
+    then: bool = False  # the question named its time, which is in the past
     turn: int = 0  # number of the turn: wording may vary with it
-    repeated: bool = False  # the very same was answered to the very same question before
-    told: Told = frozenset()  # causes that this conversation has been told of
-    suggested: frozenset[str] = frozenset()  # what was said lately that could be asked
+    repeated: bool = False  # the same answer was given to the same question before
+    told: Told = frozenset()  # causes that were stated in this conversation
+    suggested: frozenset[str] = frozenset()  # questions that recent replies suggested
     max_causes: int = 1
     max_effects: int = 1
 
     def look(self, vehicle: int, time: float | None = None) -> Look | None:
-        """Return how a vehicle looks at a time, now where none is given."""
+        """Return how a vehicle looks at a time, by default now."""
         at = self.now if time is None else min(time, self.now)
         if isinstance(self.looks, Mapping):
             found = self.looks.get((vehicle, at))
@@ -51,5 +51,5 @@ class Utterance:
 
     text: str
     mentioned: tuple[int, ...] = ()  # vehicles named in it, in order of first mention
-    choices: tuple[str, ...] = ()  # of a clarification, in the order they are numbered
+    choices: tuple[str, ...] = ()  # of a clarification, in the order of their numbers
     suggestions: tuple[str, ...] = ()  # questions that can be asked next

@@ -1,4 +1,4 @@
-"""Short lines about what the car does, as it does it."""
+"""Narration: short lines about what the car does, as it happens."""
 
 import tomllib
 from collections.abc import Iterable, Mapping
@@ -12,14 +12,14 @@ REMEMBERED = 10_000  # events
 
 
 def narrate(event: Event) -> str | None:
-    """A line such as "0:04 I change to the left lane."; None for what goes without saying."""
+    """Return a line such as "0:04 I change to the left lane."; None if an event has no line."""
     table = _table()
     phrase = table.get(event.kind, {}).get(event.action or "") or table["other"].get(event.kind)
     return None if phrase is None else f"{clock(event.sim_time)} {phrase.format(event.vehicle)}"
 
 
 class Narrator:
-    """Tells a ride event by event; of what was given up before it began it tells no end."""
+    """A narrator of single events, which does not report the end of an action that never began."""
 
     def __init__(self) -> None:
         self._begun: Action | None = None
@@ -36,14 +36,14 @@ class Narrator:
 
 
 class RideNarrator:
-    """Tells what happens once, also where the same ride is driven again from its beginning."""
+    """A narrator that reports events once, even if the same ride is driven again from the start."""
 
     def __init__(self) -> None:
         self._narrator = Narrator()
         self._told: dict[int, Event] = {}  # by number
 
     def tell(self, number: int, event: Event) -> str | None:
-        """Return the line for an event of the ride that has a number, if any."""
+        """Return the line for the event with a number in the ride, if any."""
         known = self._told.get(number)
         if known == event:
             return None
@@ -55,18 +55,18 @@ class RideNarrator:
 
 
 def story(events: Iterable[Event]) -> str:
-    """Return all that happened, a line each."""
+    """Return all that happened, one line for each event."""
     return "\n".join(line for line in map(Narrator().tell, events) if line is not None)
 
 
 def clock(time: float) -> str:
-    """Simulation time [s] as minutes and seconds."""
+    """Return a simulation time [s] as minutes and seconds."""
     minutes, seconds = divmod(int(time), 60)
     return f"{minutes}:{seconds:02d}"
 
 
 def plan_in_words(plan: Iterable[Action]) -> str:
-    """Return what comes next, such as "change left, then go on"; empty without a plan."""
+    """Return the plan in words, such as "change left, then go on"; "" without a plan."""
     phrases = _table()["plan"]
     return ", then ".join(phrases[action] for action in plan)
 

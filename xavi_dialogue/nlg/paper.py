@@ -37,7 +37,7 @@ class Scenario:
 
 @dataclass(frozen=True, slots=True)
 class PaperEffect:
-    """One of e: how much a component of the reward would differ."""
+    """One of e: a difference in a component of the reward."""
 
     delta: float
     component: str
@@ -45,7 +45,7 @@ class PaperEffect:
 
 @dataclass(frozen=True, slots=True)
 class PaperCause:
-    """One of c: what a vehicle does, and how probably."""
+    """One of c: the actions of a vehicle, and their probability."""
 
     vehicle: str
     actions: tuple[str, ...]
@@ -73,7 +73,7 @@ def contrast_of(answer: Answer | Refusal) -> Contrast | None:
 def raw_words(contrast: Contrast, context: SpeechContext) -> tuple[str, ...]:
     """Return the words that the grammar gives, before they are smoothed.
 
-    Effects are differences between journeys that arrive: other outcomes have none. The paper
+    Effects are differences between rollouts that arrive; other outcomes have none. The paper
     puts them "in decreasing order by the absolute value" (below Equation 8), in their own units.
     """
     outcome = contrast.outcome
@@ -102,10 +102,10 @@ def mentioned(text: str) -> tuple[int, ...]:
 
 
 def smoothed(text: str) -> str:
-    """Apply the rules of the file, each in turn until it matches no more."""
+    """Apply the rules of the file, each of them until it no longer matches."""
     present = table("paper")["present"]
     for find, put in _rules():
-        for _ in range(len(text)):  # a rule that feeds itself for ever is cut off
+        for _ in range(len(text)):  # a rule whose result matches again is cut off
             match = find.search(text)
             if match is None:
                 break

@@ -1,11 +1,11 @@
-"""Say: answers and refusals into English.
+"""Say: the realiser, which turns answers and refusals into English.
 
 Stages: content planning (a planner for each type of answer), expansion of the grammars into
-tokens, morphology, orthography. Wording varies with what is said and with the context, never by
+tokens, morphology, orthography. Wording depends only on the answer and the context, never on
 chance.
 
-Errors: GrammarError, WordingError: a file of the grammars is at fault; no answer raises them,
-whatever values it lacks.
+Errors: GrammarError and WordingError mean that a file of the grammars is at fault. No answer
+raises them, whatever values it lacks.
 """
 
 from contextlib import suppress
@@ -33,11 +33,11 @@ DETAILS: dict[str, Detail] = {
     "shorter": "less",
     "longer": "more",
 }
-#: What is not told to be said again: it says something else, or nothing.
+#: Types of answers that are never introduced as a repetition.
 QUIET = (answers.Sociable, answers.Helpful, answers.Acknowledged, answers.Comforting,
          answers.Declined, answers.TakenAs, answers.Unfamiliar, answers.Posed, answers.Judged,
          answers.NothingToAsk, answers.WhichOne, Again)  # fmt: skip
-USUAL = 3  # sentences of an answer, unless more is wanted
+USUAL = 3  # maximum of sentences of an answer, unless more is wanted
 
 
 def say(answer: Answer | Refusal, context: SpeechContext) -> Utterance:
@@ -78,7 +78,7 @@ def _told(said: list[Message], context: SpeechContext) -> tuple[str, tuple[int, 
 
 
 def planned(answer: Answer | Refusal, context: SpeechContext) -> Plan:
-    """Return the messages of an answer, answers within it planned too."""
+    """Return the messages of an answer, with those of the answers within it."""
     plan = PLANNERS.get(type(answer), _unplanned)(answer, context)
     core: list[Message] = []
     details, more, choices = plan.details, plan.more, plan.choices
@@ -95,7 +95,7 @@ def planned(answer: Answer | Refusal, context: SpeechContext) -> Plan:
 
 
 def _picked(answer: Answer | Refusal, plan: Plan, context: SpeechContext) -> list[Message]:
-    """Return the messages to be said, as much as the passenger wants to hear."""
+    """Return the messages to be said, by the level of detail that the passenger wants."""
     parts: list[Part] = list(plan.core)
     if context.detail == "more":
         parts += [*plan.details, *plan.more]
@@ -108,5 +108,5 @@ def _picked(answer: Answer | Refusal, plan: Plan, context: SpeechContext) -> lis
 
 
 def _unplanned(answer: Answer | Refusal, context: SpeechContext) -> Plan:
-    """Say that there are no words for an answer of this type."""
+    """Plan the statement that there are no words for an answer of this type."""
     return Plan((message("NO_WORDS"),))

@@ -1,1 +1,1 @@
-"""Content: one function for each type of answer, which plans the messages that tell it."""
+"""Content: one function for each type of answer, which plans the messages that state it."""

@@ -1,4 +1,4 @@
-"""Tables: the planner of each type of factual answer, and of replies to talk."""
+"""Tables: which function plans the messages of each type of factual answer and of talk."""
 
 from xavi_dialogue.domain import answers, hidden_areas, traffic_lights
 from xavi_dialogue.nlg.content.clauses import traffic_lights as lights

@@ -1,1 +1,1 @@
-"""Surface: messages into text by context-free grammars, morphology and orthography."""
+"""Surface: messages to text by context-free grammars, morphology and orthography."""

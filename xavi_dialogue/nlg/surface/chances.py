@@ -1,4 +1,4 @@
-"""Chances: words for probabilities, by the one table `grammars/chances.toml`."""
+"""Chances: words for probabilities, by the table `grammars/chances.toml`."""
 
 import math
 
@@ -24,7 +24,7 @@ def chance(probability: float, form: str) -> str:
 
 
 def percent(probability: float) -> str:
-    """A probability in whole percent, never all or nothing; one below 1 % is stated as such."""
+    """Return a probability in whole percent, but never 0 % or 100 %; below 1 % in fixed words."""
     bounds = table("chances")["bounds"]
     whole = math.floor(probability * 100 + 0.5)
     if whole >= 100:

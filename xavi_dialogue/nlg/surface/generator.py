@@ -1,10 +1,9 @@
 """Generator: the expansion of an answer grammar into tokens.
 
-Expansion is deterministic: the first alternative is taken whose guard holds and whose slots have
-values. Its product is not text but a row of tokens: words that stand in the grammar, and slots
-that carry a value and the form it is wanted in, which morphology puts into words. A slot that
-holds a message is expanded by the rule that the message names; several messages are joined as the
-form says.
+Expansion is deterministic: it takes the first alternative whose guard holds and whose slots have
+values. Its result is a row of tokens: words of the grammar, and slots. A slot carries a value and
+the form in which morphology puts it into words. A slot that holds a message is expanded by the
+rule that the message names; several messages are joined by the form of the slot.
 
 Errors: see `rules`.
 """
@@ -28,7 +27,7 @@ from xavi_dialogue.nlg.surface.rules import (
 )
 
 TOLERANCE = 1e-9  # numbers this close to a bound count as equal to it
-#: What stands between messages in a row, and before the last one, by the form of the slot.
+#: Punctuation and words between messages in a row, and before the last one, by form of the slot.
 JOINTS: dict[str, tuple[str, str]] = {
     "plain": (",", "and"),
     "and": (",", ", and"),
@@ -102,7 +101,7 @@ def _fill(
 
 
 def fill(grammar: Grammar, value: object, form: str = "plain") -> tuple[Token, ...]:
-    """The tokens of a value in a slot: of a message, or of messages in a row, by their rules.
+    """Return the tokens of a value in a slot; messages are expanded by their rules.
 
     Raises:
         ExpansionError: as `expand`.
@@ -172,5 +171,5 @@ def _of_tuple(value: tuple[object, ...], name: str) -> object:
 
 
 def _present(value: object) -> bool:
-    """Check whether there is something to speak of: 0 is, but None, False, "" and () are not."""
+    """Check whether a value counts as present: 0 does, but None, False, "" and () do not."""
     return not (value is None or value is False or value in ("", ()))

@@ -1,4 +1,4 @@
-"""Messages: what is to be said, before it is said: a rule of a grammar, and values for its slots.
+"""Messages: content before it is worded, as a rule of a grammar and values for its slots.
 
 By convention a rule for messages has one parameter, the message: `SPEED[m] -> {m.who} ...`.
 """
@@ -16,5 +16,5 @@ class Message:
 
 
 def message(rule: str, /, **slots: object) -> Message:
-    """Make a message of a rule and the values of its slots."""
+    """Return a message with a rule and the values of its slots."""
     return Message(rule, slots)

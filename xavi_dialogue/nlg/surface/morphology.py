@@ -1,7 +1,7 @@
 """Morphology: tokens to words. Verb phrases, references, quantities, times, lists.
 
-References are resolved from left to right: a vehicle is named in full once, and is "it"
-afterwards as long as no other has been named.
+References are resolved from left to right: a vehicle is named in full at first, and then "it" as
+long as no other vehicle has been named.
 
 Errors:
     FormError    a grammar asks for a form that a value does not have
@@ -42,7 +42,7 @@ class FormError(GrammarError):
 def inflect(
     tokens: tuple[Token, ...], context: SpeechContext, speaker: ReferringContext | None = None
 ) -> tuple[tuple[str, ...], tuple[int, ...]]:
-    """The words of the tokens in order, and the vehicles they name in order of first mention.
+    """Return the words of the tokens, and the vehicles that they name in order of first mention.
 
     Raises:
         FormError: a slot's value has no such form.
@@ -97,7 +97,7 @@ def fill(slot: Slot, speaker: ReferringContext) -> str:
 
 
 def clause(value: Clause, form: str, speaker: ReferringContext) -> str:
-    """Return a clause: "I did not turn right"; its question, or its verb phrase in a form.
+    """Return a clause ("I did not turn right"), its question, or its verb phrase in a form.
 
     Raises:
         FormError: a clause has no such form.
@@ -189,7 +189,7 @@ def _rest(value: Clause, speaker: ReferringContext) -> str:
 
 
 def _string(value: str, form: str) -> str:
-    """Text from elsewhere: as it is, as a quotation, or as a clause within a sentence."""
+    """Return a text unchanged, as a quotation, or as a clause within a sentence."""
     text = " ".join(value.split())
     if form == "quoted":
         return f'"{text}"'

@@ -12,7 +12,7 @@ _SENTENCE = re.compile(r"[.?!](?=\s+[A-Z0-9\"]|\s*$)")
 
 
 def join(words: tuple[str, ...]) -> str:
-    """The words as running text, with single spaces, and stops joined to what precedes them."""
+    """Return the words as text, with single spaces, and without space before punctuation."""
     text = " ".join(" ".join(words).split())
     text = _WITHIN_BRACKETS.sub("", _BEFORE_STOP.sub(r"\1", text))
     return _AN.sub(r"\1n ", _COMMA_STOP.sub(r"\1", _COMMAS.sub(",", text)))
@@ -24,7 +24,7 @@ def capitalise(text: str) -> str:
 
 
 def count_sentences(text: str) -> int:
-    """Sentences, at least one in any text."""
+    """Return the number of sentences in a text, at least 1."""
     return max(1, len(_SENTENCE.findall(text)))
 
 

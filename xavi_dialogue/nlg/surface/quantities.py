@@ -1,4 +1,4 @@
-"""Quantities: numbers with their units, rounded and spelt out as a passenger would say them."""
+"""Quantities: numbers with their units, rounded and written as a passenger would say them."""
 
 import math
 
@@ -9,12 +9,12 @@ from xavi_dialogue.nlg.surface.values import Number, Quantity, Range
 KMH = 3.6  # [km/h] per [m/s]
 MINUTES = 100.0  # [s] from which a time is stated in minutes
 HOUR = 3600.0  # [s]
-JUST = 2.5  # [s] how long ago something was "just now"
-RECENT = 9.0  # [s] how long ago something is stated in seconds; beyond, by the clock
+JUST = 2.5  # [s] maximum age of what happened "just now"
+RECENT = 9.0  # [s] maximum age that is stated in seconds; older times are stated by the clock
 ROUNDING = 1e-6  # [s]
 SMALL = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
          "eleven", "twelve")  # fmt: skip
-EXACT = ("less ", "over ", "under ", "more ", "half ", "a moment")  # take no "about"
+EXACT = ("less ", "over ", "under ", "more ", "half ", "a moment")  # these take no "about"
 
 
 def quantity(amount: Quantity, form: str = "plain") -> str:
@@ -22,7 +22,7 @@ def quantity(amount: Quantity, form: str = "plain") -> str:
 
     Args:
         amount: the number with its unit.
-        form: "plain"; "about", where it is rounded; "number", without its unit.
+        form: "plain"; "about" for rounded numbers; "number" without its unit.
     """
     text = _spelt(amount)
     if form == "number":
@@ -33,7 +33,7 @@ def quantity(amount: Quantity, form: str = "plain") -> str:
 
 
 def span(amounts: Range, form: str = "to") -> str:
-    """Both ends, with their unit once: "from 47 to 20 km/h", "2 to 4 seconds"."""
+    """Return both ends, with their unit once: "from 47 to 20 km/h", "2 to 4 seconds"."""
     low, high = quantity(amounts.low), quantity(amounts.high)
     if low == high:
         return low
@@ -45,7 +45,7 @@ def span(amounts: Range, form: str = "to") -> str:
 
 
 def number(amount: Number, form: str = "plain") -> str:
-    """Return a count with its noun, which fits it: "one car", "two cars", "no cars"."""
+    """Return a count with its noun in the right number: "one car", "two cars", "no cars"."""
     noun = amount.noun if amount.count == 1 else plural(amount.noun)
     numeral = SMALL[amount.count] if 0 <= amount.count < len(SMALL) else str(amount.count)
     return {"word": numeral, "noun": noun}.get(form, f"{numeral} {noun}")
@@ -73,7 +73,7 @@ def clock(value: float) -> str:
 
 
 def moment(time: float, now: float, form: str = "plain") -> str:
-    """A time of the ride: "just now", "about 5 seconds ago", "at 0:12", "in about 4 seconds"."""
+    """Return a time of the ride: "just now", "about 5 seconds ago", "at 0:12", "in 4 seconds"."""
     if form == "bare":
         return clock(time)
     if form == "clock":

@@ -1,8 +1,8 @@
-"""Referring expressions: how somebody or something is spoken of.
+"""Referring expressions: words for road users and things.
 
 After the incremental algorithm of Dale and Reiter (1995): kind, colour and place are added in
-the order in which passengers see them, and the number on the screen at the first mention, or
-where the description would fit another. A description holds of the time that is spoken of.
+the order in which passengers notice them. The number on the screen is added at the first mention,
+or if the description fits others too. A description is true at the time that is discussed.
 """
 
 from dataclasses import dataclass, field
@@ -35,7 +35,7 @@ from xavi_dialogue.nlg.surface.quantities import number, plural
 from xavi_dialogue.nlg.surface.tables import word
 from xavi_dialogue.nlg.surface.values import Number, Who
 
-RECENT = 2.0  # [s] what was so long ago counts as now
+RECENT = 2.0  # [s] maximum age of what counts as now
 FEATURES = {"light": "the traffic light", "sign": "the sign", "crossing": "the crossing",
             "curb": "the kerb", "parking": "the parking place", "building": "the building",
             "line": "the line", "bend": "the bend", "queue": "the queue", "space": "the space",
@@ -43,23 +43,23 @@ FEATURES = {"light": "the traffic light", "sign": "the sign", "crossing": "the c
             "headlight": "the headlights", "blind": "the blind corner"}  # fmt: skip
 
 
-#: Somebody on foot is no "it"; as a subject, "they" would be several.
+#: People on foot are not "it"; as a subject, "they" would mean several.
 _PERSONAL = {"object": "them", "possessive": "their"}
-MANY = 5  # vehicles that are named one by one
-COUNTED = 3  # people from which they are counted rather than named
+MANY = 5  # maximum of vehicles that are named one by one
+COUNTED = 3  # minimum of people that are counted rather than named
 
 
 @dataclass(slots=True)
 class ReferringContext:
-    """Who speaks, and the vehicles that have been named so far, in order."""
+    """The situation of the wording, and the vehicles that have been named so far, in order."""
 
     context: SpeechContext
     mentioned: list[int] = field(default_factory=list)
     lit: bool = False  # a traffic light was named
-    passenger: bool = False  # the words are put into the passenger's mouth: "you" rather than "I"
+    passenger: bool = False  # the words are the passenger's own: "you" rather than "I"
 
     def refer(self, who: Who, form: str) -> str:
-        """Return the words for somebody or something, and remember that it was named."""
+        """Return the words for a road user or a thing, and remember that it was named."""
         thing = who.thing
         if isinstance(thing, Ego):
             words = _ego(who, form)
@@ -67,7 +67,7 @@ class ReferringContext:
         if isinstance(thing, Vehicle):
             return self._vehicle(thing.number, who, form)
         if isinstance(thing, Feature) and thing.kind == "light":
-            self.lit = True  # "it" may be the light from here on
+            self.lit = True  # "it" may mean the light from here on
         if isinstance(thing, Vehicles) and len(thing.numbers) > MANY:
             return {"object": "them", "possessive": "their"}.get(form, "they")
         if isinstance(thing, Vehicles) and (people := self._people(thing, who)):
@@ -86,12 +86,12 @@ class ReferringContext:
         return _owned(self._named(vehicle, who), form)
 
     def on_foot(self, vehicle: Vehicle, who: Who) -> bool:
-        """Check whether a vehicle is somebody on foot, and may be spoken of as such."""
+        """Check whether a vehicle is somebody on foot, and is to be called that."""
         look = self.context.look(vehicle.number, who.time)
         return look is not None and look.kind in ON_FOOT and self.context.style != "paper"
 
     def _people(self, several: Vehicles, who: Who) -> str:
-        """Some people on foot, counted rather than listed; "" of others, or of fewer than three."""
+        """Return people on foot as a number; "" for fewer than three, or with others among them."""
         looks = [self.context.look(v, who.time) for v in several.numbers]
         kinds = {look.kind for look in looks if look is not None and look.kind in ON_FOOT}
         if len(looks) < COUNTED or len(kinds) != 1 or self.context.style == "paper":
@@ -122,11 +122,11 @@ class ReferringContext:
         return " ".join(f"{article} {_head(look, who)} {place} ({label})".split())
 
     def _brief(self, vehicle: int) -> bool:
-        """Check whether the number alone is to tell it apart: it was described before."""
+        """Check whether the number is enough, because the vehicle was described before."""
         return vehicle in self.context.named
 
     def _place(self, look: Look, who: Who) -> str:
-        """Return where it is, or was at the time spoken of, where it is elsewhere now."""
+        """Return the place of a vehicle: where it is now, or was at the time discussed."""
         now = self.context.now
         if not look.in_view:
             return "that I saw last " + word("vehicles", "place", look.bearing)
@@ -172,7 +172,7 @@ def _owned(words: str, form: str) -> str:
 
 
 def noun(look: Look) -> str:
-    """Return the noun for a vehicle of that kind."""
+    """Return the noun for the kind of a vehicle."""
     return word("vehicles", "kind", look.kind)
 
 
@@ -273,7 +273,7 @@ def _named_thing(thing: Thing, form: str) -> str:
 
 
 def listed(parts: list[str], last: str = "and") -> str:
-    """Return the parts as people list them: a, b and c."""
+    """Return the parts as a list in words: a, b and c."""
     if len(parts) < 2:
         return "".join(parts)
     return f"{', '.join(parts[:-1])} {last} {parts[-1]}"

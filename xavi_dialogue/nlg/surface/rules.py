@@ -23,7 +23,7 @@ from xavi_dialogue.errors import XaviError
 
 
 class GrammarError(XaviError, ValueError):
-    """An answer grammar that cannot be read, or that calls what it does not define."""
+    """An answer grammar that cannot be read, or that uses what it does not define."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,14 +35,14 @@ class Word:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """Where a value is found: a parameter, and the names of attributes or keys behind it."""
+    """The path to a value: a parameter, then names of attributes or keys."""
 
     names: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Literal:
-    """A string or number that stands in the grammar."""
+    """A string or number in the grammar."""
 
     value: str | float
 
@@ -58,7 +58,7 @@ class Comparison:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """Another rule to be expanded in this place."""
+    """A call of another rule, which is expanded in this place."""
 
     rule: str
     arguments: tuple[Path | Literal, ...]
@@ -77,7 +77,7 @@ Item: TypeAlias = Word | Blank | Call
 
 @dataclass(frozen=True, slots=True)
 class Alternative:
-    """A guard, all of whose comparisons must hold, and what then stands in the text."""
+    """A guard, all of whose comparisons must hold, and the items that it allows."""
 
     guard: tuple[Comparison, ...]
     items: tuple[Item, ...]
@@ -195,7 +195,7 @@ def load_grammar(name: str) -> dict[str, Rule]:
 
 @cache
 def load_grammars(*names: str) -> dict[str, Rule]:
-    """Return the rules of several grammars as one, whose rules may call each other's.
+    """Return the rules of several grammars as one grammar, in which they may call each other.
 
     Raises:
         GrammarError: see `read_grammar`.

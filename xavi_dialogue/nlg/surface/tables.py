@@ -1,4 +1,4 @@
-"""Tables: the word lists of the answer side, read from `grammars/*.toml`.
+"""Tables: word lists for answers, read from `grammars/*.toml`.
 
 Errors:
     WordingError    a file is at fault, or lacks a word that is asked for
@@ -44,6 +44,6 @@ def word(name: str, section: str, key: str) -> str:
 
 
 def afoot(phrase: str) -> str:
-    """Return the verb phrase for people on foot, where it differs."""
+    """Return a verb phrase as it is said of people on foot."""
     found = table("doings")["on-foot"].get(phrase, phrase)
     return str(found)

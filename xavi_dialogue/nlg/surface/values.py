@@ -1,4 +1,4 @@
-"""Values: what the slots of a grammar may hold, to be put into words by morphology.
+"""Values: contents of the slots of a grammar, which morphology puts into words.
 
 | value | forms |
 |---|---|
@@ -29,20 +29,20 @@ EGO = Ego()
 
 @dataclass(frozen=True, slots=True)
 class Who:
-    """Somebody or something to be referred to, as it was at the time spoken of."""
+    """A road user or thing to be referred to, as it was at a time."""
 
     thing: Thing = EGO
     time: float | None = None  # [s] None: now
-    placed: bool = True  # False: where it is must not be part of the description
+    placed: bool = True  # False: the description must not contain the place
     coloured: bool = True
     kinded: bool = True
-    ride: bool = False  # of us: "we" rather than "I"
+    ride: bool = False  # of the ego: "we" rather than "I"
     indefinite: bool = False  # "a blue car on our left (vehicle 1)"
 
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A number in SI with its unit, to be rounded and spelt out."""
+    """A number in SI units, to be rounded and put into words."""
 
     value: float
     unit: Unit
@@ -50,7 +50,7 @@ class Quantity:
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """From one quantity to another of the same unit: "from 47 to 20 km/h"."""
+    """A range between two quantities of the same unit: "from 47 to 20 km/h"."""
 
     low: Quantity
     high: Quantity
@@ -72,7 +72,7 @@ class Moment:
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """So many of something: "two cars", "no vehicle"."""
+    """A number of things: "two cars", "no vehicle"."""
 
     count: int
     noun: str  # singular
@@ -88,17 +88,17 @@ class Owned:
 
 @dataclass(frozen=True, slots=True)
 class Without:
-    """Nobody of a description: "no blue car behind us"."""
+    """Nobody who fits a description: "no blue car behind us"."""
 
     described: Described
 
 
 @dataclass(frozen=True, slots=True)
 class Clause:
-    """Somebody does something: subject and verb phrase, to be conjugated.
+    """A subject and a verb phrase, to be conjugated.
 
-    The first word of `verb` is conjugated: "give way to". What follows, objects among it, stands
-    in `rest`. "be" needs no "do" where it is denied or asked.
+    The first word of `verb` is conjugated: "give way to". `rest` contains what follows, such as
+    objects. "be" takes no "do" in negations and questions.
     """
 
     subject: "Who | Owned | Clause | str"
@@ -108,9 +108,9 @@ class Clause:
     progressive: bool = False
     negated: bool = False
     modal: str | None = None  # "can", "should", "might"; "will" and "would" are tenses
-    adverb: str | Chance = ""  # behind the first auxiliary: "will probably turn"
-    lead: str = ""  # before the subject: "that", of a relative clause
-    plural: bool = False  # a subject in words is plural
+    adverb: str | Chance = ""  # after the first auxiliary: "will probably turn"
+    lead: str = ""  # before the subject: "that" in a relative clause
+    plural: bool = False  # the subject is plural words
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,16 +21,16 @@ _BE: dict[tuple[str, Person], str] = {
 
 @dataclass(frozen=True, slots=True)
 class Conjugated:
-    """A verb phrase in its parts; `auxiliary` is the word that is inverted or denied."""
+    """A verb phrase in its parts; `auxiliary` is the word that is inverted or negated."""
 
     auxiliary: str  # "" for a simple tense: "turned"
-    support: str  # the auxiliary of a denial or question: "did"
+    support: str  # the auxiliary in a negation or question: "did"
     verbs: str  # without the auxiliary: "have been turning"
-    plain: str  # the main verb and what precedes it where nothing is denied
+    plain: str  # the main verb and what precedes it in an affirmative clause
 
 
 def inflect(phrase: str, form: Form) -> str:
-    """Return the phrase with its verb, which comes first, in a form."""
+    """Return the phrase with its verb, the first word, in a form."""
     verb, _, rest = phrase.partition(" ")
     return f"{_form(verb, form)} {rest}".strip()
 
@@ -56,7 +56,7 @@ def conjugate(
 
 
 def _auxiliaries(tense: Tense, person: Person, modal: str | None) -> tuple[str, str]:
-    """Return the first auxiliary, and what follows: "" (base), "have", or "simple" tense."""
+    """Return the first auxiliary, and the form that follows: "" (base), "have" or "simple"."""
     if modal is not None:
         return modal, "have" if tense in ("past", "perfect", "conditional-perfect") else ""
     match tense:

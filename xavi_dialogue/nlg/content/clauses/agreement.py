@@ -1,6 +1,6 @@
-"""Agreement: verbs that the grammars put in, by tense and number."""
+"""Agreement: verbs for the grammars, by tense and number."""
 
-#: Verbs by their names in the grammars: in the present, and in the past.
+#: Verbs by their names in the grammars: present and past.
 _WORDS = {
     "is": ("is", "was"),
     "was": ("is", "was"),
@@ -22,7 +22,7 @@ _WORDS = {
     "there": ("here", "there"),
     "these": ("these", "those"),
 }
-#: Verbs that agree with the thing spoken of: present and past of one, present and past of many.
+#: Verbs that agree with the subject: present and past singular, present and past plural.
 _AGREEING = {
     "be": ("is", "was", "are", "were"),
     "have": ("has", "had", "have", "had"),
@@ -32,6 +32,6 @@ _AGREEING = {
 
 
 def verbs(past: bool, many: bool) -> dict[str, str]:
-    """Return the verbs for a tense, and for one thing or for many; we are many."""
+    """Return the verbs for a tense, and for one thing or many; "we" counts as many."""
     words = {name: pair[past] for name, pair in _WORDS.items()}
     return words | {name: row[2 * many + past] for name, row in _AGREEING.items()}

@@ -24,13 +24,13 @@ from xavi_dialogue.nlg.content.clauses.tenses import PRESENT, event_tense, goes_
 from xavi_dialogue.nlg.surface.tables import table, word
 from xavi_dialogue.nlg.surface.values import Bare, Clause, Owned, Tense, Who
 
-#: Actions that last, and are stated as being under way in the present.
+#: Actions that last; in the present, they take the progressive.
 STATES = frozenset(("see", "have", "happen"))
-PLACES = (Junction, Exit, Lane, Road)  # they are blocked as such, not their way
-SITES = (*PLACES, Feature)  # where one turns; in front of all else
+PLACES = (Junction, Exit, Lane, Road)  # the place itself is blocked, not its way
+SITES = (*PLACES, Feature)  # places where one turns; everything else is passed in front of
 LEAVING = frozenset(("leave", "exit-left", "exit-right", "exit-straight", "turn"))
 TURNS = frozenset(("turn", "exit-left", "exit-right"))
-_AS = {"same-as": "like", "with": "with"}  # beside what is done, in place of the relation
+_AS = {"same-as": "like", "with": "with"}  # prepositions instead of the relation
 _PREPOSITIONS = frozenset(("for", "to", "of", "at", "from", "with"))
 
 
@@ -98,7 +98,7 @@ def verb_phrase(
 
 
 def subject_of(actor: Thing, action: ActionName | None = None, time: float | None = None) -> Who:
-    """Return the subject of a clause: "we" where our car is taken along rather than acts."""
+    """Return the subject of a clause: "we" if our car does not act but is moved along."""
     ride = action is not None and bool(table("doings")["action"][action].get("ride"))
     return Who(actor, time, ride=ride, placed=action != "come")
 
@@ -106,15 +106,15 @@ def subject_of(actor: Thing, action: ActionName | None = None, time: float | Non
 def event_clause(
     event: Event, now: float, *, tense: Tense | None = None, negated: bool = False
 ) -> Clause:
-    """Return an event as a clause, in its own tense where no other is given."""
+    """Return an event as a clause, by default in its own tense."""
     told, modal = event_tense(event, now)
     if tense is not None:
         told, modal = tense, None
-    negated = negated and not isinstance(event.actor, Nobody)  # "nobody does" denies by itself
+    negated = negated and not isinstance(event.actor, Nobody)  # "nobody does" is a negation already
     at = moment_of(event.time)
     target = event.object
     if told in ("present", "future") and not negated and _is_meeting(event):
-        target = None  # what is foreseen is the turn, not whom it meets
+        target = None  # the turn is what is expected, not the one it meets
     verb, rest = verb_phrase(event.action, event.actor, target, event.side, time=at)
     if negated:
         rest = tuple(map(denied, rest))
@@ -127,7 +127,7 @@ def event_clause(
     *head, last = verb.split(" ")
     if adverbs and rest and last in _PREPOSITIONS:  # "brake hard for"
         verb, adverbs = " ".join((*head, *map(str, adverbs), last)), ()
-    coming = event.action in ("come", "approach")  # that says itself that it is towards us
+    coming = event.action in ("come", "approach")  # the verb itself means towards us
     if event.where is not None and not coming and not isinstance(event.where.to, Unknown):
         place = word("doings", "relation", event.where.relation).lstrip("+!").partition(" ")[2]
         place = _AS.get(event.where.relation, place)
@@ -160,7 +160,7 @@ def event_clause(
 
 
 def denied(part: object) -> object:
-    """Say "anybody" for nobody in a clause that is denied by its verb."""
+    """Return a part for a negated verb, with "anybody" in place of nobody."""
     if not isinstance(part, Who) or not isinstance(part.thing, Nobody):
         return part
     of = part.thing.described
@@ -173,7 +173,7 @@ def denied(part: object) -> object:
 def episode_clause(
     episode: Episode, now: float, *, tense: Tense | None = None, negated: bool = False
 ) -> Clause:
-    """Return an episode as a clause: past, or under way where it goes on."""
+    """Return an episode as a clause: past, or progressive while it goes on."""
     over = episode.end
     going_on = over is None or (goes_on(episode, now) and over > episode.begin)
     told: Tense = tense or ("past" if not going_on or episode.begin > now else "present")
@@ -201,7 +201,7 @@ def episode_clause(
 
 
 def _is_meeting(event: Event) -> bool:
-    """Tell whether it is of a turn in front of somebody."""
+    """Check whether an event is a turn in front of somebody."""
     return event.action in TURNS and not isinstance(event.object, SITES)
 
 

@@ -32,17 +32,17 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import afoot, word
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Range, Tense, Who
 
-RISK = 0.01  # probability of a collision from which it is stated
-CHANGED = 1.4  # [m/s] change of speed from which it is stated
-TOLD = 0.1  # probability from which an answer names an alternative
-BESIDES = 2  # likely alternatives that are stated
-MOST_PASSED = 2  # exits of a roundabout that are counted
-LONG = 1.5  # [s] from which it is stated how long somebody stood or waited
+RISK = 0.01  # minimum probability of a collision that is stated
+CHANGED = 1.4  # [m/s] minimum change of speed that is stated
+TOLD = 0.1  # minimum probability of an alternative that is named
+BESIDES = 2  # maximum of likely alternatives that are stated
+MOST_PASSED = 2  # maximum of roundabout exits that are counted
+LONG = 1.5  # [s] minimum time of standing or waiting that is stated
 LASTING = frozenset(("stand", "wait", "block", "follow"))
 
 
 def fact_message(fact: Fact, context: SpeechContext, *, when: bool = True) -> Message:
-    """Make a clause of a fact."""
+    """Return a fact as a clause."""
     match fact:
         case Episode():
             return episode_message(fact, context, when=when)
@@ -79,14 +79,14 @@ def episode_message(
     lead: bool = False,
     tense: Tense | None = None,
 ) -> Message:
-    """Make a clause of an episode: what was done, from and to which speed, and when.
+    """Return an episode as a clause: what was done, from and to which speed, and when.
 
     Args:
         episode: the episode.
         context: the situation.
-        when: say at what time.
-        lead: with the time in front: "at 0:12, I slowed down".
-        tense: other than its own.
+        when: state the time.
+        lead: put the time in front: "at 0:12, I slowed down".
+        tense: use this one instead of its own.
     """
     clause = episode_clause(episode, context.now, tense=tense)
     rule = "EPISODE_LEAD" if lead else "EPISODE"
@@ -103,7 +103,7 @@ def episode_message(
 
 
 def _told_of(episode: Episode) -> float:
-    """Tell the time [s] by which an episode is told: of braking to a standstill, when it stood."""
+    """Return the time [s] at which an episode is stated; of braking to a standstill, its end."""
     halted = bool(_speeds(episode).get("stand"))
     return episode.end if halted and episode.end is not None else episode.begin
 
@@ -127,7 +127,7 @@ def _lasted(episode: Episode) -> Quantity | None:
 
 
 def belief_message(belief: Belief, context: SpeechContext) -> Message:
-    """Make a clause of what is or was expected of a vehicle, with the percentage."""
+    """Return what is or was expected of a vehicle as a clause, with percentages."""
     past = context.now - belief.time > since(context)
     if not belief.expectations:
         return message("BELIEF_NONE", who=Who(Vehicle(belief.vehicle)), past=past)
@@ -139,7 +139,7 @@ def belief_message(belief: Belief, context: SpeechContext) -> Message:
     who = Who(Vehicle(belief.vehicle), belief.time if past else None)
     second = others[0] if others else None
     third = others[1] if len(others) > 1 else None
-    if third is not None:  # the last of three is stated behind "or"
+    if third is not None:  # the last of three stands after "or"
         second, third = third, second
     return message(
         "BELIEF",
@@ -157,7 +157,7 @@ def belief_message(belief: Belief, context: SpeechContext) -> Message:
 
 
 def _by_words(expected: Sequence[Expectation], *, ring: bool) -> list[Expectation]:
-    """Return what is expected, with what is said in the same words told once; likeliest first."""
+    """Return expectations with the same words merged into one; likeliest first."""
     found: dict[tuple[Clause, ...], Expectation] = {}
     for one in expected:
         words = verbs_of(one.actions, ring=ring)
@@ -168,12 +168,12 @@ def _by_words(expected: Sequence[Expectation], *, ring: bool) -> list[Expectatio
 
 
 def in_ring(expected: Sequence[Expectation]) -> bool:
-    """Say whether what is expected tells that it is in a roundabout."""
+    """Check whether expectations show that a vehicle is in a roundabout."""
     return any("continue-next-exit" in e.actions for e in expected)
 
 
 def besides_of(others: Sequence[Expectation], *, past: bool) -> dict[str, object]:
-    """Tell what else is or was likely, each with its percentage."""
+    """Return what else is or was likely, each with its percentage."""
     ring = in_ring(others)
     told = tuple(
         message("BESIDE", verbs=verbs_of(e.actions, ring=ring), chance=Chance(e.probability),
@@ -186,7 +186,7 @@ def besides_of(others: Sequence[Expectation], *, past: bool) -> dict[str, object
 def verbs_of(
     actions: tuple[str, ...], ego: bool = False, *, ring: bool = False, walks: bool = False
 ) -> tuple[Clause, ...]:
-    """Return the verb phrases of a row of actions, to be inflected; `ring`: in a roundabout."""
+    """Return the verb phrases of a series of actions, to be inflected; `ring`: in a roundabout."""
     if walks:
         return tuple(Clause("it", afoot(doing(a))) for a in actions)  # type: ignore[arg-type]
     passed = actions.count("continue-next-exit")
@@ -198,7 +198,7 @@ def verbs_of(
 
 
 def look_message(look: Look, context: SpeechContext, *, told: bool = False) -> Message:
-    """Make a clause of where a vehicle is, and how far away; only that where its place is told."""
+    """Return where a vehicle is, and how far away, as a clause; if told, only the distance."""
     past = context.now - look.time > since(context) or not look.in_view
     tense: Tense = "past" if past else "present"
     at = look.seen if not look.in_view and look.seen is not None else look.time
@@ -218,7 +218,7 @@ def look_message(look: Look, context: SpeechContext, *, told: bool = False) -> M
 
 
 def option_message(option: OptionValue, *, risk: bool = False) -> Message:
-    """Make a clause of how an option was valued; or only of with whom it would have collided."""
+    """Return how an option was valued as a clause; `risk`: only its collision."""
     verb = Clause(Who(), doing(option.action, ego=True))
     delta, least = option.delta, option.exceeds
     return message(
@@ -236,5 +236,5 @@ def option_message(option: OptionValue, *, risk: bool = False) -> Message:
 
 
 def asked_of(event: Event) -> Who:
-    """Return the actor of an event, to be referred to."""
+    """Return the actor of an event as a reference."""
     return Who(event.actor, ride=isinstance(event.actor, Ego))

@@ -1,4 +1,4 @@
-"""Joint measures: several values told together, none of which says what another does."""
+"""Joint measures: several values stated together without repetition."""
 
 import dataclasses
 
@@ -13,8 +13,8 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Moment, Quantity, Who
 
-_FEW = 3  # vehicles whose speeds are stated one by one
-_MANY = 2  # measures that go into one sentence
+_FEW = 3  # maximum of vehicles whose speeds are stated one by one
+_MANY = 2  # maximum of measures in one sentence
 
 
 def plan_measures(answer: Measures, context: SpeechContext) -> Plan:
@@ -33,7 +33,7 @@ def plan_measures(answer: Measures, context: SpeechContext) -> Plan:
 
 
 def plan_lasted(answer: Lasted, context: SpeechContext) -> Plan:
-    """Plan how long a state lasted: so long, and since when."""
+    """Plan how long a state lasted, and since when."""
     until = answer.now if answer.end is None else answer.end
     return Plan((
         message(
@@ -64,7 +64,7 @@ def plan_staying(answer: Staying, context: SpeechContext) -> Plan:
 
 
 def _range(speeds: list[Measure]) -> Message:
-    """Return the speeds of many as from the slowest to the fastest."""
+    """Return the speeds of many vehicles as a range."""
     slow, fast = (pick(speeds, key=lambda m: m.value or 0.0) for pick in (min, max))
     return message(
         "ALL_SPEEDS", low=Quantity(slow.value or 0.0, "m/s"),
@@ -73,7 +73,7 @@ def _range(speeds: list[Measure]) -> Message:
 
 
 def measure_messages(measures: tuple[Measure, ...], context: SpeechContext) -> list[Message]:
-    """Make the messages for measures that are stated together: none says what another does."""
+    """Return the messages for measures that are stated together, without repetition."""
     limits = any(m.attribute == "limit" and m.value is not None for m in measures)
     limits = limits and len(measures) > 1
     rivals = len({str(m.thing) for m in measures if m.attribute == "speed"})
@@ -104,7 +104,7 @@ def measure_messages(measures: tuple[Measure, ...], context: SpeechContext) -> l
 
 
 def _place_of_peak(one: Measure, measures: tuple[Measure, ...]) -> bool:
-    """Check whether it tells where another value was reached: so far before a junction."""
+    """Check whether a measure says where another value was reached: so far before a junction."""
     if one.attribute != "distance" or not isinstance(one.to, Junction) or one.value is None:
         return False
     return any(m.extreme is not None and m.time == one.time for m in measures)
@@ -117,7 +117,7 @@ def _placed(first: Message, where: Measure) -> Message:
 
 
 def _seen_last(one: Measure, measures: tuple[Measure, ...]) -> bool:
-    """Check whether the value when it was seen last stands beside a gap."""
+    """Check whether a measure without a value is followed by the last value that was seen."""
     gone = one.gap in ("out-of-view", "hidden")
     return gone and any(
         m.attribute == one.attribute and m.thing == one.thing and m.gap is None for m in measures
@@ -125,14 +125,14 @@ def _seen_last(one: Measure, measures: tuple[Measure, ...]) -> bool:
 
 
 def _seen_last_of(one: Measure, measures: tuple[Measure, ...]) -> bool:
-    """Check whether it is the value when a thing was seen last that is not in view."""
+    """Check whether a measure is the last value of a thing that is not in view any more."""
     if one.gap is not None or not isinstance(one.thing, Vehicle):
         return False
     return any(_seen_last(m, (one,)) for m in measures)
 
 
 def _seconds_beside(one: Measure, measures: tuple[Measure, ...]) -> float | None:
-    """Return the gap in seconds that stands beside the same gap in metres."""
+    """Return the gap in seconds that belongs to a gap in metres."""
     if one.attribute != "gap" or one.value is None or one.extreme is not None:
         return None
     alike = (m for m in measures if m.attribute == "headway" and _same(m, one))
@@ -144,7 +144,7 @@ def _same(one: Measure, two: Measure) -> bool:
 
 
 def _merged(measures: tuple[Measure, ...]) -> tuple[Measure, ...]:
-    """Return the measures without the gaps in seconds that are said beside the gap in metres."""
+    """Return the measures without gaps in seconds that are stated with the gap in metres."""
     gaps = [m for m in measures if _seconds_beside(m, measures) is not None]
     return tuple(
         m for m in measures if m.attribute != "headway" or not any(_same(m, g) for g in gaps)

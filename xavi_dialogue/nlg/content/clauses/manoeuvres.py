@@ -1,4 +1,4 @@
-"""Manoeuvres: rows of actions as verb phrases, as a passenger would say them."""
+"""Manoeuvres: series of actions as verb phrases, as a passenger would say them."""
 
 from collections.abc import Iterable
 
@@ -17,7 +17,7 @@ _BACK = {"change-left": "change-right", "change-right": "change-left"}
 
 
 def plain(actions: Iterable[str]) -> tuple[str, ...]:
-    """Return the actions without repetition, and without going on as an afterthought."""
+    """Return the actions without repetition, and without going on at the end."""
     kept: list[str] = []
     for action in actions:
         if not kept or kept[-1] != action:
@@ -28,18 +28,18 @@ def plain(actions: Iterable[str]) -> tuple[str, ...]:
 
 
 def own_verbs(actions: Iterable[str], against: Iterable[str] = ()) -> tuple[Clause, ...]:
-    """Return what we do as verb phrases to be inflected.
+    """Return actions of ours as verb phrases to be inflected.
 
     Args:
-        actions: the row of actions.
-        against: what they are stated beside: going on is staying in the lane beside a lane change.
+        actions: the actions in order.
+        against: alternative actions; next to a lane change, going on is staying in the lane.
     """
     row, other = plain(actions), tuple(against)
     return _row(row, other, ego=True)
 
 
 def other_verbs(actions: Iterable[str]) -> tuple[Clause, ...]:
-    """Return what another vehicle does as verb phrases to be inflected."""
+    """Return actions of another vehicle as verb phrases to be inflected."""
     row = plain(actions)
     telling = tuple(action for action in row if action != "continue")
     return _row(telling or row, (), ego=False)
@@ -74,7 +74,7 @@ def _phrase(action: str, *, ego: bool, lanes: bool) -> str:
 def deed_clause(
     deed: Episode, now: float, *, past: bool | None = None, against: Iterable[str] = ()
 ) -> Clause:
-    """Return what we did or do, with going on told as staying in the lane beside a lane change."""
+    """Return what we did or do; against a lane change, going on is staying in the lane."""
     tense: Tense | None = None if past is None else "past" if past else "present"
     if past is False and deed.begin > now + 1.0:
         tense = "future"
@@ -111,10 +111,10 @@ def performed(rule: str, done: Performed) -> Message:
 
 
 def last_open(time: float | None) -> tuple[Message, ...]:
-    """Return when [s] something could last be done; () where that need not be stated."""
+    """Return when [s] something was last possible; () if that need not be stated."""
     return () if time is None else (Message("LAST_OPEN", {"when": Moment(time)}),)
 
 
 def performed_later(done: Performed | None) -> tuple[Message, ...]:
-    """Return that what was compared was done later, or is planned; () where it is neither."""
+    """Return that the alternative was done later, or is planned; () if neither."""
     return () if done is None else (performed("PERFORMED_LATER", done),)

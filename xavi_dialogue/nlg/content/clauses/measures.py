@@ -1,4 +1,4 @@
-"""Measures: a value, in the sentence of its attribute."""
+"""Measures: a value as a sentence, by its attribute."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -25,20 +25,20 @@ WORLDLY = frozenset(("weather", "sound", "battery", "money", "law", "world"))
 TOPICS = {"weather": "the weather", "sound": "sounds and smells", "battery": "my battery",
           "money": "the price of this ride", "law": "the law",
           "world": "the world outside this ride"}  # fmt: skip
-UNSEEN = frozenset(("load", "occupant", "writing", "parts"))  # of a vehicle, from outside
-INSIDE = frozenset(("load", "occupant"))  # of what is inside a vehicle
+UNSEEN = frozenset(("load", "occupant", "writing", "parts"))  # not visible from outside
+INSIDE = frozenset(("load", "occupant"))  # those of them that are inside the vehicle
 _NAMES = {"distance-to-go": "the distance to our destination", "turn": "the next turn on our way",
           "exit-number": "the exit that we take", "time-to-go": "the time that we still need",
           "arrival-time": "the time of arrival"}  # fmt: skip
-SOON = 1.0  # [s] within which something comes at once
+SOON = 1.0  # [s] maximum time of what comes at once
 BETWEEN = frozenset(("gap", "headway", "distance", "time-to-collision"))
-AT_HAND = 4.0  # [m] below which a place is just ahead
-AT = 1.5  # [m] below which we are at a place
-OVER = 0.5  # [m/s] over the limit from which it is stated
+AT_HAND = 4.0  # [m] distance below which a place is just ahead
+AT = 1.5  # [m] distance below which we are at a place
+OVER = 0.5  # [m/s] minimum excess over the limit that is stated
 STANDING = 0.3  # [m/s]
-EVEN_SPEED = 0.8  # [m/s] by which a speed that is stated as one may vary
-EVEN = 0.3  # [m/s2] no acceleration to speak of
-GENTLE, FIRM, HARD = 1.5, 3.2, 4.0  # [m/s2] from which braking is called normal, firm, hard
+EVEN_SPEED = 0.8  # [m/s] maximum variation of a speed that is stated as one value
+EVEN = 0.3  # [m/s2] maximum acceleration that counts as none
+GENTLE, FIRM, HARD = 1.5, 3.2, 4.0  # [m/s2] minimum of normal, firm, hard braking
 _UNPLACED = frozenset(("place", "heading", "origin"))
 _VAGUE = frozenset(("indicator", "brake-lights", "right-of-way", "visibility", "comfort", "route",
                     "cost", "value", "count", "turn"))  # fmt: skip
@@ -54,8 +54,8 @@ def measure_message(
     Args:
         one: the measure.
         context: the situation.
-        bare: leave out what it is compared with.
-        when: say the time, where it is not now.
+        bare: leave out the value that it is compared with.
+        when: state the time, unless it is now.
     """
     slots = _common(one, context, when)
     if one.gap is not None or not _has_value(one):
@@ -70,7 +70,7 @@ def measure_message(
 
 
 def _has_value(one: Measure) -> bool:
-    """Check whether there is what the sentence of the attribute is about."""
+    """Check whether a measure has what the sentence of its attribute needs."""
     if one.attribute in UNSEEN:
         return False
     if one.attribute in ("indicator", "brake-lights", "name"):
@@ -85,7 +85,7 @@ def _has_value(one: Measure) -> bool:
 
 
 def _common(one: Measure, context: SpeechContext, when: bool) -> dict[str, Any]:
-    """Return the slots that every attribute has: who, when, and verbs that go with them."""
+    """Return the slots that all attributes have: who, when, and verbs that agree with them."""
     past = context.now - one.time > since(context) and one.extreme is None
     past = past and one.attribute != "visibility"
     ego = isinstance(one.thing, Ego)
@@ -111,7 +111,7 @@ def _common(one: Measure, context: SpeechContext, when: bool) -> dict[str, Any]:
 
 
 def _named(one: Measure, who: Who, noun: str) -> object:
-    """What the measure is called: "the speed of the blue car", "the distance to the junction"."""
+    """Return the name of a measure: "the speed of the blue car", "the distance to the junction"."""
     if one.attribute in _NAMES and isinstance(one.thing, Ego):
         return _NAMES[one.attribute]
     if one.attribute in WORLDLY:
@@ -153,7 +153,7 @@ def _valued(one: Measure, context: SpeechContext) -> dict[str, Any]:
 
 
 def _judged(one: Measure, value: float | None) -> dict[str, Any]:
-    """Return what a number amounts to: over or under, hard or gentle, faster or slower."""
+    """Return the judgement of a number: over or under, hard or gentle, faster or slower."""
     if value is None:
         return {}
     slots: dict[str, Any] = {"total": one.extreme == "total", "none": value <= 0.0}
@@ -201,12 +201,12 @@ def _judged(one: Measure, value: float | None) -> dict[str, Any]:
 
 
 def _is_bound(one: Measure) -> bool:
-    """Check whether a time is only known to be longer than its value."""
+    """Check whether the value of a time is only a lower bound."""
     return one.low is not None and one.high is None
 
 
 def degree(acceleration: float) -> str:
-    """Return what a passenger calls a deceleration or acceleration [m/s2]."""
+    """Return the word for a deceleration or acceleration [m/s2]."""
     size = abs(acceleration)
     if size < GENTLE:
         return "gentle"
@@ -214,7 +214,7 @@ def degree(acceleration: float) -> str:
 
 
 def _particular(one: Measure, value: float | None, context: SpeechContext) -> dict[str, Any]:
-    """Return the slots that a single attribute needs."""
+    """Return the slots that only one attribute needs."""
     match one.attribute:
         case "lane" if value is not None and one.count is not None:
             return {"leftmost": int(value) == one.count}
@@ -260,7 +260,7 @@ def _peak(one: Measure) -> Moment | None:
 
 
 def _lit(one: Measure) -> str | None:
-    """Return what indicators or brake lights show."""
+    """Return which indicators or brake lights are on."""
     shown = set(one.lights)
     if one.attribute == "brake-lights":
         return "on" if "brake" in shown or one.word == "on" else None

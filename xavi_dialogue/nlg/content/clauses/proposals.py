@@ -1,4 +1,4 @@
-"""Proposals: what could be asked next: only what the record has an answer to."""
+"""Proposals: suggested next questions, all of which the record can answer."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.nlg.context import SpeechContext
 
-#: What has an answer at any time of a ride.
+#: Questions that have an answer at any time of a ride.
 ALWAYS = (
     "What are you going to do next?",
     "What do you see around us?",
@@ -21,7 +21,7 @@ ALWAYS = (
 
 
 def about_cause(answer: Answer) -> tuple[str, ...]:
-    """What an answer about our conduct invites: the same without the vehicle, and how sure."""
+    """Return what to ask after an answer about our conduct: without the vehicle, and how sure."""
     vehicle = _first(answer)
     found: list[str] = []
     if vehicle is not None and not isinstance(answer, SupposedOfOther):
@@ -34,7 +34,7 @@ def about_cause(answer: Answer) -> tuple[str, ...]:
 
 
 def _first(answer: Any) -> int | None:
-    """Return the vehicle that an answer names first as a cause; ours is none."""
+    """Return the vehicle that an answer names first as a cause; None if there is none."""
     match answer:
         case ChoiceReason(contrast=contrast) | SupposedOfUs(contrast=contrast):
             named = [cause.vehicle for cause in contrast.causes]
@@ -59,7 +59,7 @@ def about_vehicle(vehicle: int) -> tuple[str, ...]:
 
 
 def fresh(proposed: tuple[str, ...], context: SpeechContext) -> tuple[str, ...]:
-    """Return those that were not proposed lately."""
+    """Return the proposals that were not made recently."""
     return tuple(one for one in proposed if one not in context.suggested)
 
 

@@ -47,7 +47,7 @@ _WE = frozenset(("present", "safe", "stationary", "moving", "fast", "slow", "clo
 def clause_of(
     that: Proposition, now: float, *, negated: bool = False, tense: Tense | None = None
 ) -> Clause:
-    """Return a proposition as a clause, in its own tense where no other is given."""
+    """Return a proposition as a clause, by default in its own tense."""
     match that:
         case Happens(event=event):
             return event_clause(event, now, tense=tense, negated=negated)
@@ -177,7 +177,7 @@ _BIGGER = {"more": "bigger", "less": "smaller", "same": "the same"}
 
 
 def two_times(that: Proposition) -> bool:
-    """Tell whether a measure is compared with itself at another time."""
+    """Check whether a measure is compared with itself at another time."""
     if not isinstance(that, Compares) or not isinstance(that.right, Measured):
         return False
     left, right = that.left, that.right
@@ -251,7 +251,7 @@ def _exists(that: Exists, now: float, negated: bool, tense: Tense | None) -> Cla
 
 
 def _some(thing: Described, negated: bool) -> object:
-    """Somebody of a description, or nobody of it."""
+    """Return somebody who fits a description, or nobody who does."""
     if not negated:
         return Who(replace(thing, definite=False), indefinite=True)
     bare = replace(thing, definite=False, number=None)
@@ -272,7 +272,7 @@ def _caused(that: Caused, now: float, negated: bool, tense: Tense | None) -> Cla
 
 
 def eventful(that: Proposition) -> Event | None:
-    """Return the event of a proposition that one happens, or not."""
+    """Return the event of a proposition that says that it happens, or not."""
     if isinstance(that, Not):
         return eventful(that.content)
     return that.event if isinstance(that, Happens) else None

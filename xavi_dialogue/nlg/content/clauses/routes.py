@@ -15,13 +15,13 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.ordinals import ordinal
 from xavi_dialogue.nlg.surface.values import Clause, Number, Quantity, Who
 
-AT_HAND = 4.0  # [m] below which a place is just ahead
-SAME = 2.0  # [m] by which two distances to one place may differ
+AT_HAND = 4.0  # [m] distance below which a place is just ahead
+SAME = 2.0  # [m] maximum difference between two distances to one place
 TURNS = frozenset(("exit-left", "exit-right", "exit-straight"))
 
 
 def exits_passed(answer: Counted) -> Message:
-    """Make a clause of how many exits of a roundabout we went past."""
+    """Return how many exits of a roundabout we passed as a clause."""
     return message(
         "EXITS_PASSED", none=answer.count == 0, on=answer.until is None,
         number=Number(answer.count, "exit"),
@@ -30,7 +30,7 @@ def exits_passed(answer: Counted) -> Message:
 
 @dataclass(frozen=True, slots=True)
 class Ring:
-    """A roundabout ahead: the exit that we take, and how far it is."""
+    """A roundabout ahead, with the exit that we take, and its distance."""
 
     exit: int
     exits: int | None
@@ -39,12 +39,12 @@ class Ring:
 
     @property
     def clause(self) -> Clause:
-        """Return what we do there: take the second exit of the roundabout."""
+        """Return what we do there as a clause: take the second exit of the roundabout."""
         return Clause(Who(ride=True), "take", (f"the {ordinal(self.exit)} exit of the roundabout",))
 
 
 def ring_of(measures: Iterable[Measure], now: float) -> Ring | None:
-    """Return the roundabout that lies ahead, as the measures tell it."""
+    """Return the roundabout ahead, according to the measures."""
     known = {m.attribute: m for m in measures if m.gap is None and m.value is not None}
     taken, turn = known.get("exit-number"), known.get("turn")
     if taken is None or taken.value is None or taken.count is None or now - taken.time > PRESENT:
@@ -61,7 +61,7 @@ def _to_ring(one: Measure) -> bool:
 
 
 def step_clauses(actions: tuple[Action, ...], ring: Ring | None) -> list[Clause]:
-    """Return what the steps of a plan come to; going straight on only where it is all."""
+    """Return the steps of a plan as clauses; going straight on only if there is nothing else."""
     found: list[Clause] = []
     rest = list(actions)
     while rest:

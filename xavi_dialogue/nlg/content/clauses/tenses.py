@@ -1,4 +1,4 @@
-"""Tenses: in which tense something is stated, from when it is and what is asked."""
+"""Tenses: the tense of a statement, by its time and by the question."""
 
 from xavi_dialogue.domain import terms
 from xavi_dialogue.domain.facts import Episode
@@ -6,33 +6,33 @@ from xavi_dialogue.domain.terms import At, Between, Event, Next, Now, Time, Whol
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.values import Clause, Moment, Tense
 
-PRESENT = 1.0  # [s] what is so long past still counts as now ...
-#: What is seen at once to be over.
+PRESENT = 1.0  # [s] maximum age of what counts as now ...
+#: Actions whose end is seen at once.
 SEEN_OVER = frozenset(("brake", "slow-down", "speed-up", "stop", "stand", "wait", "give-way"))
-#: What is done at junctions, of which there are several.
+#: Actions at junctions, of which there are several.
 TURNS = frozenset(
     ("turn", "exit-left", "exit-right", "exit-straight", "continue-next-exit", "enter", "leave",
      "let-go")
 )  # fmt: skip
-OLD = 6.0  # [s] from which a past event is given its time
-NAMED = 0.3  # [s] ... unless that time was named
+OLD = 6.0  # [s] minimum age of a past event whose time is stated ...
+NAMED = 0.3  # [s] ... if that time was named in the question
 
 
 def since(context: SpeechContext) -> float:
-    """Return how long ago [s] something is to be past."""
+    """Return the age [s] from which something is past."""
     return NAMED if context.then else PRESENT
 
 
 def goes_on(episode: Episode, now: float) -> bool:
-    """Tell whether an episode goes on, or was over only just now."""
+    """Check whether an episode goes on, or ended only just now."""
     just_over = episode.end is not None and now - episode.end <= PRESENT
     return episode.end is None or (just_over and episode.action not in SEEN_OVER)
 
 
 def dated(clause: Clause, episode: Episode, context: SpeechContext) -> Clause:
-    """Add when it was to a clause of slowing, waiting or turning that is past, and not just over.
+    """Add its time to a past clause of slowing, waiting or turning, unless it ended only just now.
 
-    It may not be the one that was meant, so that is stated even where a time or place was named.
+    It may not be the one that the passenger means, so this holds even if a time or place was named.
     """
     begun = began(episode, context)
     if begun is None or clause.tense != "past":
@@ -42,7 +42,7 @@ def dated(clause: Clause, episode: Episode, context: SpeechContext) -> Clause:
 
 
 def began(episode: Episode, context: SpeechContext) -> Moment | None:
-    """Tell when something began of which there may be several, and that is not only just over."""
+    """Return when something began of which there may be several, and that is not only just over."""
     repeated = episode.action in SEEN_OVER or episode.action in TURNS
     old = repeated and episode.end is not None and context.now - episode.end > OLD
     return Moment(episode.begin) if old else None
@@ -56,7 +56,7 @@ def tense_at(time: float, now: float, present: float = PRESENT) -> Tense:
 
 
 def tense_of(tense: terms.Tense, time: Time, now: float) -> Tense:
-    """The tense in which a proposition is stated: that of the question, corrected by its time."""
+    """Return the tense of a proposition: that of the question, corrected by its time."""
     match time:
         case At(at=at):
             behind = tense in ("past", "perfect") and now - at > NAMED
@@ -74,7 +74,7 @@ def tense_of(tense: terms.Tense, time: Time, now: float) -> Tense:
 
 
 def moment_of(time: Time) -> float | None:
-    """Return the time of the ride at which things are as they are described."""
+    """Return the time of the ride at which things look as they are described."""
     match time:
         case At(at=at):
             return at
@@ -84,7 +84,7 @@ def moment_of(time: Time) -> float | None:
 
 
 def event_tense(event: Event, now: float) -> tuple[Tense, str | None]:
-    """Return the tense and the modal verb in which an event is stated."""
+    """Return the tense and the modal verb of an event."""
     tense = tense_of(event.tense, event.time, now)
     match event.modal:
         case None | "will":

@@ -1,4 +1,4 @@
-"""Traffic lights: what they show, how they are expected to go on, how we passed them."""
+"""Traffic lights: their colours, their expected changes, and how we passed them, in words."""
 
 from xavi_dialogue.domain.terms import Everyone, Feature, Nobody
 from xavi_dialogue.domain.traffic_lights import (
@@ -22,11 +22,11 @@ COLOURS: dict[LightColour, str] = {
     "red": "red", "red-amber": "red and amber", "amber": "amber", "green": "green",
     "flashing": "flashing amber", "off": "off",
 }  # fmt: skip
-STATED = ("colour", "whether", "claim")  # asked of what it shows
-SPENT = 0.75  # [s] for which something has been so to be stated
-SAVED = 1.0  # [s] that make a difference
-AT_ONCE = 0.75  # [s] within which it came at once
-EXACT = 2.0  # [s] between the earliest and the latest time within which they are one
+STATED = ("colour", "whether", "claim")  # questions about what it shows
+SPENT = 0.75  # [s] minimum duration of a state that is stated
+SAVED = 1.0  # [s] minimum difference that matters
+AT_ONCE = 0.75  # [s] maximum time between two events that count as simultaneous
+EXACT = 2.0  # [s] maximum range of times that is stated as one time
 REPLIES = {("whether", True): "yes", ("whether", False): "no", ("claim", True): "right",
            ("claim", False): "wrong", ("seen", True): "yes", ("seen", False): "no",
            ("turn", False): "no"}  # fmt: skip
@@ -76,7 +76,7 @@ def _counted(answer: LightTold) -> Plan:
 
 
 def shown_slots(one: Shown | None, answer: LightTold, context: SpeechContext) -> dict[str, object]:
-    """Return the slots of what a light showed, at the moment asked about."""
+    """Return the slots for what a light showed at the moment asked about."""
     slots: dict[str, object] = {
         "far": None if answer.distance is None else Quantity(answer.distance, "m"),
         "passed": None if answer.passed is None else Moment(answer.passed),
@@ -104,20 +104,20 @@ def shown_slots(one: Shown | None, answer: LightTold, context: SpeechContext) ->
 
 
 def _when(one: Shown, answer: LightTold) -> Moment | None:
-    """Return when it came to show it; of its state in the past, the moment asked about."""
+    """Return when the light changed to it; for a past state, the moment asked about."""
     if answer.asked in ("when", "how-long"):
         return Moment(one.begin)
     return None if answer.time is None or not answer.past else Moment(answer.time)
 
 
 def light_message(one: Shown, context: SpeechContext) -> Message:
-    """Make a clause of what a light shows or showed."""
+    """Return what a light shows or showed as a clause."""
     told = LightTold("colour", one, past=one.end is not None, time=one.end)
     return message("LIGHT_IS", **shown_slots(one, told, context))
 
 
 def plan_foreseen(answer: LightForeseen, context: SpeechContext) -> Plan:
-    """Plan when a light is expected to change: the belief with its range, and what it rests on."""
+    """Plan when a light is expected to change: the belief with its range, and its basis."""
     found = answer.foreseen
     reply = {None: "", True: "yes", False: "no"}[answer.holds]
     if found is None:
@@ -133,7 +133,7 @@ def plan_foreseen(answer: LightForeseen, context: SpeechContext) -> Plan:
 
 
 def foreseen_message(found: Foreseen, context: SpeechContext) -> Message:
-    """Make a clause of when a light was expected to change."""
+    """Return when a light was expected to change as a clause."""
     past = context.now - found.time > found.horizon / 10.0
     return message("LIGHT_BELIEF", **_belief(found, LightForeseen(found, past=past), context))
 
@@ -168,7 +168,7 @@ def _belief(found: Foreseen, answer: LightForeseen, context: SpeechContext) -> d
 
 
 def plan_passed(answer: LightPassed, context: SpeechContext) -> Plan:
-    """Plan how we passed a light, held against what is said of it."""
+    """Plan how we passed a light, compared with the claim or question about it."""
     why, claim = answer.asked == "why", answer.asked == "claim"
     reply = {None: "", True: "yes", False: "no"}[answer.holds]
     red = answer.claimed in ("red", "red-amber")
@@ -199,7 +199,7 @@ def crossed_slots(one: Crossed) -> dict[str, object]:
 
 
 def plan_supposed_light(answer: SupposedOfLight, context: SpeechContext) -> Plan:
-    """Plan what would have been had a light shown something else."""
+    """Plan what we would have done if a light had shown something else."""
     late = context.now if answer.passed is None else answer.passed
     saved = None if answer.passing is None else late - answer.passing
     gained = saved is not None and saved >= SAVED

@@ -1,1 +1,1 @@
-"""What was, is and is expected, in words."""
+"""Answers about what was, is and is expected, in words."""

@@ -1,4 +1,4 @@
-"""Beliefs and values: what was expected of others, what was weighed, and comparisons."""
+"""Beliefs and values: expectations of others, valued options, and comparisons, in words."""
 
 from collections.abc import Mapping
 from typing import get_args
@@ -24,15 +24,15 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Who
 
-MOVED = 0.1  # change of probability from which it is stated
-NAMED = 5  # options named
-NARROW = 1.0  # [s] of value up to which a decision that is no tie was still close
-#: How well something is known by its probability, best first.
+MOVED = 0.1  # minimum change of probability that is stated
+NAMED = 5  # maximum of options named
+NARROW = 1.0  # [s] maximum difference in value of a decision that is called close, though not a tie
+#: Words for how well something was known, by minimum probability, highest first.
 _KNOWN = ((0.95, "sure"), (0.65, "likely"), (0.35, "guess"), (0.0, "no"))
 
 
 def plan_beliefs(answer: Beliefs, context: SpeechContext) -> Plan:
-    """Plan what was believed of a vehicle, how that moved, and what came of it."""
+    """Plan what was believed of a vehicle, how that changed, and what the vehicle did."""
     latest = answer.history[-1] if answer.history else None
     at = answer.time if answer.time is not None else latest.time if latest else context.now
     past = context.now - at > since(context)
@@ -67,7 +67,7 @@ def plan_beliefs(answer: Beliefs, context: SpeechContext) -> Plan:
 
 
 def _knew(answer: Beliefs, share: float, context: SpeechContext) -> Message:
-    """Tell whether we knew what somebody would do: how probable it was for us, and since when."""
+    """State whether we knew what somebody would do: how probable it was for us, and since when."""
     at = answer.time if answer.time is not None else context.now
     past = answer.came is not None or context.now - at > since(context)
     grade = next(word for least, word in _KNOWN if share >= least)
@@ -88,7 +88,7 @@ def _knew(answer: Beliefs, share: float, context: SpeechContext) -> Message:
 
 
 def _moved(answer: Beliefs, context: SpeechContext) -> Message | None:
-    """Return how the belief changed most, and what the vehicle did meanwhile."""
+    """Return the largest change of the belief, and what the vehicle did meanwhile."""
     if answer.turning is None or len(answer.history) < 2:
         return None
     begin, end = answer.turning
@@ -106,7 +106,7 @@ def _moved(answer: Beliefs, context: SpeechContext) -> Message | None:
 
 
 def _gone(after: Belief, answer: Beliefs) -> tuple[Clause, ...] | None:
-    """Return the conduct asked about, where it was no longer possible in the end."""
+    """Return the conduct asked about, if it was no longer possible in the end."""
     wanted = _actions(answer.of)
     if not wanted or any(_within(wanted, e.actions) for e in after.expectations):
         return None
@@ -144,7 +144,7 @@ def _came(answer: Beliefs, context: SpeechContext) -> Message | None:
 
 
 def plan_options(answer: Options, context: SpeechContext) -> Plan:
-    """Plan what could have been done, and what was expected of each."""
+    """Plan the options of a decision, and what was expected of each."""
     if not answer.options:
         return Plan((message("OPTIONS_NONE"),))
     if answer.risk:
@@ -176,7 +176,7 @@ def plan_options(answer: Options, context: SpeechContext) -> Plan:
 def _rival(
     answer: Options, chosen: OptionValue, rival: OptionValue, context: SpeechContext
 ) -> Plan:
-    """Plan which option came nearest to what was chosen, and how near."""
+    """Plan which option was closest to the chosen one, and how close."""
     apart = None
     if chosen.value is not None and rival.value is not None:
         apart = abs(chosen.value - rival.value)
@@ -210,7 +210,7 @@ WORDS: Mapping[str, tuple[str, str]] = {
 
 
 def plan_compared(answer: Compared, context: SpeechContext) -> Plan:
-    """Plan which of two is ahead by a measure."""
+    """Plan which of two is better by a measure."""
     comparative, plain = WORDS.get(answer.by, ("better", "good"))
     winner = answer.second if answer.better == "second" else answer.first
     loser = answer.first if answer.better == "second" else answer.second
@@ -237,7 +237,7 @@ _DECIDED = ("first", "second")
 
 
 def _because(answer: Compared, context: SpeechContext) -> Message | None:
-    """Return what would have come of the worse option in all, where that is what was not done."""
+    """Return the consequences of the worse option, if it is the one that was not chosen."""
     against = answer.contrast
     if against is None or answer.by != "best" or answer.better not in _DECIDED:
         return None
@@ -248,7 +248,7 @@ def _because(answer: Compared, context: SpeechContext) -> Message | None:
 
 
 def _by(answer: Compared) -> Quantity | None:
-    """By how much the better one is quicker, where time is what is compared."""
+    """Return how much quicker the better one is, if times are compared."""
     if answer.by != "time" or answer.contrast is None:
         return None
     deltas = (e.delta for e in answer.contrast.effects if e.component == "time")
@@ -268,7 +268,7 @@ def _compared(thing: Thing | Proposition, context: SpeechContext) -> tuple[objec
 
 
 def _pair(measures: tuple[Measure, ...], winner: object, loser: object) -> Message | None:
-    """Both values of a measure, that of the winner first."""
+    """Return both values of a measure, that of the winner first."""
     one = next((m for m in measures if m.thing == winner and m.value is not None), None)
     two = next((m for m in measures if m.thing == loser and m.value is not None), None)
     if one is None or two is None or one.value is None or two.value is None:

@@ -1,4 +1,4 @@
-"""What a verdict says by itself, and which facts are stated beside it."""
+"""Facts of verdicts: those that are stated with a verdict, or that say the same as it."""
 
 from xavi_dialogue.domain import terms
 from xavi_dialogue.domain.answers import Verdict
@@ -18,14 +18,14 @@ from xavi_dialogue.nlg.content.clauses.measures import STANDING
 from xavi_dialogue.nlg.content.clauses.propositions import PLACES, eventful
 from xavi_dialogue.nlg.context import SpeechContext
 
-#: How the bearing of what stands in a relation to us begins.
+#: The begin of the bearing that goes with a relation to us.
 _BEARINGS = {"ahead-of": "ahead", "behind": "behind", "beside": "beside", "oncoming-to": "oncoming",
              "left-of": "left", "right-of": "right"}  # fmt: skip
 TELLING = frozenset(("brake", "slow-down", "speed-up"))
 
 
 def telling(answer: Verdict) -> tuple[Fact, ...]:
-    """Return the facts that say something beside the verdict, as much as one sentence holds."""
+    """Return the facts that add something to the verdict; for places, looks come first."""
     that, event = bare(answer.that), eventful(answer.that)
     holds = answer.holds != isinstance(answer.that, Not)
     placed = isinstance(that, Related) and that.relation in PLACES
@@ -47,7 +47,7 @@ def telling(answer: Verdict) -> tuple[Fact, ...]:
 
 
 def _said_by_other(fact: Fact, facts: tuple[Fact, ...]) -> bool:
-    """Whether another fact tells it already: a change of speed the speed, or that it moves."""
+    """Check whether another fact implies a speed (standing, a change of speed) or a moving."""
     if isinstance(fact, Measure) and fact.attribute == "speed":
         thing = fact.thing
         deeds = [f for f in facts if isinstance(f, Episode) and f.actor == thing]
@@ -64,7 +64,7 @@ def _said_by_other(fact: Fact, facts: tuple[Fact, ...]) -> bool:
 
 
 def _said_by_verdict(fact: Fact, answer: Verdict) -> bool:
-    """Check whether it is the speed of what is said to stand still."""
+    """Check whether a fact repeats a verdict that something stands still."""
     that = bare(answer.that)
     if not isinstance(that, Is):
         return False
@@ -77,12 +77,12 @@ def _said_by_verdict(fact: Fact, answer: Verdict) -> bool:
 
 
 def bare(that: Proposition) -> Proposition:
-    """Strip a proposition of its negations."""
+    """Return a proposition without its negations."""
     return bare(that.content) if isinstance(that, Not) else that
 
 
 def tells_it(answer: Verdict, context: SpeechContext) -> bool:
-    """Check whether the first fact by itself says what the verdict says."""
+    """Check whether the first fact alone says what the verdict says."""
     if not answer.facts:
         return False
     fact, event = answer.facts[0], eventful(answer.that)
@@ -111,7 +111,7 @@ def tells_it(answer: Verdict, context: SpeechContext) -> bool:
 
 
 def within_limit(answer: Verdict) -> Measure | None:
-    """The speed beside the limit, where that is what being allowed, fast or slow comes to."""
+    """Return the speed with its limit, if a verdict on allowed, fast or slow depends on it."""
     that = bare(answer.that)
     if not isinstance(that, Is) or that.state not in ("allowed", "fast", "slow"):
         return None
@@ -120,7 +120,7 @@ def within_limit(answer: Verdict) -> Measure | None:
 
 
 def _other_value(that: Proposition, fact: Fact) -> bool:
-    """Check whether a fact gives the value that is so instead of the one asked for."""
+    """Check whether a fact is the actual value of what a proposition compares or ascribes."""
     if isinstance(that, Compares) and isinstance(fact, Measure):
         number = isinstance(that.right, terms.Quantity)
         return number and (that.left.attribute, that.left.thing) == (fact.attribute, fact.thing)
@@ -130,7 +130,7 @@ def _other_value(that: Proposition, fact: Fact) -> bool:
 
 
 def _alike(episode: Episode, event: Event) -> bool:
-    """Check whether an episode, said as it is, affirms an event by its own name."""
+    """Check whether an episode, in its own words, affirms an event."""
     place = isinstance(event.object, terms.Junction)
     if event.object is not None and not place and event.object != episode.object:
         return False

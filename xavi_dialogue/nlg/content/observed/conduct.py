@@ -1,4 +1,4 @@
-"""Conduct: what somebody is doing, what we are going to do, and where somebody is going."""
+"""Conduct: what somebody is doing, what we are going to do, and where somebody goes, in words."""
 
 from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import Activity, Bound, MotionCause, PlanAhead
@@ -21,15 +21,15 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import word
 from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
 
-#: What says less than anything else that somebody does at the same time.
-AT_HAND = 4.0  # [m] below which a place is just ahead
-TOLD = 0.4  # probability from which an expectation is stated beside what somebody does
+#: Actions that say less than any other that somebody does at the same time.
+AT_HAND = 4.0  # [m] distance below which a place is just ahead
+TOLD = 0.4  # minimum probability of an expectation that is stated with the conduct
 PLAIN = frozenset(("continue", "move", "keep-lane", "go", "continue-next-exit"))
 _STOPPING = frozenset(("stop", "brake", "slow-down", "stand", "follow"))
 STILL = frozenset(("stand", "stop", "wait", "park"))
 CHANGES = frozenset(("slow-down", "speed-up"))
 TRENDS = {"slowing": "slowing down", "speeding-up": "speeding up"}
-#: Actions that say by themselves how the speed changes.
+#: Actions whose names include the change of speed.
 TELLING = frozenset(("slow-down", "speed-up", "brake", "stop", "stand"))
 
 
@@ -69,7 +69,7 @@ def plan_activity(answer: Activity, context: SpeechContext) -> Plan:
 
 
 def _lost(answer: Activity, look: Look, context: SpeechContext) -> Plan:
-    """Plan that it cannot be seen any more, and where it was last."""
+    """Plan the statement that a vehicle is out of view, and where it was last seen."""
     first = message(
         "ACTIVITY",
         lost=Moment(look.seen if look.seen is not None else look.time),
@@ -93,7 +93,7 @@ def _speed(answer: Activity) -> Quantity | None:
 
 
 def _deeds(answer: Activity) -> list[Episode]:
-    """Return what it does, the most telling first."""
+    """Return what somebody does, the most important first."""
     standing, off = answer.trend == "standing", _moves_off(answer)
     deeds = [
         e for e in answer.doing
@@ -106,7 +106,7 @@ def _deeds(answer: Activity) -> list[Episode]:
 
 
 def _moves_off(answer: Activity) -> bool:
-    """Tell whether who stood until now moves again."""
+    """Check whether somebody who stood until now moves again."""
     stood = any(e.action in STILL for e in answer.doing)
     return stood and (answer.speed or 0.0) >= STANDING and answer.trend != "slowing"
 
@@ -164,7 +164,7 @@ def plan_ahead(answer: PlanAhead, context: SpeechContext) -> Plan:
 
 
 def _in_all(one: Measure, context: SpeechContext) -> Message:
-    """Name the destination, which after a junction would not be what "there" means."""
+    """Return a measure with the destination named, because "there" could mean a junction."""
     told = measure_message(one, context)
     whole = one.attribute == "time-to-go" and one.value is not None
     return message(told.rule, **told.slots, whole=True) if whole else told
@@ -175,7 +175,7 @@ def _far(ring: Ring) -> Quantity | None:
 
 
 def _begun(answer: PlanAhead, ring: Ring | None) -> Clause | None:
-    """Return what is under way before the first step."""
+    """Return the action that is under way before the first step."""
     first = answer.steps[0][0]
     straight = answer.begun == "exit-straight" and first == "continue"
     if answer.begun is None or answer.begun == first or straight:
@@ -186,7 +186,7 @@ def _begun(answer: PlanAhead, ring: Ring | None) -> Clause | None:
 
 
 def _same_turn(answer: PlanAhead) -> Measure | None:
-    """Return the turn at the next junction, where it is what the first step is about."""
+    """Return the turn at the next junction, if the first step is that turn."""
     moves = [action for action, _ in answer.steps if action != "continue"]
     action = moves[0] if moves else "continue" if answer.steps else None
     for one in answer.measures:
@@ -200,7 +200,7 @@ def _same_turn(answer: PlanAhead) -> Measure | None:
 def _elsewhere(
     answer: PlanAhead, turn: Measure | None, ring: Ring | None, context: SpeechContext
 ) -> tuple[Message, ...]:
-    """Return the next turn, where the first step is none and says nothing of it."""
+    """Return the next turn, if the first step is not a turn."""
     actions = {action for action, _ in answer.steps}
     if turn is not None or ring is not None or actions & TURNS:
         return ()
@@ -212,7 +212,7 @@ def _elsewhere(
 
 
 def _gone(went: Episode | None, look: Look | None, context: SpeechContext) -> dict[str, object]:
-    """Tell which way somebody went, and where it is by now or was seen last."""
+    """Return which way somebody went, and where it is now or was last seen."""
     slots: dict[str, object] = {}
     if went is not None:
         slots["went"] = episode_message(went, context)
@@ -257,9 +257,9 @@ def plan_bound(answer: Bound, context: SpeechContext) -> Plan:
 def _unconsidered(
     event: Event, belief: Belief, signal: Episode | None, context: SpeechContext
 ) -> Plan:
-    """Plan that conduct was left out of account, what was considered, and what is indicated."""
+    """Plan that conduct was not considered, what was considered, and what is indicated."""
     at = belief.time
-    knew = event.tense == "past"  # whether it was expected is what was asked
+    knew = event.tense == "past"  # the question is whether it was expected
     past = knew or context.now - at > since(context)
     first = message(
         "UNCONSIDERED",

@@ -1,4 +1,4 @@
-"""Corrections: what did not happen, with what did."""
+"""Corrections: what did not happen, and what happened instead."""
 
 from xavi_dialogue.domain.answers import DidNotHappen
 from xavi_dialogue.domain.facts import Episode
@@ -14,7 +14,7 @@ OPEN = frozenset(("do", "happen"))
 
 
 def plan_did_not_happen(answer: DidNotHappen, context: SpeechContext) -> Plan:
-    """Plan that what the question takes for granted did not happen, and what did."""
+    """Plan that what the question presupposes did not happen, and what did."""
     event = answer.asked
     ego = isinstance(event.actor, Ego)
     instead = answer.instead[-1] if answer.instead else None
@@ -45,7 +45,7 @@ def _recent(episode: Episode, context: SpeechContext) -> bool:
 
 
 def _denied(event: Event, context: SpeechContext) -> Clause:
-    """Return the denial: of the past as past, of what goes on as present."""
+    """Return the denial: in the past tense, or in the present if it goes on."""
     tense: Tense = "present" if event.tense == "present" and event.modal is None else "past"
     return event_clause(event, context.now, tense=tense, negated=True)
 
@@ -56,13 +56,13 @@ def _bare(event: Event, context: SpeechContext) -> Clause:
 
 
 def _turns(event: Event, episode: Episode) -> bool:
-    """Tell whether it is any turn that is spoken of, and one was made."""
+    """Check whether the question is about any turn, and one was made."""
     sides = ("left", "right") if event.side is None else (event.side,)
     return event.action == "turn" and episode.action in [f"exit-{side}" for side in sides]
 
 
 def _same(event: Event, episode: Episode, context: SpeechContext) -> bool:
-    """Check whether an episode is what was asked about, if at another time."""
+    """Check whether an episode is the event that was asked about, but at another time."""
     if event.actor != episode.actor:
         return False
     if event.action == episode.action or _turns(event, episode):

@@ -1,4 +1,4 @@
-"""Courses: our way ahead in words: which way, how many turns are left, whether we stay."""
+"""Courses: our way ahead, the turns that are left, and whether we stay on the road, in words."""
 
 from xavi_dialogue.domain.answers import Course
 from xavi_dialogue.domain.journeys import WayStep
@@ -8,9 +8,9 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.ordinals import ordinal
 from xavi_dialogue.nlg.surface.values import Number, Quantity
 
-AT_HAND = 4.0  # [m] below which a place is just ahead
+AT_HAND = 4.0  # [m] distance below which a place is just ahead
 COUNTED = {"turns": "turn", "junctions": "junction", "roundabouts": "roundabout"}
-SHOWN = 4  # turns that are listed
+SHOWN = 4  # maximum of turns that are listed
 SIDES = {"exit-left": "left", "exit-right": "right", "exit-straight": "straight"}
 
 

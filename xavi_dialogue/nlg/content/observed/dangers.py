@@ -10,10 +10,10 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import message
 from xavi_dialogue.nlg.surface.values import Chance, Number, Quantity, Who
 
-LIKELY = 0.5  # probability from which a chance is stated beside a rule
-SOME = 0.5  # [m] of braking below which it hardly needs any
-CERTAIN = 0.95  # probability from which what we plan is stated as such
-AT_ONCE = 1.0  # [s] within which something comes at once
+LIKELY = 0.5  # minimum probability that is stated with a rule
+SOME = 0.5  # [m] braking distance below which braking is hardly needed
+CERTAIN = 0.95  # minimum probability of a plan that is stated as certain
+AT_ONCE = 1.0  # [s] maximum time of what comes at once
 
 
 def plan_pulling_up(answer: PullingUp, context: SpeechContext) -> Plan:
@@ -40,7 +40,7 @@ def plan_pulling_up(answer: PullingUp, context: SpeechContext) -> Plan:
 
 
 def plan_slowing(answer: Slowing, context: SpeechContext) -> Plan:
-    """Plan whether we stop or slow down, for whom, or who is out of the way by then."""
+    """Plan whether we stop or slow down, and for whom, or who has left our way by then."""
     named = Vehicles(answer.others) if answer.others[1:] else None
     one = Vehicle(answer.others[0]) if answer.others else None
     share = answer.share

@@ -1,4 +1,4 @@
-"""Happenings: what happened, as a list, a summary, or a time."""
+"""Happenings: what happened, as a list, a summary or a time."""
 
 from dataclasses import replace
 from itertools import groupby
@@ -18,12 +18,12 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Tense, Who
 
-LISTED = 12  # episodes that a list holds
-TOLD = 7  # episodes that a summary tells
+LISTED = 12  # maximum of episodes in a list
+TOLD = 7  # maximum of episodes in a summary
 TOLD_MORE = 14
-SOON = 1.0  # [s] what begins so soon after something is told to be "then"
-IN_SENTENCE = 3  # episodes in one sentence
-#: What matters most in a summary; what stands nowhere weighs nothing.
+SOON = 1.0  # [s] maximum time between two episodes that are joined by "then"
+IN_SENTENCE = 3  # maximum of episodes in one sentence
+#: Importance of actions in a summary; those not listed have none.
 WEIGHTS = {
     "collide": 9.0, "nearly-collide": 8.0, "overtake": 6.0, "exit-left": 6.0, "exit-right": 6.0,
     "turn": 6.0, "enter": 3.0, "leave": 5.0, "change-left": 5.0, "change-right": 5.0,
@@ -54,7 +54,7 @@ def plan_happenings(answer: Happenings, context: SpeechContext) -> Plan:
 
 
 def _nothing(answer: Happenings, context: SpeechContext) -> Plan:
-    """Plan that there was nothing of the sort."""
+    """Plan the statement that nothing of the sort happened."""
     span = span_slots(answer.since, answer.until, context)
     clause: Clause | None = None
     if answer.asked is not None:
@@ -82,7 +82,7 @@ def _item(episode: Episode, context: SpeechContext, *, ends: bool = False) -> Me
 
 
 def _summary(answer: Happenings, context: SpeechContext) -> Plan:
-    """Plan a summary of two to five sentences, the weightiest episodes in order of time."""
+    """Plan a summary of two to five sentences: the most important episodes in order of time."""
     most = TOLD_MORE if context.detail == "more" else TOLD
     if context.detail == "less":
         most = IN_SENTENCE
@@ -107,13 +107,13 @@ def _weightiest(episodes: tuple[Episode, ...], most: int) -> list[Episode]:
 
 
 def weight(episode: Episode) -> float:
-    """Return how much an episode matters to a passenger."""
+    """Return the importance of an episode for a passenger."""
     own = 0.5 if isinstance(episode.actor, Ego) else 0.0
     return WEIGHTS.get(episode.action, 0.0) + (own if episode.action in WEIGHTS else 0.0)
 
 
 def _rows(episodes: list[Episode], context: SpeechContext) -> list[list[Episode]]:
-    """Return the episodes by sentence: those of one actor in a row, a few at a time."""
+    """Return the episodes by sentence: successive ones of one actor, a few at a time."""
     rows: list[list[Episode]] = []
 
     def subject(episode: Episode) -> tuple[object, ...]:
@@ -151,7 +151,7 @@ def _alike(episode: Episode) -> tuple[object, ...]:
 
 
 def _together(episodes: list[Episode]) -> Episode:
-    """Return one episode for several that are alike, which tells no more than they share."""
+    """Return one episode for several similar ones, with only what they share."""
     first = episodes[0]
     if len(episodes) == 1:
         return first
@@ -164,12 +164,12 @@ def _rides(episode: Episode, context: SpeechContext) -> bool:
 
 
 def _tense(episode: Episode, context: SpeechContext) -> Tense:
-    """Tell what is over as past, however lately it ended."""
+    """Return the tense of an episode; what has ended is past, even if only just."""
     return "past" if episode.end is not None else episode_clause(episode, context.now).tense
 
 
 def _ride(measures: tuple[Measure, ...]) -> tuple[Message, ...]:
-    """Return how long and how far the ride has gone."""
+    """Return the duration and distance of the ride."""
     known = {m.attribute: m for m in measures if m.value is not None}
     time = known.get("time") or known.get("duration")
     distance = known.get("distance-driven")
@@ -236,7 +236,7 @@ def _how_long(answer: Happenings, context: SpeechContext) -> Plan:
 
 
 def _so_far(one: Measure, context: SpeechContext) -> bool:
-    """Check whether it is how long somebody has waited, and not how long it still takes."""
+    """Check whether a measure is how long somebody has waited, not how long it will still take."""
     return one.attribute == "waiting-time" and (one.until is None or one.until <= context.now)
 
 

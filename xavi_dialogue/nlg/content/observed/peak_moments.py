@@ -1,4 +1,4 @@
-"""Summits: moments that stand out, what was decided, and what became different, in words."""
+"""Peak moments: extreme moments, decisions, and what changed between them, in words."""
 
 from dataclasses import replace
 
@@ -18,19 +18,19 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Qua
 UNITS = {"distance": "m", "time-to-collision": "s", "speed": "m/s", "duration": "s",
          "deceleration": "m/s2", "delay": "s", "speed-change": "m/s"}  # fmt: skip
 YIELDING = frozenset(("give-way", "wait", "let-go"))
-NAMED = 3  # vehicles that are named
-LONG = 1.5  # [s] from which it is stated how long something took
+NAMED = 3  # maximum of vehicles named
+LONG = 1.5  # [s] minimum duration that is stated
 
 
 def plan_peak_moment(answer: PeakMoment, context: SpeechContext) -> Plan:
-    """Plan the moment at which something was at its most."""
+    """Plan the moment at which something was greatest."""
     if answer.time is None:
         return Plan((message("SUMMIT_NONE", of=answer.of),))
     deed = next((e for e in answer.deeds if answer.of != "braking" or _tells(e)), None)
     measure = answer.measure
     value = None if measure is None or measure.value is None else measure.value
     several = len(answer.others) > 1 and deed is not None and deed.action in YIELDING
-    spread = answer.of == "delay"  # they came one after another
+    spread = answer.of == "delay"  # the episodes came one after another
     others = tuple(
         Who(Vehicle(x.vehicle), x.time if spread else answer.time) for x in answer.others[:NAMED]
     )
@@ -53,7 +53,7 @@ def plan_peak_moment(answer: PeakMoment, context: SpeechContext) -> Plan:
 
 
 def _tells(deed: Episode) -> bool:
-    """Say whether a deed tells more of a braking than that there was one."""
+    """Check whether an action says more about braking than that there was some."""
     return deed.object is not None or deed.action not in ("brake", "slow-down")
 
 
@@ -62,7 +62,7 @@ def _then(deed: Episode, context: SpeechContext) -> Clause:
 
 
 def plan_decided(answer: Decided, context: SpeechContext) -> Plan:
-    """Plan what a decision came to."""
+    """Plan the result of a decision."""
     return Plan((_decided(answer, context),))
 
 
@@ -79,7 +79,7 @@ def _decided(answer: Decided, context: SpeechContext) -> Message:
 
 
 def plan_altered(answer: Altered, context: SpeechContext) -> Plan:
-    """Plan what was different at one decision from an earlier one."""
+    """Plan the differences between a decision and an earlier one."""
     same = own_verbs(answer.before.steps) == own_verbs(answer.after.steps)
     first = message(
         "ALTERED",
@@ -107,7 +107,7 @@ def plan_altered(answer: Altered, context: SpeechContext) -> Plan:
 
 
 def plan_wavered(answer: Wavered, context: SpeechContext) -> Plan:
-    """Plan why a plan was given up again and again."""
+    """Plan why a plan was given up repeatedly."""
     del context
     told = tuple(
         message(

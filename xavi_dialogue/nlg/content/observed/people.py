@@ -1,4 +1,4 @@
-"""People: who it is, how many there are, and where they are."""
+"""People: who somebody is, how many there are, and where they are, in words."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -45,17 +45,17 @@ from xavi_dialogue.nlg.surface.values import Clause, Moment, Number, Quantity, T
 
 PLAIN = frozenset(("continue", "move", "keep-lane", "go"))
 CHANGING = frozenset(("slow-down", "speed-up", "brake", "stop"))
-TOWARDS = {"give-way": "to", "wait": "for", "let-go": "for"}  # before whom it concerned
-FEW = 3  # vehicles that are stated beside their number
-MANY = 5  # vehicles that are described one by one
+TOWARDS = {"give-way": "to", "wait": "for", "let-go": "for"}  # prepositions of their objects
+FEW = 3  # maximum of vehicles that are described with their number
+MANY = 5  # maximum of vehicles that are described one by one
 
 
 def plan_identified(answer: Identified, context: SpeechContext) -> Plan:
-    """Plan who or what it is; or that there is nobody of whom it holds."""
+    """Plan the vehicles for which something holds; or that it holds for nobody."""
     answer = msgspec.structs.replace(answer, facts=_telling(answer.facts))
     facts = tuple(fact_message(f, context) for f in answer.facts)
     if not answer.none and not answer.looks and facts:
-        return Plan(facts[:1], facts[1:])  # it is of us alone that it holds
+        return Plan(facts[:1], facts[1:])  # it holds for us alone
     if answer.none or not answer.looks:
         did = _nobody(answer.such, context.now) if answer.such else None
         return Plan((message("NOBODY", did=did),), facts)
@@ -76,7 +76,7 @@ def plan_identified(answer: Identified, context: SpeechContext) -> Plan:
 
 
 def _by_kind(looks: tuple[Look, ...], context: SpeechContext) -> Plan:
-    """Tell of many by colour and kind, with how many there are of each."""
+    """Plan many vehicles by colour and kind, with the number of each."""
     heads = Counter(
         " ".join(part for part in (look.colour, word("vehicles", "kind", look.kind)) if part)
         if _telling_one(look) else word("vehicles", "kind", look.kind)
@@ -89,7 +89,7 @@ def _by_kind(looks: tuple[Look, ...], context: SpeechContext) -> Plan:
 
 
 def _telling(facts: tuple[Fact, ...]) -> tuple[Fact, ...]:
-    """Return the facts without what says again that a vehicle stands."""
+    """Return the facts without those that repeat that a vehicle stands."""
     stands = any(
         isinstance(f, Measure) and f.attribute == "speed" and (f.value or 0.0) < STANDING
         for f in facts
@@ -113,7 +113,7 @@ def _one(
         if conduct:
             return Plan((message("DID_CONDUCT", it=did, **conduct),))
         told = () if isinstance(answer.such, Has) else facts
-        if event is not None and event.action in TOWARDS:  # it is stated for whom it waits
+        if event is not None and event.action in TOWARDS:  # the vehicle that it waits for is stated
             told = _besides(Vehicle(look.vehicle), answer.facts, facts)
         return Plan((message("PLAIN", it=did),), told)
     lost = Moment(look.seen) if not look.in_view and look.seen is not None else None
@@ -137,7 +137,7 @@ def _one(
 def _besides(
     told: Thing | None, facts: tuple[Fact, ...], said: tuple[Message, ...]
 ) -> tuple[Message, ...]:
-    """Tell of the other facts those that concern somebody else."""
+    """Return those of the other facts that concern somebody else."""
     whom = {told}
     kept: list[Message] = []
     for fact, one in zip(facts, said, strict=True):
@@ -150,7 +150,7 @@ def _besides(
 
 
 def conduct_slots(facts: tuple[Fact, ...], look: Look, context: SpeechContext) -> dict[str, object]:
-    """The slots of what a vehicle is doing, in few words: its speed, and what is under way."""
+    """Return the slots of a vehicle's conduct in few words: its speed, and what is under way."""
     mine = [f for f in facts if not isinstance(f, Belief) and _of(f, look.vehicle)]
     speed = next((f for f in mine if isinstance(f, Measure) and f.attribute == "speed"), None)
     deed = next((f for f in mine if isinstance(f, Episode)), None)
@@ -179,14 +179,14 @@ def _past(look: Look, context: SpeechContext) -> bool:
 
 
 def _did(such: Proposition | None, look: Look, context: SpeechContext) -> Clause | None:
-    """Return the condition that was asked for, with the vehicle in the place of "who"."""
+    """Return the condition that was asked for, with the vehicle in place of "who"."""
     if such is None:
         return None
     return clause_of(with_wanted(such, Vehicle(look.vehicle)), context.now)
 
 
 def _nobody(such: Proposition, now: float) -> Clause:
-    """Return a clause that the condition holds of nobody: "I did not wait for anybody"."""
+    """Return a clause that a condition holds for nobody: "I did not wait for anybody"."""
     clause = clause_of(with_wanted(such, Nobody()), now)
     if isinstance(clause.subject, Who) and isinstance(clause.subject.thing, Nobody):
         return clause
@@ -194,7 +194,7 @@ def _nobody(such: Proposition, now: float) -> Clause:
 
 
 def clocks(moments: Sequence[float]) -> str:
-    """Several times of the ride in a row: "at 0:02, 0:09 and 0:14"."""
+    """Return several times of the ride as a list: "at 0:02, 0:09 and 0:14"."""
     return "at " + listed([clock(moment) for moment in moments])
 
 
@@ -202,12 +202,12 @@ _TIMES = {1: "once", 2: "twice"}
 
 
 def times(count: int) -> str:
-    """Return how often: "once", "twice", "three times"."""
+    """Return a number of times: "once", "twice", "three times"."""
     return _TIMES.get(count) or number(Number(count, "time"))
 
 
 def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
-    """Plan how many there are, or how often it happened; whether it is as many as was said."""
+    """Plan how many there are, or how often it happened; whether the number named is right."""
     if answer.said is not None:
         plan = plan_counted(msgspec.structs.replace(answer, said=None), context)
         rule = "YES" if answer.said else "NO"
@@ -256,17 +256,17 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
 
 
 def _telling_one(look: Look) -> bool:
-    """Tell whether it can be told from others by its look: people on foot are not."""
+    """Check whether a look tells a vehicle apart from others; people on foot have none such."""
     return look.kind != "pedestrian"
 
 
 def _only_there(that: Proposition) -> bool:
-    """Tell whether nothing but that they are there was said of what is counted."""
+    """Check whether the description of what is counted says nothing but that they are there."""
     return isinstance(that, Is) and that.state == "present"
 
 
 def _occasions(answer: Counted) -> tuple[Message, ...] | None:
-    """Return when it happened, each time once, with whom it concerned where that was left open."""
+    """Return when it happened, each time once, with the vehicle if the question left that open."""
     assert isinstance(answer.of, Event)
     rows: list[tuple[float, list[Thing]]] = []
     for fact in answer.facts:
@@ -295,7 +295,7 @@ def _listed(facts: tuple[Message, ...]) -> tuple[Message, ...]:
 
 
 def _which(of: Thing, context: SpeechContext) -> dict[str, object]:
-    """Return where the things that were counted are, and what they do."""
+    """Return the places and conduct of the things that were counted."""
     if not isinstance(of, Described):
         return {}
     place = word("vehicles", "place", of.bearing) if of.bearing is not None else None
@@ -321,7 +321,7 @@ def _span(answer: Counted, context: SpeechContext) -> dict[str, object]:
 
 
 def span_slots(begin: float | None, end: float | None, context: SpeechContext) -> dict[str, object]:
-    """Return the slots of an interval: all of the ride so far, or between two times."""
+    """Return the slots of an interval: the whole ride so far, or between two times."""
     if begin is None and end is None:
         return {}
     first, last = begin or 0.0, context.now if end is None else end

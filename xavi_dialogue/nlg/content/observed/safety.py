@@ -1,4 +1,4 @@
-"""Safety: right of way, comfort, and how close others came."""
+"""Safety: right of way, comfort, and how close others came, in words."""
 
 import msgspec
 
@@ -16,20 +16,20 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Moment, Number, Quantity, Who
 
-NEAR = 1.0  # [m] closer than which a vehicle came very close
-CLOSE = 2.5  # [m] and close
-URGENT = 1.5  # [s] time to collision below which it was tight
-MANY = 3  # vehicles from which they are not named one by one
+NEAR = 1.0  # [m] distance below which a vehicle came very close
+CLOSE = 2.5  # [m] distance below which it came close
+URGENT = 1.5  # [s] time to collision below which it was a near miss
+MANY = 3  # minimum of vehicles that are not named one by one
 _COUNTS = {3: "three", 4: "four", 5: "five", 6: "six", 7: "seven", 8: "eight"}
-#: Who has right of way stands, and leaves it to us.
+#: Rules by which the other has right of way, though it stands and lets us go first.
 STOOD = ("it-stands", "we-first-stood")
-FLAT = ("no", "yes, it was safe")  # which hard braking forbids
-RISKY = 0.05  # risk of a collision from which it is called one
-FAR = 40.0  # [m] from which nobody came close
+FLAT = ("no", "yes, it was safe")  # replies that hard braking rules out
+RISKY = 0.05  # minimum risk of a collision that is called a risk
+FAR = 40.0  # [m] distance from which nobody counts as close
 
 
 def plan_priority(answer: Priority, context: SpeechContext) -> Plan:
-    """Plan who has right of way by the rules, and who went first in fact."""
+    """Plan who has right of way by the rules, and who actually went first."""
     past = answer.first is not None or context.now - answer.time > PRESENT
     at = answer.time if past else None
     many = (answer.vehicle or 0, *answer.others)
@@ -65,7 +65,7 @@ def plan_priority(answer: Priority, context: SpeechContext) -> Plan:
 
 
 def _blamed(answer: Priority, rule: Message, past: bool, context: SpeechContext) -> Plan:
-    """Plan the facts of a question of fault or law: no verdict, but the rule and what was done."""
+    """Plan the reply to a question of fault or law: the rule and what was done, but no verdict."""
     told: list[Message] = []
     if answer.legal and answer.limit is not None and answer.limit.value is not None:
         told.append(_within(answer.limit, context))
@@ -81,7 +81,7 @@ def _blamed(answer: Priority, rule: Message, past: bool, context: SpeechContext)
 
 
 def _kept(answer: Priority) -> str | None:
-    """Tell who of both went first, and whether the rule has it so."""
+    """Return who of the two went first, and whether that was by the rule."""
     if answer.first is None and answer.rule == "give-way" and answer.stood:
         return "it-stands"
     if answer.first is None or answer.vehicle is None:
@@ -113,7 +113,7 @@ def _within(limit: Measure, context: SpeechContext) -> Message:
 
 
 def plan_comfort(answer: Comfort, context: SpeechContext) -> Plan:
-    """Plan how hard the ride was."""
+    """Plan how comfortable the ride was."""
     first = measure_message(answer.peak, context)
     if answer.peak.value is not None and answer.peak.attribute in ("deceleration", "comfort"):
         slots = {**first.slots, "hard": answer.hard, "did_not": "did not"}
@@ -128,7 +128,7 @@ def plan_comfort(answer: Comfort, context: SpeechContext) -> Plan:
 
 
 def braked_message(answer: Comfort, context: SpeechContext) -> Message:
-    """Make the message of how hard we braked, as a plain fact."""
+    """Return how hard we braked as a message."""
     slots = measure_message(answer.peak, context).slots
     return Message("BRAKED_UP_TO", {**slots, "peak_at": Moment(answer.peak.time)})
 
@@ -141,7 +141,7 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
     vehicle = answer.vehicle
     judged = answer.asked in ("safe", "dangerous")
     if closest is not None and (closest.value or 0.0) > FAR and judged and answer.past:
-        vehicle = None  # the nearest vehicle had nothing to do with us
+        vehicle = None  # the closest vehicle had nothing to do with us
     at = closest.time if closest is not None and answer.past else None
     lead = _lead(answer)
     first = message(
@@ -183,7 +183,7 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
 
 
 def _braked(hard: Episode) -> Message:
-    """Make the message of a hard braking, ours or of one who had right of way over us."""
+    """Return hard braking of ours, or of one with right of way over us, as a message."""
     who = hard.object if isinstance(hard.actor, Ego) else hard.actor
     return message(
         "BRAKED_HARD",
@@ -195,7 +195,7 @@ def _braked(hard: Episode) -> Message:
 
 
 def _lead(answer: Closeness) -> str | None:
-    """Return the answer to the question itself, where the numbers bear it out."""
+    """Return the direct reply to the question, if the numbers support it."""
     metres = answer.closest.value if answer.closest is not None else None
     left = answer.ttc.value if answer.ttc is not None else None
     risk = answer.risk or 0.0
@@ -221,7 +221,7 @@ def _lead(answer: Closeness) -> str | None:
 
 
 def calming(answer: Closeness, context: SpeechContext) -> tuple[Message, ...]:
-    """Return what a worried passenger is told of it: the distance or the risk, as a plain fact."""
+    """Return what to tell a worried passenger: the distance or the risk, as a plain fact."""
     closest = answer.closest.value if answer.closest is not None else None
     if closest is None:
         if answer.risk is None:

@@ -1,4 +1,4 @@
-"""Turns: who has to move first so that we can go."""
+"""Turns: who must move first so that we can go, in words."""
 
 from xavi_dialogue.domain.answers import Unblocking
 from xavi_dialogue.domain.terms import Vehicle, Vehicles
@@ -9,14 +9,14 @@ from xavi_dialogue.nlg.surface.values import Who
 
 
 def these(numbers: tuple[int, ...], at: float | None = None) -> Who | None:
-    """Refer to some vehicles; to nobody where there are none."""
+    """Return a reference to some vehicles; None if there are none."""
     if not numbers:
         return None
     return Who(Vehicles(numbers) if numbers[1:] else Vehicle(numbers[0]), at)
 
 
 def plan_unblocking(answer: Unblocking, context: SpeechContext) -> Plan:
-    """Plan who is at the head of the row that we are in, and for whom it waits."""
+    """Plan who is at the head of our queue, and for whom it waits."""
     del context
     told = message(
         "UNBLOCKING",

@@ -43,14 +43,14 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Qua
 
 ON = frozenset(("signal", "wait", "stand", "follow", "give-way", "let-go", "block"))
 LASTS = ON | {"move"}
-CERTAIN = 0.95  # probability from which what we plan is stated as such
-LIKELY = 0.5  # probability from which it is stated when something comes
-AT_ONCE = 1.0  # [s] within which it comes at once
-IN_ONE = 2  # facts that go into the sentence of the verdict
+CERTAIN = 0.95  # minimum probability of a plan that is stated as certain
+LIKELY = 0.5  # minimum probability of an event whose time is stated
+AT_ONCE = 1.0  # [s] maximum time of what comes at once
+IN_ONE = 2  # maximum of facts in the sentence of the verdict
 
 
 def plan_verdict(answer: Verdict, context: SpeechContext) -> Plan:
-    """Plan whether something holds, with what bears it out or what was so instead."""
+    """Plan whether something holds, with the facts that support it or hold instead."""
     if answer.mistaken:
         return _mistaken(answer, context)
     if answer.probability is not None and not _settled(answer):
@@ -90,7 +90,7 @@ def plan_verdict(answer: Verdict, context: SpeechContext) -> Plan:
 
 
 def _now_and_then(answer: Verdict) -> dict[str, object] | None:
-    """Return the value now and at the other time that it is compared with."""
+    """Return the value now, and the value at the other time that it is compared with."""
     values = [f for f in answer.facts if isinstance(f, Measure) and f.value is not None]
     if len(values) < 2:
         return None
@@ -101,7 +101,7 @@ def _now_and_then(answer: Verdict) -> dict[str, object] | None:
 
 
 def _settled(answer: Verdict) -> bool:
-    """Check whether it is a matter of fact by now, not of expectation."""
+    """Check whether a verdict is about a fact by now, not about an expectation."""
     return answer.holds is not None and any(isinstance(f, Episode) for f in answer.facts)
 
 
@@ -109,7 +109,7 @@ def _facts(facts: tuple[Fact, ...], answer: Verdict, context: SpeechContext) -> 
     """Return the messages of facts that are stated together."""
     measures = tuple(f for f in facts if isinstance(f, Measure))
     if measures:
-        if _by_number(answer.that):  # the reference is the number that was asked about
+        if _by_number(answer.that):  # the reference is the number in the question
             measures = tuple(replace(m, reference=None) for m in measures)
         return tuple(measure_messages(measures, context))
     return tuple(_told(f, answer, context) for f in facts)
@@ -121,7 +121,7 @@ def _by_number(that: Proposition) -> bool:
 
 
 def together(facts: tuple[Fact, ...]) -> list[tuple[Fact, ...]]:
-    """Return the facts in rows: measures in a row are stated together."""
+    """Return the facts in rows; successive measures are stated together."""
     return [tuple(row) for _, row in groupby(facts, key=lambda f: isinstance(f, Measure))]
 
 
@@ -133,7 +133,7 @@ def _told(fact: Fact, answer: Verdict, context: SpeechContext) -> Message:
         placed = isinstance(answer.that, Related) and answer.that.relation in PLACES
         return look_message(fact, context, told=not placed)
     if isinstance(fact, Episode) and fact.end is None and context.then and fact.action in LASTS:
-        told = fact_message(fact, context)  # it was so at the time that was named
+        told = fact_message(fact, context)  # it was so at the time that the question names
         clause = dataclasses.replace(cast(Clause, told.slots["clause"]), tense="past")
         return Message(told.rule, {**told.slots, "clause": clause})
     if isinstance(fact, Episode) and _since(fact, answer, context):
@@ -144,14 +144,14 @@ def _told(fact: Fact, answer: Verdict, context: SpeechContext) -> Message:
 
 
 def _since(fact: Episode, answer: Verdict, context: SpeechContext) -> bool:
-    """Check whether something that was asked of the past has been going on since."""
+    """Check whether something in the past that was asked about has been going on since."""
     event = eventful(answer.that)
     past = event is not None and event.tense in ("past", "perfect")
     return past and fact.end is None and fact.action in ON and context.now - fact.begin > PRESENT
 
 
 def _coming(one: Episode, context: SpeechContext) -> Message:
-    """Return what is done now, or will be done in a moment."""
+    """Return what is being done, or will be done in a moment."""
     if one.begin <= context.now:
         return episode_message(one, context, when=False)
     clause = episode_clause(one, context.now, tense="future")
@@ -159,7 +159,7 @@ def _coming(one: Episode, context: SpeechContext) -> Message:
 
 
 def _there(answer: Verdict, seen: list[Look], said: Clause, slots: dict[str, object]) -> Plan:
-    """Plan who is there, the nearest first; or that nobody is, and who is nearest."""
+    """Plan who is there, the closest first; or that nobody is, and who is closest."""
     near = sorted(seen, key=lambda look: look.distance)
     shown = near[:IN_ONE]
     rows = tuple(
@@ -190,7 +190,7 @@ def _unknown(answer: Verdict, context: SpeechContext) -> Plan:
 
 
 def _likelihood(answer: Verdict, context: SpeechContext) -> Plan:
-    """Plan what is still to come: a word of chance, the percentage, and what is likelier."""
+    """Plan the chance of a future event: in words, in percent, and what is likelier."""
     if isinstance(answer.that, Not) and eventful(answer.that) is not None:
         sought = 1.0 - (answer.probability or 0.0)
         answer = replace(answer, that=bare(answer.that), probability=sought)
@@ -227,7 +227,7 @@ def _likelihood(answer: Verdict, context: SpeechContext) -> Plan:
 
 
 def _likelier(answer: Verdict) -> dict[str, object]:
-    """Return what is expected of a vehicle of which something unlikely was asked."""
+    """Return what is expected of a vehicle instead of something unlikely."""
     belief = next((b for b in answer.believed if b.expectations), None)
     if belief is None or answer.probability is None:
         return {}
@@ -238,12 +238,12 @@ def _likelier(answer: Verdict) -> dict[str, object]:
 
 
 def denied(clause: Clause) -> Clause:
-    """Return the clause with its contrary said."""
+    """Return the negation of a clause."""
     return dataclasses.replace(clause, negated=not clause.negated)
 
 
 def _mistaken(answer: Verdict, context: SpeechContext) -> Plan:
-    """Plan how the car owns up: what it expected, and what came."""
+    """Plan how the car admits an error: what it expected, and what happened."""
     went = next((f for f in answer.facts if isinstance(f, Episode)), None)
     belief = answer.believed[0] if answer.believed else None
     slots: dict[str, object] = {"claim": answer.claim or answer.challenge, "yes": answer.holds}

@@ -1,4 +1,4 @@
-"""Whereabouts: where somebody or something is or was, and where we are."""
+"""Whereabouts: where somebody or something is or was, and where we are, in words."""
 
 from xavi_dialogue.domain.answers import Located
 from xavi_dialogue.domain.facts import Look, Measure
@@ -29,7 +29,7 @@ def plan_located(answer: Located, context: SpeechContext) -> Plan:
 
 
 def _where_we_are(measures: tuple[Measure, ...], context: SpeechContext) -> list[Message]:
-    """Where we are: how far before what comes next, in which lane where there are several."""
+    """Return where we are: how far before what comes next, and in which of several lanes."""
     known = [m for m in measures if m.gap is None and m.value is not None]
     goal = next((m for m in known if m.attribute == "distance" and m.to is not None), None)
     lane = next((m for m in known if m.attribute == "lane" and (m.count or 1) > 1), None)

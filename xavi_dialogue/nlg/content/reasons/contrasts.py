@@ -1,7 +1,7 @@
-"""Contrasts: how the foil would have turned out, what of that is the reason, and who causes it.
+"""Contrasts: the consequences of the foil, which of them is the reason, and who causes it.
 
-What is stated are the terms that decided in the planner's own reckoning, and what speaks against
-them; see `terms`. Where the record tells no difference, it was close.
+The terms that decided by the planner's reward are stated, and those that speak against them; see
+`terms`. If the record shows no difference, the answer says that it was close.
 """
 
 from typing import Any, Literal, TypeAlias
@@ -16,19 +16,19 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import table
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Range, Who
 
-RISK = 0.01  # probability of a collision from which it is stated
-SURE = 0.995  # probability from which none is stated
-EVEN, LIKELY = 0.45, 0.55  # bounds of what may or may not be
+RISK = 0.01  # minimum probability of a collision that is stated
+SURE = 0.995  # minimum probability of what is stated as certain
+EVEN, LIKELY = 0.45, 0.55  # bounds of what may or may not happen
 STANDING = 0.5  # [m/s]
-SLOWING = 0.6  # [m/s] a loss of speed worth calling so
-ASIDE = 2.0  # [m] sideways from which somebody is in another lane
+SLOWING = 0.6  # [m/s] minimum loss of speed that is stated as slowing
+ASIDE = 2.0  # [m] minimum sideways distance of somebody in another lane
 LANES = (("change-left",), ("change-right",))
 RARE = 0.1  # share of the simulations below which a hold-up is no reason for a mean delay
 OFTEN = 0.5  # share of the simulations that are too late in which it must occur
 OTHERWISE = 2.0  # [m/s] by which a speed foreseen for later differs from the one that is seen
 
-#: How the foil turns out: its likeliest outcome; else what of it is told first, or that the record
-#: tells no difference (close), or speaks for it (worse).
+#: How the foil turns out: by its likeliest outcome, else by the term that is stated first; or the
+#: record shows no difference (close), or speaks for the foil (worse).
 Kind: TypeAlias = Literal[
     "collision", "dead", "late", "unsure", "risk", "time", "ride", "effort", "close", "worse",
     "alone",
@@ -40,7 +40,7 @@ _BY_TERM: dict[str, Kind] = {
 
 
 def kind_of(contrast: Contrast) -> Kind:
-    """Tell how the foil turns out, and what of that is the reason for the fact."""
+    """Return how the foil turns out, and which consequence is the reason for the fact."""
     if not contrast.foil or contrast.outcome is None or contrast.verdict == "alone":
         return "alone"
     if contrast.outcome.name in _BY_OUTCOME:
@@ -51,7 +51,7 @@ def kind_of(contrast: Contrast) -> Kind:
 
 
 def main_effect(contrast: Contrast) -> Effect | None:
-    """Find the effect that decided, where one did."""
+    """Find the effect that decided, if one did."""
     return next((e for e in contrast.effects if e.component == contrast.decisive), None)
 
 
@@ -62,12 +62,12 @@ def worth_telling(contrast: Contrast) -> list[Effect]:
 
 
 def time_effect(contrast: Contrast) -> Effect | None:
-    """Find the difference in time, where it is worth telling."""
+    """Find the difference in time, if it is not negligible."""
     return next((e for e in worth_telling(contrast) if e.component == "time"), None)
 
 
 def _astray(contrast: Contrast) -> Chance | None:
-    """Return how probable it is that the foil leads off the way, where that weighs against it."""
+    """Return the probability that the foil leads off the way, if that counts against it."""
     found = (s for s in contrast.told if s.term == "dead" and s.cost > 0.0)
     share = next(found, None)
     return None if share is None or not share.chance else Chance(share.chance)
@@ -76,13 +76,13 @@ def _astray(contrast: Contrast) -> Chance | None:
 def consequence_slots(
     contrast: Contrast, context: SpeechContext, *, past: bool, that: bool = False
 ) -> dict[str, Any]:
-    """Make the slots that tell how the foil would have turned out.
+    """Make the slots for how the foil would have turned out.
 
     Args:
         contrast: fact and foil.
         context: the situation.
         past: the decision is past.
-        that: the foil was named, and is "that".
+        that: the foil was named already, and is called "that".
     """
     outcome = contrast.outcome
     chance = 1.0 if outcome is None else outcome.probability
@@ -123,7 +123,7 @@ def consequence_slots(
 
 
 def _adds_risk(contrast: Contrast) -> bool:
-    """Check whether the foil carries a risk of a collision, and more than the fact."""
+    """Check whether the foil has a risk of collision worth stating, above that of the fact."""
     return contrast.collision >= RISK and contrast.collision > contrast.fact_collision
 
 
@@ -135,14 +135,14 @@ def risks(
     unsaid: bool = False,
     weighs: bool = False,
 ) -> Message | None:
-    """Make a sentence of the risks, where they are not part of that of the reason.
+    """Return a sentence on the risks, unless the sentence on the reason contains them.
 
     Args:
         contrast: fact and foil.
         context: the situation.
         past: the decision is past.
-        unsaid: the sentence of the reason tells nothing of what the foil would come to.
-        weighs: no other sentence tells which of the two is better all in all.
+        unsaid: the sentence on the reason does not state what the foil would lead to.
+        weighs: no other sentence states which of the two is better on the whole.
     """
     if max(contrast.collision, contrast.fact_collision) < RISK:
         return None
@@ -168,14 +168,14 @@ def risks(
 
 
 def tells_risk(contrast: Contrast) -> bool:
-    """Tell whether the sentence of the reason tells the risk of a collision."""
+    """Check whether the sentence on the reason states the risk of a collision."""
     if kind_of(contrast) == "alone":
         return False
     return any(s.term == "collision" and s.cost > 0.0 for s in contrast.told)
 
 
 def told_cause(contrast: Contrast) -> Cause | None:
-    """Return the cause that goes with the reason: who makes the foil worse, or has us drive so."""
+    """Return the cause that goes with the reason: who makes the foil worse, or our choice good."""
     kind = kind_of(contrast)
     told = {s.term for s in contrast.told if s.cost > 0.0}
     decides = contrast.verdict == "close" and any(c.decision_changes for c in contrast.causes)
@@ -210,7 +210,7 @@ def _carries(cause: Cause, contrast: Contrast) -> bool:
 def cause_message(
     cause: Cause, contrast: Contrast, context: SpeechContext, *, past: bool
 ) -> Message:
-    """Make a clause of a vehicle and how it made things turn out so."""
+    """Return a vehicle, and how it brought the consequences about, as a clause."""
     mechanism = cause.mechanism
     how = mechanism.how if mechanism is not None else None
     present = mechanism is not None and mechanism.present
@@ -242,12 +242,12 @@ def cause_message(
 
 
 def telling(actions: tuple[str, ...]) -> bool:
-    """Check whether actions say more than going on."""
+    """Check whether actions are more than going on."""
     return bool(actions) and set(actions) - {"continue"} != set()
 
 
 def chances(probability: float, context: SpeechContext) -> dict[str, object]:
-    """Return how surely something was expected, in words and in percent where that is wanted."""
+    """Return how probable something was: in words, and in percent if that is wanted."""
     simple = context.detail == "simpler"
     return {
         "some": probability < EVEN,
@@ -258,7 +258,7 @@ def chances(probability: float, context: SpeechContext) -> dict[str, object]:
 
 
 def _stops_later(cause: Cause, decided: float, context: SpeechContext) -> bool:
-    """Tell whether somebody stops ahead of us in the rollouts alone: it drives, and is not braking.
+    """Check whether somebody ahead, who drives on now, stops only later in the rollouts.
 
     The lowest speed of a hold-up may be reached long after the decision.
     """
@@ -277,7 +277,7 @@ def _after(cause: Cause) -> tuple[Clause, ...]:
 
 
 def _expected(cause: Cause, seen: float | None, *, slows: bool, simple: bool) -> tuple[Clause, ...]:
-    """Return what the vehicle was expected to do: how it gets in the way, and where it goes."""
+    """Return what a vehicle was expected to do: how it gets in the way, and where it goes."""
     mechanism = cause.mechanism
     actions = other_verbs(cause.actions) if cause.actions else ()
     if mechanism is None or mechanism.how in ("right-of-way", "collision"):

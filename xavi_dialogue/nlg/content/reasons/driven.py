@@ -1,4 +1,4 @@
-"""Driven: the clause of one reason for how we drove."""
+"""Driven: one reason for how we drove, as a clause."""
 
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.terms import Vehicle
@@ -12,13 +12,13 @@ from xavi_dialogue.nlg.surface.values import Moment, Quantity, Who
 STANDING = 0.5  # [m/s]
 TURNED = ("given-up", "next-move")
 GONE = ("ahead", "left", "right", "behind", "behind-left", "behind-right")
-ASIDE = ("ahead-left", "ahead-right")  # where one sets the pace for a lane that we are to take
-PACED = ("leader", "blocked", "lane-ahead")  # of those who stand or drive at a speed
-CHANGED = 1.0  # [m/s] by which somebody drives faster or slower now than when it slowed us
+ASIDE = ("ahead-left", "ahead-right")  # where a vehicle sets the pace in the lane we enter
+PACED = ("leader", "blocked", "lane-ahead")  # reasons for which a speed or a standstill is stated
+CHANGED = 1.0  # [m/s] minimum difference between the speed now and when it slowed us
 
 
 def speed_told(value: float | None, context: SpeechContext) -> Quantity | None:
-    """Return the speed to be stated; None where no numbers are wanted."""
+    """Return the speed to be stated; None if no numbers are wanted."""
     if value is None or context.detail == "simpler":
         return None
     return Quantity(value, "m/s")
@@ -33,13 +33,13 @@ def motion_cause(
     deed: str = "",
     since: float | None = None,
 ) -> Message:
-    """Make the clause of one reason for how we drove.
+    """Return one reason for how we drove as a clause.
 
     Args:
         cause: the reason.
         time: [s] at which vehicles are described.
         context: the situation.
-        past: it is past.
+        past: state it in the past tense.
         deed: what we did for that reason.
         since: [s] when the speed of the reason was seen; None: now.
     """
@@ -80,10 +80,10 @@ def motion_cause(
 def _pace(
     cause: MotionCause, since: float | None, context: SpeechContext, *, past: bool
 ) -> tuple[float | None, bool]:
-    """Return the speed [m/s] at which somebody is stated to drive, and whether that is over.
+    """Return the speed [m/s] to be stated of a vehicle, and whether it is past.
 
-    The present tense takes the speed now. If the vehicle is faster now, or out of view, it was in
-    the way before: that is past, with the speed then.
+    The present tense takes its speed now. If the vehicle is faster now, or out of view, the hold-up
+    is past, and the speed then is stated.
     """
     then = cause.speed
     if past or since is None or then is None or cause.vehicle is None or cause.kind not in PACED:
@@ -98,7 +98,7 @@ def _pace(
 
 
 def _shown(cause: MotionCause, *, past: bool) -> dict[str, object]:
-    """Return the slots of what the traffic light shows that holds us."""
+    """Return the slots for the traffic light that holds us."""
     shown = cause.shown
     if shown is None:
         return {}
@@ -111,7 +111,7 @@ def _shown(cause: MotionCause, *, past: bool) -> dict[str, object]:
 
 
 def is_gone(cause: MotionCause, context: SpeechContext) -> bool:
-    """Check whether who had to be let go first has gone: out of view, behind, or past our way."""
+    """Check whether one that had to go first has gone: out of view, behind, or past our way."""
     if cause.kind != "right-of-way" or cause.vehicle is None:
         return False
     look = context.look(cause.vehicle)

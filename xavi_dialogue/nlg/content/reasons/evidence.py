@@ -1,4 +1,4 @@
-"""Evidence: what is told of a comparison where more is wanted: ranges, causes, what it rests on."""
+"""Evidence: what is added to a comparison if more is wanted: ranges, causes and basis."""
 
 from collections.abc import Collection
 
@@ -18,14 +18,14 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Moment, Number, Quantity, Range, Who
 
-NARROW = 1.0  # [s] a range that is not worth giving
-NOTHING = 0.25  # [s] a difference that is none
-MOST = 2  # causes beside the first that are stated
-NAMED = 4  # vehicles that are causes together only, up to which each is named
+NARROW = 1.0  # [s] minimum width of a range that is stated
+NOTHING = 0.25  # [s] maximum difference that counts as none
+MOST = 2  # maximum of further causes that are stated
+NAMED = 4  # a group of causes is named one by one if it is smaller, or not larger
 
 
 def further(contrast: Contrast, context: SpeechContext, *, past: bool) -> tuple[Message, ...]:
-    """Return what is stated beside the reason, most telling first."""
+    """Return what is stated after the reason, most important first."""
     first = told_cause(contrast)
     others = [c for c in contrast.causes if c != first][:MOST]
     found = [
@@ -42,7 +42,7 @@ def further(contrast: Contrast, context: SpeechContext, *, past: bool) -> tuple[
 
 
 def range_of(contrast: Contrast) -> Message | None:
-    """Tell in which range the difference in time lies, where one was calibrated for such cases."""
+    """Return the range of the difference in time, if one was calibrated for such cases."""
     found = contrast.likely
     if found is None or time_effect(contrast) is None or found.high - found.low < NARROW:
         return None
@@ -64,7 +64,7 @@ def range_of(contrast: Contrast) -> Message | None:
 
 
 def _other_effects(contrast: Contrast, *, past: bool) -> Message | None:
-    """Effects beside the one that decided."""
+    """Return effects other than the one that decided."""
     if kind_of(contrast) in ("alone", "collision", "dead", "late", "way"):
         return None
     said = {"time", *(share.term for share in contrast.told)}
@@ -81,7 +81,7 @@ def _also(cause: Cause, contrast: Contrast, context: SpeechContext, *, past: boo
 
 
 def _needed(cause: Cause, contrast: Contrast, *, past: bool) -> Message | None:
-    """Return whether we would have decided so without the first cause."""
+    """Return whether we would have decided the same without the first cause."""
     if cause.decision_changes is None:
         return None
     who = Who(Vehicle(cause.vehicle), contrast.decided)
@@ -91,12 +91,12 @@ def _needed(cause: Cause, contrast: Contrast, *, past: bool) -> Message | None:
 def hangs_on(
     causation: Causation | None, time: float, *, past: bool, brief: Collection[int] = ()
 ) -> Message | None:
-    """Tell how it hangs on vehicles, where it does not on one alone.
+    """Return how a decision depends on vehicles, unless it depends on one alone.
 
     Args:
-        causation: what it hangs on.
+        causation: the vehicles that it depends on.
         time: [s] at which vehicles are described.
-        past: it is past.
+        past: state it in the past tense.
         brief: the vehicles that the answer names; for several causes, only the others are added.
     """
     if causation is None or causation.kind in ("one", "open"):
@@ -127,20 +127,20 @@ def hangs_on(
 
 
 def is_joint(causation: Causation | None, *, asked: bool) -> bool:
-    """Tell whether a reason that names one vehicle must tell of the others.
+    """Check whether a reason that names one vehicle must name the other causes too.
 
-    Where the same would be done without them, only who asks about causes needs it.
+    If we would do the same without them, only a question about causes needs it.
     """
     return causation is not None and causation.is_joint and (causation.decides or asked)
 
 
 def is_needed(causation: Causation | None) -> bool:
-    """Tell whether it is worth saying that it would not be so without the first cause."""
+    """Check whether it is worth stating whether the first cause was necessary."""
     return causation is None or causation.kind in ("one", "open")
 
 
 def cleared(vehicles: tuple[int, ...], time: float, *, past: bool) -> Message | None:
-    """Tell which vehicles made no difference."""
+    """Return which vehicles made no difference."""
     if not vehicles:
         return None
     who = all_of(vehicles, time)
@@ -148,7 +148,7 @@ def cleared(vehicles: tuple[int, ...], time: float, *, past: bool) -> Message | 
 
 
 def rests_on(evidence: Evidence, decided: float | None) -> Message | None:
-    """On how many situations it rests, and when it was decided."""
+    """Return on how many situations an answer rests, and when it was decided."""
     if not evidence.distinct_samples:
         return None
     return message(

@@ -1,4 +1,4 @@
-"""Going: why we went when we did, and what can be said of not having slowed down."""
+"""Going: why we went when we did, and what if we had not slowed down."""
 
 from xavi_dialogue.domain.answers import CrossingVehicle, GoReason, MotionCause, Unslowed
 from xavi_dialogue.domain.terms import Vehicle
@@ -12,11 +12,11 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
 
-TOGETHER = 1.2  # [s] within which two are at a place at the same time
-TIGHT = 3.0  # [s] within which one of two would have to brake for the other
-LEAST = 0.5  # [s] that is worth naming
-FAR = 60.0  # [m] from which somebody is far away
-#: Who is named first: whom we let go, then who had right of way, then who had not.
+TOGETHER = 1.2  # [s] maximum time between two who are at a place together
+TIGHT = 3.0  # [s] maximum time between two, one of whom would have to brake
+LEAST = 0.5  # [s] minimum time that is named
+FAR = 60.0  # [m] minimum distance of somebody far away
+#: The order of naming: those we let go, those with right of way, those without.
 _ORDER = {"vehicle": 1, "depends": 2, "ego": 3, "ahead": 4, "none": 5}
 
 
@@ -48,7 +48,7 @@ def plan_going(answer: GoReason, context: SpeechContext) -> Plan:
     waiting = _waiting(answer, context)
     against = answer.contrast
     risk = None if against is None else risks(against, context, past=past, unsaid=True)
-    whole = (core,) if risk is None else (risk, core)  # a risk is stated, and first
+    whole = (core,) if risk is None else (risk, core)  # a risk is stated first
     return Plan(whole, (), () if waiting is None else (waiting,), (), proposed)
 
 
@@ -76,7 +76,7 @@ def _waiting(answer: GoReason, context: SpeechContext) -> Message | None:
 
 
 def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
-    """Plan what can be said of not having slowed down, or of going now."""
+    """Plan what can be said if we had not slowed down, or if we went now."""
     cause = answer.cause
     vehicle = answer.vehicle or (None if cause is None else cause.vehicle)
     begin = answer.deed.begin

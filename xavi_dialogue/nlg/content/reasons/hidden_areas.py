@@ -1,4 +1,4 @@
-"""Hidden areas: what we cannot see past, who might come from there, and what if we could."""
+"""Hidden areas: what hides the road, who might come from there, and what if we saw past it."""
 
 from typing import Any
 
@@ -9,7 +9,7 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import message
 from xavi_dialogue.nlg.surface.values import Chance, Quantity, Who
 
-SAVED = 0.5  # [s] that make a difference
+SAVED = 0.5  # [s] minimum difference that matters
 
 
 def plan_sight(answer: SightTold, context: SpeechContext) -> Plan:
@@ -25,7 +25,7 @@ def plan_sight(answer: SightTold, context: SpeechContext) -> Plan:
 
 
 def plan_seeing(answer: SupposedSeeing, context: SpeechContext) -> Plan:
-    """Plan what would be could we see past what hides the road."""
+    """Plan what we would do if we could see past what hides the road."""
     saved = Quantity(answer.saved, "s") if answer.saved >= SAVED else None
     slots: dict[str, Any] = {
         "none": not answer.hiders,
@@ -37,7 +37,7 @@ def plan_seeing(answer: SupposedSeeing, context: SpeechContext) -> Plan:
 
 
 def _named(hiders: tuple[Hider, ...]) -> dict[str, Any]:
-    """Name the first two that hide the road: a vehicle by its look, a building by its side."""
+    """Return the first two hiders: a vehicle by its look, a building by its side."""
     slots: dict[str, Any] = dict.fromkeys(("who", "side", "another", "aside", "chance"))
     names = (("who", "side"), ("another", "aside"))
     for one, (who, side) in zip(hiders, names, strict=False):

@@ -1,4 +1,4 @@
-"""Insights: how we know and decide, how sure we are, what a decision hangs on, and what avoids."""
+"""Insights: how we know and decide, how sure we are, and what a decision depends on."""
 
 from typing import Any
 
@@ -33,14 +33,14 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Qua
 
 EVEN = 0.45  # probability below which we are not sure at all
 CLOSE = 0.65  # probability below which it was close
-AGREEING = 0.2  # of probability, within which a count of situations goes with it
-BETTER = 1.2  # times by which a path must fit better to be stated
-UNFORESEEN = 0.25  # probability up to which something was not to be foreseen
-MOVED = 0.02  # change of probability from which it is stated
+AGREEING = 0.2  # maximum difference between a probability and a count of situations that agree
+BETTER = 1.2  # minimum factor of a better fit that is stated
+UNFORESEEN = 0.25  # maximum probability of what could not have been foreseen
+MOVED = 0.02  # minimum change of probability that is stated
 DOUBTED = 0.1  # probability below which something is not believed
-SETTLED = 0.65  # probability from which something is believed
-EQUAL = 2.0  # times by which what fits better still fits about as well
-NAMED = 3  # options named
+SETTLED = 0.65  # minimum probability of what is believed
+EQUAL = 2.0  # maximum factor between fits that are about as good
+NAMED = 3  # maximum of options named
 
 
 def plan_grounds(answer: Grounds, context: SpeechContext) -> Plan:
@@ -78,19 +78,19 @@ def plan_grounds(answer: Grounds, context: SpeechContext) -> Plan:
 
 
 def _has_sunk(answer: Grounds, latest: float) -> bool:
-    """Say whether it is no longer believed what for a while was more probable than not."""
+    """Check whether what was more probable than not for a while is no longer believed."""
     return latest < EVEN <= (answer.after or 0.0)
 
 
 def _is_open(answer: Grounds, latest: float | None) -> bool:
-    """Say whether what was seen fits something else about as well."""
+    """Check whether what was seen fits something else about as well."""
     if latest is None or answer.seen or not answer.rival or answer.fit is None:
         return False
     return 1.0 - SETTLED < latest < SETTLED and 1.0 / EQUAL < answer.fit < EQUAL
 
 
 def _fit(answer: Grounds, context: SpeechContext) -> Message | None:
-    """Return how much better its path fits what is believed than the likeliest thing else."""
+    """Return how much better the path fits what is believed than the likeliest alternative."""
     if answer.fit is None or answer.fit < BETTER or not answer.rival:
         return None
     simple = context.detail == "simpler"
@@ -103,7 +103,7 @@ def _fit(answer: Grounds, context: SpeechContext) -> Message | None:
 
 
 def _times(fit: float) -> str:
-    """Return how many times better, as one would say it."""
+    """Return a factor in words."""
     if fit >= 20.0:
         return "more than 20"
     return f"{fit:.0f}" if fit >= 3.0 else f"{fit:.1f}".removesuffix(".0")
@@ -140,7 +140,7 @@ def plan_certainty(answer: Certainty, context: SpeechContext) -> Plan:
         told = consequence_slots(contrast, context, past=past)
         slots = told | slots | {"foil": own_verbs(foil, fact), "verdict": contrast.verdict}
     held: tuple[Message, ...] = (Message("CERTAIN_OF", slots),)
-    counted = share is None or slots["verdict"] == "close"  # where no figure is stated
+    counted = share is None or slots["verdict"] == "close"  # if no figure is stated
     details = held if counted else ()
     if slots["verdict"] == "better" and slots["fair"]:
         details = (*_because(contrast, context, past=past), *details)
@@ -152,9 +152,9 @@ def plan_certainty(answer: Certainty, context: SpeechContext) -> Plan:
 
 
 def _weight(answer: Certainty) -> str | None:
-    """Tell whether the situations in which it does better are the likelier ones, or the others.
+    """Return whether the situations in which it does better are the likelier ones, or the others.
 
-    None where their count goes with their probability, among those that were tried.
+    None if their share by number agrees with their share by probability.
     """
     if not answer.covered or answer.proven is None or not 0 < answer.good < answer.situations:
         return None
@@ -196,7 +196,7 @@ def _risk_now(risk: float, context: SpeechContext) -> Message:
 def _risks(
     chosen: OptionValue, others: list[OptionValue], *, past: bool, simple: bool
 ) -> tuple[Message, ...]:
-    """Tell the chances of a collision: of what was chosen, and of each alternative with one."""
+    """Return the risks of a collision: of the chosen option, and of each alternative with one."""
     risky = [o for o in others if (o.collision or 0.0) >= RISK]
     own = chosen.collision or 0.0
     if not risky:
@@ -220,7 +220,7 @@ def _risks(
 
 
 def plan_pivot(answer: DecisiveFactor, context: SpeechContext) -> Plan:
-    """Plan what a decision hangs on, or what mattered most."""
+    """Plan what a decision depends on, or what mattered most."""
     contrast = answer.contrast
     past = contrast is None or context.now - contrast.decided > PRESENT
     slots: dict[str, Any] = {

@@ -1,4 +1,4 @@
-"""Motives: why we slowed, stood, waited or drove so."""
+"""Motives: why we slowed, stood, waited or drove in some way, in words."""
 
 from collections.abc import Iterable
 
@@ -26,22 +26,22 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
 
-AT_LIMIT = 0.07  # of the limit, within which one drives at it
+AT_LIMIT = 0.07  # maximum share of the limit by which a speed at the limit differs from it
 COMING = {"crossing-right": "right", "crossing-left": "left"}
 YIELDS = frozenset(("give-way", "wait", "let-go"))
-CREEPING = 2.6  # [m/s] up to which one may speak of stopping
+CREEPING = 2.6  # [m/s] maximum speed that may be called stopping
 STOPS = frozenset(("stop", "stand"))
-NEAR = 15.0  # [m] to a traffic light at which we are
-MARGIN = 0.5  # [m/s] over the limit that is no more than rounding
-#: Actions that exclude one another.
+NEAR = 15.0  # [m] maximum distance of a traffic light that we are at
+MARGIN = 0.5  # [m/s] maximum excess over the limit that is only rounding
+#: Actions that exclude each other.
 WAYS = frozenset(("exit-left", "exit-right", "exit-straight", "change-left", "change-right"))
 HALTS = frozenset(("stop", "stand", "wait", "give-way", "brake"))
-#: What is less than coming to a standstill.
+#: Actions that are less than coming to a standstill.
 LESS = frozenset(("slow-down", "brake", "move", "follow", "go"))
 
 
 def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
-    """Plan why we drove as we did."""
+    """Plan why we drove the way we did."""
     past = answer.past or is_past(answer.deed, context)
     answer = answer if past else _current(answer, context)
     first = _driving(answer, context, past)
@@ -58,7 +58,7 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
         told=told,
     )
     others = [c for c in answer.causes[1:] if c.vehicle is not None and c.vehicle not in first_of]
-    alone = not answer.causes and _nobody(answer)  # which the reason itself tells then
+    alone = not answer.causes and _nobody(answer)  # then the reason itself states it
     hangs = None if alone else hangs_on(answer.causation, answer.deed.begin, past=past)
     if hangs is not None and is_joint(answer.causation, asked=answer.of_causes):
         whole = answer.of_causes or answer.suspected is not None
@@ -66,11 +66,11 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
         besides = _vehicles_of(others[:1])
         brief = () if whole else first_of
         if not whole and counted and counted <= {*first_of, *besides}:
-            brief = (*first_of, *besides)  # the answer names each
+            brief = (*first_of, *besides)  # the answer names each of them
         elif not whole:
             others = [c for c in others if c.vehicle not in counted]
         joint = hangs_on(answer.causation, answer.deed.begin, past=past, brief=brief)
-        core = core if joint is None else (*core, joint)  # one alone is no reason
+        core = core if joint is None else (*core, joint)  # a single vehicle is not the whole reason
         hangs = None if joint == hangs else hangs
     others = list(answer.causes[1:]) if answer.suspected == "beside" else others
     asked = hangs if answer.of_causes else None
@@ -93,12 +93,12 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
 
 
 def _vehicles_of(causes: Iterable[MotionCause]) -> tuple[int, ...]:
-    """List the vehicles that reasons name."""
+    """Return the vehicles that the reasons name."""
     return tuple(v for c in causes for v in (c.vehicle, c.between) if v is not None)
 
 
 def _current(answer: MotionReason, context: SpeechContext) -> MotionReason:
-    """Put what still holds before whom we had to let go first, where that one has gone."""
+    """Move reasons that still hold before the one whom we let go first, if that one has gone."""
     if answer.suspect is not None or answer.suspected is not None:
         return answer
     ranked = sorted(answer.causes, key=lambda cause: is_gone(cause, context))
@@ -106,12 +106,12 @@ def _current(answer: MotionReason, context: SpeechContext) -> MotionReason:
 
 
 def is_past(deed: Episode, context: SpeechContext) -> bool:
-    """Tell whether something is over."""
+    """Check whether an episode is over."""
     return not goes_on(deed, context.now)
 
 
 def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Message:
-    """Make the sentence that says why, by what was asked: a deed, its need, or a way of driving."""
+    """Return the sentence why, by the question: about an action, its need, or a way of driving."""
     causes = answer.causes or (MotionCause("plan"),)
     slots = {
         "past": past,
@@ -162,20 +162,20 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
 
 
 def _placed(cause: MotionCause, *, past: bool) -> MotionCause:
-    """The reason with how far it is, where that is worth telling: not of what is past or here."""
+    """Return a reason with its distance, unless it is past or right here."""
     near = cause.kind == "light" and (cause.value or 0.0) < NEAR
     gone = near or (past and cause.kind != "limit")
     return replace(cause, value=None) if gone else cause
 
 
 def _nobody(answer: MotionReason) -> bool:
-    """Check whether it is asked who makes the difference, and it was found that nobody does."""
+    """Check whether the question is who makes the difference, and nobody does."""
     found = answer.causation is not None and answer.causation.kind == "none"
     return found and answer.of_causes
 
 
 def _misnamed(answer: MotionReason) -> bool:
-    """Whether what we did is far from what the question called it: nowhere near a standstill."""
+    """Check whether the question called what we did something very different, like stopping."""
     halts = STOPS | YIELDS
     if answer.premise or answer.asked not in halts or answer.deed.action in halts:
         return False
@@ -185,7 +185,7 @@ def _misnamed(answer: MotionReason) -> bool:
 
 
 def _at_limit(answer: MotionReason) -> bool:
-    """Check whether we drove at the limit, but for rounding."""
+    """Check whether we drove at the limit, apart from rounding."""
     speed, limit = answer.deed.speed_to, answer.limit
     return speed is not None and limit is not None and abs(speed - limit) <= AT_LIMIT * limit
 
@@ -206,7 +206,7 @@ def _followed(answer: MotionReason) -> dict[str, object]:
 
 
 def _deed(answer: MotionReason, context: SpeechContext, past: bool) -> Clause:
-    """Return what we did; whom it was for is shown by the reason."""
+    """Return what we did; the reason shows for whom."""
     deed = answer.deed
     if isinstance(deed.object, Vehicle) and any(cause.vehicle for cause in answer.causes[:1]):
         deed = replace(deed, object=None)
@@ -224,7 +224,7 @@ def _deed(answer: MotionReason, context: SpeechContext, past: bool) -> Clause:
 
 
 def _only(deed: Clause, answer: MotionReason) -> Clause:
-    """The clause with "only", where what was done is less than what the question called it."""
+    """Return a clause with "only", if what we did is less than what the question called it."""
     less = answer.asked in HALTS and answer.deed.action in LESS
     if not less:
         return deed
@@ -235,7 +235,7 @@ def _only(deed: Clause, answer: MotionReason) -> Clause:
 def _expectation(
     cause: MotionCause, answer: MotionReason, context: SpeechContext, *, past: bool
 ) -> Message | None:
-    """Return what we expected of the vehicle, and whether it did so."""
+    """Return what we expected of the vehicle, and whether it did that."""
     if cause.vehicle is None or cause.probability is None or not telling(cause.actions):
         return None
     if cause.kind == "leader" and set(cause.actions) <= {"continue", "exit-straight"}:
@@ -270,7 +270,7 @@ def _also(
 def _seen_at(
     cause: MotionCause, answer: MotionReason, context: SpeechContext, *, past: bool
 ) -> float:
-    """When [s] the vehicle of a reason is described: now where it goes on, if it is in view."""
+    """Return when [s] the vehicle of a reason is described: now if it goes on in view."""
     times = (answer.deed.begin, context.now) if past else (context.now, answer.deed.begin)
     if cause.vehicle is None:
         return times[0]

@@ -1,4 +1,4 @@
-"""Others: why another vehicle did what it did, as far as can be seen or was inferred."""
+"""Others: why another vehicle did something, as far as can be seen or was inferred."""
 
 import dataclasses
 
@@ -22,21 +22,21 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import word
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Quantity, Who
 
-CERTAIN = 0.95  # probability from which a reason is given without hedging
-#: What a question may call a deed without taking it for granted.
+CERTAIN = 0.95  # minimum probability of a reason that is stated without hedging
+#: Names for an action that a question may use without presupposing it.
 OPEN = frozenset(("do", "happen", "signal", "see", "appear", "disappear", "block"))
-#: What is done for where one is going.
+#: Actions that serve to get to a goal.
 FOR_GOAL = frozenset(("signal", "exit-left", "exit-right", "exit-straight", "change-left",
                       "change-right"))  # fmt: skip
 GOING = frozenset(("go", "move", "continue", "enter", "cross", "speed-up", "come"))
-FORESEEN = 0.2  # chance below which what is announced was not foreseen
-EVENLY = 0.5  # chance below which something else is as likely as what is announced
+FORESEEN = 0.2  # probability below which what a vehicle indicates was not expected
+EVENLY = 0.5  # probability below which something else is as likely as what it indicates
 
 
 def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
     """Plan why another vehicle does or did something, as far as can be seen."""
     deed = answer.deed
-    if deed is not None and deed.action in FOR_GOAL:  # who is in its way is no reason for it
+    if deed is not None and deed.action in FOR_GOAL:  # somebody in its way is not the reason for it
         answer = replace(answer, causes=())
     cause = next(iter(answer.causes), None)
     who = Who(Vehicle(answer.vehicle), None if deed is None else deed.begin)
@@ -72,13 +72,13 @@ def plan_other(answer: OtherReason, context: SpeechContext) -> Plan:
 
 
 def _walks(vehicle: int, context: SpeechContext) -> bool:
-    """Check whether it is somebody on foot, who has no driver."""
+    """Check whether a vehicle is somebody on foot, who has no driver."""
     look = context.look(vehicle)
     return look is not None and look.kind in ON_FOOT
 
 
 def _paced(cause: MotionCause | None, context: SpeechContext) -> dict[str, object]:
-    """Give the slots of one that is no faster than we are, with the limit that is in force."""
+    """Return the slots of a vehicle that is no faster than we are, with the limit."""
     known = cause is not None and cause.kind == "limit"
     speed, value = (cause.speed, cause.value) if cause is not None and known else (None, None)
     limit = None if value is None else Quantity(value, "m/s")
@@ -121,13 +121,13 @@ def _it(clause: Clause) -> Clause:
 
 
 def _hedge(cause: MotionCause) -> Chance | None:
-    """Return how surely it is the reason, where that needs saying."""
+    """Return how probable the reason is, if that needs to be stated."""
     surely = cause.probability is None or cause.probability >= CERTAIN
     return None if surely or cause.probability is None else Chance(cause.probability)
 
 
 def _their_deed(deed: Episode, answer: OtherReason, context: SpeechContext) -> Clause:
-    """Return what it did; for whom, is shown by the reason."""
+    """Return what the vehicle did; the reason shows for whom."""
     if deed.action == "move" and deed.speed_to is not None:
         speed = Quantity(deed.speed_to, "m/s")
         return Clause(Who(deed.actor, deed.begin), "drive", ("at", speed), "present", True)
@@ -140,7 +140,7 @@ def _their_deed(deed: Episode, answer: OtherReason, context: SpeechContext) -> C
 
 
 def _not_asked(answer: OtherReason, context: SpeechContext) -> Clause | None:
-    """Return that it did not do what was asked about, where it did otherwise."""
+    """Return that it did not do what was asked about, if it did something else."""
     event, deed = answer.asked, answer.deed
     if event is None or deed is None or event.action == deed.action or event.action in OPEN:
         return None

@@ -1,4 +1,4 @@
-"""Own suppositions: what would have come of it, had we done otherwise."""
+"""Own suppositions: what would have happened if we had acted otherwise, in words."""
 
 from typing import Any
 
@@ -29,16 +29,16 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Moment, Who
 
-#: Questions that are of risks themselves.
+#: Questions that are about risks themselves.
 OF_RISKS = frozenset[Asking](("crash", "chance", "safe", "safer", "riskier"))
-TIMED = frozenset[Asking](("arrival", "could", "quicker", "slower"))  # those that are of times
-SAFER = 0.01  # probability of a collision by which something is safer
-ALIKE = 0.1  # difference of probabilities up to which two outcomes are stated as one
-ABOUT = 1.5  # factor up to which a time is about as long as it is said to be
+TIMED = frozenset[Asking](("arrival", "could", "quicker", "slower"))  # those that are about times
+SAFER = 0.01  # minimum difference in the probability of a collision that makes something safer
+ALIKE = 0.1  # maximum difference of probabilities of two outcomes that are stated as one
+ABOUT = 1.5  # maximum factor between a time and what the question says about it
 
 
 def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
-    """Plan what would have come of another action of ours."""
+    """Plan what would have followed from another action of ours."""
     contrast, past = answer.contrast, answer.past
     cause = cause_of(contrast, context, past=past)
     slots = {
@@ -69,21 +69,21 @@ def plan_supposed_of_us(answer: SupposedOfUs, context: SpeechContext) -> Plan:
         asked = _asked(answer, slots)
         told = Message("IF_ASKED", {**slots, **asked})
         named = slots["kind"] == "collision" or (answer.form == "could" and asked["riskier"])
-        untold = answer.form in TIMED and not named  # times alone are stated
+        untold = answer.form in TIMED and not named  # only times are stated
         if told_risk and (untold or (named and contrast.fact_collision >= RISK)):
             risk = risks(contrast, context, past=past, unsaid=True)
         beside = () if risk is None or answer.form in OF_RISKS else (risk,)
         core = (told, *beside, *last_open(answer.open_at), *performed_later(answer.later))
         return Plan(core, (), more, (), about_cause(answer))
     told = Message("IF_WE", slots)
-    first = contrast.collision > contrast.fact_collision  # where what was done is riskier: second
+    first = contrast.collision > contrast.fact_collision  # else the risk comes second
     core = tuple(m for m in ((risk, told) if first else (told, risk)) if m is not None)
     core = (*core, *last_open(answer.open_at), *performed_later(answer.later))
     return Plan(core, (), more, (), about_cause(answer))
 
 
 def _both_late(contrast: Contrast) -> Chance | None:
-    """Return how sure it is that neither plan gets there in time, where that is likely of both."""
+    """Return how certain it is that neither plan arrives in time, if that is likely for both."""
     foil, fact = contrast.outcome, contrast.fact_outcome
     if foil is None or fact is None or not foil.name == fact.name == "termination":
         return None
@@ -92,7 +92,7 @@ def _both_late(contrast: Contrast) -> Chance | None:
 
 
 def _troubles(contrast: Contrast) -> bool:
-    """Check whether the lane changes that a foil takes more decided against it."""
+    """Check whether the additional lane changes of a foil decided against it."""
     changes = any(action in CHANGES for action in (*contrast.foil, *contrast.continued))
     return changes and any(s.term == "effort" and s.cost > 0.0 for s in contrast.told)
 
@@ -102,14 +102,14 @@ def _verbs(contrast: Contrast) -> dict[str, object]:
 
 
 def _held_against(claimed: float | None, size: float) -> str | None:
-    """How a time [s] compares with what it is said to be; None where nothing is said of it."""
+    """Return how a time [s] compares with what the question says; None if it says nothing."""
     if claimed is None:
         return None
     return "less" if claimed > ABOUT * size else "more" if size > ABOUT * claimed else "same"
 
 
 def _told_in_all(answer: SupposedOfUs) -> bool:
-    """Check whether the risk of any collision is more than that with the vehicle asked about."""
+    """Check whether the risk of any collision is greater than that with the vehicle asked about."""
     more = answer.contrast.collision - (answer.struck_risk or 0.0)
     return answer.struck is not None and more >= SAFER
 

@@ -1,4 +1,4 @@
-"""Reactions: whether we could stop for what another vehicle would suddenly do."""
+"""Reactions: whether we could stop for a sudden action of another vehicle, in words."""
 
 from xavi_dialogue.domain.answers import Reaction
 from xavi_dialogue.domain.terms import Vehicle
@@ -9,11 +9,11 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import message
 from xavi_dialogue.nlg.surface.values import Clause, Quantity, Tense, Who
 
-LEAST = 1.0  # [m] that is worth naming
+LEAST = 1.0  # [m] minimum distance that is named
 
 
 def plan_reaction(answer: Reaction, context: SpeechContext) -> Plan:
-    """Plan whether we would stop in time, with the distances that tell it."""
+    """Plan whether we would stop in time, with the distances that show it."""
     well = answer.kind not in ("short", "beside")
     asked = None
     if answer.asked is not None and answer.kind != "anybody":
@@ -46,7 +46,7 @@ def _metres(value: float | None) -> Quantity | None:
 
 
 def condition(answer: Reaction, context: SpeechContext) -> Clause | None:
-    """Tell what is supposed, as the clause of an "if"."""
+    """Return the supposition, as the clause of an "if"."""
     if answer.supposed is None:
         return None
     tense: Tense = "past-perfect" if answer.past else "past"

@@ -1,4 +1,4 @@
-"""Reasons: why we did or did not do something, and what would have come of doing otherwise."""
+"""Reasons: why we did or did not do something, and what would have followed otherwise."""
 
 from collections.abc import Mapping
 from typing import Literal
@@ -31,12 +31,12 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message
 from xavi_dialogue.nlg.surface.values import Clause, Who
 
-OTHERWISE = 1.0  # [m/s] by which a speed is another one
-DECIDED = 0.95  # [s] after a decision, from which another one is in force
+OTHERWISE = 1.0  # [m/s] minimum difference between two speeds
+DECIDED = 0.95  # [s] after a decision, when the next one is in force
 Need = Literal["forced", "needed", "not-strictly", "close", "worse", "no-choice", "way"]
-#: Terms that who was in our way accounts for.
+#: Terms that a vehicle in our way explains.
 DELAYS = frozenset(("time", "late"))
-#: How a vehicle makes the foil worse only where it is done: no reason to be stated before it.
+#: Mechanisms that only matter under the foil, and so are not stated before it.
 OF_FOIL = ("right-of-way", "collision", None)
 
 
@@ -62,7 +62,7 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
     }[answer.form]  # fmt: skip
     risk = risks(contrast, context, past=past, unsaid=_silent(rule, slots))
     if slots["ahead"] is not None and slots["weak"] and contrast.fact_collision < RISK:
-        risk = risk if contrast.verdict == "better" else None  # a small one, of what was not done
+        risk = risk if contrast.verdict == "better" else None  # a small risk of what was not done
     first = Message(rule, slots)
     if context.detail == "less":
         first = _without_cause(first)
@@ -77,7 +77,7 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
         told=_names(answer, answer.suspect) or context.detail == "less",
     )
     more = further(contrast, context, past=past)
-    core = core if risk is None else (risk, *core)  # a risk is stated, and first
+    core = core if risk is None else (risk, *core)  # a risk is stated first
     if answer.behind is not None:
         core = (motion_cause(answer.behind, context.now, context, past=False), *core)
     core = (*core, *last_open(answer.open_at), *performed_later(answer.later))
@@ -87,7 +87,7 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
         whole = answer.of_causes or answer.suspected is not None or named is None
         brief = () if whole or named is None or named.vehicle is None else (named.vehicle,)
         joint = hangs_on(contrast.causation, contrast.decided, past=past, brief=brief)
-        core = core if joint is None else (*core, joint)  # one alone is no reason
+        core = core if joint is None else (*core, joint)  # a single vehicle is not the whole reason
         hangs = None if joint == hangs else hangs
     asked = answer.of_causes and _of_vehicles(contrast)
     details = () if hangs is None or not asked else (hangs,)
@@ -96,15 +96,15 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
 
 
 def _of_vehicles(contrast: Contrast) -> bool:
-    """Whether the reason is stated of vehicles, so that whether it hangs on them belongs to it."""
+    """Check whether the reason names vehicles, so that how it depends on them belongs to it."""
     hangs = contrast.causation is not None and contrast.causation.kind != "none"
     return hangs and not contrast.way and told_cause(contrast) is not None
 
 
 def _jointly(answer: ChoiceReason) -> bool:
-    """Whether the reason names a vehicle where several are it: together, or each would be enough.
+    """Check whether a reason must name several vehicles as causes: together, or each on its own.
 
-    So it is where it was asked whether one is.
+    A question whether one of them is the cause always asks for that.
     """
     causation = answer.contrast.causation
     asked = answer.suspected not in (None, "none", "neither")
@@ -115,7 +115,7 @@ def _jointly(answer: ChoiceReason) -> bool:
 
 
 def _silent(rule: str, slots: Mapping[str, object]) -> bool:
-    """Check whether a reason tells of the way or of who was ahead, and nothing of the foil."""
+    """Check whether a reason states the way, or who was ahead, and nothing about the foil."""
     if rule in ("WHY", "WHY_NOT") and slots["ahead"] is not None and slots["weak"]:
         return True
     if rule == "WHY" and slots["turn"] is not None:
@@ -125,7 +125,7 @@ def _silent(rule: str, slots: Mapping[str, object]) -> bool:
 
 
 def _superseded(contrast: Contrast, context: SpeechContext) -> bool:
-    """Whether chances are to be stated that are of an earlier decision than the one in force."""
+    """Check whether the stated chances are from an earlier decision than the one in force."""
     risky = max(contrast.collision, contrast.fact_collision) >= RISK
     return (risky or told_cause(contrast) is not None) and context.now - contrast.decided > DECIDED
 
@@ -151,7 +151,7 @@ def _told_past(answer: ChoiceReason, context: SpeechContext) -> bool:
 
 
 def _weak(answer: ChoiceReason) -> bool:
-    """Check whether who was ahead in the lane that we left is the better reason to tell."""
+    """Check whether the vehicle ahead in the lane that we left is the better reason to state."""
     kind, ahead = kind_of(answer.contrast), answer.ahead
     if ahead is None:
         return False
@@ -160,26 +160,26 @@ def _weak(answer: ChoiceReason) -> bool:
     stands = ahead.speed is not None and ahead.speed < STANDING
     struck = ahead.vehicle == answer.contrast.collided_with
     if stands and (struck or kind not in ("collision", "risk")):
-        return True  # where it would go says nothing while it stands
+        return True  # where it would go does not matter while it stands
     if how is not None and not how.present and not _goes_on(how, ahead):
-        return False  # what it was expected to do says more than where it was
+        return False  # what it was expected to do matters more than where it was
     if ahead.vehicle in answer.contrast.cleared:
         return False
     if ahead.kind in ("lane-beside", "lane-ahead") and answer.contrast.collision >= RISK:
-        return False  # the risk of what was not done goes first
+        return False  # the risk of what was not done comes first
     first = answer.contrast.decisive
     return kind in ("alone", "close") or first in DELAYS or (first == "collision" and struck)
 
 
 def _goes_on(how: Mechanism, ahead: MotionCause) -> bool:
-    """Check whether somebody ahead is expected to hold us up at the speed at which it is seen."""
+    """Check whether somebody ahead is expected to hold us up at its present speed."""
     if how.how != "leader" or how.speed_to is None or ahead.speed is None:
         return False
     return abs(how.speed_to - ahead.speed) <= OTHERWISE
 
 
 def _lane_for(answer: ChoiceReason) -> tuple[Clause, ...] | None:
-    """Return the turn that a lane is changed for, where no vehicle is asked about or told."""
+    """Return the turn that a lane change is for, unless the question or answer names vehicles."""
     turn = answer.contrast.lane_for
     of_vehicles = answer.of_causes or answer.suspected is not None or answer.ahead is not None
     return None if turn is None or of_vehicles else own_verbs((turn,))
@@ -196,7 +196,7 @@ def _names(answer: ChoiceReason, vehicle: int | None) -> bool:
 
 
 def _ahead(answer: ChoiceReason, context: SpeechContext) -> Message | None:
-    """Return who stood or crept in the lane that we left."""
+    """Return the vehicle that stood or drove slowly in the lane that we left."""
     if answer.ahead is None:
         return None
     if answer.ahead.vehicle == answer.contrast.collided_with and not _weak(answer):
@@ -207,7 +207,7 @@ def _ahead(answer: ChoiceReason, context: SpeechContext) -> Message | None:
 
 
 def _differs(cause: MotionCause, context: SpeechContext) -> bool:
-    """Check whether a vehicle drives at another speed by now than when it was reckoned with."""
+    """Check whether a vehicle drives at another speed now than at the decision."""
     look = None if cause.vehicle is None else context.look(cause.vehicle)
     if look is None or cause.speed is None:
         return False
@@ -215,10 +215,10 @@ def _differs(cause: MotionCause, context: SpeechContext) -> bool:
 
 
 def _denied(contrast: Contrast, *, past: bool) -> Clause:
-    """Return that we did not, or do not, do what the foil is."""
+    """Return that we did not, or do not, do the foil."""
     apart = terms.parted(contrast)
     done = len(apart.foil) > 1 and apart.foil[:1] == apart.fact[:1]
-    foil = apart.foil[1:] if done else apart.foil  # what we do is not denied
+    foil = apart.foil[1:] if done else apart.foil  # the part of the foil that we do is not denied
     verbs = own_verbs(foil, apart.fact) or (Clause(Who(), "do otherwise"),)
     rest = tuple(part for one in verbs[1:] for part in (f"and then {one.verb}",))
     tense: Literal["past", "present"] = "past" if past else "present"
@@ -226,20 +226,20 @@ def _denied(contrast: Contrast, *, past: bool) -> Clause:
 
 
 def cause_of(contrast: Contrast, context: SpeechContext, *, past: bool) -> Message | None:
-    """Make a clause of who goes with the reason."""
+    """Return the cause that belongs to the reason as a clause."""
     cause = told_cause(contrast)
     return None if cause is None else cause_message(cause, contrast, context, past=past)
 
 
 def _leads(contrast: Contrast) -> bool:
-    """Check whether the cause is stated before what the foil would have come to."""
+    """Check whether the cause is stated before the consequences of the foil."""
     cause = told_cause(contrast)
     how = None if cause is None or cause.mechanism is None else cause.mechanism.how
     return how not in OF_FOIL
 
 
 def _need(contrast: Contrast) -> Need:
-    """Return whether we had to: what the best alternative would have come to."""
+    """Return whether we had to, by the consequences of the best alternative."""
     kind = kind_of(contrast)
     if contrast.way and kind in ("alone", "dead"):
         return "way"

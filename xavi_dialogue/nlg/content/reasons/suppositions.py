@@ -1,4 +1,4 @@
-"""Suppositions: what we would have done had another vehicle done otherwise, or not been there."""
+"""Suppositions: what we would have done if another vehicle had acted otherwise, or were absent."""
 
 from typing import Any
 
@@ -17,8 +17,8 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Tense, Who
 
-LIKELY = 0.5  # probability from which a collision is stated as what comes
-KNOWN = 0.005  # probability from which something was reckoned with
+LIKELY = 0.5  # minimum probability of a collision that is stated as certain to come
+KNOWN = 0.005  # minimum probability of what was considered
 
 
 def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> Plan:
@@ -72,7 +72,7 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
 
 
 def _timed(answer: SupposedOfOther, context: SpeechContext) -> dict[str, Any] | None:
-    """Return the slots for when we would be there, where that is what is asked."""
+    """Return the slots for when we would be there, if the question is that."""
     if answer.form not in ("arrival", "quicker") or answer.contrast is None:
         return None
     contrast = answer.contrast
@@ -92,7 +92,7 @@ def _timed(answer: SupposedOfOther, context: SpeechContext) -> dict[str, Any] | 
 
 
 def _crash(answer: SupposedOfOther) -> Contrast | None:
-    """Return the comparison, where nothing that was tried would keep us from colliding."""
+    """Return the comparison, if no option that was tried would avoid a collision."""
     found = answer.contrast
     return found if found is not None and answer.same and found.collision >= LIKELY else None
 
@@ -107,14 +107,14 @@ def _time(answer: SupposedOfOther) -> float | None:
 
 
 def _who(answer: SupposedOfOther) -> Who:
-    """Return all of whom the same is supposed."""
+    """Return all vehicles with the same supposition."""
     numbers = (answer.vehicle, *answer.others)
     thing = Vehicles(numbers) if answer.others else Vehicle(answer.vehicle)
     return Who(thing, _time(answer))
 
 
 def _left_out(answer: SupposedOfOther) -> tuple[Message, ...]:
-    """Say of whom nothing could be supposed beside it; () where that is of nobody."""
+    """Return the vehicles whose supposition could not be planned; () if there are none."""
     if not answer.left_out:
         return ()
     numbers = answer.left_out
@@ -123,7 +123,7 @@ def _left_out(answer: SupposedOfOther) -> tuple[Message, ...]:
 
 
 def _condition(answer: SupposedOfOther, context: SpeechContext) -> Clause | None:
-    """Return what is supposed, as the clause of an "if"; None where the vehicle were not there."""
+    """Return the supposition as the clause of an "if"; None if the vehicle is absent in it."""
     tense: Tense = "past-perfect" if answer.past else "past"
     if answer.everybody:
         return Clause("nobody else", "be", ("around",), tense)
@@ -137,7 +137,7 @@ def _condition(answer: SupposedOfOther, context: SpeechContext) -> Clause | None
 
 
 def _outcome(answer: SupposedOfOther, context: SpeechContext) -> Message | None:
-    """Return what we would have had of it: a collision, or so much time."""
+    """Return what it would have led to: a collision, or a difference in time."""
     contrast: Contrast | None = answer.contrast
     if contrast is None:
         return None
@@ -165,7 +165,7 @@ def _outcome(answer: SupposedOfOther, context: SpeechContext) -> Message | None:
 
 
 def _prior(answer: SupposedOfOther, context: SpeechContext) -> Message | None:
-    """Return how probable what is supposed was thought to be."""
+    """Return how probable the supposition was believed to be."""
     if answer.supposed is None or answer.prior is None or context.detail == "simpler":
         return None
     return message(

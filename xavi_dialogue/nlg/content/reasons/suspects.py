@@ -1,4 +1,4 @@
-"""Suspects: whether the vehicle that a question takes for the cause is one, with the reason."""
+"""Suspects: whether the vehicle that a question supposes to be the cause is one."""
 
 from typing import Final
 
@@ -9,7 +9,7 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Who
 
-FEW: Final = 3  # others who are named
+FEW: Final = 3  # maximum of others who are named
 
 
 def suspected(
@@ -23,16 +23,16 @@ def suspected(
     past: bool,
     told: bool,
 ) -> tuple[Message, ...]:
-    """Put the verdict on the vehicle that the question takes for the cause before the reason.
+    """Return the verdict on the vehicle that the question suspects, followed by the reason.
 
     Args:
         reason: the reason that is stated.
-        suspect: the vehicle; None where the question names none.
-        part: which part it has.
+        suspect: the vehicle; None if the question names none.
+        part: its part in the reason.
         time: [s] at which it is described.
         cleared: vehicles that make no difference.
-        besides: who else is the cause, where it is taken for the only one.
-        past: the reason is stated as past.
+        besides: other causes, if the question supposes that there are none.
+        past: the reason is in the past tense.
         told: the reason names it.
     """
     if suspect is None or part is None:
@@ -68,7 +68,7 @@ def plan_nobody_else(answer: NobodyElse, context: SpeechContext) -> Plan:
 
 
 def all_of(vehicles: tuple[int, ...], time: float) -> Who | None:
-    """Refer to one or several vehicles as they were at a time [s]; None where there are none."""
+    """Return a reference to vehicles as they were at a time [s]; None if there are none."""
     if not vehicles:
         return None
     return Who(Vehicle(vehicles[0]) if len(vehicles) == 1 else Vehicles(vehicles), time)

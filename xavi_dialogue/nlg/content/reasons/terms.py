@@ -1,7 +1,7 @@
-"""Terms: what is stated of a difference, each a verb phrase of what was not done.
+"""Terms: what is stated about a difference, each term as a verb phrase about the foil.
 
-What speaks for the verdict goes first, a risk of a collision before all else; what speaks against
-it follows after "though".
+Terms that support the verdict come first, a risk of a collision before all others. Terms against
+it follow after "though".
 """
 
 import math
@@ -17,19 +17,19 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Number, Quantity, Who
 
-LIKELY = 0.5  # probability from which an outcome is what comes, and no chance
-SURE = 0.995  # probability from which none is stated
-LITTLE = 2.25  # [s] a gain up to which it is called little
-LARGE = 8.0  # [s] a difference that is much in everyday words
+LIKELY = 0.5  # minimum probability of an outcome that is stated as what comes, not as a chance
+SURE = 0.995  # minimum probability of what is stated as certain
+LITTLE = 2.25  # [s] maximum gain that is called little
+LARGE = 8.0  # [s] minimum difference that is called much
 TINY = 0.01  # probability below which it is stated as under 1 %
-ROUND = 5.0  # [s] to which the time that is compared is rounded
+ROUND = 5.0  # [s] precision of the time that is compared
 STEERING = ("angular-acceleration", "curvature")
 RIDES = ("jerk", "angular-acceleration", "curvature")
 _OUTCOMES = {"collision": "collision", "dead": "dead", "late": "termination"}
 
 
 def foil_verbs(contrast: Contrast) -> tuple[Clause, ...]:
-    """Return what was not done as verb phrases, with the further manoeuvres that it holds."""
+    """Return what was not done as verb phrases, with further manoeuvres that it contains."""
     whole, contrast, further = contrast, parted(contrast), contrast.further
     if contrast.foil[-1:] == ("continue",) and further and further[0] in CHANGES:
         first = own_verbs(contrast.foil, contrast.fact)
@@ -41,7 +41,7 @@ def foil_verbs(contrast: Contrast) -> tuple[Clause, ...]:
         if row[-1].verb == f"move to the {side} lane":
             return (*row[:-1], Clause(row[0].subject, f"move two lanes to the {side}"))
         return (*row, Clause(row[0].subject, "move one lane further"))
-    if row and contrast is not whole:  # the same may be done here
+    if row and contrast is not whole:  # the same action may be done now
         head = row[0]
         further_on = (*head.rest, "after going straight on")
         return (Clause(head.subject, head.verb, further_on), *row[1:])
@@ -49,7 +49,7 @@ def foil_verbs(contrast: Contrast) -> tuple[Clause, ...]:
 
 
 def parted(contrast: Contrast) -> Contrast:
-    """Leave out that both plans go straight on before they part."""
+    """Return the contrast without going straight on where both plans begin with it."""
     same = contrast.foil[:1] == contrast.fact[:1] == ("continue",)
     if not same or len(contrast.foil) < 2:
         return contrast
@@ -59,22 +59,22 @@ def parted(contrast: Contrast) -> Contrast:
 def sides(
     contrast: Contrast, context: SpeechContext, *, past: bool
 ) -> tuple[tuple[Message, ...], tuple[Message, ...]]:
-    """Make phrases of the terms told: of those for the verdict, and of those against it."""
+    """Return phrases for the stated terms: those that support the verdict, and those against it."""
     sign = -1.0 if contrast.verdict == "worse" else 1.0
     risky = sorted(_leading(contrast.told), key=lambda share: share.term != "collision")
     spoken = [s for s in risky if s.term != "collision" or s.cost > 0.0 or sign < 0.0]
     if any(s.term == "late" for s in spoken) and (contrast.late or contrast.spares_delay):
-        spoken = [s for s in spoken if s.term != "time"]  # of the few that arrive alone
+        spoken = [s for s in spoken if s.term != "time"]  # this is the time of the few that arrive
     told = [(s, _term(s, contrast, context, past=past)) for s in spoken]
     for_it = tuple(one for s, one in told if sign * s.cost > 0.0)
     fatal = any(s.term == "collision" and sign * s.cost > 0.0 for s in spoken)
-    told = [(s, one) for s, one in told if not (fatal and s.term == "late")]  # who crashes is none
+    told = [(s, one) for s, one in told if not (fatal and s.term == "late")]  # a crash is not late
     against = tuple(one for s, one in told if sign * s.cost <= 0.0)
     return (for_it, against) if for_it else (against, ())
 
 
 def _leading(told: Iterable[Share]) -> list[Share]:
-    """The shares that are spoken of: of the two of steering, the first, which is the larger."""
+    """Return the shares to state; of those about steering, only the first, which is the largest."""
     found: list[Share] = []
     for share in told:
         if share.term not in STEERING or all(other.term not in STEERING for other in found):
@@ -83,10 +83,10 @@ def _leading(told: Iterable[Share]) -> list[Share]:
 
 
 def not_worth_it(contrast: Contrast) -> dict[str, object]:
-    """Make the slots for a foil that gains too little for its trouble, where that is all.
+    """Return the slots for a foil that gains too little for its effort, if that is all.
 
-    That is a foil of more lane changes or stops, against which nothing is stated but these and
-    what they do to the ride, and for which nothing is but time.
+    Such a foil has more lane changes or stops. Only these and their effect on comfort are stated
+    against it, and only time for it.
     """
     needs = effort(contrast)
     spoken = _leading(contrast.told)
@@ -104,14 +104,14 @@ def not_worth_it(contrast: Contrast) -> dict[str, object]:
 
 
 def chance_of(contrast: Contrast) -> float:
-    """Tell the probability of a collision under the foil, as the comparison has it."""
+    """Return the probability of a collision under the foil, according to the comparison."""
     share = next((s for s in contrast.told if s.term == "collision"), None)
     known = 0.0 if share is None or share.chance is None else share.chance
     return contrast.collision or known
 
 
 def timed(contrast: Contrast, context: SpeechContext, *, more: bool) -> dict[str, object]:
-    """Return the slots for a difference in time, where one of that sign is recorded."""
+    """Return the slots for a difference in time, if one of that sign is recorded."""
     effect = next((e for e in contrast.effects if e.component == "time"), None)
     if effect is None or (effect.delta > 0.0) != more:
         return {"delta": None, "mean": False, "much": False, "little": False}
@@ -126,7 +126,7 @@ def timed(contrast: Contrast, context: SpeechContext, *, more: bool) -> dict[str
 
 
 def looked_ahead(contrast: Contrast) -> dict[str, object]:
-    """The slots for the time that is looked ahead, and how much longer the late one takes."""
+    """Return the slots for the horizon, and how much longer the late plan takes."""
     known, more = contrast.horizon, contrast.exceeds
     return {
         "horizon": None if known is None else Quantity(known, "s"),
@@ -135,7 +135,7 @@ def looked_ahead(contrast: Contrast) -> dict[str, object]:
 
 
 def stretch(contrast: Contrast, context: SpeechContext) -> Quantity | None:
-    """Tell how long a drive is compared, where it does not go to the destination."""
+    """Return how long the compared drive is, if it does not lead to the destination."""
     aim = contrast.aim
     if aim is None or aim.destination or aim.time is None or context.detail == "simpler":
         return None
@@ -179,7 +179,7 @@ def _term(share: Share, contrast: Contrast, context: SpeechContext, *, past: boo
 
 
 def effort(contrast: Contrast) -> dict[str, Any]:
-    """Return what the foil takes more of, or less: lane changes, stops."""
+    """Return by how many lane changes and stops the foil differs."""
     whole, fact = (*contrast.foil, *contrast.continued), contrast.fact
     changes = _count(whole, CHANGES) - _count(fact, CHANGES)
     stops = _count(whole, ("stop",)) - _count(fact, ("stop",))

@@ -1,4 +1,4 @@
-"""Clarifications: questions back about what was meant, and owning up to unknown words."""
+"""Clarifications: questions what was meant, and statements of unknown words."""
 
 from xavi_dialogue.domain.answers import TakenAs, Unfamiliar, WhichOne
 from xavi_dialogue.domain.terms import Vehicle
@@ -12,7 +12,7 @@ from xavi_dialogue.nlg.surface.values import Who
 
 
 def plan_which_one(answer: WhichOne, context: SpeechContext) -> Plan:
-    """Plan a question back, with numbered choices; choices that look alike are not offered."""
+    """Plan a question what was meant, with numbered choices, of which no two look alike."""
     if answer.between == "vehicles":
         choices = tuple(_vehicle(one, answer) for one in answer.readings)
         items = choices
@@ -25,7 +25,7 @@ def plan_which_one(answer: WhichOne, context: SpeechContext) -> Plan:
 
 
 def _vehicle(one: object, answer: WhichOne) -> Message:
-    """Return a vehicle as it was seen when it was spoken of."""
+    """Return a vehicle as it looked when it was mentioned."""
     look = next((k for k in answer.looks if one == Vehicle(k.vehicle)), None)
     who = Who(one, None if look is None else look.time, ride=True)  # type: ignore[arg-type]
     return message("MEANT", kind="thing", who=who)
@@ -34,9 +34,9 @@ def _vehicle(one: object, answer: WhichOne) -> Message:
 def _told_apart(
     askings: tuple[Asking, ...], context: SpeechContext
 ) -> tuple[tuple[Message, ...], tuple[Message, ...]]:
-    """Return what is offered as indirect and as direct questions; with times where they need them.
+    """Return the choices as indirect and as direct questions, with times if they need them.
 
-    Both are empty where even times do not tell them apart.
+    Both are empty if even times do not distinguish them.
     """
     for timed in (False, True):
         items = tuple(one.message("MEANT", timed=timed) for one in askings)
@@ -52,7 +52,7 @@ def plan_taken_as(answer: TakenAs, context: SpeechContext) -> Plan:
 
 
 def plan_unfamiliar(answer: Unfamiliar, context: SpeechContext) -> Plan:
-    """Plan which words were not understood, before the answer to the rest."""
+    """Plan the words that were not understood, before the answer to the rest."""
     words = tuple(f'"{one}"' for one in answer.words)
     slots = {"words": words, "many": len(words) > 1, "known": answer.known}
     return Plan((Message("UNFAMILIAR", slots),))

@@ -1,4 +1,4 @@
-"""Questions: what a passenger may have meant, as an indirect question and as a direct one.
+"""Questions: readings of a passenger's words, as indirect and as direct questions.
 
 "Why I stopped" and "Why did you stop?" are two forms of the same parts: see the rules MEANT and
 ASKED of `grammars/answer_questions.rules`.
@@ -28,18 +28,18 @@ BETTER = {"best": "better", "time": "quicker", "safety": "safer", "comfort": "sm
 
 @dataclass(frozen=True, slots=True)
 class Asking:
-    """An act in parts: the words that ask, and the clause that they ask of."""
+    """An act in parts: the words that ask, and the clause that they ask about."""
 
-    kind: str  # of the rule ASK_WORD, or one that MEANT and ASKED tell apart
+    kind: str  # for the rule ASK_WORD, or for MEANT and ASKED
     clause: Clause | None = None
     past: bool = False  # of a supposition
     noun: str | None = None  # what is counted
     who: Who | None = None
-    other: Clause | None = None  # what is set against the clause
-    time: float | None = None  # [s] of the ride, where one is meant
+    other: Clause | None = None  # the alternative to the clause
+    time: float | None = None  # [s] of the ride, if one is meant
 
     def message(self, rule: str, *, timed: bool = False) -> Message:
-        """Return the message of a rule, with the time where it is to be stated."""
+        """Return the message of a rule, with the time if it is to be stated."""
         when = Moment(self.time) if timed and self.time is not None else None
         slots = {"kind": self.kind, "it": self.clause, "past": self.past, "noun": self.noun}
         return Message(rule, {**slots, "who": self.who, "other": self.other, "when": when})
@@ -70,7 +70,7 @@ def asking(act: Act | Proposition | Thing, now: float) -> Asking:
 
 
 def meant(answer: WhichOne, now: float) -> tuple[Asking, ...]:
-    """Return what a clarification offers: whole acts where they are known."""
+    """Return the choices of a clarification: whole acts if they are known."""
     return tuple(asking(one, now) for one in answer.acts or answer.readings)
 
 

@@ -1,4 +1,4 @@
-"""Quizzes: questions of ours to the passenger, and what their replies come to."""
+"""Quizzes: questions of ours to the passenger, and our judgement of the replies."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import message
 from xavi_dialogue.nlg.surface.values import Clause, Tense
 
-WORDINGS = 3  # of a verdict; they take turns
+WORDINGS = 3  # number of wordings of a verdict, which take turns
 
 
 def plan_posed(answer: Posed, context: SpeechContext) -> Plan:
@@ -44,6 +44,6 @@ def plan_judged(answer: Judged, context: SpeechContext) -> Plan:
 
 
 def plan_nothing_to_ask(answer: NothingToAsk, context: SpeechContext) -> Plan:
-    """Plan that there is no question left to put, and what the passenger can ask instead."""
+    """Plan that there is no question left to ask, and what the passenger can ask instead."""
     shown, found = proposed(context)
     return Plan((message("NOTHING_TO_ASK", asked=answer.asked),), shown, (), (), found)

@@ -1,4 +1,4 @@
-"""Refusals: what stands in the way of an answer, with its true reason, as a person would say it."""
+"""Refusals: what prevents an answer, with the true reason, in everyday words."""
 
 import re
 
@@ -24,14 +24,14 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import table
 from xavi_dialogue.nlg.surface.values import Clause, Moment, Number, Owned, Who, Without
 
-NO_LANE = "there is no lane to the left"  # as the trace has it
-MOST = 3  # vehicles named as those that are known
-#: Topics after which it helps to say what can be asked.
+NO_LANE = "there is no lane to the left"  # in the words of the trace
+MOST = 3  # maximum of known vehicles that are named
+#: Topics after which it helps to state what can be asked.
 LOST = ("off-topic", "opinion", "non-english", "not-understood")
 
 
 def proposed(context: SpeechContext) -> tuple[tuple[Message, ...], tuple[str, ...]]:
-    """What can be asked, as a sentence and as suggestions; nothing that was proposed lately."""
+    """Return what can be asked, as a sentence and as suggestions, except recent proposals."""
     found = always(context, 1)
     if not found:
         return (), ()
@@ -39,7 +39,7 @@ def proposed(context: SpeechContext) -> tuple[tuple[Message, ...], tuple[str, ..
 
 
 def plan_not_understood(answer: NotUnderstood, context: SpeechContext) -> Plan:
-    """Plan that nothing was understood, and which words are to blame."""
+    """Plan that nothing was understood, and because of which words."""
     words = tuple(f'"{word}"' for word in answer.words)
     first = message(
         "NOT_UNDERSTOOD",
@@ -55,7 +55,7 @@ def plan_not_understood(answer: NotUnderstood, context: SpeechContext) -> Plan:
 
 
 def plan_no_such_vehicle(answer: NoSuchVehicle, context: SpeechContext) -> Plan:
-    """Plan that nobody fits what was said, and who could be meant."""
+    """Plan that nobody fits the description, and who could be meant."""
     past = context.now - answer.time > PRESENT
     thing = answer.thing
     known = tuple(look.vehicle for look in answer.known[:MOST])
@@ -78,7 +78,7 @@ def plan_no_such_vehicle(answer: NoSuchVehicle, context: SpeechContext) -> Plan:
 
 
 def plan_not_applicable(answer: NotApplicable, context: SpeechContext) -> Plan:
-    """Plan why something could not be done, in the words of the road."""
+    """Plan why something could not be done, by the road."""
     past = answer.time is not None and context.now - answer.time > PRESENT
     verbs = own_verbs(answer.asked[:1], ("change-left",) if _lanes(answer) else ())
     first = message(
@@ -97,7 +97,7 @@ def _lanes(answer: NotApplicable) -> bool:
 
 
 def reason_in_words(reason: str, *, past: bool) -> str:
-    """Put the planner's reason into the first person, and into the past where it is."""
+    """Return the planner's reason in the first person, and in the past tense if it is past."""
     found = table("causes")["reason"].get(reason)
     if found is not None:
         return str(found["then" if past else "now"])
@@ -127,7 +127,7 @@ def plan_too_little(answer: TooLittle, context: SpeechContext) -> Plan:
 
 
 def plan_not_recorded(answer: NotRecorded, context: SpeechContext) -> Plan:
-    """Plan that the record does not hold it, and why."""
+    """Plan that the record does not contain it, and why."""
     attributes = table("doings")["attribute"]
     known = answer.about in attributes
     noun = str(attributes[answer.about]) if known and answer.about is not None else None
@@ -148,7 +148,7 @@ def plan_not_recorded(answer: NotRecorded, context: SpeechContext) -> Plan:
 
 
 def plan_cannot_say(answer: CannotSay, context: SpeechContext) -> Plan:
-    """Plan that it is beyond what this car speaks of, each topic in its own words."""
+    """Plan that the car does not speak about a topic, each topic in its own words."""
     verb = None
     if answer.words in table("doings")["action"]:
         verb = Clause(Who(), doing(answer.words, ego=True))  # type: ignore[arg-type]
@@ -162,5 +162,5 @@ def plan_cannot_say(answer: CannotSay, context: SpeechContext) -> Plan:
 
 
 def plan_unavailable(answer: Unavailable, context: SpeechContext) -> Plan:
-    """Plan that the machinery behind the answer failed."""
+    """Plan that the planner behind the answer failed."""
     return Plan((message("UNAVAILABLE", reason=answer.reason),))

@@ -1,4 +1,4 @@
-"""Requests: how the car declines to drive as it is told, and what it is about to do anyway."""
+"""Requests: how the car declines to drive otherwise, and what it is about to do anyway."""
 
 from msgspec.structs import replace
 
@@ -18,8 +18,8 @@ from xavi_dialogue.nlg.surface.values import Clause, Quantity, Who
 STAYING = frozenset(("follow", "continue", "keep-lane", "move"))
 HOW = frozenset(("hard", "suddenly", "close", "fast", "slowly", "late", "early"))
 GOING = frozenset(("go", "move", "continue"))
-DRIVING = GOING | {"head", "brake", "turn"}  # what may be done gently
-#: What is said without whom it concerns: "go before the bus" is going.
+DRIVING = GOING | {"head", "brake", "turn"}  # actions that may be done gently
+#: Actions that are stated without the vehicle concerned: "go before the bus" is going.
 BARE = frozenset(("go", "move", "speed-up"))
 
 

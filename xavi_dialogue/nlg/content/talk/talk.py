@@ -17,7 +17,7 @@ from xavi_dialogue.nlg.surface.message import message
 
 
 def plan_comforting(answer: Comforting, context: SpeechContext) -> Plan:
-    """Plan a human sentence for a feeling, and a fact that bears on it."""
+    """Plan a personal sentence for a feeling, and a fact that bears on it."""
     first = message("FEELING", feeling=answer.feel.feeling)
     if answer.fact is not None:
         return Plan((first, *_bearing(answer.fact, context)))
@@ -26,7 +26,7 @@ def plan_comforting(answer: Comforting, context: SpeechContext) -> Plan:
 
 
 def _bearing(fact: Answer, context: SpeechContext) -> tuple[Part, ...]:
-    """Plan a fact that bears on what is felt, as a plain statement."""
+    """Plan a fact that bears on a feeling, as a plain statement."""
     if isinstance(fact, Closeness):
         return calming(fact, context)
     if isinstance(fact, Comfort):
@@ -35,7 +35,7 @@ def _bearing(fact: Answer, context: SpeechContext) -> tuple[Part, ...]:
 
 
 def plan_sociable(answer: Sociable, context: SpeechContext) -> Plan:
-    """Plan the reply to a social move, with what bears on it."""
+    """Plan the reply to a social move, with a fact that bears on it."""
     first = message("SOCIAL", kind=answer.kind, told=answer.fact is not None)
     if answer.fact is None:
         return Plan((first,))
