@@ -1,1 +1,1 @@
-"""Whether something holds, what value it has, and who or what it is."""
+"""Explainers: whether something holds, what value it has, and who or what it is."""

@@ -1,4 +1,4 @@
-"""Attributes: those whose value takes more than a look: waits, costs, places, right of way."""
+"""Attributes: values that need more than a look, such as waits, costs, places, right of way."""
 
 from collections.abc import Callable, Mapping
 
@@ -68,17 +68,17 @@ from xavi_dialogue.explain.answers.ride.places import gone, locate, where, whith
 from xavi_dialogue.explain.answers.ride.priority import right_of_way, where_rule_holds
 from xavi_dialogue.explain.causes.plans.options import options_at
 
-LITTLE = 1.0  # [s] below which somebody costs us next to nothing
-MOSTLY = 0.9  # probability of arriving from which the times of two choices are compared
+LITTLE = 1.0  # [s] cost below which somebody costs us next to nothing
+MOSTLY = 0.9  # minimum probability of arriving for a comparison of the times of two choices
 GOING: frozenset[ActionName] = frozenset(("move", "go", "follow", "continue"))
-#: What is chosen, and whose cost is shown by what else could have been chosen.
+#: Actions that are chosen; their cost follows from the alternatives.
 CHOSEN: frozenset[ActionName] = frozenset(
     ("change-left", "change-right", "change-lane", "overtake")
 )
 
 
 def _waiting(of: Measured, asked: Asked) -> Answer:
-    """Tell how long somebody waited; of a wait that goes on, also what is still expected."""
+    """Return how long somebody waited; while they wait, also how long that is expected to last."""
     about = window(asked, of.time, of.tense)
     if is_ahead(asked, of.time, of.tense) and stands(asked):
         return Measures((remaining_wait(asked),))
@@ -86,7 +86,7 @@ def _waiting(of: Measured, asked: Asked) -> Answer:
 
 
 def _options(of: Measured, asked: Asked) -> Answer:
-    """Tell how the options of a decision were valued."""
+    """Return how the options of a decision were valued."""
     at = instant(asked, of.time, of.tense)
     trace = asked.ride.at(at)
     known = options_at(asked.ride, at)
@@ -104,7 +104,7 @@ def _duration(of: Measured, asked: Asked) -> Answer:
 
 
 def _delay(of: Measured, asked: Asked) -> Answer:
-    """Tell what a manoeuvre cost: of one that was chosen, as the causal explainers tell."""
+    """Return what a manoeuvre cost; for one that was chosen, by the causal explainers."""
     if of.event is not None and of.event.action == "overtake":
         of = replace(of, event=replace(of.event, side=None))
     if of.event is not None and (undone := _not_done(of, of.event, asked)) is not None:
@@ -135,7 +135,7 @@ def _delay(of: Measured, asked: Asked) -> Answer:
 
 
 def _without(other: Vehicle, asked: Asked) -> Answer | None:
-    """Tell what we would gain without somebody who has not slowed us yet; None: nothing to tell.
+    """Return what we would gain without somebody who has not slowed us yet; None: nothing.
 
     Raises:
         Unanswered: rollouts are needed.
@@ -155,13 +155,13 @@ def _without(other: Vehicle, asked: Asked) -> Answer | None:
 
 
 def _told_of(of: Measured, asked: Asked) -> Window:
-    """Give the stretch in which a cost is asked for: the one that was said, else the ride."""
+    """Return the stretch in which a cost is asked for: the one named, else the ride."""
     about = window(asked, of.time)
     return about if was_said(asked, of.time) else Window(asked.world.begin, asked.now)
 
 
 def _not_done(of: Measured, event: Event, asked: Asked) -> Event | None:
-    """Give a choice of which it is asked what it would have cost: one that we did not make."""
+    """Return a choice that we did not make, if the question is what it would have cost."""
     if not is_us(event.actor) or event.action not in (*CHOSEN, "stop"):
         return None
     at = of.time if isinstance(of.time, At) else event.time
@@ -176,16 +176,16 @@ def _not_done(of: Measured, event: Event, asked: Asked) -> Event | None:
 
 
 def _instead(event: Event, asked: Asked) -> Answer | None:
-    """Tell what would have been without a choice, where no difference in time is known."""
+    """Return the consequences of another choice, if no difference in time is known."""
     supposed = WhatIf(Not(Happens(event)), HowMuch(Measured("delay")))
     suppose = causal.explainer(supposed, asked)
     return None if suppose is None else suppose(supposed, asked)
 
 
 def _gained(explained: Answer) -> Measure | None:
-    """Tell what a choice cost or saved in time against what else there was, where that is known.
+    """Return what a choice cost or saved in time against its alternative, if that is known.
 
-    Where the other would mostly not arrive, the few times that it does tell nothing.
+    If the alternative would mostly not arrive, the few times of arrival mean nothing.
     """
     if not isinstance(explained, ChoiceReason) or explained.deed is None:
         return None
@@ -222,7 +222,7 @@ def _name(of: Measured, asked: Asked) -> Answer:
 
 
 def _turn(of: Measured, asked: Asked) -> Answer:
-    """Tell which way is taken next: of others, where they are thought to be going, or went."""
+    """Return which way somebody takes next; for others, where they are believed to go, or went."""
     other = number(of.thing)
     if other is not None and is_past(asked, of.time, of.tense) and not was_said(asked, of.time):
         return gone(asked, Vehicle(other))
@@ -232,7 +232,7 @@ def _turn(of: Measured, asked: Asked) -> Answer:
 
 
 def _speed_change(of: Measured, asked: Asked) -> Answer:
-    """Tell by how much the speed changed: over the time said, else in the latest change."""
+    """Return by how much the speed changed: over the time named, else in the latest change."""
     at = instant(asked, of.time, of.tense)
     who = (somebodies(asked, of.thing, at) or (Ego(),))[0]
     about = window(asked, of.time, of.tense)
@@ -264,7 +264,7 @@ def _right_of_way(of: Measured, asked: Asked) -> Answer:
 
 
 def _origin(of: Measured, asked: Asked) -> Answer:
-    """Tell where somebody came from: as the record has it, else where it was first seen."""
+    """Return where somebody came from: by the record, else where it was first seen."""
     at, vehicle = instant(asked, of.time, of.tense), number(of.thing)
     if vehicle is None:
         return locate(asked, of.thing, asked.world.begin)

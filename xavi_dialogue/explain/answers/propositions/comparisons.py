@@ -26,7 +26,7 @@ from xavi_dialogue.explain.answers.reference.findings import Finding, known, unk
 from xavi_dialogue.explain.answers.reference.moments import Window, instant, is_past, window
 from xavi_dialogue.explain.answers.reference.naming import check_sense, somebodies
 
-#: Up to which difference two values are the same.
+#: Maximum difference between two values that count as equal, by attribute.
 SAME: dict[Attribute, float] = {
     "speed": 0.6, "limit": 0.3, "gap": 0.5, "distance": 0.5, "headway": 0.2,
     "time-to-collision": 0.3, "deceleration": 0.3, "acceleration": 0.3, "size": 0.3,
@@ -34,17 +34,17 @@ SAME: dict[Attribute, float] = {
 }  # fmt: skip
 KMH = 3.6  # [km/h] in 1 m/s
 LIGHTS: frozenset[Attribute] = frozenset(("indicator", "brake-lights"))
-#: What a vehicle keeps when it is out of view.
 #: Kinds that look like a car from outside.
 UNMARKED: frozenset[str] = frozenset(("taxi", "emergency"))
+#: What is still known of a vehicle that is out of view.
 LASTING: frozenset[Attribute] = frozenset(("colour", "kind", "size", "name", "origin"))
-#: What nobody can see of a vehicle from outside.
+#: Attributes of a vehicle that nobody can see from outside.
 INSIDE: frozenset[Attribute] = frozenset(("load", "occupant", "writing", "parts"))
 NONE = ("none", "off", "no", "")
 
 
 def has(of: Has, asked: Asked) -> Finding:
-    """Weigh that an attribute has a value that was named in words.
+    """Weigh that an attribute has a value in words.
 
     Raises:
         Unanswered: the thing is unknown.
@@ -82,12 +82,12 @@ def _has(of: Has, asked: Asked, thing: Thing, at: float) -> Finding:
 
 
 def _is_finer(said: str, seen: str) -> bool:
-    """Say whether a kind that is named is finer than what can be seen from outside."""
+    """Check whether a kind that is named is more specific than what can be seen from outside."""
     return said.split()[-1:] == [seen] != said.split() or (seen == "car" and said in UNMARKED)
 
 
 def _shown_over(of: Has, asked: Asked, thing: Thing, about: Window) -> Finding:
-    """Tell whether a light was shown at any time in a stretch of the ride."""
+    """Weigh that a light was shown at any time in a stretch of the ride."""
     last: Measure | None = None
     for at in _moments(asked, about):
         found = asked.world.measure(of.attribute, thing, at)
@@ -124,7 +124,7 @@ def _lit(of: Has, lights: tuple[str, ...]) -> bool:
 def compares(of: Compares, asked: Asked) -> Finding:
     """Weigh how a measure compares with another one, with a number, or with what is allowed.
 
-    Of several things it holds where it does of each.
+    A comparison of several things holds if it holds for each of them.
 
     Raises:
         Unanswered: a thing is unknown.
@@ -145,7 +145,7 @@ def compares(of: Compares, asked: Asked) -> Finding:
 
 
 def _lesser_first(of: Compares, found: Finding) -> Finding:
-    """Tell of two that are not the same that the lesser is not as the other one is."""
+    """Return the finding with the lesser of two unequal things as the one that falls short."""
     if of.comparator != "same" or found.holds is not False or not isinstance(of.right, Measured):
         return found
     values = [f for f in found.facts if isinstance(f, Measure) and f.value is not None]
@@ -156,7 +156,7 @@ def _lesser_first(of: Compares, found: Finding) -> Finding:
 
 
 def _tallied(of: Compares, asked: Asked) -> Finding:
-    """Weigh how many there were, or how often something was done, by a number that was said."""
+    """Weigh that there were as many, or that something was done as often, as a number says."""
     such = of.left.about.thing if isinstance(of.left.about, Exists) else None
     found = how_many(HowMany(of.left.event or of.left.thing, such), asked)
     if not isinstance(found, Counted) or not isinstance(of.right, Quantity):
@@ -183,12 +183,12 @@ def _compared(of: Compares, asked: Asked) -> Finding:
 
 
 def _as_told(one: float, other: float) -> float:
-    """Tell by how much two speeds are the same: they are where they round to one figure."""
+    """Return the maximum difference of two speeds that round to the same figure."""
     return abs(one - other) if round(KMH * one) == round(KMH * other) else 0.0
 
 
 def _left_side(of: Compares, asked: Asked, at: float) -> Measure:
-    """Give the left side: where all of the ride is meant, its extreme in question."""
+    """Return the left side; over the whole ride, the extreme that the comparison is about."""
     whole = isinstance(of.left.time, WholeRide) or (
         isinstance(of.left.time, Unsaid) and of.left.tense in ("past", "perfect")
     )
@@ -204,7 +204,7 @@ def _left_side(of: Compares, asked: Asked, at: float) -> Measure:
 
 
 def _other_side(of: Compares, asked: Asked, left: Measure) -> Measure | None:
-    """Tell what the left side is held against: the limit, where nothing was named."""
+    """Return the value that the left side is compared with; by default the limit."""
     match of.right:
         case Measured(attribute="limit", thing=thing) if left.extreme is not None:
             return asked.world.measure("limit", thing, left.time)

@@ -57,16 +57,16 @@ from xavi_dialogue.explain.causes.plans.options import options_at
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
 from xavi_dialogue.explain.history.thresholds import STANDING
 
-NEAR_GAP = 2.0  # [s] of headway below which a vehicle is close
-NEAR = 5.0  # [m] below which a vehicle beside or crossing is close
-HUGGING = 1.0  # [m] below which one that we stand behind is too close
-BIG = 7.0  # [m] from which a vehicle is big
-#: What goes on all the time: how it feels is asked of the ride.
+NEAR_GAP = 2.0  # [s] headway below which a vehicle is close
+NEAR = 5.0  # [m] distance below which a vehicle beside or crossing is close
+HUGGING = 1.0  # [m] distance below which one that we stand behind is too close
+BIG = 7.0  # [m] minimum length of a big vehicle
+#: Actions that never stop: a question how they feel is about the ride.
 GOING_ON = ("follow", "keep-lane", "continue", "move", "stand", "wait")
-#: What we do because something hinders us, what people see of it first.
+#: Actions of ours because of a hindrance, in the order in which people notice them.
 HINDERED: tuple[ActionName, ...] = ("stand", "stop", "brake", "slow-down", "wait", "give-way")
-JUST = 0.3  # [s] for which what is over still goes on, to people
-LATELY = 6.0  # [s] for which what is over is what "that" was
+JUST = 0.3  # [s] for which an action still counts as going on after its end
+LATELY = 6.0  # [s] for which an action can still be what "that" refers to
 RIGHT_OF_WAY = (
     "enter",
     "turn",
@@ -85,19 +85,19 @@ def condition(of: Is, asked: Asked) -> Finding:
     """Weigh that a thing or an event is in a state.
 
     Raises:
-        Unanswered: it is of what is unknown, or of an event that did not happen.
+        Unanswered: it is about something unknown, or an event that did not happen.
     """
     return STATES[of.state](of, asked)
 
 
 def handed(question: Question, asked: Asked) -> Answer | None:
-    """Give the answer of the causal explainers, where the question is one of theirs."""
+    """Return the answer of the causal explainers, if the question is one of theirs."""
     explainer = causal.explainer(question, asked)
     return None if explainer is None else explainer(question, asked)
 
 
 def _about(of: Is, asked: Asked) -> Window:
-    """Give the stretch of the ride that a state is about: that of its event, where it has one."""
+    """Return the stretch of the ride that a state is about: that of its event, if it has one."""
     if of.event is not None:
         found = occasion(asked, of.event)
         if found is not None:
@@ -137,7 +137,7 @@ def _is_option(event: Event, asked: Asked) -> bool:
 
 
 def _as_asked(event: Event, asked: Asked) -> Asked:
-    """Ask of now what is said of what we might do, whatever was spoken of before."""
+    """Return the setting with the present as its time, for what we might do now."""
     now = event.tense in ("present", "future") and not _is_told(asked)
     return replace(asked, span=None) if now else asked
 
@@ -164,7 +164,7 @@ def _comfortable(of: Is, asked: Asked) -> Finding:
 
 
 def _allowed(of: Is, asked: Asked) -> Finding:
-    """Tell what the rules of the road say: of speed the limit, of going first the right of way."""
+    """Return what the rules of the road say: the limit for speed, else the right of way."""
     event = of.event
     if event is None and of.thing is None:
         about = _about(of, asked) if is_past(asked, of.time, of.tense) else None
@@ -185,12 +185,12 @@ def _allowed(of: Is, asked: Asked) -> Finding:
 
 
 def _of_speed(event: Event) -> bool:
-    """Tell whether an event is named for how fast it is."""
+    """Check whether an event is an action that is named by its speed."""
     return "fast" in event.manner or "slowly" in event.manner
 
 
 def _judged(of: Is, asked: Asked) -> Finding:
-    """Tell whether it was necessary, worth it or better: the causal explainers know."""
+    """Hand the question whether it was necessary, worth it or better to the causal explainers."""
     for question in (
         WhetherQuestion(of),
         *(() if of.event is None else (Why(Happens(of.event)),)),
@@ -202,7 +202,7 @@ def _judged(of: Is, asked: Asked) -> Finding:
 
 
 def _amiss(of: Is, asked: Asked) -> Finding:
-    """Tell what hinders us now, or that all is well, where it is asked whether all is well."""
+    """Return what hinders us now, or that nothing does, if the question is whether all is well."""
     if of.thing is not None or of.event is not None:
         return wrong(of, asked)
     plainest = min((e.action for e in _held(asked)), key=HINDERED.index, default=None)
@@ -214,7 +214,7 @@ def _amiss(of: Is, asked: Asked) -> Finding:
 
 
 def _possible(of: Is, asked: Asked) -> Finding:
-    """Tell whether an action can be taken: whether the decision then had it among its options."""
+    """Weigh that an action is possible: that the decision had it among its options."""
     if of.event is None:
         return unknown("not-recorded")
     names = macros(of.event)
@@ -232,7 +232,7 @@ def _possible(of: Is, asked: Asked) -> Finding:
 
 
 def _seen(of: Is, asked: Asked) -> Finding:
-    """Tell whether somebody is in view, hidden or lost."""
+    """Weigh that somebody is in view, hidden or lost."""
     vehicle = number(actor(of))
     about = window(asked, of.time, of.tense)
     if isinstance(of.thing, Vehicles):
@@ -252,7 +252,7 @@ def _seen(of: Is, asked: Asked) -> Finding:
 
 
 def _is_told(asked: Asked) -> bool:
-    """Tell whether the passenger said when."""
+    """Check whether the passenger named the time."""
     return asked.past is not None and asked.past.said
 
 
@@ -264,7 +264,7 @@ def _close(of: Is, asked: Asked) -> Finding:
     about = _about(of, asked) if past else Window(asked.now, asked.now)
     if past:
         if vehicle is not None and asked.now - about.end <= LATELY and not _is_told(asked):
-            about = Window(about.begin, asked.now)  # what came nearest may be just over
+            about = Window(about.begin, asked.now)  # the closest approach may just be over
         if vehicle is None and of.event is None and not about.said:
             about = with_somebody(asked, about)
         return Finding(None, answer=closeness(asked, vehicle, about, "close"))

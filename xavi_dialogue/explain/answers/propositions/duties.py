@@ -1,6 +1,6 @@
 """Duties: whether somebody has to, or should, let another go first, and what we should have done.
 
-The record holds the rule, not what we should have done: advice gets the reason why we did not.
+The record shows the rule, not what we should have done. Advice gets the reason for our choice.
 """
 
 from msgspec.structs import replace
@@ -38,24 +38,24 @@ from xavi_dialogue.explain.answers.reference.naming import is_us, number
 from xavi_dialogue.explain.answers.reference.occasions import occasion
 from xavi_dialogue.explain.answers.ride.priority import fault, owed, priority_at, where_rule_holds
 
-#: What somebody does who lets another go first.
+#: Actions of one that lets another go first.
 YIELDING: tuple[ActionName, ...] = ("give-way", "let-go", "wait")
-#: What he does for another one, where that one is named.
+#: Those of them that are done for another one, if that one is named.
 FOR_ANOTHER: tuple[ActionName, ...] = ("stop", "brake", "slow-down")
 GOING: tuple[ActionName, ...] = ("go", "enter", "cross", "merge", "pull-out", "turn", "pass")
-#: What we are said to do who cannot go on.
+#: Actions ascribed to us when we cannot go on.
 STUCK: tuple[ActionName, ...] = ("keep-lane", "stand", "wait")
-#: What somebody does who comes into another one's way.
+#: Actions of one that comes into another one's way.
 INTO_PATH: tuple[ActionName, ...] = ("pull-out", "cut-in", "cross", "block")
 WAITING: tuple[ActionName, ...] = ("give-way", "wait")
-LATELY = 6.0  # [s] since when who waited for others was not held up by us
-LIKELY = 0.5  # probability from which somebody is expected to stop for us all the same
+LATELY = 6.0  # [s] since when one that waited for others was not held up by us
+LIKELY = 0.5  # minimum probability that somebody is expected to stop for us all the same
 DUTIES = frozenset(("must", "should"))
 MAY = frozenset(("can", "could", "might"))
 
 
 def duty(asked: Asked, event: Event) -> Finding | None:
-    """Weigh that somebody has to, or should, do something; None where it is no such duty.
+    """Weigh that somebody has to, or should, do something; None if it is not such a duty.
 
     Raises:
         Unanswered: a vehicle was never seen, or the record does not hold the rule.
@@ -85,7 +85,7 @@ def duty(asked: Asked, event: Event) -> Finding | None:
 
 
 def _went_first(asked: Asked, event: Event) -> Finding | None:
-    """Tell who of both went first; None where neither has gone, or nobody is named."""
+    """Return which of the two went first; None if neither has gone, or nobody is named."""
     vehicle = number(event.actor) or number(event.object)
     if vehicle is None:
         return None
@@ -100,21 +100,21 @@ def _held(rule: Priority, holds: bool) -> Finding:
 
 
 def _before_him(asked: Asked, event: Event) -> Finding | None:
-    """Tell of somebody whose way we came into at a junction that we went first."""
+    """Return that we went first, for a claim that we came into somebody's way at a junction."""
     vehicle = number(event.object)
     if vehicle is None or event.tense == "future" or occasion(asked, event) is not None:
         return None
     found = priority_at(asked, vehicle, window(asked, event.time, "past"))
     crossing = found.rule in ("give-way", "equal", "depends")
     if crossing and isinstance(found.first, Ego):
-        return _held(found, not found.stood)  # whom we passed as it stood, we took nothing from
+        return _held(found, not found.stood)  # if it stood, we took nothing from it
     waits = asked.world.episodes(Vehicle(vehicle), WAITING, begin=asked.now - LATELY)
     held = [e for e in waits if not is_us(e.object)]
     return Finding(False, tuple(held[-1:])) if held and found.first is None else None
 
 
 def _unwilling(asked: Asked, event: Event) -> Finding | None:
-    """Tell of somebody who is asked to stop for us that he goes first, where the rule is so."""
+    """Return that somebody goes first by the rule, for a question whether they stop for us."""
     if event.action in ("give-way", "let-go") and is_us(event.actor):
         meant = event.tense == "future" or (event.modal == "want" and event.tense == "present")
         if not meant or number(event.object) is None:
@@ -139,7 +139,7 @@ def _unwilling(asked: Asked, event: Event) -> Finding | None:
 
 
 def _not_given(asked: Asked, event: Event) -> Finding | None:
-    """Tell of way that we did not give who had it, and who went first; None where we gave it."""
+    """Return who had right of way and who went first, if we did not give way; None if we did."""
     past = event.tense in ("past", "perfect") and event.modal is None
     if not past or occasion(asked, event) is not None:
         return None
@@ -157,17 +157,17 @@ def _not_given(asked: Asked, event: Event) -> Finding | None:
 
 
 def is_owed(of: Proposition) -> bool:
-    """Tell whether it is said of somebody that he has to let another go first."""
+    """Check whether a proposition says that somebody has to let another go first."""
     return isinstance(of, Happens) and of.event.modal in DUTIES and _pair(of.event) is not None
 
 
 def _may_precede(event: Event) -> bool:
-    """Tell whether it is asked of somebody whether he may go first."""
+    """Check whether an event asks whether somebody may go first."""
     return event.modal in MAY and event.action in GOING and "first" in event.manner
 
 
 def of_order(of: Both) -> Related | None:
-    """Give the right of way that is asked after by "do they go first or do we?"; None: else."""
+    """Return the right of way that "do they go first or do we?" is about; None: else."""
     ours = any(isinstance(part, Happens) and is_us(part.event.actor) for part in of.contents)
     for part in of.contents:
         match part:
@@ -185,7 +185,7 @@ def of_order(of: Both) -> Related | None:
 
 
 def _pair(event: Event) -> tuple[Thing | None, Thing | None] | None:
-    """Give who is to yield and to whom; None where the event is not of that."""
+    """Return who is to yield and to whom; None if the event is not about that."""
     if event.action in YIELDING:
         return event.actor, event.object
     if event.action in FOR_ANOTHER and number(event.actor) is not None and is_us(event.object):
@@ -197,7 +197,7 @@ def _pair(event: Event) -> tuple[Thing | None, Thing | None] | None:
 
 
 def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None) -> Finding:
-    """Tell whether one has to yield to another, by the rule between them."""
+    """Weigh that one has to yield to another, by the rule between them."""
     several = next((t.numbers for t in (yielder, other) if isinstance(t, Vehicles)), ())
     every = Everyone() if isinstance(yielder, Everyone) or isinstance(other, Everyone) else None
     vehicle = number(yielder) or number(other)
@@ -223,7 +223,7 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
 
 
 def owed_to_all(asked: Asked, among: tuple[int, ...], about: Window, *, ours: bool) -> Finding:
-    """Tell to whom of several we have to yield, or who of them has to yield to us."""
+    """Return to whom of several we have to yield, or who of them has to yield to us."""
     rules = {v: priority_at(asked, v, about).rule for v in among}
     wanted = "give-way" if ours else "priority"
     if about.end >= asked.now - 0.1 and on_ring(asked.world.road(asked.now)):
@@ -241,7 +241,7 @@ def owed_to_all(asked: Asked, among: tuple[int, ...], about: Window, *, ours: bo
 
 
 def _advised(asked: Asked, event: Event) -> Finding | None:
-    """Tell why we do not, or did not, do what we should, or that we do."""
+    """Return why we do not, or did not, do what we should; or that we do."""
     plain = replace(event, modal=None)
     if event.action in FOR_ANOTHER and event.tense in ("present", "future"):
         present = replace(plain, tense="present", time=Unsaid())
@@ -258,13 +258,13 @@ def _advised(asked: Asked, event: Event) -> Finding | None:
 
 
 def _handed(asked: Asked, question: Why | Whether) -> Finding | None:
-    """Give the answer of the causal explainers, where they have one."""
+    """Return the answer of the causal explainers, if they have one."""
     explainer = causal.explainer(question, asked)
     return None if explainer is None else Finding(None, answer=explainer(question, asked))
 
 
 def _needed(asked: Asked, event: Event) -> Finding | None:
-    """Tell whether what we did was necessary: the causal explainers know."""
+    """Hand a question whether what we did was necessary to the causal explainers."""
     plain = replace(event, modal=None)
     if occasion(asked, plain) is None:
         return None
@@ -272,7 +272,7 @@ def _needed(asked: Asked, event: Event) -> Finding | None:
 
 
 def blamed(question: Fault, asked: Asked) -> Answer:
-    """Tell the facts of a question of fault: for what we did ourselves, its reason.
+    """Return the facts for a question of fault; for our own actions, the reason.
 
     Raises:
         Unanswered: a vehicle is unknown, nothing is recorded of it, or rollouts are needed.
@@ -289,7 +289,7 @@ def blamed(question: Fault, asked: Asked) -> Answer:
 
 
 def who_first(asked: Asked, such: Proposition | None) -> Priority | None:
-    """Tell who goes first, where that is what is asked of anybody; None where it is not.
+    """Return who goes first, if the question is that, about anybody; else None.
 
     Raises:
         Unanswered: a vehicle was never seen, or the record does not hold the rule.
@@ -322,7 +322,7 @@ def who_first(asked: Asked, such: Proposition | None) -> Priority | None:
 
 
 def _may(event: Event) -> tuple[Thing | None, Thing | None] | None:
-    """Give who is to yield and to whom, where it is asked who may do something."""
+    """Return who is to yield and to whom, if the question is who may do something."""
     if isinstance(event.actor, Wanted) and event.action in GOING:
         return event.object, event.actor
     return _pair(event)
@@ -331,7 +331,7 @@ def _may(event: Event) -> tuple[Thing | None, Thing | None] | None:
 def _to_all(
     asked: Asked, about: Window, yielder: Thing | None, other: Thing | None
 ) -> Priority | None:
-    """Tell to whom we have to yield now, or who all has to yield to us; None where nobody has."""
+    """Return to whom we have to yield now, or who all has to yield to us; None: nobody."""
     road = asked.world.road(asked.now)
     if road is None or is_us(yielder) == is_us(other) or on_ring(road):
         return None
@@ -343,7 +343,7 @@ def _to_all(
 
 
 def _duty_of(event: Event) -> bool:
-    """Tell whether it is asked who is to, not who did."""
+    """Check whether the question is who is to go first, not who did."""
     first = event.action in GOING and event.modal in (None, "can")
     if first and event.tense == "past":  # "who went first, us or the cyclist?"
         return "first" in event.manner and number(event.object) is not None

@@ -1,4 +1,4 @@
-"""Halting: whether we stop for somebody or drive on, where both are asked about."""
+"""Halting: whether we stop for somebody or drive on, if a question names both."""
 
 from msgspec.structs import replace
 
@@ -22,7 +22,7 @@ GOES = frozenset[ActionName](("enter", "go", "move", "cross", "merge", "pull-out
 
 
 def to_come(asked: Asked, event: Event) -> Verdict | None:
-    """Tell when we are going to do something by our plan; None where we hardly do."""
+    """Return when we are going to do something by our plan; None if that is unlikely."""
     found = foreseen(asked, event)
     if found is None or found.share < EXPECTED:
         return None
@@ -36,14 +36,14 @@ def to_come(asked: Asked, event: Event) -> Verdict | None:
 
 
 def _under_way(asked: Asked, event: Event) -> Verdict | None:
-    """Tell that we are doing something already; None where we are not."""
+    """Return that we are doing something already; None if we are not."""
     present = replace(event, tense="present", modal=None)
     found = occasion(asked, present)
     return None if found is None else Verdict(Happens(present), True, (found,), either=True)
 
 
 def stop_or_go(of: Both, asked: Asked) -> Finding | None:
-    """Tell whether we stop, slow down without stopping, or go; None where it is not asked."""
+    """Return whether we stop, slow down without stopping, or go; None if that is not asked."""
     events = [part.event for part in of.contents if isinstance(part, Happens)]
     ahead = all(is_us(e.actor) and e.tense in ("present", "future") for e in events)
     meant = all(e.action in HALTS | GOES | SLOWS for e in events)
@@ -74,7 +74,7 @@ def stop_or_go(of: Both, asked: Asked) -> Finding | None:
 
 
 def _moving(asked: Asked, events: list[Event]) -> Finding | None:
-    """Tell when we move out or in next, where it is asked before or behind whom we do."""
+    """Return when we move out or in next, if the question is before or behind whom we do."""
     near = [e for e in events if e.where is not None or number(e.object) is not None]
     if not near or any(e.action in SLOWS for e in events):
         return None
@@ -84,5 +84,5 @@ def _moving(asked: Asked, events: list[Event]) -> Finding | None:
 
 
 def _deed(action: ActionName) -> Event:
-    """Name what we are doing."""
+    """Return what we are doing as an event."""
     return Event(action, tense="present")

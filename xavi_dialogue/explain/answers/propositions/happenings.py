@@ -1,4 +1,4 @@
-"""Happenings: when something came, and what somebody does, did or will do."""
+"""Happenings: when something happened, and what somebody does, did or will do."""
 
 from collections.abc import Sequence
 from typing import Literal
@@ -57,11 +57,11 @@ from xavi_dialogue.explain.causes.vehicles.announced import announced
 from xavi_dialogue.explain.history.motion import Trend
 from xavi_dialogue.explain.history.thresholds import STANDING
 
-CHANGING = 0.1  # [m/s2] from which a speed still changes
+CHANGING = 0.1  # [m/s2] minimum acceleration of a changing speed
 
 
 def when(question: When, asked: Asked) -> Answer:
-    """Tell when something came, or is going to.
+    """Return when something happened, or is going to.
 
     Raises:
         Unanswered: it did not happen and is not going to.
@@ -97,7 +97,7 @@ def when(question: When, asked: Asked) -> Answer:
 
 
 def _entered(asked: Asked, event: Event) -> Episode | None:
-    """Give our way through the junction that we entered, or drove into, last."""
+    """Return our way through the junction that we entered, or drove into, last."""
     if event.action != "enter" or not is_us(event.actor) or event.tense == "future":
         return None
     about = window(asked, event.time, event.tense)
@@ -106,7 +106,7 @@ def _entered(asked: Asked, event: Event) -> Episode | None:
 
 
 def doing(question: Doing, asked: Asked) -> Answer:
-    """Tell what somebody is doing, did at a time, or will do next; or what happened.
+    """Return what somebody is doing, did at a time, or will do next; or what happened.
 
     Raises:
         Unanswered: it is unknown, or not in the record.
@@ -136,7 +136,7 @@ def doing(question: Doing, asked: Asked) -> Answer:
 
 
 def intent(asked: Asked, vehicle: int) -> Answer:
-    """Tell what somebody else is up to: what its indicator announces, else what is expected."""
+    """Return what another vehicle is about to do: by its indicator, else by our expectation."""
     lit = [
         e
         for e in asked.world.episodes(actor=Vehicle(vehicle), actions=("signal",))
@@ -147,7 +147,7 @@ def intent(asked: Asked, vehicle: int) -> Answer:
 
 
 def activity(asked: Asked, actor: Ego | Vehicle, at: float) -> Activity:
-    """Tell what somebody is doing at a time [s], how fast, and what it is expected to do."""
+    """Return what somebody is doing at a time [s], how fast, and what it is expected to do."""
     world = asked.world
     on = world.episodes(actor=actor, begin=at - 0.3, end=at + 0.1)
     if not on and isinstance(actor, Ego):
@@ -167,7 +167,7 @@ def activity(asked: Asked, actor: Ego | Vehicle, at: float) -> Activity:
 
 
 def _trend(asked: Asked, vehicle: int, at: float) -> Trend | None:
-    """Tell what a speed is doing at a time [s], over as soon as the newest scene shows it over."""
+    """Return how a speed is changing at a time [s]; the newest scene ends a change at once."""
     trend, scene = asked.ride.motion(vehicle).until(at).trend, asked.ride.scene
     seen = None if scene is None or at < scene.time else scene.vehicles.get(vehicle)
     if seen is None or trend not in ("slowing", "speeding-up"):
@@ -177,7 +177,7 @@ def _trend(asked: Asked, vehicle: int, at: float) -> Trend | None:
 
 
 def _to_come(asked: Asked, of: Happens) -> Answer:
-    """Tell when something is to come: by our plan; of others there is only how probable it is."""
+    """Return when something is going to happen: by our plan; for others, how probable it is."""
     event = of.event
     if is_us(event.actor):
         found = foreseen(asked, event)
@@ -204,13 +204,13 @@ def _to_come(asked: Asked, of: Happens) -> Answer:
 
 
 def _planned(asked: Asked, event: Event) -> float | None:
-    """Tell when [s] our plan comes to an event that has not happened; None where it does not."""
+    """Return when [s] our plan does an event that has not happened; None if it does not."""
     found = foreseen(asked, event) if is_us(event.actor) and asked.past is None else None
     return None if found is None or found.share < 0.5 else max(found.moment, asked.now)
 
 
 def _first_held(of: Proposition, asked: Asked) -> Answer:
-    """Tell when a state or relation held first, of the moments at which we decided."""
+    """Return when a state or relation first held, among the times of our decisions."""
     match of:
         case Believed(content=Happens(event=event)) if number(event.actor) is not None:
             return since_when(asked, event)
@@ -232,7 +232,7 @@ def _first_held(of: Proposition, asked: Asked) -> Answer:
 
 
 def _until(asked: Asked, episode: Episode) -> tuple[Measure, ...]:
-    """Tell when an episode ended, or how long it goes on still."""
+    """Return when an episode ended, or how long it still lasts."""
     return (
         Measure(
             "duration", episode.actor, episode.begin, value=round(duration(asked, episode), 2),
@@ -242,7 +242,7 @@ def _until(asked: Asked, episode: Episode) -> tuple[Measure, ...]:
 
 
 def _did(asked: Asked, actor: Ego | Vehicle, about: Window) -> Answer:
-    """Tell what somebody did in a stretch of the ride."""
+    """Return what somebody did in a stretch of the ride."""
     begin, end = max(about.begin, asked.world.begin), min(about.end, asked.now)
     told = [e for e in asked.world.account(begin, end) if e.actor == actor]
     told = told or list(asked.world.episodes(actor=actor, begin=begin, end=end))
@@ -255,7 +255,7 @@ def _did(asked: Asked, actor: Ego | Vehicle, about: Window) -> Answer:
 
 
 def _several(asked: Asked, who: Sequence[Ego | Vehicle], at: float) -> Answer:
-    """Tell what several are doing: how each looks, with its speed and what it is about."""
+    """Return what several are doing: how each looks, its speed and its actions."""
     looks: list[Look] = []
     facts: list[Fact] = []
     for actor in who:

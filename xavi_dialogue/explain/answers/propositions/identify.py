@@ -1,4 +1,4 @@
-"""Identify: who or what a thing is, and who it is of whom something holds."""
+"""Identify: who or what a thing is, and for whom something holds."""
 
 from typing import Literal, TypeVar
 
@@ -60,16 +60,16 @@ from xavi_dialogue.explain.answers.reference.occasions import PLAIN, occasion, o
 from xavi_dialogue.explain.answers.ride.places import locate
 
 Term = TypeVar("Term", bound=Value)
-MOST = 4  # vehicles of whom it is stated what they do
-BESIDE = 2.0  # [m] sideways from which somebody is in another lane
+MOST = 4  # maximum of vehicles whose conduct is stated
+BESIDE = 2.0  # [m] minimum sideways distance of somebody in another lane
 STRAIGHT: dict[Relation, Bearing] = {"ahead-of": "ahead", "behind": "behind"}
-REACH = 30.0  # [m] behind us from which somebody is about to pass
+REACH = 30.0  # [m] maximum distance behind us of somebody who is about to pass
 GOING: tuple[ActionName, ...] = ("go", "move", "enter", "cross", "turn", "continue")
-LIKELY = 0.3  # probability from which somebody may be meant by who is going to do something
+LIKELY = 0.3  # minimum probability of an action for one who may be meant by "who is going to"
 
 
 def identify(question: Identify, asked: Asked) -> Answer:
-    """Tell what a thing is: how it looks, where it is and what it is doing.
+    """Return what a thing is: how it looks, where it is and what it is doing.
 
     Raises:
         Unanswered: it is unknown.
@@ -78,7 +78,7 @@ def identify(question: Identify, asked: Asked) -> Answer:
 
 
 def identified(asked: Asked, thing: Thing, at: float) -> Answer:
-    """Tell who or what a thing is at a time [s].
+    """Return who or what a thing is at a time [s].
 
     Raises:
         Unanswered: it is unknown.
@@ -97,10 +97,10 @@ def identified(asked: Asked, thing: Thing, at: float) -> Answer:
 
 
 def which(question: Which, asked: Asked) -> Answer:
-    """Tell of whom something holds, held or will hold.
+    """Return for whom something holds, held or will hold.
 
     Raises:
-        Unanswered: it takes for granted what did not happen.
+        Unanswered: it presupposes something that did not happen.
     """
     such = question.such
     if such is None:
@@ -123,7 +123,7 @@ def which(question: Which, asked: Asked) -> Answer:
 
 
 def _let_go(question: Which, owed: Happens, asked: Asked) -> Identified | None:
-    """Find whom a vehicle let go first; None where it was not seen to."""
+    """Find the one that a vehicle let go first; None if no such thing was seen."""
     try:
         found = _who_did(replace(question, thing=Wanted()), owed, asked)
     except Unanswered:
@@ -132,7 +132,7 @@ def _let_go(question: Which, owed: Happens, asked: Asked) -> Identified | None:
 
 
 def _who_did(question: Which, such: Happens, asked: Asked) -> Answer:
-    """Find of whom an event is known: by its episodes of the time asked about."""
+    """Find for whom an event is known, by its episodes in the time asked about."""
     event = _open(such.event)
     found = [
         (e, who)
@@ -169,7 +169,7 @@ def _told(
 
 
 def _nobody(question: Which, such: Proposition, asked: Asked) -> Answer:
-    """Tell that nobody did, with what the one who is named did."""
+    """Return that nobody did it, with what the one who is named did."""
     event = such.event if isinstance(such, Happens) else None
     if event is not None and isinstance(event.actor, Ego) and _wants(event.object):
         alone = replace(event, object=None)
@@ -188,7 +188,7 @@ def _nobody(question: Which, such: Proposition, asked: Asked) -> Answer:
 
 
 def _waits_for(event: Event, asked: Asked) -> Answer:
-    """Tell whom somebody has to let go first who is not seen to wait; else why it slows or stands.
+    """Return whom somebody must let go first who is not seen to wait; else why it slows or stands.
 
     Raises:
         Unanswered: it does neither, or was never seen.
@@ -201,7 +201,7 @@ def _waits_for(event: Event, asked: Asked) -> Answer:
 
 
 def _coming_past(asked: Asked) -> tuple[Look, ...]:
-    """Tell who is about to pass us, or does, in another lane: the nearest of them."""
+    """Return the closest of those that pass us, or are about to, in another lane."""
     ours = asked.world.measure("speed", Ego(), asked.now).value or 0.0
     found = [
         look
@@ -220,7 +220,7 @@ def _numbers(seen: tuple[Look, ...]) -> tuple[int, ...]:
 
 
 def _hides(asked: Asked, such: Related, at: float) -> bool:
-    """Tell whether a vehicle hides at a time [s] from where somebody might come."""
+    """Check whether a vehicle hides at a time [s] a place from which somebody might come."""
     trace = asked.ride.at(at)
     if such.relation != "behind" or trace is None or not isinstance(such.to, Vehicle):
         return False
@@ -228,7 +228,7 @@ def _hides(asked: Asked, such: Related, at: float) -> bool:
 
 
 def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
-    """Find of whom a state or relation holds, or who is likeliest to do something."""
+    """Find for whom a state or relation holds, or who is likeliest to do something."""
     if isinstance(such, Related) and such.relation == "behind" and is_building(such.to):
         raise Unanswered(NotRecorded("out-of-sight"))
     at = instant(asked, time_of(such), "present")
@@ -273,7 +273,7 @@ def _who_is(question: Which, such: Proposition, asked: Asked) -> Answer:
 
 
 def _seen_merely(such: Proposition) -> bool:
-    """Tell whether it is asked who is there at all."""
+    """Check whether the question is who is there at all."""
     match such:
         case Is(state="present" | "visible"):
             return True
@@ -283,14 +283,14 @@ def _seen_merely(such: Proposition) -> bool:
 
 
 def _plainest(such: Related, seen: tuple[Look, ...]) -> tuple[Look, ...]:
-    """Choose of those at a place who is straight there, if anybody is; the nearest first."""
+    """Return of those at a place the ones that are exactly there, if any; the closest first."""
     bearing = STRAIGHT.get(such.relation)
     straight = [look for look in seen if look.bearing == bearing]
     return tuple(sorted(straight or seen, key=lambda look: look.distance))
 
 
 def _candidates(question: Which, asked: Asked, *, ever: bool) -> tuple[Ego | Vehicle, ...]:
-    """Find who may be meant: those of the kind asked for; ours too where no kind is said."""
+    """Find who may be meant: those of the kind asked for; the ego too if no kind is named."""
     thing, world = question.thing, asked.world
     at = asked.moment
     if question.among:
@@ -310,19 +310,19 @@ def _candidates(question: Which, asked: Asked, *, ever: bool) -> tuple[Ego | Veh
 
 
 def _of_kind(asked: Asked, vehicles: tuple[int, ...], kind: Kind, at: float) -> tuple[int, ...]:
-    """Keep those of a kind; of a kind that passengers use loosely, any."""
+    """Return those of a kind; any vehicles for a kind that passengers use loosely."""
     strict = of_kind(asked, vehicles, kind, at, strict=True)
     return strict or of_kind(asked, vehicles, kind, at)
 
 
 def _open(event: Event) -> Event:
-    """Return an event asked of somebody: without a part that is asked for, its actor is."""
+    """Return an event without the part that is asked for; its actor is the one to find."""
     parts = (event.actor, event.object)
     return event if any(_wants(part) for part in parts) else replace(event, actor=Wanted())
 
 
 def _tense(event: Event) -> Literal["past", "present"]:
-    """Give the tense of an event for a state."""
+    """Return the tense of an event for a state."""
     return "past" if event.tense in ("past", "perfect") else "present"
 
 
@@ -331,7 +331,7 @@ def _wants(thing: Thing | None) -> bool:
 
 
 def _conduct(asked: Asked, numbers: tuple[int, ...], at: float) -> tuple[Fact, ...]:
-    """Tell what each of a few vehicles is doing at a time [s]: its speed, and what is under way."""
+    """Return what a few vehicles are doing at a time [s]: their speeds and their actions."""
     if len(numbers) > MOST:
         return ()
     found: list[Fact] = []

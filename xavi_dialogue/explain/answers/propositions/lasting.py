@@ -36,13 +36,13 @@ from xavi_dialogue.explain.answers.reference.naming import is_us
 from xavi_dialogue.explain.answers.ride.passages import taken
 from xavi_dialogue.explain.answers.ride.places import time_to_go
 
-STEP = 0.5  # [s] between the moments that are looked at
-BREAK = 1.5  # [s] for which a state may seem to be interrupted
-MANY = 240  # moments that are looked at, at most
+STEP = 0.5  # [s] between the times that are checked
+BREAK = 1.5  # [s] maximum interruption of a state
+MANY = 240  # maximum of times that are checked
 
 
 def how_long(question: HowLong, asked: Asked) -> Answer:
-    """Tell how long something lasted, has lasted so far, or is expected to last.
+    """Return how long something lasted, has lasted so far, or is expected to last.
 
     Raises:
         Unanswered: it did not happen.
@@ -68,7 +68,7 @@ def how_long(question: HowLong, asked: Asked) -> Answer:
 
 
 def _stands_there(of: Proposition, asked: Asked) -> Episode | None:
-    """Find the standstill of somebody of whom it is asked how long he has been there."""
+    """Find the standstill of somebody, for a question how long they have been there."""
     match of:
         case Is(state="present", thing=Vehicle() as who, time=Now() | Unsaid() | WholeRide()):
             stood = asked.world.episodes(who, ("stop", "stand"))
@@ -77,7 +77,7 @@ def _stands_there(of: Proposition, asked: Asked) -> Episode | None:
 
 
 def _to_come(of: Event | Related, asked: Asked) -> bool:
-    """Tell whether it is asked how long something goes on from now."""
+    """Check whether the question is how long something goes on from now."""
     if is_ahead(asked, of.time, of.tense):
         return True
     going = isinstance(of.time, Now | Unsaid) and of.tense == "present"
@@ -85,7 +85,7 @@ def _to_come(of: Event | Related, asked: Asked) -> bool:
 
 
 def staying(asked: Asked, leader: Vehicle) -> Staying:
-    """Tell how long we mean to stay behind somebody: until we move out, or he turns off."""
+    """Return how long we plan to stay behind somebody: until we change lanes, or they turn off."""
     if stands(asked):
         return Staying(leader, left=remaining_wait(asked))
     for action, begin in steps(asked):
@@ -98,16 +98,16 @@ def staying(asked: Asked, leader: Vehicle) -> Staying:
 
 
 def in_front(asked: Asked) -> Vehicle | None:
-    """Give the vehicle that we follow now."""
+    """Return the vehicle that we follow now."""
     followed = asked.world.episodes(Ego(), ("follow",))
     on = [e.object for e in followed if e.end is None and isinstance(e.object, Vehicle)]
     return on[-1] if on else None
 
 
 def state_lasting(of: Proposition, asked: Asked) -> Answer:
-    """Tell since when a state holds, or how long it held the last time.
+    """Return since when a state holds, or how long it held the last time.
 
-    A state that never held is answered as whether it does.
+    For a state that never held, the answer is whether it does.
     """
     if isinstance(of, Happens):
         return event_lasting(of.event, asked)
@@ -137,7 +137,7 @@ def state_lasting(of: Proposition, asked: Asked) -> Answer:
 
 
 def at_time(of: Proposition, at: float) -> Proposition:
-    """Put a state at a moment [s]."""
+    """Return a state with a moment [s] as its time."""
     if isinstance(of, Not):
         return Not(at_time(of.content, at))
     if isinstance(of, Compares):

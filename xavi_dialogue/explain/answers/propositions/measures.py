@@ -1,4 +1,4 @@
-"""Measures: how much, of whom, when: values, extremes, ranges over a stretch of the ride."""
+"""Measures: values, extremes and ranges of a measure, by thing and time."""
 
 from itertools import combinations
 
@@ -50,26 +50,26 @@ NUMBERS: frozenset[Attribute] = frozenset(
     ("speed", "acceleration", "deceleration", "gap", "headway", "distance", "time-to-collision",
      "excess", "jerk")
 )  # fmt: skip
-#: Whose least value says nothing: it is always there.
+#: Attributes whose minimum means nothing, because it is always reached.
 UPWARDS: frozenset[Attribute] = frozenset(("deceleration", "jerk", "excess"))
-PAIRS = 3  # of vehicles between which a distance is stated
-#: Gaps of who was out of sight then.
+PAIRS = 3  # maximum of pairs of vehicles whose distance is stated
+#: Gaps of vehicles that were out of sight.
 UNSEEN = ("out-of-view", "hidden")
-#: Of two: the other one is ours where none is said.
+#: Attributes between two things; by default the other one is the ego.
 MUTUAL: frozenset[Attribute] = frozenset(("gap", "headway", "distance", "time-to-collision"))
-#: What takes no other name where somebody was near: "how close was it when it went by?".
+#: Actions after which a question without a name is about whoever was close.
 PASSING: frozenset[ActionName] = frozenset(("pass", "overtake", "cross", "come", "approach"))
-#: Whose extreme is over all vehicles where none is named.
+#: Attributes whose extreme is over all vehicles if none is named.
 ANYBODY: frozenset[Attribute] = frozenset(("distance", "time-to-collision"))
-#: Answered of our own way, whatever thing was named.
+#: Attributes that are always about our own way.
 OURS: frozenset[Attribute] = frozenset(("distance-to-go", "time-to-go", "arrival-time"))
 
 
 def how_much(question: HowMuch, asked: Asked) -> Answer:
-    """Tell the value of a measure.
+    """Return the value of a measure.
 
     Raises:
-        Unanswered: what it is of is unknown or did not happen, or the record does not hold it.
+        Unanswered: its thing is unknown or its event did not happen, or it is not recorded.
     """
     of = question.of
     check_sense(of.thing)
@@ -86,7 +86,7 @@ def how_much(question: HowMuch, asked: Asked) -> Answer:
         if coming is not None:
             return coming
     if of.attribute == "gap" and question.extreme == "lowest" and isinstance(of.to, Vehicle):
-        of = replace(of, attribute="distance")  # beside one another too, not only in line
+        of = replace(of, attribute="distance")  # also for those beside us
     if of.attribute == "delay" and question.extreme == "highest" and of.event is None:
         return peak(Peak("delay", of.time), asked)
     special = SPECIAL.get(of.attribute)
@@ -105,7 +105,7 @@ def how_much(question: HowMuch, asked: Asked) -> Answer:
 
 
 def values(asked: Asked, of: Measured) -> tuple[Measure, ...]:
-    """Give the values of a measure: of each thing, at its time, or over its stretch of the ride."""
+    """Return the values of a measure for each thing, at its time or over its stretch of ride."""
     at = instant(asked, of.time, of.tense)
     if isinstance(of.thing, Vehicles) and of.thing == of.to:
         return _of_pairs(asked, of, of.thing.numbers, at)
@@ -120,7 +120,7 @@ def values(asked: Asked, of: Measured) -> tuple[Measure, ...]:
 def _of_pairs(
     asked: Asked, of: Measured, numbers: tuple[int, ...], at: float
 ) -> tuple[Measure, ...]:
-    """Give a value for each pair of several vehicles: how far they are apart."""
+    """Return a value for each pair of several vehicles: their distance."""
     pairs = list(combinations(numbers, 2))[:PAIRS]
     return tuple(
         m for one, other in pairs
@@ -129,7 +129,7 @@ def _of_pairs(
 
 
 def value_at(asked: Asked, of: Measured, thing: Thing, at: float) -> tuple[Measure, ...]:
-    """Give the value at a time [s]; where it is not in view then, also when it was seen last."""
+    """Return the value at a time [s]; for a thing out of view, also when it was last seen."""
     if of.attribute in OURS and isinstance(thing, Vehicle):
         return (Measure(of.attribute, thing, at, gap="others-thoughts"),)
     one, other = sides(asked, of, thing, at)
@@ -148,7 +148,7 @@ def value_at(asked: Asked, of: Measured, thing: Thing, at: float) -> tuple[Measu
 
 
 def things_of(asked: Asked, of: Measured, at: float) -> tuple[Thing, ...]:
-    """Tell whose measure it is: each road user; a place as it is.
+    """Return the things that are measured: each road user; a place as it is.
 
     Raises:
         Unanswered: nobody fits, or a vehicle was never seen.
@@ -163,7 +163,7 @@ def things_of(asked: Asked, of: Measured, at: float) -> tuple[Thing, ...]:
 
 
 def sides(asked: Asked, of: Measured, thing: Thing, at: float) -> tuple[Thing, Thing | None]:
-    """Tell between whom a measure is taken: where only one is named, between that and us."""
+    """Return the two things that a measure is between; the ego, if only one is named."""
     if of.attribute in OURS:
         return Ego(), Destination() if of.attribute != "arrival-time" else of.to
     if of.attribute not in MUTUAL or of.to is not None:
@@ -174,13 +174,13 @@ def sides(asked: Asked, of: Measured, thing: Thing, at: float) -> tuple[Thing, T
 
 
 def best_of(asked: Asked, of: Measured, at: float) -> Measure:
-    """Give one value of a measure, to compare: at its time, or over its stretch of the ride."""
+    """Return one value of a measure for a comparison, at its time or over its stretch of ride."""
     found = values(asked, of)
     return found[0] if found else Measure(of.attribute, of.thing, at, gap="not-applicable")
 
 
 def _ahead(asked: Asked, at: float) -> Thing | None:
-    """Give the vehicle ahead of us that is nearest; else the next junction is none of it."""
+    """Return the closest vehicle ahead of us; None if there is none."""
     ahead = [
         look
         for look in looks(asked, asked.world.in_view(at), at)
@@ -196,7 +196,7 @@ def _ahead(asked: Asked, at: float) -> Thing | None:
 def _besides(
     asked: Asked, attribute: Attribute, one: Thing, other: Thing | None, at: float
 ) -> tuple[Measure, ...]:
-    """Tell what goes with a value: the seconds of a gap."""
+    """Return measures that complete a value: for a gap, the headway [s]."""
     if attribute != "gap" or other is None:
         return ()
     headway = asked.world.measure("headway", one, at, other)
@@ -204,7 +204,7 @@ def _besides(
 
 
 def _over(asked: Asked, of: Measured, thing: Thing, about: Window) -> tuple[Measure, ...]:
-    """Give the range of a measure over a stretch: from the lowest to the highest, and the mean."""
+    """Return the range of a measure over a stretch, from lowest to highest, and the mean."""
     if not about.said and asked.now - about.end <= RECENT:
         about = Window(about.begin, asked.now)
     one, other = sides(asked, of, thing, about.end)
@@ -231,7 +231,7 @@ def _nearest(
     asked: Asked, attribute: Attribute, one: Thing, which: str, about: Window,
     other: Thing | None,
 ) -> Measure:  # fmt: skip
-    """Give the extreme; that of the distance where neither was in the way of the other."""
+    """Return the extreme; of the plain distance, if neither was in the other's way."""
     found = _extreme(asked, attribute, one, which, about, other)
     if found.gap is None or attribute not in ("gap", "headway") or other is None:
         return found
@@ -240,7 +240,7 @@ def _nearest(
 
 
 def _extremes(asked: Asked, of: Measured, which: str, about: Window) -> tuple[Measure, ...]:
-    """Give the extreme of each thing over a stretch of the ride, and where we were at it."""
+    """Return the extreme for each thing over a stretch of the ride, and where we were then."""
     if about.end - about.begin < 0.1:
         about = Window(asked.world.begin, asked.now)
     found: list[Measure] = []
@@ -268,7 +268,7 @@ def _extremes(asked: Asked, of: Measured, which: str, about: Window) -> tuple[Me
 
 
 def _of_anybody(asked: Asked, attribute: Attribute, which: str, about: Window) -> Measure:
-    """Give the extreme of a measure between us and whichever vehicle it is with."""
+    """Return the extreme of a measure between us and any vehicle."""
     each = (
         _extreme(asked, attribute, Ego(), which, about, Vehicle(v)) for v in asked.world.vehicles
     )
@@ -291,7 +291,7 @@ def _extreme(
 
 
 def _of_event(question: HowMuch, asked: Asked, event: Event) -> Answer:
-    """Give a measure of an event: over the episode that it was.
+    """Return a measure of an event over its episode.
 
     Raises:
         Unanswered: it did not take place.

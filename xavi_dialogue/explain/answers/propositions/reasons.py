@@ -63,28 +63,28 @@ from xavi_dialogue.explain.answers.suppositions import deciding
 from xavi_dialogue.explain.causes.plans.terms import RISK
 
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "pass", "come", "approach"))
-#: Names for moving in among others: by a lane change, or by a turn into a road.
+#: Names for moving in between others: by a lane change, or by a turn into a road.
 JOINING = frozenset[ActionName](("cut-in", "pull-out", "merge", "enter"))
 CHANGING = frozenset[ActionName](("change-left", "change-right", "change-lane"))
 CROSSINGS = frozenset[ActionName](
     ("turn", "exit-left", "exit-right", "exit-straight", "continue-next-exit", "leave")
 )
 SLOW = frozenset[State](("slow", "late", "stuck", "stationary"))
-#: What somebody does who stays in his lane.
+#: Actions of somebody who stays in their lane.
 KEEPING = frozenset[ActionName](
     ("follow", "keep-distance", "approach", "keep-lane", "wait", "stand", "move", "slow-down")
 )
-#: What somebody with priority does not do.
+#: Actions that somebody with priority need not take.
 YIELDING = frozenset[ActionName](
     ("stop", "wait", "give-way", "let-go", "slow-down", "brake", "stand")
 )
 HOLDING = frozenset[ActionName](("follow", "keep-distance", "approach"))
-#: Durations of ours that waiting explains.
+#: Durations of ours that are explained by waiting.
 LASTING = frozenset[Attribute](("duration", "delay", "waiting-time"))
 
 
 def why(question: Why, scene: Asked) -> Answer:
-    """Tell why something is or was so.
+    """Return why something is or was so.
 
     Raises:
         Unanswered: it was not so; or the record lacks it; or rollouts are needed.
@@ -145,13 +145,13 @@ def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) 
 
 
 def _goes_first(event: Event) -> bool:
-    """Check whether another vehicle is said to go first: its right of way is the reason."""
+    """Check whether another vehicle is said to go first, so that right of way is the reason."""
     going = event.action in GOING and manner_of(event, "first") is not None
     return going and vehicle_in(event.actor) is not None
 
 
 def _need_not(event: Event, scene: Asked) -> Answer | None:
-    """Answer why another vehicle does not stop or give way: it has priority; None if not."""
+    """Answer why another vehicle does not stop or give way, if it has priority; else None."""
     vehicle = None if is_own(event.actor) else vehicle_in(event.actor)
     if vehicle is None or event.action not in YIELDING:
         return None
@@ -164,7 +164,7 @@ def _need_not(event: Event, scene: Asked) -> Answer | None:
 
 
 def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
-    """Tell why we did something, or drove in some way.
+    """Return why we did something, or drove in some way.
 
     Raises:
         Unanswered: we did not; or the record lacks it; or rollouts are needed.
@@ -220,7 +220,7 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
 
 
 def _joined(event: Event, scene: Asked, instead: Proposition | None) -> Answer:
-    """Tell why we moved in, pulled out or entered a road: by a lane change, or at a junction."""
+    """Return why we moved in, pulled out or entered a road: by a lane change, or at a junction."""
     other = event.object if event.where is None else event.where.to
     if vehicle_in(other) is not None and going.crossed(scene) is not None:
         return going.went(structs.replace(event, action="go", object=other, where=None), scene)
@@ -239,14 +239,14 @@ def _joined(event: Event, scene: Asked, instead: Proposition | None) -> Answer:
 
 
 def _by_latest(found: Answer, scene: Asked) -> Answer:
-    """Take the decision in force as evidence of a reason for what goes on: it weighed the foil."""
+    """Use the decision in force as evidence for what goes on, because it weighed the foil."""
     if not isinstance(found, MotionReason):
         return found
     return structs.replace(found, evidence=Evidence(traces=(scene.ride.latest.trace_id,)))
 
 
 def _is_risky(event: Event, scene: Asked) -> bool:
-    """Check whether what we did not do carries a risk: the answer states it first."""
+    """Check whether what we did not do has a risk, which the answer states first."""
     try:
         found = choices.why_not(event, scene)
     except Unanswered as unanswered:
@@ -257,7 +257,7 @@ def _is_risky(event: Event, scene: Asked) -> bool:
 
 
 def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
-    """Tell why we did not do something, or do not.
+    """Return why we did not do something, or do not.
 
     Raises:
         Unanswered: we did; or it was not possible; or the record lacks it; or rollouts are needed.

@@ -29,9 +29,9 @@ from xavi_dialogue.explain.answers.sight.sight import others_mind
 from xavi_dialogue.explain.causes.vehicles.actions import EXITS
 from xavi_dialogue.explain.history.ride import planned
 
-BODY = 1.5  # [m] that somebody who is between two others takes up at least
-LATELY = 10.0  # [s] since when a turn leads the way that we go
-STEP = 0.5  # [s] between the moments at which a relation is tried over a stretch
+BODY = 1.5  # [m] minimum that somebody between two others takes up
+LATELY = 10.0  # [s] after a turn, up to which it shows that somebody goes our way
+STEP = 0.5  # [s] between the times at which a relation is checked over a stretch
 COMPARING: dict[Relation, Attribute] = {
     "faster-than": "speed", "slower-than": "speed", "closer-than": "distance",
     "near": "distance",
@@ -87,7 +87,7 @@ def related(of: Related, asked: Asked) -> Finding:
 def holds_over(
     asked: Asked, relation: Relation, thing: Thing, to: Thing, about: Window
 ) -> tuple[bool | None, float]:
-    """Tell whether a relation held at any time in a stretch, and when [s]."""
+    """Check whether a relation held at any time in a stretch, and when [s]."""
     if about.instant:
         return asked.world.relation(relation, thing, to, about.middle), about.middle
     answers: list[bool | None] = []
@@ -104,7 +104,7 @@ def holds_over(
 def _between(of: Related, asked: Asked, thing: Thing, to: Thing, about: Window) -> Finding:
     near = about if is_past(asked, of.time, of.tense) else Window(asked.now, asked.now)
     if of.relation == "with" and isinstance(of.time, Unsaid):
-        near = Window(asked.now, asked.now)  # who came with us is with us
+        near = Window(asked.now, asked.now)  # one who came with us is with us
     holds, at = holds_over(asked, of.relation, thing, to, near)
     facts = _facts(of, asked, thing, to, at)
     if holds is False and of.relation == "with" and is_us(to):
@@ -119,7 +119,7 @@ def _between(of: Related, asked: Asked, thing: Thing, to: Thing, about: Window) 
 
 
 def _in_the_middle(of: Related, asked: Asked, sides: tuple[int, ...], at: float) -> Finding:
-    """Weigh that a vehicle is between two others: it is no farther by way of it."""
+    """Weigh that a vehicle is between two others: the way past it is no longer."""
     one, other = Vehicle(sides[0]), Vehicle(sides[-1])
     pairs = ((one, of.thing), (of.thing, other), (one, other))
     found = [asked.world.measure("distance", a, at, b) for a, b in pairs]
@@ -133,7 +133,7 @@ def _in_the_middle(of: Related, asked: Asked, sides: tuple[int, ...], at: float)
 
 
 def _facts(of: Related, asked: Asked, thing: Thing, to: Thing, at: float) -> tuple[Fact, ...]:
-    """Tell what shows how two things stand to one another: their looks, or the values compared."""
+    """Return facts that show how two things relate: their looks, or the values compared."""
     attribute = COMPARING.get(of.relation)
     if attribute == "speed":
         speeds = (asked.world.measure("speed", one, at) for one in (thing, to))
@@ -146,7 +146,7 @@ def _facts(of: Related, asked: Asked, thing: Thing, to: Thing, at: float) -> tup
 
 
 def _went_our_way(asked: Asked, thing: Thing) -> bool:
-    """Tell whether somebody has just made the turn that we are going to make."""
+    """Check whether somebody has just made the turn that we are going to make."""
     ours = next((action for action in planned(asked.ride.latest) if action in EXITS), None)
     if ours is None or not isinstance(thing, Vehicle):
         return False
@@ -155,7 +155,7 @@ def _went_our_way(asked: Asked, thing: Thing) -> bool:
 
 
 def _right_of_way(of: Related, asked: Asked, about: Window) -> Finding:
-    """Tell who goes first: told as right of way, whichever way round it was asked."""
+    """Return who goes first as right of way, whichever way round the question is."""
     ours = is_us(of.thing) == (of.relation == "has-priority-over")
     past = is_past(asked, of.time, of.tense)
     near = where_rule_holds(asked, of, about) if past else Window(asked.now, asked.now)
@@ -169,7 +169,7 @@ def _right_of_way(of: Related, asked: Asked, about: Window) -> Finding:
 
 
 def _waiting(of: Related, asked: Asked) -> Finding:
-    """Tell whether somebody waits for another: as an episode, else as the relation has it."""
+    """Weigh that somebody waits for another: by an episode, else by the relation."""
     event = Event("wait", of.thing, of.to, time=of.time, tense=of.tense)
     found = happens(Happens(event), asked)
     if found.holds or number(of.thing) is None:

@@ -23,7 +23,7 @@ HALTING: Final = frozenset[ActionName](
 
 
 def at_crossing(of: Proposition | None) -> bool:
-    """Tell whether it is asked if we have to stop at a crossing for people on foot."""
+    """Check whether the question is if we must stop at a crossing for people on foot."""
     event = of.event if isinstance(of, Happens) else Event("happen")
     place = event.where.to if event.where is not None else event.object
     crossing = isinstance(place, Feature) and place.kind == "crossing"
@@ -31,7 +31,7 @@ def at_crossing(of: Proposition | None) -> bool:
 
 
 def whether(question: Whether, asked: Asked) -> Answer:
-    """Tell that we have to for who is on foot there now; else that we need not, but for such.
+    """Return that we must stop for people who are on foot there now, else only for such people.
 
     Raises:
         Unanswered: the record does not hold the rule.
@@ -44,7 +44,7 @@ def whether(question: Whether, asked: Asked) -> Answer:
 
 
 def supposes_walker(question: WhatIf) -> bool:
-    """Tell whether it is asked if we have to stop where somebody, or nobody, is on a crossing."""
+    """Check whether the question is if we must stop with somebody, or nobody, on a crossing."""
     if not isinstance(question.then, Whether) or not _is_owed(question.then.that):
         return False
     match question.supposed:
@@ -56,13 +56,13 @@ def supposes_walker(question: WhatIf) -> bool:
 
 
 def supposed(question: WhatIf, asked: Asked) -> Answer:
-    """Tell whether we have to stop there, by the rule."""
+    """Answer whether we must stop there, by the rule."""
     empty = isinstance(question.supposed, Related) and question.supposed.thing == Nobody()
     return _rule(asked, holds=not empty)
 
 
 def ever_given(asked: Asked, event: Event) -> Finding:
-    """Tell to whom we gave way on the whole ride: what is recorded, not what the rules were."""
+    """Return to whom we gave way on the whole ride, as recorded; the rules are not considered."""
     kinds: tuple[ActionName, ...] = ("give-way", "let-go", "wait")
     given = asked.world.episodes(actor=Ego(), actions=kinds, end=asked.now)
     whom, those = number(event.object), tuple(e for e in given if number(e.object))
@@ -76,7 +76,7 @@ def _rule(asked: Asked, *, holds: bool) -> Priority:
 
 
 def _is_owed(of: Proposition) -> bool:
-    """Tell whether it is said that we have to stop."""
+    """Check whether a proposition says that we must stop."""
     if not isinstance(of, Happens) or of.event.modal not in ("must", "should"):
         return False
     event = of.event
@@ -84,7 +84,7 @@ def _is_owed(of: Proposition) -> bool:
 
 
 def _walker(asked: Asked) -> int | None:
-    """Find who is on foot and goes before us now."""
+    """Find somebody on foot who goes before us now."""
     held = top_holders(asked.world.states, asked.ride.latest, EGO)
     found = (v for v, how in held if how == "right-of-way")
     looks = ((v, asked.world.look(v, asked.now)) for v in found)

@@ -1,4 +1,4 @@
-"""Standings: why things stand so to each other, and why lights are shown."""
+"""Standings: why things are in a relation, and why lights are shown."""
 
 from xavi_dialogue.domain.answers import Answer
 from xavi_dialogue.domain.meaning import Whether
@@ -14,7 +14,7 @@ SIDES: dict[str, Side] = {"left": "left", "right": "right"}
 
 
 def related(of: Related, scene: Asked) -> Answer:
-    """Tell why two things stand so to each other: what the one that moves does."""
+    """Return why two things are in a relation: what the moving one does."""
     lane_like = of.relation == "on" and is_own(of.thing)
     if lane_like:
         return choices.in_lane(scene)
@@ -37,7 +37,7 @@ def related(of: Related, scene: Asked) -> Answer:
 
 
 def signalling(of: Has, scene: Asked) -> Answer:
-    """Tell why somebody shows a light."""
+    """Return why somebody shows a light."""
     if is_own(of.thing) and of.attribute == "brake-lights":
         return motions.motion(Event("brake", tense=of.tense), scene)
     if is_own(of.thing):
@@ -48,8 +48,8 @@ def signalling(of: Has, scene: Asked) -> Answer:
 
 
 def fact(of: Proposition, scene: Asked) -> Answer:
-    """Tell of what has no cause that the record tells: whether it is so at all."""
-    # Deferred: whether something is so may itself be asked of the reasons.
+    """Return whether something holds at all, if the record shows no cause for it."""
+    # Deferred import: whether something holds may be a question about reasons itself.
     from xavi_dialogue.explain.answers.propositions.verdicts import whether
 
     return whether(Whether(of), scene)

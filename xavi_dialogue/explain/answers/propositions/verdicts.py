@@ -44,7 +44,7 @@ from xavi_dialogue.explain.answers.reference.occasions import occasion
 from xavi_dialogue.explain.answers.ride.onward import WAYS, whether_ours
 from xavi_dialogue.explain.answers.suppositions.own_suppositions import claimed, of_us
 
-#: Manners that are a matter of opinion: what we did so is met with its reason.
+#: Manners that are a matter of opinion; the reply is the reason for what we did.
 JUDGED = frozenset(("late", "early", "long"))
 PACES: dict[str, State] = {"fast": "fast", "slowly": "slow"}
 PASSING = frozenset(("pass", "overtake"))
@@ -52,10 +52,10 @@ DRIVING = frozenset(("move", "go", "turn", "exit-left", "exit-right", "enter", "
 
 
 def whether(question: Whether, asked: Asked) -> Answer:
-    """Tell whether something holds, with what bears it out or is so instead.
+    """Answer whether something holds, with the facts that support it or hold instead.
 
     Raises:
-        Unanswered: it is of what is unknown or did not happen; or rollouts are needed.
+        Unanswered: it is about something unknown, or what did not happen; or it needs rollouts.
     """
     ours = whether_ours(question, asked)
     if ours is not None:
@@ -79,7 +79,7 @@ def whether(question: Whether, asked: Asked) -> Answer:
 
 
 def _kept_behind(that: Proposition, found: Finding, asked: Asked) -> Answer | None:
-    """Tell why we are not going to overtake, where it is asked whether we are."""
+    """Return why we are not going to overtake, if the question is whether we are."""
     match that:
         case Happens(event=Event(action="overtake", actor=Ego(), tense="future") as event):
             reason = Why(Not(Happens(replace(event, tense="present", modal=None, time=Now()))))
@@ -92,7 +92,7 @@ def _kept_behind(that: Proposition, found: Finding, asked: Asked) -> Answer | No
 
 
 def _stays_behind(that: Proposition, asked: Asked) -> Vehicle | None:
-    """Find the vehicle ahead behind which we are asked to be about to stay."""
+    """Find the vehicle ahead, if the question is whether we are about to stay behind it."""
     match that:
         case Happens(
             event=Event(action="follow" | "move", actor=Ego(), object=Vehicle() as leader) as event
@@ -109,7 +109,7 @@ def _stays_behind(that: Proposition, asked: Asked) -> Vehicle | None:
 
 
 def _as_it_was(that: Proposition, asked: Asked) -> Proposition:
-    """Take overtaking of somebody who stood or came towards us for driving past."""
+    """Read overtaking of somebody who stood or came towards us as driving past."""
     if not isinstance(that, Happens) or that.event.action != "overtake":
         return that
     world, passed = asked.world, replace(that.event, action="pass")
@@ -119,7 +119,7 @@ def _as_it_was(that: Proposition, asked: Asked) -> Proposition:
 
 
 def _as_state(that: Proposition) -> Proposition:
-    """Take "he is going too fast" for what it says of him: that he is fast."""
+    """Read "he is going too fast" as a statement that he is fast."""
     match that:
         case Not(content=content):
             return replace(that, content=_as_state(content))
@@ -133,7 +133,7 @@ def _as_state(that: Proposition) -> Proposition:
 
 
 def _as_chance(that: Proposition) -> Proposition:
-    """Take "could he pull out?" for whether he will: the chance tells what is possible."""
+    """Read "could he pull out?" as whether he will; the chance shows what is possible."""
     match that:
         case Happens(event=Event(modal="can" | "could" | "might", tense="present") as event) if (
             number(event.actor) is not None and "first" not in event.manner
@@ -145,7 +145,7 @@ def _as_chance(that: Proposition) -> Proposition:
 
 
 def _affirmed(that: Proposition) -> Proposition:
-    """Take the negation and "do you think" off a question: "yes" affirms the fact as such."""
+    """Return a question without its negation and "do you think"; "yes" affirms the fact itself."""
     while (isinstance(that, Not) and not that.lexical) or (
         isinstance(that, Believed)
         and that.tense == "present"
@@ -156,10 +156,10 @@ def _affirmed(that: Proposition) -> Proposition:
 
 
 def claim(act: Claim, asked: Asked) -> Answer:
-    """Tell whether a claim is right: agreed, denied with what was so, or not known.
+    """Answer whether a claim is right: agree, deny with what held instead, or not known.
 
     Raises:
-        Unanswered: it is of what is unknown, or rollouts are needed.
+        Unanswered: it is about something unknown, or rollouts are needed.
     """
     act = replace(act, that=_as_state(act.that))
     if (why := _disputed(act.that, asked) or _our_way(act.that, asked)) is not None:
@@ -177,7 +177,7 @@ def claim(act: Claim, asked: Asked) -> Answer:
 
 
 def _wavered(that: Proposition, asked: Asked) -> Answer | None:
-    """Tell why we gave up a plan, where we are said to be undecided, or to start and stop."""
+    """Return why we gave up a plan, for a claim that we are undecided, or start and stop."""
     match that:
         case Happens(event=Event(action="change-plan", actor=Ego(), modal=None) as event):
             pass
@@ -200,7 +200,7 @@ def _wavered(that: Proposition, asked: Asked) -> Answer | None:
 
 
 def _our_way(that: Proposition, asked: Asked) -> Answer | None:
-    """Tell our way, where it is said which way we were or were not meant to go."""
+    """Return our way, for a claim which way we were or were not meant to go."""
     content = that.content if isinstance(that, Not) else that
     match content:
         case Happens(event=Event(actor=Ego(), modal="should" | "must") as event) if (
@@ -213,7 +213,7 @@ def _our_way(that: Proposition, asked: Asked) -> Answer | None:
 
 
 def _disputed(that: Proposition, asked: Asked) -> Answer | None:
-    """Give the reason for what we did that is said to be late, early or long, or what it cost."""
+    """Return the reason for an action of ours that is called late, early or long, or its cost."""
     match that:
         case Not(content=Happens(event=Event(modal="should" | "would") as event)) if is_us(
             event.actor
@@ -237,8 +237,8 @@ def _disputed(that: Proposition, asked: Asked) -> Answer | None:
 
 
 def _cost(question: HowMuch, asked: Asked) -> Answer:
-    """Tell what something cost in time, where it is said or asked whether it cost any."""
-    # Deferred: measures may themselves be of what holds.
+    """Return what something cost in time, for a claim or question that it cost any."""
+    # Deferred import: measures may be about propositions themselves.
     from xavi_dialogue.explain.answers.propositions.measures import how_much
 
     event = question.of.event
@@ -248,7 +248,7 @@ def _cost(question: HowMuch, asked: Asked) -> Answer:
 
 
 def _seen_since(that: Proposition, found: Finding, asked: Asked) -> Finding:
-    """Put when we first saw a vehicle in the place of where it is, where seeing it is denied."""
+    """Return when we first saw a vehicle, not where it is, if a claim denies that we saw it."""
     match that:
         case Not(content=Related(relation="can-see", to=Vehicle(number=vehicle))):
             first = first_look(asked, vehicle, asked.world.begin)
@@ -262,7 +262,7 @@ def _checked(found: Finding, act: Claim) -> Verdict:
 
 
 def _own_type(that: Proposition) -> bool:
-    """Tell whether an answer of another type replies to such a claim better than a verdict does."""
+    """Check whether an answer of another type is a better reply to a claim than a verdict."""
     content = that.content if isinstance(that, Not) else that
     if isinstance(content, Caused):
         return True

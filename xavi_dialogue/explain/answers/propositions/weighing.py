@@ -51,7 +51,7 @@ from xavi_dialogue.explain.answers.ride.places import locate, whither
 from xavi_dialogue.explain.answers.suppositions.pulling_up import pulls_up
 from xavi_dialogue.explain.history.ride import planned
 
-#: Where a thing is from another one.
+#: Relations that say where a thing is from another one.
 STATES: frozenset[ActionName] = frozenset(("stand", "wait"))  # what can be seen now
 BEARINGS: frozenset[Relation] = frozenset(
     ("ahead-of", "behind", "left-of", "right-of", "beside", "oncoming-to")
@@ -62,7 +62,7 @@ def weigh(of: Proposition, asked: Asked) -> Finding:
     """Weigh a proposition against the record.
 
     Raises:
-        Unanswered: it is of what is unknown or did not happen; or rollouts are needed.
+        Unanswered: it is about something unknown, or what did not happen; or it needs rollouts.
     """
     match of:
         case Happens(event=event):
@@ -93,7 +93,7 @@ def weigh(of: Proposition, asked: Asked) -> Finding:
 
 
 def _nobody(of: Related, asked: Asked) -> Finding:
-    """Tell whether nobody stands in a relation, or who does."""
+    """Weigh that nobody stands in a relation; else return who does."""
     at = instant(asked, of.time, of.tense)
     each = [related(replace(of, thing=Vehicle(v)), asked) for v in asked.world.in_view(at)]
     seen = [fact for one in each if one.holds for fact in one.facts if isinstance(fact, Look)]
@@ -109,7 +109,7 @@ def _contrary(found: Finding) -> Finding:
 
 
 def _joined(of: Both, asked: Asked) -> Finding:
-    """Give several together: all must hold, or one of them."""
+    """Weigh several propositions together: all must hold, or one of them."""
     if len(set(of.contents)) == 1:
         return weigh(of.contents[0], asked)
     if (feared := _feared(of, asked)) is not None:
@@ -126,7 +126,7 @@ def _joined(of: Both, asked: Asked) -> Finding:
     if of.join == "or" and (held := _stops(of)) is not None:
         return _open_to_all(weigh(held, asked))
     owed = next((part for part in of.contents if is_owed(part)), None)
-    if owed is not None:  # the rule decides, also over what goes with it
+    if owed is not None:  # the rule decides, also for what else is asked
         return _open_to_all(weigh(owed, asked)) if of.join == "or" else weigh(owed, asked)
     if of.join == "or" and (chosen := either(of, asked)) is not None:
         return chosen
@@ -135,7 +135,7 @@ def _joined(of: Both, asked: Asked) -> Finding:
     if of.join == "or" and not any(holds) and _is_our_course(of, asked):
         return Finding(None, answer=plan_ahead(asked))
     failing = [(p, one) for p, one in zip(of.contents, found, strict=True) if one.holds is False]
-    if of.join == "and" and len(failing) == 1:  # what is not so is what makes it false
+    if of.join == "and" and len(failing) == 1:  # the part that fails is what makes it false
         part, one = failing[0]
         return Finding(False, one.facts, answer=one.answer or one.verdict(part))
     decided = of.join != "and"
@@ -149,7 +149,7 @@ def _joined(of: Both, asked: Asked) -> Finding:
 
 
 def _lets_us(of: Both) -> Happens | None:
-    """Give that another lets us go first, where it is asked which of us goes first; None: else."""
+    """Return that another lets us go first, if the question is which of us does; else None."""
     for part in of.contents:
         match part:
             case Happens(event=Event("let-go", Ego(), Vehicle() as other, tense="future")):
@@ -158,7 +158,7 @@ def _lets_us(of: Both) -> Happens | None:
 
 
 def _is_our_course(of: Both, asked: Asked) -> bool:
-    """Tell whether it is asked which of several things we are doing or about to do."""
+    """Check whether the question is which of several things we are doing or about to do."""
     events = [part.event for part in of.contents if isinstance(part, Happens)]
     return len(events) == len(of.contents) and all(
         is_us(event.actor)
@@ -169,7 +169,7 @@ def _is_our_course(of: Both, asked: Asked) -> bool:
 
 
 def _feared(of: Both, asked: Asked) -> Proposition | None:
-    """Find the collision that is asked about beside what comes before it or instead of it."""
+    """Find the collision that a question names besides what comes before it or instead of it."""
     for part in of.contents:
         match part:
             case Happens(event=Event(action="collide" | "nearly-collide") as event) if not is_past(
@@ -180,9 +180,9 @@ def _feared(of: Both, asked: Asked) -> Proposition | None:
 
 
 def _stops(of: Both) -> Happens | None:
-    """Find whether somebody stops, where it is asked beside it whether it comes out or drives on.
+    """Find whether somebody stops, if the question also asks whether they come out or drive on.
 
-    Where it goes is another matter: who stops for us may go straight on.
+    Where they go is another matter: one that stops for us may go straight on.
     """
     events = [part.event for part in of.contents if isinstance(part, Happens)]
     ahead = all(e.tense in ("present", "future") and number(e.actor) is not None for e in events)
@@ -195,7 +195,7 @@ def _stops(of: Both) -> Happens | None:
 
 
 def _told_once(facts: Iterable[Fact]) -> tuple[Fact, ...]:
-    """Leave out what the clauses deny by themselves, and where a vehicle is a second time."""
+    """Leave out facts that the clauses deny already, and second places of a vehicle."""
     found: dict[object, Fact] = {}
     for fact in facts:
         if isinstance(fact, Relating) and not fact.holds:
@@ -207,16 +207,16 @@ def _told_once(facts: Iterable[Fact]) -> tuple[Fact, ...]:
 
 
 def _open_to_all(found: Finding) -> Finding:
-    """Leave out yes or no: it was asked which of several holds."""
+    """Return a finding without yes or no, for a question which of several holds."""
     if not isinstance(found.answer, Priority):
         return found
     return Finding(None, answer=replace(found.answer, holds=None))
 
 
 def either(of: Both, asked: Asked) -> Finding | None:
-    """Tell which of several holds: a place or a value as such, else the one that does.
+    """Return which of several holds: a place or a value as such, else the one that does.
 
-    None where none of them does, or it cannot be known.
+    None if none of them does, or it cannot be known.
     """
     first = of.contents[0] if of.contents else None
     match first:
@@ -246,13 +246,13 @@ def either(of: Both, asked: Asked) -> Finding | None:
 
 
 def _is_under_way(part: Proposition, found: Finding) -> bool:
-    """Tell whether a deed that is asked about in the present goes on."""
+    """Check whether an action that is asked about in the present goes on."""
     present = isinstance(part, Happens) and part.event.tense == "present"
     return present and any(isinstance(f, Episode) and f.end is None for f in found.facts)
 
 
 def _way_of(of: Both, asked: Asked) -> Finding | None:
-    """Tell where another vehicle is going, where it is asked which of several ways it takes."""
+    """Return where another vehicle is going, for a question which of several ways it takes."""
     events = [part.event for part in of.contents if isinstance(part, Happens)]
     ahead = all(event.tense in ("present", "future") for event in events)
     actors = {event.actor for event in events}
@@ -265,7 +265,7 @@ def _way_of(of: Both, asked: Asked) -> Finding | None:
 
 
 def _placed(of: Proposition, thing: Thing) -> bool:
-    """Tell whether it is where a thing is from us."""
+    """Check whether a proposition says where a thing is from us."""
     return isinstance(of, Related) and of.relation in BEARINGS and of.thing == thing
 
 
@@ -274,7 +274,7 @@ def _alike(of: Proposition, first: Has) -> bool:
 
 
 def _caused(of: Caused, asked: Asked) -> Finding:
-    """Tell whether it is because of that: the causal explainers know."""
+    """Hand a question whether something is the cause to the causal explainers."""
     effect = of.effect if of.effect is not None else That()
     suspect = _suspect(of)
     answer = handed(Why(effect, suspect=suspect), asked)
@@ -284,7 +284,7 @@ def _caused(of: Caused, asked: Asked) -> Finding:
 
 
 def _suspect(of: Caused) -> Thing | None:
-    """Tell who is taken for the cause: of a fact, whoever it is about."""
+    """Return the supposed cause; for a fact, the one that it is about."""
     match of.cause:
         case Happens(event=event):
             return event.actor
@@ -302,7 +302,7 @@ def _suspect(of: Caused) -> Thing | None:
 
 
 def _believed(of: Believed, asked: Asked) -> Finding:
-    """Tell whether we believed something: by the probability that it had for us then."""
+    """Weigh that we believed something, by its probability for us at that time."""
     content, negated = of.content, False
     while isinstance(content, Not):
         content, negated = content.content, not negated
@@ -324,7 +324,7 @@ def _held(of: Believed, content: Proposition, asked: Asked) -> Finding:
 
 
 def _planned(asked: Asked, event: Event, time: Time) -> Finding:
-    """Tell whether we meant to do something at that time."""
+    """Weigh that we planned to do something at that time."""
     at = instant(asked, time, "past")
     trace = asked.ride.at(at)
     if trace is None:
@@ -335,7 +335,7 @@ def _planned(asked: Asked, event: Event, time: Time) -> Finding:
 
 
 def _saw(asked: Asked, vehicle: int, time: Time) -> Finding:
-    """Tell whether we knew of a vehicle, and since when."""
+    """Weigh that we knew of a vehicle, and since when."""
     at = instant(asked, time, "past")
     first = first_look(asked, vehicle, asked.world.begin)
     if first is None:
