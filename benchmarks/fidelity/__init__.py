@@ -1,1 +1,1 @@
-"""What is said of foils, beside what SUMO makes of them."""
+"""Statements about foils, compared with what happens in SUMO."""

@@ -1,4 +1,4 @@
-"""Agreement of what was foreseen of foils with what happened, in numbers."""
+"""Measures of how well the foreseen outcomes of foils agree with what happened."""
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
@@ -10,35 +10,35 @@ from benchmarks.fidelity.rivals import Guess, Key, key_of
 from benchmarks.figures import in_columns, mean, quantile
 from planner.record.trace import OUTCOMES, Outcome
 
-CLEAR = 1.0  # [s] of difference from which its sign counts
+CLEAR = 1.0  # [s] least difference whose sign counts
 ALL = "all"
 
 
 class Agreement(msgspec.Struct, frozen=True):
-    """How the foils of one scenario, of one kind, or all of them, turned out."""
+    """The agreement for the foils of one scenario or kind, or for all of them."""
 
     scenario: str  # or family of networks, or kind of foil
     foils: int
-    declined: int  # for want of evidence; these count in nothing below
-    agree: float | None  # share of foils that came to the outcome that is named
-    agree_blind: float | None  # the same where the others of a rollout do not react to the ego
-    agree_name: float | None  # the same for what foils of that name came to on other rides
+    declined: int  # declined for lack of evidence; not counted below
+    agree: float | None  # share of foils with the outcome that was foreseen
+    agree_blind: float | None  # the same if the others of a rollout do not react to the ego
+    agree_name: float | None  # the same for the usual outcome of foils of that name elsewhere
     commonest: float | None  # the same for always naming the commonest outcome
     brier: float | None  # of the outcome probabilities: 0 is perfect, 2 the worst
-    brier_blind: float | None  # of those where the others do not react
-    brier_commonest: float | None  # of always giving the shares of all outcomes
-    timed: int  # foils that were foreseen to arrive and came to the destination, as the fact did
+    brier_blind: float | None  # the same if the others do not react
+    brier_commonest: float | None  # the same for always giving the shares of all outcomes
+    timed: int  # foils foreseen to arrive that came to the destination, as the fact did
     error: float | None  # [s] mean absolute error of the difference of the arrival times
-    error_blind: float | None  # where the others do not react
-    error_name: float | None  # of what foils of that name took longer on other rides
+    error_blind: float | None  # [s] the same if the others do not react
+    error_name: float | None  # [s] the same for the mean difference of that name elsewhere
     skill: float | None  # 1 - error / error_name: 0 is no better than the name, 1 is perfect
     bias: float | None  # [s] mean of foreseen minus happened
     error_p50: float | None  # [s]
     error_p90: float | None
-    within: float | None  # share of them within the range that is given
-    clear: int  # of these, with a difference of more than a second
-    sign: float | None  # share of them with the right sign
-    sign_name: float | None  # the same by the name
+    within: float | None  # share of the timed foils within the range that is given
+    clear: int  # timed foils with a difference of more than a second
+    sign: float | None  # share of these with the right sign
+    sign_name: float | None  # the same for the mean difference of that name elsewhere
 
 
 class OutcomeRow(msgspec.Struct, frozen=True):
@@ -48,11 +48,11 @@ class OutcomeRow(msgspec.Struct, frozen=True):
     foreseen: int
     happened: int
     both: int
-    said: float | None  # mean probability that was given to it where it happened
+    said: float | None  # mean probability that was given to it when it happened
 
 
 class Bin(msgspec.Struct, frozen=True):
-    """Outcomes that were given about the same probability."""
+    """Outcomes with about the same foreseen probability."""
 
     low: float
     high: float
@@ -64,7 +64,7 @@ class Bin(msgspec.Struct, frozen=True):
 def agreement(
     scenario: str, cases: Sequence[Case], guesses: Mapping[Key, Guess] | None = None
 ) -> Agreement:
-    """Return the cases of a scenario in numbers, with what their names alone would have said."""
+    """Return the agreement for some cases, with guesses by the foils' names for comparison."""
     told = [case for case in cases if case.foreseen.declined is None]
     shares = _shares(told)
     blind = [_as_blind(c) for c in cases if c.blind is not None and c.blind.declined is None]
@@ -98,7 +98,7 @@ def agreement(
 def _times(
     timed: Sequence[Case], blind: Sequence[Case], known: Mapping[Key, Guess]
 ) -> dict[str, float | None]:
-    """Return the errors of the differences in time [s]; skill is that over cases with a rival."""
+    """Return the errors of the differences in time [s]; skill is over cases with a guess."""
     errors = [_foreseen_time(c) - _later(c) for c in timed]
     sizes = [abs(error) for error in errors]
     blindly = [
@@ -124,7 +124,7 @@ def _times(
 
 
 def by_outcome(cases: Sequence[Case]) -> tuple[OutcomeRow, ...]:
-    """Return each outcome apart."""
+    """Return the agreement by outcome."""
     told = [case for case in cases if case.foreseen.declined is None]
     return tuple(
         OutcomeRow(
@@ -151,12 +151,12 @@ def calibration(
     told: Callable[[Outcome, float], float] = lambda _, given: given,
     bins: int = 5,
 ) -> tuple[Bin, ...]:
-    """Return how often outcomes happened that were given about the same probability.
+    """Return how often outcomes happened, by their foreseen probability.
 
     Args:
-        cases: foils and what came of them.
-        told: the probability that is told of an outcome, of that among the rollouts.
-        bins: how many, as wide.
+        cases: foils with their outcomes.
+        told: returns the probability that an answer states, given that among the rollouts.
+        bins: number of bins of equal width.
     """
     pairs = [
         (
@@ -177,12 +177,12 @@ def calibration(
 
 
 def right(case: Case) -> bool:
-    """Check whether the outcome that is named happened."""
+    """Check whether the likeliest foreseen outcome happened."""
     return case.foreseen.likeliest == case.happened.outcome
 
 
 def same_sign(case: Case) -> bool:
-    """Check whether the foil was rightly said to arrive sooner, or later."""
+    """Check whether the sign of the foreseen difference in time is right."""
     return (_foreseen_time(case) > 0.0) == (_later(case) > 0.0)
 
 
@@ -191,7 +191,7 @@ def tables(
     outcomes: Sequence[OutcomeRow],
     bins: Mapping[str, Sequence[Bin]],
 ) -> str:
-    """Return the numbers for people."""
+    """Return the numbers as tables for people."""
     names = [name for name in Agreement.__struct_fields__ if name != "scenario"]
     first = [["", *(row.scenario for row in rows)]]
     first += [[n.replace("_", " "), *(_cell(getattr(row, n)) for row in rows)] for n in names]
@@ -210,7 +210,7 @@ def tables(
 
 
 def _as_blind(case: Case) -> Case:
-    """Return a case in which that is said which would be if the others did not react."""
+    """Return a case with what would be foreseen if the others did not react."""
     assert case.blind is not None
     return msgspec.structs.replace(case, foreseen=case.blind)
 
@@ -240,7 +240,7 @@ def _brier_of(cases: Sequence[Case]) -> float | None:
 
 
 def _brier(said: dict[Outcome, float], happened: Outcome) -> float:
-    """Brier's score of one forecast (1950): the sum of squares over all outcomes."""
+    """Return Brier's score (1950) of one forecast: the sum of squares over all outcomes."""
     return sum((said.get(outcome, 0.0) - (outcome == happened)) ** 2 for outcome in OUTCOMES)
 
 

@@ -1,4 +1,4 @@
-"""Cases: foils of decisions, as they were foreseen and as they turned out in SUMO."""
+"""Cases: foils of decisions, as foreseen and as they happened in SUMO."""
 
 import tempfile
 from collections.abc import Iterator
@@ -22,7 +22,7 @@ from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.explain.causes.plans.ranges import FoilKind, RoadKind, foil_kind, road_kind
 from xavi_dialogue.vehicle.episode import network_of, settings_of
 
-#: Families of random networks: those that ranges are learnt on, and those that nothing was made on.
+#: Families of random networks: those for learning ranges, and those for tests only.
 LEARNING, RANDOM = "learning", "random"
 
 
@@ -30,9 +30,9 @@ class Task(msgspec.Struct, frozen=True):
     """A ride whose foils are to be compared."""
 
     world: str  # a scenario by name or folder; or a family of random networks
-    seed: int  # of a random network: its number, too
+    seed: int  # of a random network also its number
     every: int = 1  # 2: every other decision that has alternatives
-    blind: bool = True  # also what would be said if the others of a rollout did not react
+    blind: bool = True  # whether to foresee also with others that do not react
 
 
 class Case(msgspec.Struct, frozen=True):
@@ -46,11 +46,11 @@ class Case(msgspec.Struct, frozen=True):
     foreseen: Foreseen
     happened: Happened
     later: float | None = None  # [s] by which the foil arrived later than the fact, if both did
-    blind: Foreseen | None = None  # what would be said if the others of a rollout did not react
+    blind: Foreseen | None = None  # what is foreseen if the others of a rollout do not react
     road: RoadKind = "road"
-    waypoint: bool = False  # rollouts aim for a place on the way
-    passed: float | None = None  # [s] as `later`, to what the rollouts aim for
-    fact_arrived: bool = False  # the ride came to the destination
+    waypoint: bool = False  # whether rollouts aim for a place on the way
+    passed: float | None = None  # [s] like `later`, but to the place that the rollouts aim for
+    fact_arrived: bool = False  # whether the ride came to the destination
 
     @property
     def kind(self) -> FoilKind:
@@ -68,16 +68,16 @@ class Compared(msgspec.Struct, frozen=True):
 
 
 class _Pending(msgspec.Struct):
-    """A decision, until it is known what came of what was decided."""
+    """A decision whose outcome is not known yet."""
 
     aim: Aim
     cases: list[Case]
     fact: Happened | None = None
-    arrived: float | None = None  # [s] after which the ride came to the destination
+    arrived: float | None = None  # [s] from the decision to the ride's arrival at the destination
 
 
 def compare(task: Task) -> Compared:
-    """Compare all foils of every so many decisions of one ride; errors are in the result."""
+    """Compare all foils of every n-th decision of one ride; errors are part of the result."""
     try:
         warm()
         with _scenario(task) as scenario, Simulation(scenario, task.seed) as world:
@@ -131,7 +131,7 @@ def _ride(task: Task, world: Simulation, scenario: Scenario) -> list[_Pending]:
 
 
 def _foils(task: Task, trace: PlanTrace, roads: Roads) -> Iterator[Case]:
-    """Yield the foils of a decision, as they are foreseen."""
+    """Yield the foils of a decision as foreseen."""
     blind = foresee(_blind(trace, roads.network), roads) if task.blind else {}
     for foil, foreseen in foresee(trace, roads).items():
         yield Case(
@@ -149,7 +149,7 @@ def _foils(task: Task, trace: PlanTrace, roads: Roads) -> Iterator[Case]:
 
 
 def _blind(trace: PlanTrace, network: Network) -> PlanTrace:
-    """The decision as it would have been searched among others that do not react to the ego."""
+    """Return the decision searched again with others that do not react to the ego."""
     settings = msgspec.structs.replace(trace.settings, reacting=False)
     again = decide_again(trace, network, settings)
     return msgspec.structs.replace(again, plan=trace.plan)

@@ -1,10 +1,10 @@
-"""`xavi bench fidelity`: what we say of foils, beside what SUMO makes of them.
+"""`xavi bench fidelity`: statements about foils, compared with what happens in SUMO.
 
-At each decision of each ride, for each foil that applies, SUMO is run on from the very same
-state with the ego carrying out the foil and what is said to follow it (see `resimulate`),
-and what an answer would say is compared with what happened: the outcome, and by how much the ego
-arrives later at the destination than it did. Beside it stands what would be said if the others of
-a rollout did not react to the ego, and what the foil's name alone lets one expect.
+At each decision of each ride, and for each foil that applies, SUMO is run on from exactly this
+state while the ego carries out the foil and its expected continuation (see `resimulate`). The
+statement of an answer is compared with what happened: the outcome, and how much later the ego
+arrives at the destination than it did. For comparison there are statements from rollouts in which
+the others do not react to the ego, and guesses from the foil's name alone.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -40,19 +40,19 @@ from benchmarks.figures import Aimed, Target, aimed, at_least, at_most, targets_
 from xavi_dialogue.explain.causes.plans.ranges import Ranges, table
 
 KINDS = ("stop", "exit", "manoeuvre")  # of foils
-AHEAD = 10.0  # target: points by which outcomes are named better than by the name of the foil
-NOMINAL, OFF = 90.0, 3.0  # target: [%] of ranges that hold, and by how much that may be missed
+AHEAD = 10.0  # target: points of agreement above a guess by the name of the foil
+NOMINAL, OFF = 90.0, 3.0  # target: [%] of ranges that hold, and greatest deviation
 
 
 class Wrong(msgspec.Struct, frozen=True):
-    """A foil of which the wrong thing is said."""
+    """A foil about which the statement is wrong."""
 
     what: str
     reproduce: str
 
 
 class FidelityReport(Aimed, frozen=True, kw_only=True):
-    """What the benchmark found."""
+    """The results of the benchmark."""
 
     bench: str
     scenarios: tuple[Agreement, ...]
@@ -61,10 +61,10 @@ class FidelityReport(Aimed, frozen=True, kw_only=True):
     coverage: tuple[Coverage, ...]
     extension: tuple[Extension, ...]
     outcomes: tuple[OutcomeRow, ...]
-    calibration: dict[str, tuple[Bin, ...]]  # of chances among rollouts, and as told
+    calibration: dict[str, tuple[Bin, ...]]  # of probabilities among rollouts, and as stated
     wrong: tuple[Wrong, ...]
     failed: tuple[str, ...]
-    left_out: tuple[str, ...] = ()  # scenarios that cannot be driven for want of netconvert
+    left_out: tuple[str, ...] = ()  # scenarios that cannot be driven without netconvert
 
     def table(self) -> str:
         """Return the report for people."""
@@ -107,7 +107,7 @@ def tasks(
     Args:
         scenarios: names or folders.
         seeds: of each.
-        networks: numbers of random networks, none of which ranges were learnt on.
+        networks: numbers of random networks; no range was learnt on them.
         every: 1 for each decision of a ride that has alternatives, 2 for every other one, ...
     """
     found = [Task(name, seed, every) for seed in seeds for name in scenarios]
@@ -119,20 +119,20 @@ def measure(asked: Sequence[Task], jobs: int, note: Callable[[str], None]) -> Fi
 
     Args:
         asked: the rides, at least one.
-        jobs: processes side by side.
-        note: takes notes on progress.
+        jobs: number of parallel processes.
+        note: is called with notes on progress.
     """
     return report(_driven(asked, jobs, note), table())
 
 
 def learnt(networks: Sequence[int], every: int, jobs: int, note: Callable[[str], None]) -> Learnt:
-    """Make the table of ranges on networks that serve nothing else.
+    """Make the table of ranges on networks that are used for nothing else.
 
     Args:
-        networks: their numbers, in a row.
+        networks: their numbers.
         every: as in `tasks`.
-        jobs: processes side by side.
-        note: takes notes on progress.
+        jobs: number of parallel processes.
+        note: is called with notes on progress.
 
     Raises:
         ValueError: there are too few rides.
@@ -157,7 +157,7 @@ def _died(task: Task) -> Compared:
 
 
 def report(found: Sequence[Compared], ranges: Ranges) -> FidelityReport:
-    """Return the rides that were compared, in numbers, with ranges that were learnt on others."""
+    """Return the results over rides, with ranges that were learnt on other ones."""
     cases = [case for one in found for case in one.cases]
     groups = {
         name: [case for case in cases if case.scenario == name]
@@ -185,7 +185,7 @@ def report(found: Sequence[Compared], ranges: Ranges) -> FidelityReport:
 
 
 def _targets(found: FidelityReport) -> Iterator[Target]:
-    """Yield what is to be reached over all rides."""
+    """Yield the targets over all rides."""
     own, name = found.all.agree, found.all.agree_name
     ahead = None if own is None or name is None else 100.0 * (own - name)
     yield at_least("outcomes named right, ahead of the name", "points", ahead, AHEAD)

@@ -55,14 +55,14 @@ def fidelity(
     jobs: int | None,
     note: Callable[[str], None],
 ) -> "Report":
-    """Measure what is said of foils in scenarios, or in all of ours, and in random networks.
+    """Measure statements about foils in scenarios and in random networks.
 
     Args:
-        scenarios: names or folders; None: ours.
+        scenarios: names or folders; None: those of the package.
         seeds: of each, and the numbers of networks.
-        every: how many decisions apart.
-        jobs: processes side by side.
-        note: takes notes on progress.
+        every: 1 for each decision, 2 for every other one, ...
+        jobs: number of parallel processes.
+        note: is called with notes on progress.
     """
     from msgspec.structs import replace
 

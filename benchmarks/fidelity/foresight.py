@@ -1,4 +1,4 @@
-"""What an answer would say of the foils of a decision."""
+"""The statements of an answer about the foils of a decision."""
 
 import math
 
@@ -22,24 +22,24 @@ SAMPLED = 0.2  # [s] between the points of a recorded line
 
 
 class Foreseen(msgspec.Struct, frozen=True):
-    """What would be said of one foil."""
+    """The statement about one foil."""
 
-    outcomes: dict[Outcome, float]  # empty where it was declined
-    time: float | None = None  # [s] by which the foil is said to arrive later
+    outcomes: dict[Outcome, float]  # probabilities; empty if it was declined
+    time: float | None = None  # [s] by which the foil is foreseen to arrive later
     low: float | None = None
     high: float | None = None
     declined: Reason | None = None
-    plan: tuple[Action, ...] = ()  # the foil, and what is said to follow it
-    extended: float | None = None  # [s] `time` to the destination, by an estimate of the rest
+    plan: tuple[Action, ...] = ()  # the foil with its expected continuation
+    extended: float | None = None  # [s] like `time`, to the destination by an estimate of the rest
 
     @property
     def likeliest(self) -> Outcome | None:
-        """The outcome that is named; None where the foil was declined."""
+        """The likeliest outcome; None if the foil was declined."""
         return max(self.outcomes, key=lambda o: self.outcomes[o], default=None)
 
 
 def foresee(trace: PlanTrace, roads: Roads) -> dict[Action, Foreseen]:
-    """Return what would be said of every foil that applies, by foil."""
+    """Return the statements about every foil that applies, by foil."""
     ride = Ride(Record(trace.sim_time, (trace,)))
     fact = trace.plan[0].action
     return {
@@ -73,7 +73,7 @@ def _foreseen(
 def _extended(
     model: CausalModel, there: Intervention, here: Intervention, roads: Roads
 ) -> float | None:
-    """By how much [s] a foil is later at the destination, where rollouts aim for a waypoint."""
+    """Return how much [s] later a foil is at the destination, if rollouts aim for a waypoint."""
     if model.trace.waypoint is None:
         return None
     ours, others = (_arrival(model, plan, roads) for plan in (here, there))
@@ -81,10 +81,10 @@ def _extended(
 
 
 def _arrival(model: CausalModel, plan: Intervention, roads: Roads) -> float | None:
-    """The mean time [s] to the destination: of each rollout, and of free driving from its end.
+    """Return the mean time [s] to the destination, with free driving from each rollout's end.
 
-    None where in more than half of the weight the ego collides, stands at no way to the
-    destination, or its line was not recorded.
+    None if, for more than half of the weight, the ego collides, has no way to the destination, or
+    its line was not recorded.
     """
     known = {rollout.index: rollout for rollout in model.trace.rollouts}
     total, mass = 0.0, 0.0
@@ -98,7 +98,7 @@ def _arrival(model: CausalModel, plan: Intervention, roads: Roads) -> float | No
 
 
 def _to_the_end(trace: PlanTrace, rollout: Rollout, line: Rollout, roads: Roads) -> float | None:
-    """The time [s] of one rollout, and of free driving from where it ends to the destination."""
+    """Return the time [s] of one rollout plus that of free driving from its end."""
     taken = rollout.components.get("time")
     if rollout.outcome == "done" and trace.waypoint is not None and taken is not None:
         lane = roads.network.edge_lanes(trace.waypoint.edge)[0]

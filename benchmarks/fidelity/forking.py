@@ -1,7 +1,7 @@
-"""Work in a forked copy of this process, which goes on from the very same state.
+"""Work in a forked copy of this process, which continues from exactly the same state.
 
-A state saved by SUMO is wrong while a lane is being changed; a fork is exact. Only a process
-that never opened Zenoh may be forked: its child would hang.
+A state saved by SUMO is wrong during a lane change; a fork is exact. A process that has opened
+Zenoh must not be forked: its child would hang.
 """
 
 import ctypes
@@ -19,21 +19,21 @@ Found = TypeVar("Found")
 
 
 class ChildFailed(Exception):
-    """The work in the copy went wrong; the message is that of its error."""
+    """The work in the copy failed; the message is that of its error."""
 
 
 class _Told(msgspec.Struct, frozen=True):
-    """What a child tells its parent."""
+    """The message of a child to its parent."""
 
     found: msgspec.Raw = msgspec.Raw(b"null")
     error: str | None = None
 
 
 def in_fork(work: Callable[[], Found], kind: type[Found]) -> Found:
-    """Return what work comes to in a copy of this process, in which it leaves no trace.
+    """Return the result of work in a copy of this process, which itself stays unchanged.
 
     Args:
-        work: ends with a value that can be written as JSON.
+        work: returns a value that can be written as JSON.
         kind: of that value.
 
     Raises:
@@ -62,9 +62,9 @@ def in_fork(work: Callable[[], Found], kind: type[Found]) -> Found:
 
 
 def _tell(write: int, work: Callable[[], Found]) -> None:  # pragma: no cover - another process
-    """Do the work, tell what it came to, and end without any of the parent's clean-up."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # ends it at once, with nothing told
-    with suppress(AttributeError, OSError):  # where there is such a call, it ends with its parent
+    """Do the work, send its result, and end without any of the parent's clean-up."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # ends it at once, without a result
+    with suppress(AttributeError, OSError):  # systems may lack this call; it ends with its parent
         ctypes.CDLL(None).prctl(END_WITH_PARENT, signal.SIGKILL)
     try:
         told = _Told(msgspec.Raw(msgspec.json.encode(work())))
@@ -73,5 +73,5 @@ def _tell(write: int, work: Callable[[], Found]) -> None:  # pragma: no cover - 
     try:
         with os.fdopen(write, "wb") as pipe:
             pipe.write(msgspec.json.encode(told))
-    finally:  # even where the parent is gone, this copy must not go on in its place
+    finally:  # even if the parent is gone, this copy must not continue the parent's work
         os._exit(0)

@@ -1,9 +1,9 @@
-"""The error of the model behind rollouts: how often they tell nothing of the outcome, at most.
+"""The error of the model behind rollouts: a bound on how often they are uninformative.
 
-With a probability the rollouts tell nothing, and the outcome comes from a distribution of its
-own, that of the outcomes which were not foreseen: a contamination model (Huber, Robust
-Statistics, 1981, 1.2). Errors come in clusters, as what misleads the rollouts lasts for much of a
-ride: the bound is that of a jackknife over rides.
+In a contamination model (Huber, Robust Statistics, 1981, 1.2) the rollouts are uninformative with
+some probability. Then the outcome has a distribution of its own, that of the outcomes which were
+not foreseen. Errors come in clusters, as whatever misleads the rollouts lasts for much of a ride.
+The bound is therefore that of a jackknife over rides.
 """
 
 import math
@@ -17,14 +17,14 @@ from scipy.stats import t as student
 
 from planner.record.trace import OUTCOMES, Outcome
 
-DOUBT = 0.05  # chance that the error is larger than its bound
-PRIOR = 0.5  # cases of each outcome that are reckoned with from the start (Jeffreys 1946)
+DOUBT = 0.05  # probability that the error is larger than its bound
+PRIOR = 0.5  # prior number of cases of each outcome (Jeffreys 1946)
 MOST = 0.9  # largest error
 FLOOR = 1e-12
 
 
 class Known(NamedTuple):
-    """What came of one foil whose outcome was foreseen."""
+    """The actual outcome of one foil whose outcome was foreseen."""
 
     ride: str
     outcome: Outcome
@@ -32,19 +32,19 @@ class Known(NamedTuple):
 
 
 class ModelError(NamedTuple):
-    """How far rollouts are to be trusted."""
+    """The error of rollouts, with its bound."""
 
-    mean: float  # probability that they tell nothing of the outcome, as fitted
-    bound: float  # that it does not exceed, with the probability 1 - DOUBT
-    unforeseen: dict[Outcome, float]  # how probable each outcome is where they tell nothing
+    mean: float  # fitted probability that they are uninformative
+    bound: float  # upper bound of it with the probability 1 - DOUBT
+    unforeseen: dict[Outcome, float]  # probability of each outcome if they are uninformative
 
 
 def fitted(cases: Sequence[Known]) -> ModelError:
-    """Fit how often rollouts tell nothing of the outcome, and bound it from above.
+    """Fit how often rollouts are uninformative, and bound it from above.
 
-    The bound adds a quantile of Student's t of standard errors by a jackknife over rides (Tukey
-    1958; Cameron and Miller 2015), and is no lower than what not one error in as many rides
-    proves. Without cases nothing is known to be wrong.
+    The bound adds a quantile of Student's t times the standard error by a jackknife over rides
+    (Tukey 1958; Cameron and Miller 2015). It is no lower than the bound for so many rides without
+    an error. Without cases no error is assumed.
 
     Args:
         cases: foils of which outcomes were foreseen.
@@ -63,13 +63,13 @@ def fitted(cases: Sequence[Known]) -> ModelError:
 
 
 def _shares(given: NDArray[np.float64], kinds: NDArray[np.int_]) -> NDArray[np.float64]:
-    """Return how probable each outcome (len(OUTCOMES),) is among those that were not foreseen."""
+    """Return the probability of each outcome (len(OUTCOMES),) among those not foreseen."""
     counts = PRIOR + np.bincount(kinds, 1.0 - given, len(OUTCOMES))
     return np.asarray(counts / counts.sum(), dtype=np.float64)
 
 
 def _likeliest(given: NDArray[np.float64], base: NDArray[np.float64]) -> float:
-    """The error under which what happened is likeliest, by its probabilities with and without."""
+    """Return the error of the greatest likelihood, by the outcomes' two probabilities."""
 
     def loss(error: float) -> float:
         return -float(np.sum(np.log(np.maximum((1.0 - error) * given + error * base, FLOOR))))
@@ -78,7 +78,7 @@ def _likeliest(given: NDArray[np.float64], base: NDArray[np.float64]) -> float:
 
 
 def _margin(given: NDArray[np.float64], base: NDArray[np.float64], rides: Sequence[str]) -> float:
-    """By how much the error may be larger than fitted, by leaving out each ride in turn."""
+    """Return how much larger than fitted the error may be, leaving out each ride in turn."""
     names = list(dict.fromkeys(rides))
     if len(names) < 2:
         return MOST

@@ -1,4 +1,4 @@
-"""Ranges of differences in time: learnt from some cases, and tested on others."""
+"""Ranges of differences in time, learnt from some cases and tested on others."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -16,33 +16,33 @@ Ends: TypeAlias = tuple[float, float]
 
 
 class Coverage(msgspec.Struct, frozen=True):
-    """How often what happened lay in ranges, and how wide [s] these are."""
+    """How often ranges held, and how wide [s] they are."""
 
     cases: str  # a scenario, a family of networks, a kind of foil, or all
     n: int  # foils that are foreseen to arrive, on rides that arrive
-    missed: int  # of these, those that never came to the destination, which no range covers
-    refused: int  # of these, those of a kind that too few cases were learnt of
-    covered: float | None  # share of the others that lie in the range that is said
-    width: float | None  # mean
-    rollouts: float | None  # the same cases: share within the range of the rollouts
+    missed: int  # those of them that never came to the destination, so that no range holds
+    refused: int  # those of them of a kind with too few cases for a range
+    covered: float | None  # share of the others that lie in the stated range
+    width: float | None  # [s] mean
+    rollouts: float | None  # share of the same cases within the range of the rollouts
     rollouts_width: float | None
-    constant: float | None  # share within one range for all, about what is foreseen
+    constant: float | None  # share within a range of constant width around what is foreseen
     constant_width: float
 
 
 class Extension(msgspec.Struct, frozen=True):
-    """Times to the destination where rollouts aim for a waypoint."""
+    """Errors of times to the destination if rollouts aim for a waypoint."""
 
     cases: str
     n: int
-    error: float | None  # [s] mean absolute error of the difference told
+    error: float | None  # [s] mean absolute error of the stated difference
     bias: float | None  # [s] mean of foreseen minus happened
     error_extended: float | None  # the same with the estimate of the rest of the way
     bias_extended: float | None
 
 
 def timed(cases: Sequence[Case]) -> list[Case]:
-    """Return the cases of which a range might be said, and whose fact came to the destination."""
+    """Return the cases for which a range may be stated, and whose fact arrived."""
     return [
         case
         for case in cases
@@ -89,7 +89,7 @@ def learn(found: Sequence[Compared], command: str) -> Ranges:
 
 
 def _outcomes(rides: Sequence[Compared]) -> list[Known]:
-    """Return what came of the foils whose outcomes were foreseen."""
+    """Return the actual outcomes of the foils whose outcomes were foreseen."""
     return [
         Known(
             f"{case.scenario}-{case.seed}",
@@ -103,7 +103,7 @@ def _outcomes(rides: Sequence[Compared]) -> list[Known]:
 
 
 def error_of(case: Case) -> float:
-    """By how much [s] the foil came later than foreseen; infinite where it never came."""
+    """Return how much [s] later than foreseen a foil arrived; infinite if it never did."""
     assert case.foreseen.time is not None
     return math.inf if case.later is None else case.later - case.foreseen.time
 
@@ -144,7 +144,7 @@ def extension(name: str, cases: Sequence[Case]) -> Extension:
 
 
 def coverage_table(rows: Sequence[Coverage]) -> str:
-    """Coverage for people."""
+    """Return the coverage as a table for people."""
     head = ("", "n", "missed", "refused", "covered", "width", "rollouts", "width", "constant")
     cells = [
         (
@@ -164,7 +164,7 @@ def coverage_table(rows: Sequence[Coverage]) -> str:
 
 
 def extension_table(rows: Sequence[Extension]) -> str:
-    """Return the estimates for people."""
+    """Return the estimates as a table for people."""
     head = ("beyond waypoints", "n", "error", "bias", "error extended", "bias extended")
     cells = [
         (

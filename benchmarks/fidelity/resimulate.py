@@ -1,4 +1,4 @@
-"""Re-simulation: SUMO run on from a decision, with the ego carrying out a plan."""
+"""Re-simulation: SUMO runs on from a decision while the ego carries out a plan."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,22 +15,22 @@ from sim.setup.goal import Goal
 from sim.sumo import EgoGone, Simulation
 
 EPSILON = 1e-6  # [s]
-PATIENCE = 45.0  # [s] from a decision on, after which nobody waits for the arrival any longer
+PATIENCE = 45.0  # [s] from a decision, after which a drive is ended without arrival
 
 
 class Happened(msgspec.Struct, frozen=True):
-    """What came of a drive from a decision on."""
+    """The result of a drive from a decision on."""
 
     outcome: Outcome
-    time: float | None = None  # [s] from the decision to what it aimed for, where that was reached
+    time: float | None = None  # [s] from the decision to the place aimed for, if reached
     collided_with: int | None = None
     arrived: float | None = None  # [s] from the decision to the destination
-    carried: int = 0  # actions of the plan that were begun, the first among them
+    carried: int = 0  # actions of the plan that were begun, including the first
 
 
 @dataclass(frozen=True)
 class Aim:
-    """What the rollouts of a decision aimed for, and when they gave up; and the destination."""
+    """The goal and the horizon of a decision's rollouts, and the destination."""
 
     network: Network
     goal: EgoGoal  # or the waypoint
@@ -40,12 +40,12 @@ class Aim:
 
     @classmethod
     def of(cls, network: Network, trace: PlanTrace) -> "Aim":
-        """Return that of a decision."""
+        """Return the aim of a decision."""
         goal = trace.goal if trace.waypoint is None else trace.waypoint
         return cls(network, goal, trace.goal, trace.sim_time, trace.settings.horizon)
 
     def come_to(self, scene: Scene, touched: tuple[int, ...]) -> Happened | None:
-        """Return what a drive has come to by a scene, as rollouts are judged; None: it goes on.
+        """Return the result of a drive at a scene, judged like rollouts; None: it goes on.
 
         Args:
             scene: the latest one.
@@ -60,12 +60,12 @@ class Aim:
         return None if self._leads_there(scene) else Happened("dead")
 
     def arrived(self, scene: Scene) -> float | None:
-        """The time [s] since the decision, where the ego is at the destination; else None."""
+        """Return the time [s] since the decision if the ego is at the destination, else None."""
         there = self._at(self.destination, scene)
         return round(scene.time - self.start, 3) if there else None
 
     def over(self, scene: Scene) -> bool:
-        """Check whether the arrival is waited for no longer."""
+        """Check whether the time to wait for the arrival is over."""
         return scene.time >= self.start + PATIENCE - EPSILON
 
     def _at(self, goal: EgoGoal, scene: Scene) -> bool:
@@ -85,9 +85,9 @@ class Aim:
 def drive_foil(
     world: Simulation, driver: Driver, aim: Aim, plan: Sequence[Action], scene: Scene, step: float
 ) -> Happened:
-    """Return what comes of a plan in SUMO, from the scene in which the driver has just decided.
+    """Return the result of a plan in SUMO, from the scene in which the driver has just decided.
 
-    It happens in a forked process: world and driver stay as they are.
+    This happens in a forked process; world and driver stay unchanged.
 
     Args:
         world: at the scene.
@@ -129,14 +129,14 @@ def _drive_on(
 
 
 def _ends(found: Happened, aim: Aim, scene: Scene) -> bool:
-    """Check whether a drive that has come to something need not go on up to the destination."""
+    """Check whether a drive with a result need not go on to the destination."""
     return aim.over(scene) or (found.outcome == "dead" and aim.goal == aim.destination)
 
 
 def _next(
     driver: Driver, rest: list[Action], driven: DriveStep, scene: Scene, step: float
 ) -> DriveStep:
-    """Begin the next action of a plan; where it does not apply, drop the plan, in place."""
+    """Begin the next action of a plan; if it does not apply, empty the plan in place."""
     try:
         return driver.carry_out(rest[0], scene, step)
     except DriverError:

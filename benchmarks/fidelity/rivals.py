@@ -1,4 +1,4 @@
-"""A cheap rival of what is said of foils: what foils of that name came to on other rides."""
+"""A simple rival of statements about foils: the outcomes of foils of that name on other rides."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -12,21 +12,21 @@ Key: TypeAlias = tuple[str, int, float, Action]
 
 
 class Guess(NamedTuple):
-    """What the name of a foil alone lets one expect."""
+    """The expectation by the name of a foil alone."""
 
     outcome: Outcome  # what happens most often; ties go to the earlier one of OUTCOMES
     later: float | None  # [s] mean of those that arrived
 
 
 def key_of(case: Case) -> Key:
-    """Return what tells a case from all others."""
+    """Return the key of a case, which is unique."""
     return case.scenario, case.seed, case.time, case.foil
 
 
 def by_name(cases: Sequence[Case]) -> Mapping[Key, Guess]:
     """Guess each case by the foil's name, from other seeds of its scenario or family.
 
-    Where there are none, from all other rides; a foil that no other ride has is left out.
+    If there are none, all other rides are used. A foil that no other ride has is left out.
     """
     found = {}
     for case in cases:

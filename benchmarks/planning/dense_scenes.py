@@ -1,4 +1,4 @@
-"""Made-up moments on a straight road with as many other vehicles as wanted."""
+"""Synthetic moments on a straight road with any number of other vehicles."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ PACE = 22.0  # [m/s] of the ego
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """Where another vehicle is, seen from the ego."""
+    """The place of another vehicle relative to the ego."""
 
     lane: int  # to the left of the ego's
     ahead: float  # [m]
@@ -42,13 +42,13 @@ SPOTS = (
 def crowd(
     network: Network, goal: EgoGoal, settings: Settings, others: int, shift: float = 0.0
 ) -> tuple[Frame, Moment]:
-    """Return a decision on the middle lane of the longest road of three lanes.
+    """Return a moment of decision on the middle lane of the longest road of three lanes.
 
     Args:
         network: has such a road, at least 300 m long.
         goal: of the ego, beyond it.
         settings: of the planner.
-        others: how many, up to 42.
+        others: number of other vehicles, up to 42.
         shift: [m] by which all of them are farther ahead.
 
     Raises:
@@ -79,7 +79,7 @@ def _road(network: Network) -> tuple[Lane, ...]:
 
 
 def _track(lane: Lane, offset: float, speed: float) -> Track:
-    """Up to now at a steady speed, with its front now at an offset [m]."""
+    """Return a track at a steady speed [m/s] whose front is now at an offset [m]."""
     places = [
         point_at(lane.centreline, offset - k * SAMPLE_PERIOD * speed)
         for k in range(SEEN - 1, -1, -1)

@@ -1,7 +1,7 @@
 """`xavi bench plan`: how fast decisions are on this machine.
 
-Times depend on the machine. Ratios to the yardstick, a plain loop that is timed in the same
-run, compare machines.
+Times depend on the machine. To compare machines, take ratios to the yardstick, a plain loop that
+is timed in the same run.
 """
 
 import math
@@ -37,11 +37,11 @@ from xavi_dialogue.process.garbage import settled
 from xavi_dialogue.vehicle.episode import network_of, settings_of
 from xavi_dialogue.vehicle.replan_worker import warm_up
 
-ROAD = "motorway"  # whose roads the made-up moments use
+ROAD = "motorway"  # scenario whose roads the synthetic moments use
 VEHICLES = (1, 2, 3, 4, 6, 8, 10, 12)
 DEPTHS = (1, 2, 3, 4, 5)
 ROLLOUTS = (25, 50, 100, 200, 400)
-USUAL = 3  # vehicles, where something else grows
+USUAL = 3  # number of vehicles if something else grows
 REPEATS = 3
 BOUNDS = {3: 100.0, 12: 300.0, 40: 500.0}  # [ms] of the p99 of decisions, by others in view
 SHIFTS = tuple(-6.0 + 0.5 * k for k in range(25))  # [m]
@@ -52,21 +52,21 @@ PARTS = ("decision", "recognition", "search", "record")
 class Growth(msgspec.Struct, frozen=True):
     """Decisions of one size: medians of some repeats."""
 
-    axis: str  # what grows: vehicles, depth or rollouts
+    axis: str  # the size that grows: vehicles, depth or rollouts
     vehicles: int  # others in view
     depth: int
     rollouts: int  # of the search
     decision: float  # [ms]
-    recognition: float  # [ms] of it
-    search: float  # [ms] of it
-    record: float  # [ms] of it
-    yardsticks: float  # the decision's time over the yardstick's
-    rollouts_per_s: float  # those recorded, over the search's time
-    vehicle_steps_per_s: float  # steps of 0.2 s of all vehicles in them, over the same
+    recognition: float  # [ms] of the decision
+    search: float  # [ms] of the decision
+    record: float  # [ms] of the decision
+    yardsticks: float  # ratio of the decision's time to the yardstick's
+    rollouts_per_s: float  # recorded rollouts per time of the search
+    vehicle_steps_per_s: float  # steps of 0.2 s of all vehicles in them, per time of the search
 
 
 class PlanReport(Aimed, frozen=True, kw_only=True):
-    """What the benchmark found."""
+    """The results of the benchmark."""
 
     bench: str
     yardstick: float  # [ms]
@@ -86,7 +86,7 @@ class PlanReport(Aimed, frozen=True, kw_only=True):
         return "\n\n".join([*parts, targets_table(self.targets)])
 
     def plot(self) -> str:
-        """Growth as an SVG document."""
+        """Return the growth as an SVG document."""
         return chart([self._panel(axis) for axis in ("vehicles", "depth", "rollouts")])
 
     def _panel(self, axis: str) -> Panel:
@@ -99,7 +99,7 @@ class PlanReport(Aimed, frozen=True, kw_only=True):
 
 
 def measure(hours: float) -> PlanReport:
-    """Time decisions; drive as many hours of simulated time [h] to see what memory does."""
+    """Time decisions, and watch the memory over some hours [h] of simulated driving."""
     yardstick = timed_yardstick()
     watch = Watch()
     for name in SCENARIOS:
@@ -117,7 +117,7 @@ def measure(hours: float) -> PlanReport:
 
 
 def timed_yardstick() -> float:
-    """Return the shortest time [s] of a few that a plain loop takes."""
+    """Return the shortest of a few times [s] of a plain loop."""
     taken = []
     for _ in range(5):
         began, total = time.perf_counter(), 0.0
@@ -128,11 +128,11 @@ def timed_yardstick() -> float:
 
 
 def crowded(sizes: Sequence[int], shifts: Sequence[float]) -> tuple[Figure, ...]:
-    """Time decisions with so many others in view, in processor time of one core.
+    """Time decisions by the number of others in view, in processor time of one core.
 
     Args:
-        sizes: how many others.
-        shifts: [m] by which all of them are farther ahead, a decision for each.
+        sizes: numbers of others.
+        shifts: [m] by which all of them are farther ahead, with one decision for each.
     """
     scenario = load(ROAD)
     network = network_of(scenario)
@@ -160,7 +160,7 @@ def growth(
     rollouts: Sequence[int],
     repeats: int,
 ) -> tuple[Growth, ...]:
-    """Time made-up decisions, while one thing grows and the others stay as usual."""
+    """Time synthetic decisions, while one size grows and the others stay as usual."""
     scenario = load(ROAD)
     network = network_of(scenario)
     warm_up(network)
@@ -202,7 +202,7 @@ def _grown(
 
 
 def _ride_again(watch: Watch, name: str) -> None:
-    """Every decision of a ride taken again, part by part."""
+    """Take every decision of a ride again, and time its parts."""
     conversation, network = ride(name)
     goal = conversation.dialogue.traces[0].goal
     frame = Frame(Roads(network), goal, settings_of(load(name)), SEED, "car")

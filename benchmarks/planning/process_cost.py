@@ -1,4 +1,4 @@
-"""What only whole processes show: the time to start, and memory over hours of driving."""
+"""Costs of whole processes: the time to start, and memory over hours of driving."""
 
 import os
 import subprocess
@@ -13,14 +13,14 @@ from sim.setup.scenario import load
 from xavi_dialogue.vehicle.episode import network_of, start
 
 STARTS = 3
-ROADS = ("motorway", "town")  # that are driven in turn
+ROADS = ("motorway", "town")  # scenarios that are driven in turn
 HOUR = 3600.0  # [s]
 MEGABYTE = 1024.0 * 1024.0
 FIRST = ("-m", "xavi_dialogue", "drive", "--scenario", "s1", "--seed", "0", "--duration", "0.1")
 
 
 class Memory(msgspec.Struct, frozen=True):
-    """What a process holds after some driving."""
+    """The memory of a process after some driving."""
 
     hours: float  # [h] of simulated driving so far
     decisions: int  # so far
@@ -28,7 +28,7 @@ class Memory(msgspec.Struct, frozen=True):
 
 
 def start_up() -> list[float]:
-    """Times [ms] from starting a fresh process to its end after the first decision."""
+    """Return times [ms] of a fresh process, from its start to its end after one decision."""
     taken = []
     for _ in range(STARTS):
         began = time.perf_counter()
@@ -62,6 +62,6 @@ def rides(hours: float, scenarios: tuple[str, ...]) -> tuple[Memory, ...]:
 
 
 def resident() -> float:
-    """Return what this process holds in memory now [MB]."""
+    """Return the memory [MB] of this process now."""
     pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / MEGABYTE

@@ -1,1 +1,1 @@
-"""Predictions of others, beside what they did."""
+"""Predictions of other vehicles, compared with what they did."""

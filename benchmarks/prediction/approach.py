@@ -1,9 +1,9 @@
-"""What vehicles truly did: their ways up to a choice of roads and into the one they took.
+"""The true ways of vehicles: up to a choice of roads, and into the road that they took.
 
-Read off recorded scenes alone, for comparison with what was expected of them. A vehicle
-approaches from the moment at which it appears, or has entered its road, and has more than one
-way to go in view, until it enters one of those roads; that one is the truth. Who leaves the view
-before, or goes where nobody expected, tells nothing and is left out.
+They are determined from recorded scenes alone, for comparison with predictions. An approach begins
+when a vehicle is in view on its road and has more than one road to choose from in view. It ends
+when the vehicle enters one of those roads, which is the truth. A vehicle that leaves the view
+before, or goes elsewhere, is left out.
 """
 
 from collections.abc import Iterator, Sequence
@@ -16,17 +16,17 @@ from planner.prediction.goals import Goal, goals_in_view
 from planner.roads.trajectory import Roads
 from sim.scene import EGO, Scene, VehicleState
 
-SHORTEST = 10  # samples of an approach that is worth watching
+SHORTEST = 10  # least number of samples of an approach
 
 
 @dataclass(frozen=True, slots=True)
 class Approach:
-    """One vehicle on its way to a choice of roads."""
+    """The approach of one vehicle to a choice of roads."""
 
     vehicle: int
     first: int  # sample at which it has the choice in view
     last: int  # sample before it enters the road that it takes
-    choices: tuple[Goal, ...]  # all goals at the first sample, stopping among them
+    choices: tuple[Goal, ...]  # all goals at the first sample, including stopping
     truth: str  # edge of the road that it takes
 
 
@@ -48,7 +48,7 @@ def approaches(roads: Roads, scenes: Sequence[Scene], view: float) -> tuple[Appr
 
 
 def track_at(scenes: Sequence[Scene], sample: int, vehicle: int, longest: int) -> Observed:
-    """Return a vehicle as observed up to a sample, for at most so many samples."""
+    """Return a vehicle as observed up to a sample, over `longest` samples at most."""
     first = sample
     while first > max(0, sample - longest) and vehicle in scenes[first - 1].vehicles:
         first -= 1

@@ -1,7 +1,7 @@
-"""The constants of recognition, and what changing one of them does to its scores.
+"""The constants of recognition, and the effect of changing one of them on its scores.
 
-Those of driving (accelerations, gaps, sideways comfort) are the driver's and stay; those that
-only shape trajectories do not change what goals are given.
+Constants of driving (accelerations, gaps, sideways comfort) belong to the driver and stay fixed.
+Constants that only shape trajectories do not change the probabilities of goals.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -21,8 +21,8 @@ from planner.prediction import astar, goals, indication, likelihood, recognise
 
 FACTORS = (0.5, 0.8, 1.25, 2.0)
 RATIONALITY = "rationality"  # of the settings
-THINNED = 4  # of so many moments one is taken
-#: Each constant, and the modules that read it.
+THINNED = 4  # one of this many moments is used
+#: The constants, with the modules that read each.
 CONSTANTS: Mapping[str, tuple[ModuleType, ...]] = {
     "UNEXPLAINED": (likelihood,),
     "NO_WAY": (likelihood,),
@@ -52,7 +52,7 @@ CONSTANTS: Mapping[str, tuple[ModuleType, ...]] = {
 
 
 class Varied(msgspec.Struct, frozen=True):
-    """The scores of one ride with one constant changed, in sum."""
+    """The summed scores of one ride with one constant changed."""
 
     constant: str
     factor: float
@@ -62,16 +62,16 @@ class Varied(msgspec.Struct, frozen=True):
 
 
 class VariedRow(msgspec.Struct, frozen=True):
-    """What becomes of the mean scores where one constant is multiplied."""
+    """The changes of the mean scores if one constant is multiplied."""
 
     constant: str
     moments: int
-    log: dict[str, float | None]  # change by factor; None where it stays the same number
+    log: dict[str, float | None]  # change by factor; None if the constant stays the same number
     top: dict[str, float | None]
 
 
 def vary(recording: Recording, approaches: Sequence[Approach]) -> tuple[Varied, ...]:
-    """Score a ride as it is (factor 1), and with each constant changed in turn."""
+    """Score a ride unchanged (factor 1), and with each constant changed in turn."""
     found = [_scored(recording, approaches, RATIONALITY, 1.0)]
     for constant in (RATIONALITY, *CONSTANTS):
         for factor in FACTORS:
@@ -88,9 +88,9 @@ def vary(recording: Recording, approaches: Sequence[Approach]) -> tuple[Varied, 
 
 @contextmanager
 def changed(constant: str, factor: float) -> Iterator[bool]:
-    """Multiply a constant while the block runs; yields whether that makes it another number.
+    """Multiply a constant while the block runs; yield whether that makes it another number.
 
-    A constant that is a count stays one.
+    A count stays a whole number.
     """
     kept = [(module, constant) for module in CONSTANTS.get(constant, ())]
     values = [getattr(module, name) for module, name in kept]
@@ -105,7 +105,7 @@ def changed(constant: str, factor: float) -> Iterator[bool]:
 
 
 def times(value: object, factor: float) -> object:
-    """Multiply a number, or each of several; a whole number stays one, and at least 1."""
+    """Multiply a number, or each of several; a whole number stays whole, with minimum 1."""
     if isinstance(value, tuple):
         return tuple(times(one, factor) for one in value)
     if isinstance(value, int):

@@ -1,7 +1,7 @@
-"""Displacement errors of predicted trajectories, beside those of cheap rivals.
+"""Displacement errors of predicted trajectories, compared with those of simple rivals.
 
-The average (ADE) and the final one (FDE) are distances [m] between the predicted place and the
-true one, in the mean over the horizon and at its end (Pellegrini et al., ICCV 2009).
+The average (ADE) and the final error (FDE) are distances [m] between the predicted place and the
+true one, averaged over the horizon and at its end (Pellegrini et al., ICCV 2009).
 """
 
 from collections.abc import Sequence
@@ -21,23 +21,23 @@ HORIZONS = (2.0, 4.0)  # [s]
 LIKELIEST, BEST = "likeliest", "best of ours"
 STRAIGHT, LANE, EACH = "constant velocity", "keeps its lane", "best of each road"
 METHODS = (LIKELIEST, STRAIGHT, LANE, BEST, EACH)
-BLEND = 12.0  # [m] in which a vehicle beside the middle of its lane gets there
+BLEND = 12.0  # [m] of way in which a vehicle returns to the middle of its lane
 
 
 class Error(msgspec.Struct, frozen=True):
-    """By how much one method was wrong at one horizon."""
+    """The errors of one method at one horizon."""
 
     method: str
     horizon: float  # [s]
     average: float  # [m]
     final: float  # [m]
-    lines: int  # trajectories of which the best counts
+    lines: int  # number of trajectories, of which the best counts
 
 
 def errors(
     recording: Recording, sample: int, vehicle: int, beliefs: Sequence[Belief]
 ) -> tuple[Error, ...]:
-    """Return the errors of all methods at the horizons up to which a vehicle stays in view."""
+    """Return the errors of all methods, at the horizons for which a vehicle stays in view."""
     now = recording.track(sample, vehicle)
     found: list[Error] = []
     lines: dict[str, list[Array]] = {}
@@ -56,10 +56,10 @@ def error(method: str, horizon: float, lines: Sequence[Array], truth: Array) -> 
     """Return the errors of the best of several predicted lines.
 
     Args:
-        method: whose lines.
+        method: the method that predicted the lines.
         horizon: [s]
-        lines: each [m] [T, 2] from the next sample on; beyond its end it stays where it is.
-        truth: [m] [N, 2] where the vehicle was, T >= N.
+        lines: each [m] [T, 2] from the next sample on; after its end the last place counts.
+        truth: [m] [N, 2] places of the vehicle, T >= N.
     """
     apart = np.array([np.hypot(*(held(line)[: len(truth)] - truth).T) for line in lines])
     least = float(np.min(np.mean(apart, axis=1)))
@@ -67,7 +67,7 @@ def error(method: str, horizon: float, lines: Sequence[Array], truth: Array) -> 
 
 
 def held(line: Array) -> Array:
-    """Return a line with its last place for those where it is no more (NaN)."""
+    """Return a line in which the last place replaces those after its end (NaN)."""
     there = np.isfinite(line[:, 0])
     last = np.maximum.accumulate(np.where(there, np.arange(len(line)), 0))
     found: Array = line[last]
@@ -99,7 +99,7 @@ def predicted(
 
 
 def rows(roads: Roads, here: Situation, view: float) -> list[tuple[str, ...]]:
-    """Return connected lanes: straight on as far as one can, then into each road ahead."""
+    """Return rows of connected lanes: straight on, and into each road ahead."""
     place, network = here.location, roads.network
     found = [onward(roads, (place.lane,), place.offset + view)]
     ahead = approach(roads, place, view).lanes

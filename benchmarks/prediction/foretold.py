@@ -1,7 +1,7 @@
-"""What was expected of a vehicle at one moment of its approach, beside what it then did.
+"""Predictions of a vehicle at one moment of its approach, with what it then did.
 
-The roads are those that it could choose from when its approach began, and whatever else was
-expected; a road that recognition has dropped has the probability 0.
+The roads are those that it could choose from when its approach began, and any others that were
+predicted. A road that recognition has dropped has the probability 0.
 """
 
 from collections.abc import Iterator, Sequence
@@ -24,10 +24,10 @@ class Foretold(msgspec.Struct, frozen=True):
     network: str  # scenario or number, with the seed
     family: str  # of the network
     vehicle: int
-    roads: str  # what it can choose from, in words
+    roads: str  # the choice of roads, in words
     seen: float  # [s] for which it has been seen
     left: float  # [s] until it enters the road that it takes
-    chances: tuple[float, ...]  # of each road that it may take; together at most 1
+    chances: tuple[float, ...]  # probability of each road that it may take; their sum is up to 1
     kinds: tuple[Action, ...]  # of the roads, in the same order
     truth: int  # index of the road that it takes
     errors: tuple[Error, ...] = ()  # of the trajectories predicted
@@ -36,7 +36,7 @@ class Foretold(msgspec.Struct, frozen=True):
 def foretold(
     recording: Recording, approach: Approach, network: str, family: str
 ) -> Iterator[Foretold]:
-    """Yield what was expected in an approach, once a second, in the order of time."""
+    """Yield the predictions in an approach, once a second, in the order of time."""
     first = -(-approach.first // EVERY) * EVERY
     for sample in range(first, approach.last + 1, EVERY):
         beliefs = recording.beliefs(sample)[approach.vehicle]
@@ -62,7 +62,7 @@ def spread(
 
     Args:
         beliefs: of one vehicle.
-        choices: the goals when the approach began, the road that was taken among them.
+        choices: the goals when the approach began, including the road that was taken.
         truth: edge of that road.
     """
     kinds: dict[str, Action] = {}
@@ -77,7 +77,7 @@ def spread(
 
 
 def roads_of(choices: Sequence[Goal]) -> str:
-    """Name what there is to choose from."""
+    """Return words for the choice of roads."""
     if any("roundabout" in goal.place for goal in choices):
         return "roundabout"
     edges = {goal.target.edge for goal in choices if goal.target is not None}

@@ -1,4 +1,4 @@
-"""Scores of goal probabilities: log score, Brier score and top-1, beside cheap rivals."""
+"""Scores of goal probabilities: log score, Brier score and top-1, for us and simple rivals."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -8,21 +8,21 @@ import msgspec
 from benchmarks.prediction.foretold import Foretold
 from planner.record.trace import Action
 
-FLOOR = 0.01  # least probability that the log score counts; recognition drops what is below
+FLOOR = 0.01  # least probability for the log score, as recognition drops lower ones
 OURS, UNIFORM, COMMONEST = "ours", "uniform", "commonest"
 Chances = tuple[float, ...]
 
 
 class Score(msgspec.Struct, frozen=True):
-    """How good some probabilities are, in the mean."""
+    """The mean scores of some probabilities."""
 
     log: float  # negative natural logarithm of the probability of the truth
     brier: float  # squared error, summed over the roads: 0 to 2
-    top: float  # share in which the truth is the likeliest, shared among equals
+    top: float  # share in which the truth is the likeliest; ties share it
 
 
 class GoalRow(msgspec.Struct, frozen=True):
-    """Some moments, in the mean."""
+    """The mean scores of some moments."""
 
     group: str
     moments: int
@@ -36,7 +36,7 @@ def score(chances: Chances, truth: int) -> Score:
     """Score the probabilities of one moment.
 
     Args:
-        chances: of each road, together at most 1.
+        chances: probability of each road, with a sum up to 1.
         truth: index of the road that was taken.
     """
     best = max(chances) - 1e-9
@@ -49,7 +49,7 @@ def score(chances: Chances, truth: int) -> Score:
 
 
 def rates(moments: Sequence[Foretold]) -> dict[Action, float]:
-    """Return how often a road of each kind is taken where there is one."""
+    """Return how often a road of each kind is taken when there is one."""
     offered: dict[Action, int] = {}
     taken: dict[Action, int] = {}
     for moment in moments:
@@ -60,12 +60,12 @@ def rates(moments: Sequence[Foretold]) -> dict[Action, float]:
 
 
 def uniform(moment: Foretold) -> Chances:
-    """Return the same probability for each road; stopping, which nobody does here, has none."""
+    """Return the same probability for each road, and none for stopping, which nobody does here."""
     return (1.0 / len(moment.chances),) * len(moment.chances)
 
 
 def commonest(moment: Foretold, often: Mapping[Action, float]) -> Chances:
-    """Return probabilities as often as roads of that kind are taken."""
+    """Return probabilities in proportion to how often roads of that kind are taken."""
     weights = [often.get(kind, 0.0) for kind in moment.kinds]
     total = sum(weights)
     return tuple(weight / total for weight in weights) if total else uniform(moment)
@@ -112,7 +112,7 @@ def average(scores: Sequence[Score]) -> Score:
 
 
 def clustered(values: Sequence[float], clusters: Sequence[str]) -> tuple[float, float]:
-    """Return the mean of values and its standard error, where those of a cluster go together.
+    """Return the mean of values and its standard error, given clusters of dependent values.
 
     The error is that of a ratio of cluster totals (Cochran, Sampling Techniques, 1977, 6.3).
     """

@@ -1,9 +1,9 @@
-"""`xavi bench recognise`: how well it is known where others will go, and where they will be.
+"""`xavi bench recognise`: how well we predict which roads others take, and where they will be.
 
-Every vehicle's approach to a choice of roads (see `approach`) is watched; once a second the
-prediction is taken from the track of at most ten seconds that the car has then seen. Scenarios
-that come with the package were looked at while recognition was built (development); networks
-made at random by number were not (held out).
+Every vehicle's approach to a choice of roads (see `approach`) is observed. Once a second the
+prediction is made from the track that the car has seen, up to ten seconds. The scenarios of the
+package were used while recognition was developed (development); random networks by number were
+not (held out).
 """
 
 import tempfile
@@ -25,20 +25,20 @@ SCENARIOS = ("s1", "s2", "s3", "s4", "motorway", "town")
 
 
 class Task(msgspec.Struct, frozen=True):
-    """One ride to be watched."""
+    """One ride to observe."""
 
     scenario: str | None  # name or folder; None: a network made by the number that is the seed
     seed: int
-    constants: bool = False  # whether to change each of them
+    constants: bool = False  # whether to change each constant
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """The name of the ride's scenario or network."""
         return f"network {self.seed}" if self.scenario is None else self.scenario
 
 
 class Watched(msgspec.Struct, frozen=True):
-    """What came of one ride."""
+    """The observations of one ride."""
 
     task: Task
     moments: tuple[Foretold, ...] = ()
@@ -50,21 +50,21 @@ class Watched(msgspec.Struct, frozen=True):
 def tasks(
     scenarios: Sequence[str], seeds: int, networks: int, first: int, constants: int
 ) -> list[Task]:
-    """List the rides: scenarios with seeds from 0 on, and networks by number from `first` on.
+    """Return the rides: scenarios with seeds from 0 on, and networks by number from `first` on.
 
-    In the first so many networks the constants are changed.
+    In the first `constants` networks the constants are changed.
     """
     found = [Task(name, seed) for name in scenarios for seed in range(seeds)]
     return found + [Task(None, first + k, k < constants) for k in range(networks)]
 
 
 def measure(asked: Sequence[Task], jobs: int, note: Callable[[str], None]) -> list[Watched]:
-    """Watch the others of rides.
+    """Observe the others of rides.
 
     Args:
         asked: the rides.
-        jobs: processes side by side.
-        note: takes notes on progress.
+        jobs: number of parallel processes.
+        note: is called with notes on progress.
     """
     found: list[Watched] = []
     for one in in_processes(watch, asked, jobs, lambda t: Watched(t, error="its process died")):
@@ -74,9 +74,10 @@ def measure(asked: Sequence[Task], jobs: int, note: Callable[[str], None]) -> li
 
 
 def watch(task: Task) -> Watched:
-    """Drive a ride and watch the others; errors are in the result.
+    """Drive a ride and observe the others; errors are part of the result.
 
-    Our planner drives the ego of a scenario, since the stories hang on it; SUMO that of a network.
+    Our planner drives the ego of a scenario, since the stories depend on it; SUMO drives that of a
+    network.
     """
     try:
         if task.scenario is not None:

@@ -1,4 +1,4 @@
-"""The report of `xavi bench recognise`: its rows, and its tables for people."""
+"""The report of `xavi bench recognise`, with its rows and its tables for people."""
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
@@ -24,15 +24,15 @@ from benchmarks.prediction.recognise import Watched
 from benchmarks.prediction.reliability import Bin, MapRow, fit, map_row
 from benchmarks.prediction.stories import Story
 
-SEEN = (0.0, 1.0, 2.0, 4.0, 7.0, 11.0)  # [s] bounds of the time for which one has been seen
-LEFT = (0.0, 2.0, 4.0, 8.0, 99.0)  # [s] and of that until it enters a road
+SEEN = (0.0, 1.0, 2.0, 4.0, 7.0, 11.0)  # [s] bounds of the time since a vehicle came into view
+LEFT = (0.0, 2.0, 4.0, 8.0, 99.0)  # [s] bounds of the time until it enters a road
 DEVELOPMENT, HELD_OUT = "development", "held out"
 
 Group = tuple[str, Callable[[Foretold], bool]]
 
 
 class LineRow(msgspec.Struct, frozen=True):
-    """Displacement errors of one method at one horizon, in the mean."""
+    """Mean displacement errors of one method at one horizon."""
 
     group: str
     method: str
@@ -40,11 +40,11 @@ class LineRow(msgspec.Struct, frozen=True):
     moments: int
     average: float  # [m]
     final: float  # [m]
-    lines: float  # trajectories of which the best counts
+    lines: float  # number of trajectories, of which the best counts
 
 
 class Part(msgspec.Struct, frozen=True):
-    """What was found on one set of networks."""
+    """The results on one set of networks."""
 
     name: str
     rides: int
@@ -53,12 +53,12 @@ class Part(msgspec.Struct, frozen=True):
 
 
 class RecogniseReport(Aimed, frozen=True, kw_only=True):
-    """What the benchmark found."""
+    """The results of the benchmark."""
 
     bench: str
-    figures: tuple[Figure, ...]  # by how much each is known before the ego is committed
+    figures: tuple[Figure, ...]  # by how much each story is known before the ego is committed
     parts: tuple[Part, ...]
-    maps: tuple[MapRow, ...]  # of the map fitted in development, there and held out
+    maps: tuple[MapRow, ...]  # of the map fitted in development, on both sets
     constants: tuple[VariedRow, ...]
     stories: tuple[Story, ...]
     failed: tuple[str, ...]
@@ -79,7 +79,7 @@ class RecogniseReport(Aimed, frozen=True, kw_only=True):
 
 
 def report(watched: Sequence[Watched]) -> RecogniseReport:
-    """Put what was watched into rows."""
+    """Return the results of the rides."""
     stories = [one.story for one in watched if one.story is not None]
     sets = {
         DEVELOPMENT: [one for one in watched if one.task.scenario is not None],
@@ -102,7 +102,7 @@ def report(watched: Sequence[Watched]) -> RecogniseReport:
 
 
 def _targets(found: RecogniseReport) -> Iterator[Target]:
-    """Yield what is to be reached: all of it on networks that were never used before."""
+    """Yield the targets, on networks that were never used before."""
     unseen = next((part.goals[-1] for part in found.parts if part.name == HELD_OUT), None)
     sure = None if unseen is None else unseen.ahead - 2.0 * unseen.error
     name = "log score ahead of the better rival, less two standard errors"
@@ -111,7 +111,7 @@ def _targets(found: RecogniseReport) -> Iterator[Target]:
 
 
 def groups(moments: Sequence[Foretold]) -> list[Group]:
-    """List the groups of moments: by network, by roads, by time seen and time left, and all."""
+    """Return the groups of moments: by network, roads, time seen and time left, and all."""
     families = dict.fromkeys(moment.family for moment in moments)
     kinds = sorted({moment.roads for moment in moments})
     found = [(name, _like("family", name)) for name in families]
@@ -160,7 +160,7 @@ def _line_row(group: str, method: str, horizon: float, errors: Sequence[Error]) 
 
 
 def _maps(sets: dict[str, list[Watched]]) -> tuple[MapRow, ...]:
-    """Fit a power in development, where there is any, and apply it to each set."""
+    """Fit a power on the development set, if there is one, and apply it to each set."""
     moments = {name: [m for one in those for m in one.moments] for name, those in sets.items()}
     learnt = moments[DEVELOPMENT]
     by = fit(learnt) if learnt else 1.0

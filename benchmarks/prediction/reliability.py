@@ -1,6 +1,6 @@
-"""Reliability of probabilities: how often comes true what was given each of them.
+"""Reliability of probabilities: how often predictions of each probability come true.
 
-Bins are the bands of the words that are said of probabilities (grammars/chances.toml). The
+Bins are the bands of the words for probabilities (grammars/chances.toml). The
 expected calibration error (ECE) is the mean distance between a bin's probabilities and its
 frequency, weighted by cases (Naeini et al., AAAI 2015).
 """
@@ -23,17 +23,17 @@ class Bin(msgspec.Struct, frozen=True):
     """The cases whose probability lies within two bounds."""
 
     low: float
-    high: float  # belongs to the next bin; that of the last one to it
+    high: float  # exclusive, except in the last bin
     cases: int
     said: float  # mean probability
     true: float  # share that came true
 
 
 class MapRow(msgspec.Struct, frozen=True):
-    """What a power comes to on some networks."""
+    """The effect of a power on some networks."""
 
     networks: str
-    power: float  # to which the probabilities of one vehicle are raised; their sum stays
+    power: float  # to which the probabilities of one vehicle are raised; their sum is kept
     moments: int
     ece: tuple[float, float]  # before and after
     log: tuple[float, float]  # log score before and after
@@ -43,7 +43,7 @@ class MapRow(msgspec.Struct, frozen=True):
     after: tuple[Bin, ...]
 
 
-POWERS = (0.05, 5.0)  # least and greatest that are tried
+POWERS = (0.05, 5.0)  # least and greatest power that are tried
 
 
 def pairs(moments: Sequence[Foretold], power: float = 1.0) -> list[tuple[float, bool]]:
@@ -56,7 +56,7 @@ def pairs(moments: Sequence[Foretold], power: float = 1.0) -> list[tuple[float, 
 
 
 def bins(cases: Sequence[tuple[float, bool]]) -> tuple[Bin, ...]:
-    """Put probabilities in [0, 1] into bins; those without any are left out."""
+    """Put probabilities in [0, 1] into bins; empty bins are left out."""
     found = []
     for low, high in pairwise(EDGES):
         inside = [c for c in cases if low <= c[0] < high or (high == EDGES[-1] and c[0] >= high)]
@@ -86,7 +86,7 @@ def mapped(chances: Chances, power: float) -> Chances:
 
 
 def fit(moments: Sequence[Foretold]) -> float:
-    """Return the power of the best log score in some moments, at least one."""
+    """Return the power with the best log score in some moments, at least one."""
 
     def loss(logarithm: float) -> float:
         return float(np.mean(logs_of(moments, math.exp(logarithm))))
@@ -97,12 +97,12 @@ def fit(moments: Sequence[Foretold]) -> float:
 
 
 def logs_of(moments: Sequence[Foretold], power: float) -> list[float]:
-    """Return the log score of each moment, its probabilities raised to a power."""
+    """Return the log score of each moment with its probabilities raised to a power."""
     return [-math.log(max(mapped(m.chances, power)[m.truth], FLOOR)) for m in moments]
 
 
 def map_row(networks: str, power: float, moments: Sequence[Foretold]) -> MapRow:
-    """Return what a power comes to in some moments, at least one."""
+    """Return the effect of a power on some moments, at least one."""
     plain, better = logs_of(moments, 1.0), logs_of(moments, power)
     before, after = bins(pairs(moments)), bins(pairs(moments, power))
     gains = [a - b for a, b in zip(plain, better, strict=True)]

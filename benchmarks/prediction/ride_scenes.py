@@ -1,4 +1,4 @@
-"""A ride as scenes, and what the planner expects of the others at any moment of it."""
+"""A ride as scenes, with the planner's beliefs about the others at any moment."""
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -29,7 +29,7 @@ class Recording:
     _known: dict[int, Mapping[int, Sequence[Belief]]] = field(default_factory=dict)
 
     def beliefs(self, sample: int) -> Mapping[int, Sequence[Belief]]:
-        """Return what was to be expected of everybody in view, from their tracks up to a sample."""
+        """Return the beliefs about everybody in view, from their tracks up to a sample."""
         found = self._known.get(sample)
         if found is None:
             scene = self.scenes[sample]
@@ -39,7 +39,7 @@ class Recording:
         return found
 
     def track(self, sample: int, vehicle: int) -> Observed:
-        """Return what the car remembers of a vehicle at a sample."""
+        """Return the track of a vehicle that the car remembers at a sample."""
         return track_at(self.scenes, sample, vehicle, MEMORY)
 
 
@@ -48,7 +48,7 @@ def record(scenario: Scenario, seed: int) -> Recording:
 
     Raises:
         SimulationError: SUMO is not installed or fails.
-        DriverError: the car cannot be driven on.
+        DriverError: the car cannot go on.
     """
     network = network_of(scenario)
     stride = max(1, round(SAMPLE_PERIOD / scenario.step))
@@ -63,7 +63,7 @@ def record(scenario: Scenario, seed: int) -> Recording:
 
 
 def record_by_sumo(scenario: Scenario, seed: int) -> Recording:
-    """Watch a scenario from an ego that SUMO drives, to the end of its way or of the time.
+    """Record a scenario whose ego SUMO drives, to the end of its way or of the time.
 
     Raises:
         SimulationError: SUMO is not installed or fails.

@@ -1,4 +1,4 @@
-"""The two stories in which the ego's choice hangs on where vehicle 1 goes, and when it is known."""
+"""The two stories in which the ego's choice depends on where vehicle 1 goes."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ SURE = 0.8  # probability that counts as knowing
 
 @dataclass(frozen=True, slots=True)
 class Plot:
-    """What is to be known of a vehicle, and what the ego does knowing it."""
+    """The goal of a vehicle that is to be known, and what the ego does when it knows it."""
 
     vehicle: int
     kind: Action
@@ -26,20 +26,20 @@ PLOTS = {"s1": Plot(1, "exit-right", "change-left"), "s2": Plot(1, "exit-left", 
 
 
 class Story(msgspec.Struct, frozen=True):
-    """How one ride went; times in seconds, null where it never was."""
+    """The times [s] of one ride; null if never."""
 
     scenario: str
     seed: int
     vehicle: int
     kind: Action
-    known: float | None  # first moment at which its probability is at least SURE
-    started: float | None  # the ego begins its manoeuvre, where it carries it out
-    committed: float | None  # and cannot give it up any more
-    before: bool  # known before the ego was committed
+    known: float | None  # first moment at which the goal's probability is at least SURE
+    started: float | None  # beginning of the ego's manoeuvre, if it carries it out
+    committed: float | None  # when the ego can no longer give it up
+    before: bool  # whether it was known before the ego was committed
 
 
 def tell(name: str, seed: int, recording: Recording) -> Story | None:
-    """Return the story of a ride; None where the scenario has none."""
+    """Return the story of a ride; None if the scenario has none."""
     plot = PLOTS.get(name)
     if plot is None:
         return None
@@ -50,7 +50,10 @@ def tell(name: str, seed: int, recording: Recording) -> Story | None:
 
 
 def manoeuvre(events: Sequence[Event], action: Action) -> tuple[float | None, float | None]:
-    """When [s] the ego began the first such manoeuvre that it carried out, and was committed."""
+    """Return when [s] the ego began the first manoeuvre that it carried out, and committed to it.
+
+    None and None if it carried out no such manoeuvre.
+    """
     started: float | None = None
     for event in events:
         if event.kind == "action-started" and event.action == action:
