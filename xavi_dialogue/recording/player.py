@@ -60,23 +60,23 @@ Note: TypeAlias = Callable[[str], None]
 
 @dataclass
 class Player:
-    """Reports a recorded ride like a car; accepts the same commands, and Seek."""
+    """A player that reports a recorded ride like a car; accepts the same commands, and Seek."""
 
     recorded: RecordedMessages
     bus: Bus
     keys: Keys
     pace: Pace
-    record: Callable[[Moment], None] = lambda _: None  # gets every decision that is published
-    note: Note = lambda _: None  # takes notes for the sender of commands
+    record: Callable[[Moment], None] = lambda _: None  # called with every published decision
+    note: Note = lambda _: None  # called with notes for the sender of commands
     alive: HealthReporter = field(default_factory=lambda: HealthReporter("car", COUNTERS))
     ride: str = field(default_factory=lambda: token_hex(4))
     index: int = 0  # of the scene that is shown
-    traces: int = 0  # published
+    traces: int = 0  # number published
     events: list[Event] = field(default_factory=list)  # published
-    scenes: int = 0  # published
+    scenes: int = 0  # number published
     told: tuple[int, int] = (0, 0)  # traces and events that the car had reported so far
-    due: float = 0.0  # [s] on the monotonic clock: when the next scene is due
-    shown: float = 0.0  # [s] on the monotonic clock: when the last one came
+    due: float = 0.0  # [s] on the monotonic clock, when the next scene is due
+    shown: float = 0.0  # [s] on the monotonic clock, when the last scene was shown
 
     def __post_init__(self) -> None:
         self._scene = self.bus.publisher(self.keys.of("scene"))
@@ -107,7 +107,7 @@ class Player:
                 self._advance()
 
     def go_to(self, index: int) -> None:
-        """Show a scene, and all that was known by then."""
+        """Publish a scene, and all reports that were known by then."""
         self.index = index
         scene = self._publish_record()
         self.pace.arrive(scene.sim_time, self.events)
@@ -115,7 +115,7 @@ class Player:
         self.due = time.monotonic()
 
     def _delay(self) -> float:
-        """Time [s] to the next scene."""
+        """Return the time [s] to the next scene."""
         if self.at_end or not self.pace.running:
             return SHOWN_EVERY
         if self.pace.speed == 0.0:
@@ -148,7 +148,7 @@ class Player:
         self.go_to(index)
 
     def tell_end(self, wanted: float) -> None:
-        """Note where the recording ends, if a time [s] is later."""
+        """Write a note with the end of the recording, if a time [s] is later."""
         if self.recorded.ends_before(wanted):
             self.note(f"the recording ends at {clock(self.recorded.times[-1])}")
 
@@ -191,7 +191,7 @@ class Player:
         if not always and time.monotonic() - self.shown < 0.9 * SHOWN_EVERY:
             return
         scene = self.recorded.scene(self.index)
-        # What is known is not unlearnt where the ride goes back; and what is missing, is.
+        # Published reports stay known when the ride goes back; missing reports stay missing.
         self.told = (
             max(self.told[0], scene.traces),
             max(self.told[1], scene.events),

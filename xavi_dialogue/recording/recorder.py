@@ -1,6 +1,6 @@
-"""`xavi record`: writes the messages about one car or all cars to a file.
+"""`xavi record`: a recorder of the messages about one car or all cars.
 
-Handlers on threads of the bus only put messages into a row; one thread checks and writes them.
+Handlers on threads of the bus only queue messages; one thread checks and writes them.
 """
 
 import logging
@@ -40,10 +40,10 @@ EVERY = "all"  # stands for all cars
 NETWORK_PATIENCE = 10.0  # [s] for a car to send its roads
 FLUSHED_EVERY = 1.0  # [s]
 LOOK = 0.2  # [s] between checks for a request to stop
-MAX_WAITING = 64 * MIB  # bytes that wait to be written; beyond them messages are left out
+MAX_WAITING = 64 * MIB  # bytes that may wait to be written; beyond, messages are discarded
 AT_ONCE = 500  # messages written between checks for flushing and stopping
-MAX_RIDES = 200  # that the file describes
-MAX_APART = 10_000  # numbers that are remembered of a ride because some before them are missing
+MAX_RIDES = 200  # greatest number of rides that the file describes
+MAX_APART = 10_000  # numbers of a ride that are remembered while earlier ones are missing
 COUNTERS = ("messages", "bytes", "dropped", "rejected")
 
 Note: TypeAlias = Callable[[str], None]
@@ -54,7 +54,7 @@ _Job: TypeAlias = Callable[[], None]
 class SeenNumbers:
     """The sequence numbers that were seen."""
 
-    below: int = 0  # all before this one
+    below: int = 0  # all numbers below this one were seen
     apart: set[int] = field(default_factory=set)
 
     def new(self, number: int) -> bool:
@@ -71,7 +71,7 @@ class SeenNumbers:
 
 
 class Recorder:
-    """Records the messages about a car."""
+    """A recorder of the messages about a car."""
 
     def __init__(self, bus: Bus, keys: Keys, file: McapWriter, note: Note) -> None:
         """Begin to record, once opened.
@@ -119,7 +119,7 @@ class Recorder:
             self._flushed = time.monotonic()
 
     def finish(self) -> None:
-        """Hear no more, and write all that waits.
+        """Stop receiving, and write all that waits.
 
         Raises:
             Unwritable: the file cannot be written any further.
@@ -202,13 +202,13 @@ class Recorder:
 
 @dataclass(frozen=True)
 class RecordOptions:
-    """What to record, and where."""
+    """Options of recording."""
 
     path: Path
     link: Link
     vehicle: str = DEFAULT_VEHICLE  # or EVERY
     overwrite: bool = False
-    controlled: bool = False  # by orders on standard input
+    controlled: bool = False  # whether orders come on standard input
 
 
 def record(task: RecordOptions, note: Note) -> None:

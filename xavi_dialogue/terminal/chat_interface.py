@@ -1,4 +1,4 @@
-"""What the terminal needs of a chat."""
+"""The interface of a chat for the terminal."""
 
 from collections.abc import Awaitable
 from typing import Protocol

@@ -7,7 +7,7 @@ from prompt_toolkit.document import Document
 
 
 class Words(Completer):
-    """Completes the last words of the line to words of the live scene."""
+    """A completer of the last words of the line to words of the live scene."""
 
     def __init__(self, words: Callable[[], tuple[str, ...]]) -> None:
         self._words = words

@@ -28,7 +28,7 @@ PROMPT = "> "
 THINKING = "thinking ... (Ctrl-C gives it up)"
 SURE = "Erase all that was said in this session? [y/N] "
 KEPT = "(nothing is erased)"
-REFRESH = 0.25  # [s] of the status line
+REFRESH = 0.25  # [s] between updates of the status line
 WATCH = 0.5  # [s] between checks of the processes
 NOTICED = 0.2  # [s] after which a passenger who waits gets a note
 WELCOME = (
@@ -78,7 +78,7 @@ class TerminalChat:
         self._screen = Screen(colours=has_colours(os.environ) if colours is None else colours)
         self._jobs: asyncio.Queue[_Job] = asyncio.Queue()  # one after another, as typed
         self._waiting: _Waiting | None = None
-        self._thinking = False  # and for so long that it is shown
+        self._thinking = False  # whether an answer takes so long that this is shown
         self._confirming = False  # whether to erase the conversation
         self._over = False
         self._loop: asyncio.AbstractEventLoop | None = None
@@ -143,7 +143,7 @@ class TerminalChat:
                     self._take(line)
 
     def _take(self, line: str) -> None:
-        """Take up a line that was typed: an assent, a command, or a question."""
+        """Handle a line that was typed: an assent, a command, or a question."""
         text = one_line(line)
         if self._confirming:
             self._confirming = False
@@ -208,7 +208,7 @@ class TerminalChat:
         return told
 
     async def _work(self) -> None:
-        """Do one job after another."""
+        """Carry out one job after another."""
         while True:
             job = await self._jobs.get()
             request = self._interface.new_request()

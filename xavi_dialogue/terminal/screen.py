@@ -22,7 +22,7 @@ PLAIN = Style([("bottom-toolbar", "noreverse")])
 
 
 def known_colours(terminal: str) -> int:
-    """Return how many colours the description of this process's terminal lists; 0 without one.
+    """Return the number of colours in the description of this process's terminal; 0 without one.
 
     Args:
         terminal: its name. Descriptions are read once: only the first name counts.
@@ -111,7 +111,7 @@ def _pieces(word: str, width: int) -> Iterator[str]:
 
 
 class Keyboard(Vt100Input):
-    """A terminal's keyboard, from which key after key is read at all times.
+    """A terminal's keyboard, which is read key by key at all times.
 
     Otherwise, what is typed at the moment at which something is printed would be echoed by the
     terminal a second time, and Ctrl-D be lost.
@@ -123,7 +123,7 @@ class Keyboard(Vt100Input):
 
 
 class Screen:
-    """Writes above the line that is being typed, if any."""
+    """The output above the line that is being typed, if any."""
 
     def __init__(self, *, colours: bool) -> None:
         self.depth = None if colours else ColorDepth.DEPTH_1_BIT  # None: as for the terminal
@@ -132,28 +132,28 @@ class Screen:
 
     @property
     def columns(self) -> int:
-        """Of the terminal, as it is now."""
+        """The present width of the terminal, in columns."""
         return get_app_session().output.get_size().columns
 
     @property
     def width(self) -> int:
-        """Columns of an answer."""
+        """The width of an answer, in columns."""
         return min(self.columns, MAX_WIDTH)
 
     def say(self, text: str) -> None:
-        """An answer, and an empty line."""
+        """Write an answer, and an empty line."""
         self._print(wrap(text, self.width) + "\n", "")
 
     def tell(self, text: str) -> None:
-        """Something that was asked for with a command."""
+        """Write the result of a command."""
         self._print(wrap(text, self.width), "")
 
     def lay_out(self, text: str) -> None:
-        """Lines that are wrapped already."""
+        """Write lines that are wrapped already."""
         self._print(clean(text), "")
 
     def dim(self, text: str) -> None:
-        """Something by the way."""
+        """Write a note."""
         self._print(wrap(text, self.width), self.faint)
 
     def _print(self, text: str, style: str) -> None:

@@ -16,8 +16,8 @@ Place: TypeAlias = Literal["terminal", "pipe"]
 MIN_TWO_COLUMNS = 60  # columns from which usage and meaning fit side by side
 MAX_SPEED = 1000.0  # simulated seconds per second
 
-WHY = "Why?"  # of the latest answer
-WHY_DONE = "Why did you do that?"  # of the latest action
+WHY = "Why?"  # about the latest answer
+WHY_DONE = "Why did you do that?"  # about the latest action
 MORE = "Tell me more."
 
 
@@ -31,12 +31,12 @@ class Form:
 
     name: str
     does: str
-    takes: str = ""  # "X"; "[FILE]" if optional; empty: none
-    terminal: bool = False  # needs one
+    takes: str = ""  # the argument: "X"; "[FILE]" if optional; empty: none
+    terminal: bool = False  # whether it needs a terminal
 
     @property
     def usage(self) -> str:
-        """Such as "/speed X"."""
+        """The usage, such as "/speed X"."""
         return f"/{self.name} {self.takes}".rstrip()
 
 
@@ -122,7 +122,7 @@ def listed(place: Place, width: int) -> str:
 
 
 def wrapper(width: int, first: str = "", hanging: str = "") -> textwrap.TextWrapper:
-    """Breaks lines of at most `width` columns at spaces only: `--session` stays whole."""
+    """Break text into lines of up to `width` columns, at spaces only: `--session` stays whole."""
     return textwrap.TextWrapper(
         width, first, hanging, break_on_hyphens=False, break_long_words=False
     )
