@@ -26,9 +26,9 @@ Verdict: TypeAlias = Literal["ok", "warning", "fault"]
 
 OURS = "xavi-dialogue"
 PYTHON = (3, 11)
-LITTLE = 1000  # [MB] of free space below which it may run out within days
-TOO_LITTLE = 50  # [MB]
-FEW_FILES = 1024  # descriptors, of which a hub needs one for every program linked to it
+LITTLE = 1000  # [MB] of free space, below which it may run out within days
+TOO_LITTLE = 50  # [MB] of free space, below which this is a fault
+FEW_FILES = 1024  # descriptors; a hub needs one for every program linked to it
 TOO_FEW_FILES = 128
 PATIENCE = 0.05  # [s] for each attempt to open the store, of which there are many
 NARROW = 40  # columns
@@ -46,7 +46,7 @@ class Finding(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True)
 class CheckedSystem:
-    """What is checked."""
+    """The subjects of the checks."""
 
     store: Path  # the file of conversations
     settings: Path  # the file of settings
@@ -58,7 +58,7 @@ Check: TypeAlias = Callable[[CheckedSystem], Finding]
 
 
 def python(_: CheckedSystem) -> Finding:
-    """Return the interpreter."""
+    """Check the interpreter."""
     found = f"{sys.version.split()[0]} at {sys.executable}"
     if sys.version_info < PYTHON:
         return Finding("python", "fault", found, "install Python 3.11 or newer and run make again")
@@ -66,7 +66,7 @@ def python(_: CheckedSystem) -> Finding:
 
 
 def packages(_: CheckedSystem) -> Finding:
-    """Return the packages that this program requires, extras left out."""
+    """Return the packages that this program requires, without extras."""
     try:
         lines = importlib.metadata.requires(OURS) or []
     except importlib.metadata.PackageNotFoundError:
@@ -102,7 +102,7 @@ def _numbers(version: str) -> tuple[int, ...]:
 
 
 def simulation(_: CheckedSystem) -> Finding:
-    """SUMO, as a library."""
+    """Check SUMO as a library."""
     try:
         return Finding("sumo", "ok", engine.version())
     except engine.SumoMissing as error:
@@ -120,7 +120,7 @@ def maps(_: CheckedSystem) -> Finding:
 
 
 def compiled(_: CheckedSystem) -> Finding:
-    """Return the planner's compiled kernels."""
+    """Check the planner's compiled kernels."""
     place = kernel_cache.place()
     if place is None or place.name.startswith(kernel_cache.LENT):
         found = "nowhere to keep them: every command compiles them anew"
@@ -204,7 +204,7 @@ def terminal(_: CheckedSystem) -> Finding:
 
 
 def settings(patient: CheckedSystem) -> Finding:
-    """Return the file of settings."""
+    """Check the file of settings."""
     if patient.mistake is not None:
         return Finding("settings", "fault", patient.mistake, f"mend or remove {patient.settings}")
     if not patient.settings.exists():
@@ -233,7 +233,7 @@ CHECKS: tuple[Check, ...] = (
 
 
 def on_this_machine(patient: CheckedSystem) -> Iterator[Finding]:
-    """Do all checks of this machine, in their order; one that breaks off is itself a fault."""
+    """Do all checks of this machine, in their order; a check that fails counts as a fault."""
     for check in CHECKS:
         try:
             yield check(patient)

@@ -1,4 +1,4 @@
-"""Writes the folder of a scenario that a SUMO configuration holds."""
+"""The folder of a new scenario that uses a SUMO configuration."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""`xavi parse`: shows what a question means."""
+"""`xavi parse`: the meaning of a question, for display."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
@@ -39,7 +39,7 @@ class Meaning(msgspec.Struct, frozen=True, omit_defaults=True):
     text: str
     query: QueryFields  # of the first act
     acts: tuple[Act, ...]
-    unknown: tuple[str, ...]  # words without a part in it
+    unknown: tuple[str, ...]  # words without a part in the meaning
     strangers: tuple[int, ...]  # unknown vehicles
     readings: tuple[Reading, ...] = ()  # likeliest first, with the share of each word
 

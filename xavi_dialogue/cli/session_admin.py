@@ -23,7 +23,7 @@ class InputHistoryFile(Protocol):
     """The lines typed at the terminal."""
 
     def sessions(self) -> frozenset[str]:
-        """In which something was typed."""
+        """The sessions in which something was typed."""
 
     def erase(self, session: str | None, before: float | None) -> None:
         """Erase typed lines of a session, or of all, before a wall time [s], or all."""
@@ -31,7 +31,7 @@ class InputHistoryFile(Protocol):
 
 @dataclass(frozen=True)
 class ForgetOptions:
-    """Which sessions to erase."""
+    """The choice of sessions to erase."""
 
     session: str | None
     everything: bool = False
@@ -88,7 +88,7 @@ def export(path: Path, name: str | None) -> Iterator[str]:
 
 
 def table(sessions: Sequence[Summary], zone: Callable[[float], datetime]) -> str:
-    """Return the sessions, a line each under a head.
+    """Return the sessions as a table with one line for each.
 
     Args:
         sessions: to list.

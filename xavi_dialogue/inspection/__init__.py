@@ -1,1 +1,1 @@
-"""Looking into a decision: its search tree as text."""
+"""Inspection of a decision: its search tree as text."""

@@ -21,13 +21,13 @@ class Compared:
     outcomes: Mapping[Outcome, float]  # their probabilities, by the weights
     time: float | None  # [s] mean to the goal of what reaches it, by the weights
     samples: int
-    told: float | None  # [s] the mean reward that answers rest on; None where they have none
-    collision: float | None  # the probability of a collision that answers tell
+    told: float | None  # [s] the mean reward that answers rest on; None if they have none
+    collision: float | None  # the probability of a collision that answers state
     chosen: bool
 
 
 def comparison(trace: PlanTrace) -> tuple[Compared, ...]:
-    """List the first actions that a decision compared, best first; none of older traces."""
+    """Return the first actions that a decision compared, best first; none for older traces."""
     model = CausalModel(trace)
     weighed: dict[Action, list[tuple[Rollout, float]]] = {}
     for one in trace.rollouts:

@@ -36,7 +36,7 @@ held up  vehicle, how, share of the rollouts, mean seconds of those
 
 @dataclass(frozen=True, slots=True)
 class Extent:
-    """How much of the tree is shown."""
+    """The extent of the tree that is shown."""
 
     depth: int = 2  # macro actions in a row, besides the chosen plan
     all: bool = False  # every branch, every goal, every refusal
@@ -197,7 +197,7 @@ def _hindrances(held_up: Sequence[Hindrance]) -> str:
 
 
 def _compared(rows: Sequence[Compared]) -> Iterator[str]:
-    """Yield the first actions by the weights of the samples that all were tried with."""
+    """Yield rows of the first actions, by the weights of the samples tried with all of them."""
     yield f"What was compared: {rows[0].samples} joint samples by their weights"
     table = [
         (
@@ -222,7 +222,7 @@ def _plan(trace: PlanTrace) -> Iterator[str]:
 
 
 def _columns(rows: Sequence[Row], right: Sequence[int]) -> Iterator[str]:
-    """Rows in line; those of a single cell run on and widen nothing."""
+    """Return rows in aligned columns; rows of a single cell do not widen a column."""
     full = [row for row in rows if len(row) > 1]
     widths = [max(len(cell) for cell in column) for column in zip(*full, strict=True)]
     for row in rows:

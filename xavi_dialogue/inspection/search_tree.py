@@ -1,6 +1,6 @@
 """The search tree of a decision, rebuilt from its recorded rollouts.
 
-Rewards are recorded as the search learned them, so replaying its back-ups gives its very values.
+Rewards are recorded as the search learned them, so replaying its back-ups gives the same values.
 """
 
 from collections import Counter
@@ -15,7 +15,7 @@ DEEPEST = 32  # macro actions in a row; the search takes far fewer
 
 
 class TreeError(UsageFault):
-    """Rollouts that are no search."""
+    """Rollouts that cannot come from a search."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,17 +32,17 @@ class Hindrance:
 class Branch:
     """A node of the search tree, with the results of the rollouts through it."""
 
-    actions: Node  # that lead to it; () is the root
+    actions: Node  # actions that lead to it; () for the root
     visits: int  # rollouts of the search
     forced: int  # rollouts that were added
     value: float | None  # in the search; None at the root, and if all were forced
-    alike: float | None  # mean reward over the samples tried with all; of first actions alone
-    mean: float | None  # reward, forced rollouts included; None without rollouts
+    alike: float | None  # of first actions only: mean reward over the samples tried with all
+    mean: float | None  # mean reward, including forced rollouts; None without rollouts
     outcomes: Mapping[Outcome, int]
     time: float | None  # [s] mean time to the goal of those that reach it
     held_up: tuple[Hindrance, ...]  # the most frequent first
     refused: tuple[tuple[str, tuple[Action, ...]], ...]  # reason, and the actions that it bars
-    chosen: bool  # part of the plan
+    chosen: bool  # whether it is part of the plan
     children: tuple["Branch", ...]  # the chosen one first, then the most visited
 
 
@@ -90,7 +90,7 @@ def replayed(trace: PlanTrace) -> Tree:
 
 
 def compared(trace: PlanTrace) -> dict[Action, float]:
-    """Expected reward of each first action over the joint samples that all were tried with.
+    """Return the expected reward of each first action over the joint samples tried with all.
 
     Older traces hold no weights: there, these rollouts follow upon those of the search, so many
     of each first action in turn, and count alike. Where the record holds none, the result is
@@ -162,7 +162,7 @@ def _outcomes(rollouts: Sequence[Rollout]) -> dict[Outcome, int]:
 
 
 def hindrances(rollouts: Sequence[Rollout]) -> tuple[Hindrance, ...]:
-    """Count who held the ego up in some rollouts, and how: the most frequent first."""
+    """Return who held the ego up in some rollouts, and how, the most frequent first."""
     seconds: dict[tuple[int, HoldUp], list[float]] = {}
     for rollout in rollouts:
         each: dict[tuple[int, HoldUp], float] = {}

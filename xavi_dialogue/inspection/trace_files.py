@@ -27,7 +27,7 @@ class Traces:
     """The contents of a file."""
 
     traces: tuple[PlanTrace, ...]
-    ride: bool  # a recorded ride: one of its decisions is to be chosen
+    ride: bool  # whether it is a recorded ride, of which a decision must be chosen
 
 
 def content(name: str) -> bytes:

@@ -38,7 +38,7 @@ from xavi_dialogue.transcripts.replay import Written, by_ride, recording, replay
 _RULE = re.compile(r"(?:^!?|->\s*)([a-z]\w*)(?=(?:\.-?\d+)?\s*:|\s*$)")
 PAPER = "answer_paper"
 RULES_OF, ALTERNATIVES_OF = "rules of {}", "alternatives of {}"
-NOT_GIVEN = ("effect-too-small", "no-influence")  # reasons of the contract that nothing gives
+NOT_GIVEN = ("effect-too-small", "no-influence")  # reasons of the contract that no code gives
 ACTS, QUESTIONS, ANSWERS, REFUSALS = "types of acts", "questions", "answers", "refusals"
 #: An alternative beside its file and its line there.
 Placed: TypeAlias = tuple[str, int, str, Alternative]
@@ -48,9 +48,9 @@ Placed: TypeAlias = tuple[str, int, str, Alternative]
 class Item:
     """Something that a conversation can exercise."""
 
-    group: str  # what it is one of
-    name: str  # with the place in its file, where it stands in one
-    fine: bool = False  # of the finer list, which is shown and not required
+    group: str  # the kind of item
+    name: str  # with its place in a file, if it has one
+    fine: bool = False  # whether it is of the finer list, which is shown but not required
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +61,7 @@ class Coverage:
 
     @property
     def missing(self) -> tuple[Item, ...]:
-        """Items that no conversation exercises, although one should."""
+        """The items that no conversation exercises, although one should."""
         return tuple(i for i, count in self.counts.items() if count == 0 and not i.fine)
 
     @property
@@ -159,7 +159,7 @@ def _typed(reply: Reply) -> Iterator[Item]:
 
 @dataclass
 class _ReadingRecorder:
-    """Records which rules the chosen readings are made of."""
+    """A recorder of the rules that the chosen readings are made of."""
 
     composed: list[tuple[Node, tuple[tuple[Act, ...], ...]]] = field(default_factory=list)
     read_by: list[frozenset[str]] = field(default_factory=list)  # names of rules, of each text
@@ -188,7 +188,7 @@ class _ReadingRecorder:
         return replace(pipeline, read=read, ground=ground)
 
     def _note(self, chosen: Reading) -> None:
-        """Take note of the rules of the units that a reading is composed of."""
+        """Record the rules of the units that a reading is composed of."""
         names: set[str] = set()
         self.chosen.append(chosen)
         for unit, ways in self.composed:
@@ -206,7 +206,7 @@ def _names(node: Node) -> Iterator[str]:
 
 @dataclass
 class _TextRecorder:
-    """All texts that were finished, each with the alternatives chosen since the one before."""
+    """A recorder of finished texts, each with the alternatives chosen since the previous one."""
 
     readings: _ReadingRecorder
     spoken: list[tuple[str, tuple[Alternative, ...]]] = field(default_factory=list)

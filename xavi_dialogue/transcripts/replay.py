@@ -33,7 +33,7 @@ from xavi_dialogue.transcripts.runner import Played, latest, play
 from xavi_dialogue.transcripts.transcript import Transcript, TranscriptError, read, write
 from xavi_dialogue.vehicle.episode import clock, network_of, start
 
-RIDES = "rides"  # the folder of the recordings, in that of the transcripts
+RIDES = "rides"  # the folder of the recordings, inside that of the transcripts
 TRACES = "traces"  # the folder of transcripts that are not driven
 BESIDE = "whatif-{}.json.gz"  # a plan made from a decision, by the key of the request
 
@@ -42,7 +42,7 @@ Note = Callable[[str], None]
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """A transcript as it is kept."""
+    """A transcript as stored."""
 
     path: Path
     text: str
@@ -63,7 +63,7 @@ class Written:
 
     @property
     def scenario(self) -> str:
-        """A name, or a folder."""
+        """The scenario, as a name or a folder."""
         return _header(self, "scenario")
 
     @property

@@ -1,4 +1,4 @@
-"""Playing a transcript: its questions are put to a conversation one after the other.
+"""Playing of a transcript, whose questions are asked in a conversation one after the other.
 
 Incidents reach the conversation as they do on the road: as a failed plan, as a record without
 traces, or as stored turns. No reply is made here.

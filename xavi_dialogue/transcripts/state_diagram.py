@@ -1,4 +1,4 @@
-"""Writes the diagram of the conversation, drawn from its table, into a document.
+"""The diagram of the conversation's states, drawn from their table and written into a document.
 
 python -m xavi_dialogue.transcripts.state_diagram ARCHITECTURE.md
 """

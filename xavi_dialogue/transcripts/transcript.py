@@ -52,7 +52,7 @@ class TranscriptError(UsageFault):
 
 @dataclass(frozen=True, slots=True)
 class At:
-    """Time moves."""
+    """A line that moves time."""
 
     time: float  # [s]
     text: str  # as written
@@ -75,7 +75,7 @@ class Comment:
 
 @dataclass(frozen=True, slots=True)
 class Incident:
-    """Something befalls the car."""
+    """An incident that concerns the car."""
 
     what: Befallen
 
