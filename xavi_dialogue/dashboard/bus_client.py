@@ -16,7 +16,7 @@ from xavi_dialogue.security.client_token import Passenger
 
 
 class Unanswered(XaviError):
-    """There is no answer, or it cannot be read."""
+    """A request without an answer, or with one that cannot be read."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class BusClient:
     passenger: Passenger
 
     async def history(self, turns: int) -> HistoryReply:
-        """Return the latest so many turns.
+        """Return the latest turns.
 
         Raises:
             Unanswered: there is no answer.

@@ -50,22 +50,22 @@ ALONE = "There is no dialogue service to ask yet."
 
 @dataclass
 class Controller:
-    """Shows one car and one conversation; see dashboard.web.interfaces."""
+    """The controller for one car and one conversation; see dashboard.web.interfaces."""
 
     keys: Keys
     passenger: Passenger
-    recording: bool = False  # a recorded ride is played
+    recording: bool = False  # whether a recorded ride is played
     alive: HealthReporter = field(default_factory=lambda: HealthReporter("dashboard", COUNTERS))
     record: RideState = field(default_factory=RideState)
     conversation: Conversation = field(default_factory=Conversation)
     first_seen: Callable[[], None] = lambda: None  # called when the first browser connects
-    coming: Callable[[], bool] = lambda: False  # the car is starting or restarting
+    coming: Callable[[], bool] = lambda: False  # whether the car is starting or restarting
     moment: Callable[[Client], float | None] = Client.now  # [s] default time of a question
     _there: dict[str, Presence] = field(default_factory=dict)
     _suggested: Suggestions = field(default_factory=lambda: Suggestions(t=0.0, questions=()))
-    _stale: bool = False  # something has happened since these were made
+    _stale: bool = False  # whether something has happened since these were made
     _came: bool = False  # whether the car was starting at the last status
-    _held: bool = False  # reports while the car was starting are not sent yet
+    _held: bool = False  # whether reports from the car's start are not sent yet
     _bus: Bus | None = None
     _bus_client: BusClient | None = None
     _client: Client | None = None
@@ -111,7 +111,7 @@ class Controller:
             self._suggest_anew()
             await self.refresh()
 
-    # What the server calls:
+    # Methods that the server calls:
 
     def greet(self, viewer: ClientSession) -> tuple[Outgoing, ...]:
         """Return all messages for a browser that has just connected."""
@@ -182,7 +182,7 @@ class Controller:
         """See DocumentCache."""
         return await self.archive.evidence(n)
 
-    # Within:
+    # Internal methods:
 
     def _hear(self, report: ReportOfRide) -> None:
         begun, told = self.record.hear(report)

@@ -13,8 +13,8 @@ from xavi_dialogue.dashboard.web.websocket_messages import Turns, TurnShown
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.storage.turn_log import MAX_PAST
 
-GLANCE = 5  # turns that are looked at for new ones
-MAX_TURNS = 500  # that are known of
+GLANCE = 5  # latest turns that are fetched to find new ones
+MAX_TURNS = 500  # turns that are kept
 
 
 @dataclass
@@ -22,11 +22,11 @@ class Conversation:
     """The turns so far, numbered from 0."""
 
     turns: list[PastTurn] = field(default_factory=list)  # the latest
-    first: int = 0  # number of the first of them
-    _total: int = 0  # that the service knew when it was asked last
+    first: int = 0  # number of the first of these turns
+    _total: int = 0  # number of turns that the service had at the last request
 
     def learn(self, said: HistoryReply, *, whole: bool) -> Turns | None:
-        """Take in the latest turns.
+        """Add the latest turns.
 
         Args:
             said: the turns.
@@ -41,7 +41,7 @@ class Conversation:
         if apart and not whole:
             return None
         reset = overlap is None and bool(self.turns)
-        if reset:  # it was erased, and perhaps begun again
+        if reset:  # the session was erased, and perhaps begun again
             self.first += len(self.turns)
             self.turns.clear()
         self._total = said.total
@@ -54,7 +54,7 @@ class Conversation:
         return Turns(turns=tuple(shown(begin + k, t) for k, t in enumerate(fresh)), reset=reset)
 
     def all(self) -> Turns:
-        """Return all that are known."""
+        """Return all turns that are known."""
         told = tuple(shown(self.first + k, turn) for k, turn in enumerate(self.turns))
         return Turns(turns=told, reset=True)
 
@@ -65,7 +65,7 @@ class Conversation:
         return last.suggestions if last is not None and last.kind == "answer" else ()
 
     def turn(self, n: int) -> PastTurn | None:
-        """Return one of them."""
+        """Return one turn by its number."""
         k = n - self.first
         return self.turns[k] if 0 <= k < len(self.turns) else None
 
@@ -100,7 +100,7 @@ class Conversation:
 
 
 def shown(n: int, turn: PastTurn) -> TurnShown:
-    """Return a turn as browsers get it."""
+    """Convert a turn for browsers."""
     return TurnShown(
         n=n,
         text=clean(turn.text),

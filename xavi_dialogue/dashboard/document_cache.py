@@ -23,8 +23,8 @@ from xavi_dialogue.vehicle.map_server import NETWORK
 
 _LOG = logging.getLogger(__name__)
 PATIENCE = 10.0  # [s] for a car to send its roads
-AGAIN = 5.0  # [s] after which it is asked again
-MAX_KEPT = 64  # documents
+AGAIN = 5.0  # [s] after which they are requested again
+MAX_KEPT = 64  # documents that are kept
 
 
 class DocumentCache:
@@ -36,7 +36,7 @@ class DocumentCache:
         conversation: Conversation,
         roads_known: Callable[[], None],
     ) -> None:
-        """An empty archive.
+        """Make an empty cache.
 
         Args:
             record: of the ride.
@@ -49,15 +49,15 @@ class DocumentCache:
         self._network: Network | None = None
         self._roads: dict[str, bytes] = {}
         self._made: OrderedDict[tuple[str, str | int], bytes] = OrderedDict()
-        self._asked: float | None = None  # [s] on the monotonic clock, for the roads
-        self._reading: asyncio.Task[None] | None = None  # of the roads
+        self._asked: float | None = None  # [s] on the monotonic clock, of the request for roads
+        self._reading: asyncio.Task[None] | None = None  # fetches the roads
 
     def join(self, asking: BusClient) -> None:
-        """Ask others from now on."""
+        """Send requests to others from now on."""
         self._bus_client = asking
 
     def begin_anew(self) -> None:
-        """Another ride."""
+        """Begin another ride."""
         self._made.clear()
         self._roads.clear()
         self._network = self._asked = None
@@ -72,7 +72,7 @@ class DocumentCache:
         self._reading = asyncio.get_running_loop().create_task(self._learn(ride.ride))
 
     def roads(self, name: str) -> bytes | None:
-        """Return the roads of a hash."""
+        """Return the roads with this hash."""
         return self._roads.get(name)
 
     def decision(self, name: str) -> bytes | None:

@@ -1,4 +1,4 @@
-"""`xavi dashboard`: a car and its conversation in a web page; a client of the bus like any other.
+"""`xavi dashboard`: a car and its conversation in a web page, as a client of the bus.
 
 The page is available at once. A thread behind it joins the bus of others, or starts a car and a
 service, which begin when the first browser connects.
@@ -32,24 +32,24 @@ from xavi_dialogue.security.client_token import Passenger
 from xavi_dialogue.terminal.slash_commands import CommandError
 
 GLANCE = 0.5  # [s] between checks for a hub, and for the end
-CLOSING = 15.0  # [s] for car and service to end; then they are killed
+CLOSING = 15.0  # [s] for car and service to end, after which they are killed
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-SCREENS = ("DISPLAY", "WAYLAND_DISPLAY")  # environment variables that show one
+SCREENS = ("DISPLAY", "WAYLAND_DISPLAY")  # environment variables that are set if there is a display
 
 Note: TypeAlias = Callable[[str], None]
 
 
 @dataclass(frozen=True)
 class DashboardOptions:
-    """What to show, and where."""
+    """Options of the dashboard."""
 
     listen: ListenOptions
     vehicle: str
     passenger: Passenger
     source: Link | ChatOptions  # the bus of others; or a ride to drive or play
-    speed: float = 1.0  # of a ride of one's own
-    opens: bool = True  # a browser, if there is one
+    speed: float = 1.0  # of a ride that the dashboard starts
+    opens: bool = True  # whether to open a browser, if there is one
 
     @property
     def opens_browser(self) -> bool:
@@ -58,7 +58,7 @@ class DashboardOptions:
 
 
 class BusThread:
-    """A thread behind the page: joins the bus and checks the connection until the end."""
+    """A thread behind the page, which joins the bus and checks the connection until the end."""
 
     def __init__(
         self,
@@ -184,7 +184,7 @@ async def _run(task: DashboardOptions, note: Note, controller: Controller, serve
     background = BusThread(task, note, joined, failed)
 
     def stop() -> None:
-        background.over.set()  # all ends at the same time
+        background.over.set()  # so that everything ends at the same time
         stopped.set()
 
     for number in SIGNALS:

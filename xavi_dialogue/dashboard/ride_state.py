@@ -28,7 +28,7 @@ from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.service.reorder_buffer import ReportOfRide
 from xavi_dialogue.service.ride_tracker import RideTracker
 
-MAX_DECISIONS = 10_000  # that are sent in short form
+MAX_DECISIONS = 10_000  # decisions that are sent in short form
 MAX_EVENTS = 10_000
 
 
@@ -81,7 +81,7 @@ class RideState:
         return begun, self.all() if begun or known is None else told
 
     def wait(self, now: float) -> list[Outgoing]:
-        """Give up what has been missing for too long; return the messages to send.
+        """Give up reports that have been missing too long; return the messages to send.
 
         Args:
             now: [s] on the shell's clock.
@@ -143,7 +143,7 @@ class RideState:
 
 
 def happened(event: Event) -> Happened:
-    """Return an event as browsers get it."""
+    """Convert an event for browsers."""
     return Happened(
         t=event.sim_time,
         kind=event.kind,

@@ -13,10 +13,10 @@ from planner.record.trace import SAMPLE_PERIOD, PlanTrace, Track
 from sim.scene import Light, LightState, Scene, Signal, VehicleState
 from xavi_dialogue.dashboard.views.map import hidden, lights, seen
 
-MAX_MOMENTS = 18_000  # an hour
+MAX_MOMENTS = 18_000  # moments of an hour
 MAX_BYTES = 24 * 1024 * 1024  # of all moments, as JSON
 STATES = {state.value: state for state in LightState}
-SPACING = 0.95 * SAMPLE_PERIOD  # [s] at least, between moments that are kept
+SPACING = 0.95 * SAMPLE_PERIOD  # [s] least time between moments that are kept
 
 
 @dataclass
@@ -25,10 +25,10 @@ class SceneHistory:
 
     times: list[float] = field(default_factory=list)  # [s]
     _packed: list[bytes] = field(default_factory=list)  # the time of each, and its JSON
-    _taken: int = 0  # bytes
+    _taken: int = 0  # bytes of all packed moments
 
     def see(self, scene: Scene) -> None:
-        """Add a scene, unless one of its time or later is known."""
+        """Add a scene, unless one of the same time or later is known."""
         if not self.times or scene.time >= self.times[-1] + SPACING:
             who = seen({**scene.vehicles, **scene.people})
             row = (scene.time, who, lights(scene.lights), hidden(scene.unseen))

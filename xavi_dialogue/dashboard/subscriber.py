@@ -1,4 +1,4 @@
-"""Subscribes to a car on the bus, and passes its reports to the dashboard's event loop.
+"""A subscription to a car on the bus, which passes reports to the dashboard's event loop.
 
 Handlers run on threads of the bus. What waits for the loop is bounded: beyond that, scenes are
 left out, since newer ones follow, and then all else, which the bus can be asked for again.
@@ -15,7 +15,7 @@ from xavi_dialogue.bus.messages import EventReport, SceneReport, TraceReport, un
 from xavi_dialogue.dashboard.web.interfaces import Browsers
 from xavi_dialogue.service.reorder_buffer import ReportOfRide
 
-MAX_SCENES = 50  # that wait
+MAX_SCENES = 50  # scenes that may wait
 MAX_REPORTS = 5000
 
 OnHeard: TypeAlias = Callable[[ReportOfRide], None]
@@ -27,7 +27,7 @@ class Subscriber:
     """A subscription to one car."""
 
     def __init__(self, clients: Browsers, alive: HealthReporter, hear: OnHeard) -> None:
-        """Hear nothing yet.
+        """Make a subscription that does not receive yet.
 
         Args:
             clients: with the event loop on which `hear` is called.

@@ -15,7 +15,7 @@ from xavi_dialogue.explain.history.joining import joined
 
 MOST = 5  # questions
 RECENT = 12.0  # [s] for which an event is recent
-FALLEN = 2.0  # [m/s] lost within its history by a vehicle that slows down
+FALLEN = 2.0  # [m/s] least loss of speed, within its history, of a vehicle that slows down
 STANDING = 0.5  # [m/s] slower than this counts as standing
 ROUNDING = 1e-6  # [s]
 
@@ -23,7 +23,7 @@ ROUNDING = 1e-6  # [s]
 def suggestions(
     trace: PlanTrace | None, events: Sequence[Event], at: float, said: Sequence[str] = ()
 ) -> tuple[str, ...]:
-    """Return questions that suggest themselves at a moment, the most interesting first.
+    """Return suggested questions at a moment, the most interesting first.
 
     Args:
         trace: the decision in force then; None: none.
@@ -41,7 +41,7 @@ def suggestions(
 
 
 def _crash(events: Sequence[Event]) -> Iterator[str]:
-    """After a collision, nothing matters as much."""
+    """Suggest questions about a collision, if there was one."""
     if any(event.kind == "collided" for event in events):
         yield _ask("avoid")
 

@@ -1,17 +1,17 @@
-"""Decisions of a ride, packed: a whole ride of them fits where few would as objects."""
+"""A cache of the decisions of a ride, compressed so that those of a whole ride fit into memory."""
 
 import zlib
 from collections import OrderedDict
 
 from planner.record.trace import PlanTrace, decode, encode
 
-MAX_BYTES = 96 * 1024 * 1024  # packed; the oldest go first
-AT_HAND = 12  # that are held unpacked as well
-LEVEL = 1  # of compression: quick
+MAX_BYTES = 96 * 1024 * 1024  # of packed traces; the oldest are dropped first
+AT_HAND = 12  # traces that are also held unpacked
+LEVEL = 1  # of compression; 1 is fast
 
 
 class TraceCache:
-    """Keeps plan traces by their id."""
+    """A cache of plan traces by their id."""
 
     def __init__(self, room: int = MAX_BYTES) -> None:
         """Make an empty cache.
@@ -24,7 +24,7 @@ class TraceCache:
         self._at_hand: OrderedDict[str, PlanTrace] = OrderedDict()
 
     def put(self, trace: PlanTrace) -> None:
-        """Keep a trace; the oldest ones go where there is no room."""
+        """Add a trace, and drop the oldest ones if there is no room."""
         if trace.trace_id in self._packed:
             return
         packed = zlib.compress(encode(trace), LEVEL)
@@ -38,7 +38,7 @@ class TraceCache:
             self._hold(trace)
 
     def get(self, name: str) -> PlanTrace | None:
-        """Return the trace of an id; None where it is not here (any more)."""
+        """Return the trace with an id; None if it was never here, or was dropped."""
         if name in self._at_hand:
             self._at_hand.move_to_end(name)
             return self._at_hand[name]

@@ -1,4 +1,4 @@
-"""What a reply tells, as its typed answer again: the dashboard shows what is behind it."""
+"""The typed answer in a reply, whose evidence the dashboard shows."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -41,26 +41,26 @@ OURS = (ChoiceReason, MotionReason, SupposedOfUs, SupposedOfOther, Compared, Dec
 
 @dataclass(frozen=True, slots=True)
 class TypedAnswer:
-    """What a reply explains."""
+    """The part of a reply that explains something."""
 
     answer: Result
     said: Contrastive
 
     @property
     def ours(self) -> bool:
-        """Whether it is about what our own car did, does or might do."""
+        """Whether it is about what the ego did, does or might do."""
         return isinstance(self.answer, OURS)
 
     @property
     def decided(self) -> float | None:
-        """When [s] what is explained was decided; None: not told."""
+        """The time [s] of the decision that is explained; None if not stated."""
         if isinstance(self.answer, Options | Method | Certainty):
             return self.answer.decided
         return next((one.decided for one in parts(self.answer, Contrast)), None)
 
 
 def told_of(reply: Reply) -> TypedAnswer | None:
-    """Return what a reply explains: its first causal answer, else the first that names evidence."""
+    """Return the explanation in a reply: the first causal answer, or the first with evidence."""
     if reply.kind != "answer":
         return None
     results = [_inner(result) for result in msgspec.convert(reply.answers, tuple[Result, ...])]
@@ -76,7 +76,7 @@ def told_of(reply: Reply) -> TypedAnswer | None:
 
 
 def title_of(told: TypedAnswer, reply: Reply) -> str:
-    """Return as what the counterfactual came into it: asked about, or thought of beside that."""
+    """Return the role of the counterfactual: "asked" about, "then", or what we did "instead"."""
     match told.answer:
         case SupposedOfOther():
             return "then"

@@ -1,1 +1,1 @@
-"""What browsers draw: map, decision, search tree, evidence."""
+"""Documents that browsers draw: map, decision, search tree, evidence."""

@@ -1,4 +1,4 @@
-"""What an explanation set against one another, found again in the traces that it names.
+"""Fact and foil of an explanation, found again in the traces that it names.
 
 An explanation holds figures, and not the rollouts behind them. These are looked up once more in
 the ways in which explanations find them, and taken only where they give its very figures: what
@@ -19,21 +19,21 @@ from xavi_dialogue.domain.answers import SupposedOfOther
 from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names, matching
 
-SAME = 1e-6  # difference of figures that were computed alike
+SAME = 1e-6  # greatest difference of figures that were computed in the same way
 
 
 @dataclass(frozen=True, slots=True)
 class ContrastSide:
-    """What is behind one side of an explanation."""
+    """The plan and results behind one side of an explanation."""
 
-    trace: PlanTrace  # that the results come from
+    trace: PlanTrace  # source of the results
     plan: Intervention
 
 
 def sides(
     told: TypedAnswer, traces: Sequence[PlanTrace]
 ) -> tuple[ContrastSide | None, ContrastSide | None]:
-    """Find what was done or planned, and what that is set against.
+    """Find the fact and the foil of an explanation.
 
     Args:
         told: what is explained.
@@ -53,7 +53,7 @@ def sides(
 
 
 def _decided(trace: PlanTrace) -> bool:
-    """Check whether a trace tells of what was decided: others were not supposed to be otherwise."""
+    """Check whether a trace is of the decision itself: nothing was supposed about others."""
     again = trace.what_if
     return again is None or not (again.gone or again.vehicle is not None)
 
@@ -77,7 +77,7 @@ def _alone(said: Contrastive, models: Sequence[CausalModel]) -> Iterator[Contras
 def _pairs(
     told: TypedAnswer, models: Sequence[CausalModel]
 ) -> Iterator[tuple[ContrastSide, ContrastSide]]:
-    """Yield what may have been set against one another."""
+    """Yield pairs that may be fact and foil."""
     fact, foil = told.said.factual, told.said.counterfactual
     for model in models:
         here = _found(model, fact) if _decided(model.trace) else None
@@ -103,7 +103,7 @@ def _found(model: CausalModel, plan: Actions) -> ContrastSide | None:
 
 
 def _under(model: CausalModel, plan: Actions) -> Intervention | None:
-    """Return what comes of exactly a plan.
+    """Return the results of exactly this plan.
 
     It was found under the first actions of the plan of the decision, or of this one.
     """
@@ -119,7 +119,7 @@ def _under(model: CausalModel, plan: Actions) -> Intervention | None:
 def _supposed(
     answer: SupposedOfOther, model: CausalModel
 ) -> Iterator[tuple[int, frozenset[Choice]]]:
-    """Yield what is supposed of another vehicle, as choices that a decision reckoned with."""
+    """Yield what is supposed about another vehicle, as choices that a decision considered."""
     vehicle = answer.vehicle
     if answer.supposed is None or vehicle not in model.vehicles:
         return
@@ -137,7 +137,7 @@ def _agrees(said: Contrastive, here: Intervention, there: Intervention) -> bool:
         return False
     known = {effect.component: effect for effect in effects(there, here)}
     untold = known.keys() - {effect.component for effect in said.effects}
-    return untold <= {"time"} and all(  # there is no time to tell of who is too late
+    return untold <= {"time"} and all(  # a side that is too late has no time
         effect.component in known
         and _same(effect.delta, known[effect.component].delta)
         and _same(effect.low, known[effect.component].low)

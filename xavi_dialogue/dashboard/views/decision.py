@@ -1,4 +1,4 @@
-"""Decisions as browsers get them: in short as they are taken, whole on request."""
+"""Decisions for browsers: in short form as they are taken, and whole on request."""
 
 from planner.record.hidden_record import Phantom
 from planner.record.trace import Action, PlanTrace, VehiclePrediction
@@ -32,7 +32,7 @@ from xavi_dialogue.explain.history.ride import enough
 
 
 def in_short(trace: PlanTrace, before: PlanTrace | None) -> Decision:
-    """Return a decision in short.
+    """Return a decision in short form.
 
     Args:
         trace: the decision.
@@ -88,7 +88,7 @@ def whole(trace: PlanTrace, network: Network | None) -> DecisionShown:
 
 
 def chosen_plan(model: CausalModel) -> Intervention | None:
-    """Return what was to be expected of the plan: of as many of its actions as were tried enough.
+    """Return the expected results of the plan, as far as its actions were tried often enough.
 
     Where none was, of as many as were tried at all; None where there is no plan.
     """
@@ -99,12 +99,12 @@ def chosen_plan(model: CausalModel) -> Intervention | None:
 
 
 def expected_arrival(trace: PlanTrace, plan: Intervention) -> float | None:
-    """The expected time [s] to the goal; None where the way there is longer than what was tried."""
+    """Return the expected time [s] to the goal; None if rollouts did not reach so far."""
     return None if trace.waypoint is not None else rounded(plan.expectation("time"))
 
 
 def outcome_shares(plan: Intervention) -> dict[str, float]:
-    """The share of the rollouts, by weight, that each outcome has; answers trust them less."""
+    """Return the weighted share of rollouts by outcome; answers trust the rollouts less."""
     return {name: chance(share) for name, share in plan.outcomes.items() if share > 0.0}
 
 
@@ -121,17 +121,17 @@ def _capital(text: str) -> str:
 
 
 def _changed(before: PlanTrace, trace: PlanTrace) -> bool:
-    """Check whether what is to be done next is something else, and not merely what came next."""
+    """Check whether the next action is a new choice, and not just the old plan's next step."""
     old, new = _plan(before), _plan(trace)
     if old[:1] == new[:1]:
         return False
     done = before.under_way is not None and trace.under_way is None
-    reached = done or old[:1] == ("continue",)  # driving on comes to its end by itself
+    reached = done or old[:1] == ("continue",)  # "continue" ends by itself
     return not (reached and old[1:2] == new[:1])
 
 
 def _belief(known: VehiclePrediction) -> Belief:
-    """Return what a vehicle is expected to do; goals that are called alike are one."""
+    """Return the expected goals of a vehicle; goals with the same name are merged."""
     goals: dict[str, float] = {}
     for goal in known.goals:
         words = goal_words(goal)
@@ -176,7 +176,7 @@ def _imagined(one: Phantom) -> ImaginedShown:
 def _alternatives(
     model: CausalModel, here: Intervention | None, in_lane: bool
 ) -> tuple[Alternative, ...]:
-    """The first actions: the chosen one, the others that were tried, and what could not be done."""
+    """Return the first actions: the chosen one, others that were tried, and inapplicable ones."""
     chosen = _plan(model.trace)[:1]
     tried = [(action, model.intervene((action,))) for action in model.options()]
     found = [
@@ -203,7 +203,7 @@ def _tried(
     here: Intervention | None,
     in_lane: bool,
 ) -> Alternative:
-    """Return an action that was tried, against what was chosen; `here` is None of that itself."""
+    """Compare an action that was tried with the chosen one; `here` is None for the latter."""
     line = likeliest(trace, there)
     return Alternative(
         action=action,
@@ -237,7 +237,7 @@ def _untried(action: Action, reason: str | None, in_lane: bool) -> Alternative:
 
 
 def _later(there: Intervention, here: Intervention) -> TimeRange | None:
-    """By how much an action gets there later [s] than the plan; None where that is not known."""
+    """Return how much later [s] than the plan an action arrives; None if unknown."""
     found = next((effect for effect in effects(there, here) if effect.component == "time"), None)
     if found is None:
         return None
@@ -253,7 +253,7 @@ def _refused(model: CausalModel) -> tuple[tuple[Action, str], ...]:
 
 
 def _goal(trace: PlanTrace, network: Network) -> Point | None:
-    """Return where the passenger wants to go [m]; None where that is not on these roads."""
+    """Return the passenger's destination [m]; None if it is not on these roads."""
     lanes = [lane for lane in network.lanes.values() if lane.edge == trace.goal.edge]
     if not lanes:
         return None

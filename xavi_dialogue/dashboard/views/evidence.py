@@ -1,4 +1,4 @@
-"""What an answer rests on, as browsers get it: the rollouts behind its figures."""
+"""The evidence of an answer for browsers: the rollouts behind its figures."""
 
 import re
 from collections.abc import Mapping
@@ -34,22 +34,22 @@ from xavi_dialogue.dialogue.explanation import Contrastive
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Cause
 
-LINES = 5  # of a side, at most
-RUNS = 100  # of a side, at most
-DIGITS = 4  # of effects, whose units are small
+LINES = 5  # greatest number of lines of a side
+RUNS = 100  # greatest number of rollouts of a side
+DIGITS = 4  # decimals of effects, which may be small
 
 _NAMED = re.compile(r"\bvehicle (\d{1,9})\b", re.IGNORECASE)
 
 
 def vehicles_of(reply: Reply) -> tuple[int, ...]:
-    """Return the other vehicles that a reply speaks of, or that it was asked about; each once."""
+    """Return the other vehicles that a reply or its question mentions, each once."""
     named = [int(number) for number in _NAMED.findall(reply.text)]
     named += asked_about(reply)
     return tuple(dict.fromkeys(vehicle for vehicle in named if vehicle != EGO))
 
 
 def has_evidence(reply: Reply) -> bool:
-    """Check whether there is more behind a reply than the decision that it is about."""
+    """Check whether a reply rests on more than the decision that it is about."""
     told = told_of(reply)
     if told is None or not told.said.evidence.traces:
         return False
@@ -64,7 +64,7 @@ def traces_of(reply: Reply) -> tuple[str, ...]:
 
 
 def of_turn(n: int, reply: Reply, traces: Mapping[str, PlanTrace]) -> EvidenceShown | None:
-    """Return what a turn rests on; None where nothing is behind it.
+    """Return the evidence of a turn; None if there is none.
 
     Args:
         n: number of the turn.
@@ -113,7 +113,7 @@ def _shown(
 
 
 def _decision(known: list[PlanTrace], traces: Mapping[str, PlanTrace]) -> PlanTrace | None:
-    """Return the decision as it was taken, where it is at hand; else as it was planned again."""
+    """Return the decision as taken if it is known, else as planned again."""
     if not known:
         return None
     moment = (known[0].sim_time, known[0].decision)
@@ -133,7 +133,7 @@ def _missing(
 
 
 def _side(found: ContrastSide, in_lane: bool, title: str, brief: Actions) -> Side:
-    """One side: its likeliest lines, and its rollouts with the likeliest situations first."""
+    """Return one side: its likeliest lines, and its rollouts, likeliest situations first."""
     plan, trace = found.plan, found.trace
     ranked = sorted(zip(plan.weights, plan.results, strict=True), key=lambda pair: -pair[0])
     return Side(
@@ -170,7 +170,7 @@ def _run(trace: PlanTrace, result: Result, in_lane: bool) -> Run:
 
 
 def _samples(trace: PlanTrace, rollout: Rollout) -> tuple[tuple[int, str, float], ...]:
-    """Return what the others do in a rollout, and how probable that was."""
+    """Return what the others do in a rollout, with its probability."""
     known = {prediction.vehicle: prediction for prediction in trace.predictions}
     found = []
     for sample in sorted(rollout.samples, key=lambda sample: sample.vehicle):
@@ -213,5 +213,5 @@ def _causes(told: TypedAnswer, known: list[PlanTrace]) -> tuple[CauseShown, ...]
 
 
 def _was_tried(cause: Cause, removed: set[int]) -> bool:
-    """Check whether it was planned again without a vehicle: that it does otherwise shows less."""
+    """Check whether the decision was planned again without a vehicle."""
     return cause.necessary is not None or cause.vehicle in removed

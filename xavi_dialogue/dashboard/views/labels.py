@@ -1,4 +1,4 @@
-"""What browsers read: actions, goals, hold-ups, causes and events in the car's own words."""
+"""Texts for browsers: actions, goals, hold-ups, causes and events in the car's own words."""
 
 import tomllib
 from collections.abc import Iterable, Mapping
@@ -24,7 +24,7 @@ from xavi_dialogue.nlg.surface.orthography import capitalise, join, sentence
 from xavi_dialogue.nlg.surface.realiser import grammar
 from xavi_dialogue.nlg.surface.values import Clause, Quantity, Range, Who
 
-POSSIBLE = 0.3  # what is expected with less is stated as what might be
+POSSIBLE = 0.3  # expectations with a lower probability are stated as what might be
 
 
 @cache
@@ -67,7 +67,7 @@ def plan_words(plan: Iterable[Action], *, in_lane: bool = False) -> str:
     return ", then ".join(words for words, _ in groupby(said))
 
 
-@lru_cache(maxsize=1024)  # what others may do comes from elsewhere
+@lru_cache(maxsize=1024)  # bounded, since plans of others come from outside
 def does(actions: tuple[str, ...]) -> str:
     """Describe the plan of another vehicle: "changes to the right lane and turns right"."""
     verbs = tuple(replace(verb, tense="present") for verb in other_verbs(actions))

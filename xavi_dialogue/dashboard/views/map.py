@@ -1,4 +1,4 @@
-"""Roads and scenes, as browsers draw them."""
+"""Roads and scenes for browsers to draw."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -22,8 +22,8 @@ from xavi_dialogue.storage.recording_format import unpacked
 CENTIMETRES = 2  # decimals of metres, and of speeds [m/s]
 ANGLES = 3  # decimals of headings [rad]
 FARTHEST = 1e6  # [m] from the origin to the farthest road
-LONG = 100.0  # [m] of a vehicle
-LONGEST = 1e7  # [m] of all lanes together
+LONG = 100.0  # [m] greatest length of a vehicle
+LONGEST = 1e7  # [m] greatest total length of all lanes
 USES = {  # by class of vehicles, the first that a lane permits
     "bicycle": "bicycles",
     "pedestrian": "people",
@@ -59,7 +59,7 @@ def read(packed: bytes) -> tuple[Network, tuple[Outline, ...]]:
 
 
 def shown(network: Network, outlines: Sequence[Outline]) -> Roads:
-    """Return the network as browsers draw it; the id of a link is its place in `network.links`."""
+    """Convert the network; the id of a link is its place in `network.links`."""
     numbers = link_ids(network)
     lanes = [_lane(lane, "cars") for lane in network.lanes.values()]
     others = [_lane(lane, _use(lane)) for lane in network.other_lanes.values()]
@@ -97,7 +97,7 @@ def shown(network: Network, outlines: Sequence[Outline]) -> Roads:
 
 
 def link_ids(network: Network) -> dict[tuple[str, int], int]:
-    """Index the ids of links by junction and index there."""
+    """Return the ids of links by junction and index there."""
     return {(link.junction, link.index): k for k, link in enumerate(network.links)}
 
 
@@ -126,12 +126,12 @@ def _signal_id(signal: Signal) -> str:
 
 
 def line(points: Iterable[Point]) -> Line:
-    """Points [m] as a row of numbers."""
+    """Return points [m] as a row of numbers."""
     return tuple([round(value, CENTIMETRES) for point in points for value in point])
 
 
 def scene(report: SceneReport) -> SceneShown:
-    """Return a scene as browsers get it."""
+    """Convert a scene for browsers."""
     return SceneShown(
         seq=report.seq,
         t=report.sim_time,
@@ -165,7 +165,7 @@ def within(points: Iterable[Point]) -> bool:
 
 
 def seen(road_users: Mapping[int, VehicleState | PersonState]) -> tuple[Seen, ...]:
-    """Vehicles and people, in the order of their names; not those that nothing can be."""
+    """Return vehicles and people in the order of their names, without implausible ones."""
     return tuple(
         (
             name,

@@ -12,10 +12,10 @@ from sim.scene import EGO, Point
 from xavi_dialogue.dashboard.views.map import link_ids
 from xavi_dialogue.dashboard.web.http_documents import RightOfWay
 
-NEAR = 2.5  # [m] of a line's points from either end of a way that is driven along it
-AT_LINE = 5.0  # [m] to the stop line, for a plan that ends waiting there
-SOON = 60.0  # [m] from a junction, within which a vehicle counts of which no line is known
-LIKELY = 0.05  # probability from which a prediction counts
+NEAR = 2.5  # [m] greatest distance of a line from both ends of a way that it takes
+AT_LINE = 5.0  # [m] greatest distance to the stop line for a plan that ends waiting there
+SOON = 60.0  # [m] from a junction, within which a vehicle without a known line counts
+LIKELY = 0.05  # least probability of a prediction that counts
 HOPS = 10  # junctions without crossing traffic that are skipped
 TURNS: dict[str, Direction] = {"exit-left": "left", "exit-right": "right"}
 
@@ -23,7 +23,7 @@ TURNS: dict[str, Direction] = {"exit-left": "left", "exit-right": "right"}
 def right_of_way(
     trace: PlanTrace, network: Network, path: Sequence[float] | None
 ) -> RightOfWay | None:
-    """Who goes first at the next junction on the ego's way where others cross; None: there is none.
+    """Return who goes first at the next junction where others cross the ego's way; None: none.
 
     Args:
         trace: the decision.
@@ -64,7 +64,7 @@ def _next_link(trace: PlanTrace, network: Network, line: NDArray[np.float64] | N
 
 
 def _left_by(network: Network, links: Sequence[Link], line: NDArray[np.float64] | None) -> Link:
-    """Return our way through a junction, of those that we may be on, likeliest first."""
+    """Return our ways through a junction that we may be on, likeliest first."""
     along = [x for x in links if line is not None and _distance(line, _end(network, x)) <= NEAR]
     return (along or links)[0]
 
@@ -76,7 +76,7 @@ def _taken(
     lanes: Sequence[str],
     line: NDArray[np.float64] | None,
 ) -> Link | None:
-    """The way that is taken: the one along the line; without one, that which fits the plan."""
+    """Return the way that is taken: the one along the line, or else the one that fits the plan."""
     if line is not None:
         missed = [(_distance(line, _end(network, link)), link) for link in links]
         missed = [pair for pair in missed if pair[0] <= NEAR]
@@ -136,5 +136,5 @@ def _end(network: Network, link: Link) -> Point:
 
 
 def _distance(line: NDArray[np.float64], point: Point) -> float:
-    """From a point to the nearest point of a line [m]."""
+    """Return the distance [m] from a point to the nearest point of a line."""
     return float(np.min(np.hypot(line[:, 0] - point[0], line[:, 1] - point[1])))

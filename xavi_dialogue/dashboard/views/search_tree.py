@@ -1,4 +1,4 @@
-"""The search tree of a decision, as browsers get it."""
+"""The search tree of a decision for browsers."""
 
 from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.dashboard.views.labels import deed, has_lane_change, hold_up_words, refusals

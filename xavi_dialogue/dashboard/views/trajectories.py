@@ -11,7 +11,7 @@ CHANCES = 4  # decimals of probabilities
 
 
 def likeliest(trace: PlanTrace, plan: Mixture, limit: int = 1) -> tuple[Drive, ...]:
-    """Return the likeliest lines of the ego among some results, of those that are in the record.
+    """Return the likeliest recorded lines of the ego among some results.
 
     Rollouts that drive the same line to the same end are one.
 

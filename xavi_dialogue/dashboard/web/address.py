@@ -1,4 +1,4 @@
-"""Addresses of the dashboard: where it listens, and under which names it is opened."""
+"""Addresses at which the dashboard listens, and the names under which it is opened."""
 
 import ipaddress
 import re
@@ -22,14 +22,14 @@ class ListenError(UsageFault):
 
 @dataclass(frozen=True, slots=True)
 class ListenOptions:
-    """Where to listen, and which hosts are accepted."""
+    """The address to listen at, and the hosts that are accepted."""
 
     host: str = DEFAULT_HOST  # an address, that of IPv6 without brackets, or a name
     port: int = DEFAULT_PORT  # 0: any that is free
     token: str | None = field(
         default=None, repr=False
-    )  # that browsers must bring; None: none is asked for
-    names: tuple[str, ...] = ()  # other names that the page is opened under, in small letters
+    )  # token that browsers must send; None: none is required
+    names: tuple[str, ...] = ()  # other names under which the page is opened, in lower case
 
     @classmethod
     def read(
@@ -67,7 +67,7 @@ class ListenOptions:
 
     @property
     def place(self) -> str:
-        """As it is typed."""
+        """The address as it is typed."""
         return f"{bracketed(self.host)}:{self.port}"
 
     def address(self, port: int) -> str:
@@ -109,7 +109,7 @@ def bracketed(host: str) -> str:
 
 
 def name_of(host: str, *, ported: bool = False) -> str | None:
-    """Return the name in a Host header, in small letters; None if it is invalid.
+    """Return the name in a Host header in lower case; None if it is invalid.
 
     Args:
         host: a name, an address of IPv4, or one of IPv6 in brackets.

@@ -10,7 +10,7 @@ from xavi_dialogue.dashboard.web.address import ListenError, ListenOptions, name
 
 __all__ = ["ListenError", "ListenOptions", "Refused", "RequestGuard", "RequestHeaders", "SetToken"]
 
-Headers: TypeAlias = Sequence[tuple[bytes, bytes]]  # names in small letters
+Headers: TypeAlias = Sequence[tuple[bytes, bytes]]  # names in lower case
 
 #: Put on every response. The page loads nothing from elsewhere, and nobody loads or frames it.
 SECURITY = {
@@ -30,7 +30,7 @@ CACHE = ("cache-control", "no-store")
 #: Served without the token: the health check, and the files of the page without it.
 OPEN = frozenset({"/healthz", "/static/css/tokens.css", "/static/css/door.css", "/static/icon.svg"})
 METHODS = ("GET", "HEAD")
-MAX_FIELDS = 16  # of a query
+MAX_FIELDS = 16  # greatest number of fields of a query
 
 NO_TOKEN = "The dashboard wants its token. Open the address that it printed where it was started."
 WRONG_NAME = (
@@ -59,7 +59,7 @@ class RequestHeaders:
 
 @dataclass(frozen=True, slots=True)
 class Refused:
-    """It is not served."""
+    """The request is not served."""
 
     status: int  # of HTTP
     words: str
@@ -67,17 +67,17 @@ class Refused:
 
 @dataclass(frozen=True, slots=True)
 class SetToken:
-    """The token was in the address: it is put into a cookie, and the browser sent on to /."""
+    """The token was in the address; it is put into a cookie, and the browser redirected to /."""
 
     cookie: str  # Set-Cookie
     onward: Literal["redirect", "page"]
 
 
 class RequestGuard:
-    """Judges requests."""
+    """A guard that accepts or refuses requests."""
 
     def __init__(self, listen: ListenOptions, port: int) -> None:
-        """A guard of one place.
+        """Make the guard of one address.
 
         Args:
             listen: the place.
@@ -92,7 +92,7 @@ class RequestGuard:
             return Refused(400, "A request names one host.")
         if not self._listen.serves(hosts[0]):
             return Refused(421, WRONG_NAME)
-        # Under a name of its own, there may be a proxy that brings TLS.
+        # If the page has another name, a proxy may provide TLS.
         proxied = name_of(hosts[0], ported=True) in self._listen.names
         schemes = ("http", "https") if proxied else ("http",)
         ours = {f"{scheme}://{hosts[0].lower()}" for scheme in schemes}
@@ -105,7 +105,7 @@ class RequestGuard:
         given = _in_query(asked.query)
         known = self._known(given) or self._known(self._elsewhere(asked))
         if asked.kind == "websocket" and not origins and not known:
-            return Refused(403, STRANGER)  # no browser, which could not be led here by a stranger
+            return Refused(403, STRANGER)  # browsers send an origin; other clients need a token
         if self._listen.token is None or asked.path in OPEN:
             return None
         if not known:

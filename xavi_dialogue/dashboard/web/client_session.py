@@ -28,15 +28,15 @@ from xavi_dialogue.dashboard.web.websocket_messages import (
 
 MIB = 1 << 20
 MAX_WAITING = 8 * MIB  # bytes, besides the first messages
-MAX_IN_FLIGHT = 3  # scenes that were sent and are not acknowledged
-STATUS_EVERY = 1.0  # [s] at least between two status messages about dropped scenes
+MAX_IN_FLIGHT = 3  # scenes that may be sent without acknowledgement
+STATUS_EVERY = 1.0  # [s] least time between two status messages about dropped scenes
 QUESTIONS = Rate(2.0, 5)
 OTHERS = Rate(50.0, 100)
-MESSAGES = Rate(100.0, 200)  # of all kinds, those among them that are not taken up
+MESSAGES = Rate(100.0, 200)  # of all kinds, including those that are not accepted
 MAX_REASON = 123  # bytes (RFC 6455, 5.5.1)
 
 GOING_AWAY = 1001  # the dashboard ends
-UNREADABLE = 1003  # binary
+UNREADABLE = 1003  # a binary message
 BROKEN = 1011  # an internal error
 AGAIN_LATER = 1013  # too slow a reader, or too many browsers
 TOO_LARGE = 1009
@@ -71,13 +71,13 @@ class Disconnect:
 
 
 def pack(message: Outgoing) -> EncodedMessage:
-    """Make a message JSON."""
+    """Encode a message as JSON."""
     data = _ENCODER.encode(message)
     return EncodedMessage(message, data.decode(), len(data))
 
 
 class ClientSession:
-    """One browser. All methods are for the event loop's thread alone."""
+    """The session of one browser; its methods must be called on the event loop's thread."""
 
     def __init__(self, number: int, now: float, browsers: Callable[[], int] = lambda: 1) -> None:
         """Begin the session of a browser that has just connected.
@@ -88,8 +88,8 @@ class ClientSession:
             browsers: how many there are, for its status.
         """
         self.number = number
-        self.dropped = 0  # scenes that it was too slow for
-        self.leave: Disconnect | None = None  # set: to be disconnected
+        self.dropped = 0  # scenes for which the browser was too slow
+        self.leave: Disconnect | None = None  # if set, the browser is to be disconnected
         self.changed: Callable[[], None] = lambda: None  # called when there may be more to send
         self._browsers = browsers
         self._greeted = False
@@ -99,13 +99,13 @@ class ClientSession:
         self._ride: str | None = None
         self._in_flight: deque[int] = deque()  # numbers of scenes, as sent
         self._status: Status | None = None  # as last sent
-        self._told = now  # [s] when it was
+        self._told = now  # [s] when the status was sent
         self._questions, self._others = Bucket(QUESTIONS, now), Bucket(OTHERS, now)
         self._messages = Bucket(MESSAGES, now)
 
     @property
     def waiting(self) -> int:
-        """Count the bytes that wait to be sent."""
+        """Return the number of bytes that wait to be sent."""
         return self._waiting + (0 if self._scene is None else self._scene.size)
 
     def greet(self, messages: tuple[Outgoing, ...]) -> None:
@@ -133,7 +133,7 @@ class ClientSession:
             self._scene = packed
         else:
             if isinstance(message, Ride) and message.ride != self._ride:
-                self._ride, self._scene = message.ride, None  # a scene of the ride before is over
+                self._ride, self._scene = message.ride, None  # drops a scene of the previous ride
             self._row.append(packed)
             self._waiting += packed.size
             if self._waiting > self._limit:
@@ -143,7 +143,7 @@ class ClientSession:
         self.changed()
 
     def send_away(self, code: int, reason: str) -> None:
-        """Close the connection and drop what waits. The first reason counts."""
+        """Close the connection and drop waiting messages; the first reason counts."""
         if self.leave is None:
             short = reason.encode()[:MAX_REASON].decode(errors="ignore")
             self.leave = Disconnect(code, short)
@@ -152,7 +152,7 @@ class ClientSession:
             self.changed()
 
     def take(self, now: float) -> str | None:
-        """Return the next message as JSON; None: nothing at present."""
+        """Return the next message as JSON; None if there is nothing to send now."""
         if self._row:
             packed = self._row.popleft()
             self._waiting -= packed.size
@@ -177,7 +177,7 @@ class ClientSession:
         return max(self._told + STATUS_EVERY - now, 0.0)
 
     def hear(self, text: str, now: float) -> Wanted | None:
-        """Take in a message of the browser's.
+        """Handle a message from the browser.
 
         Returns:
             The request; None if there is nothing to do, or the browser got an error message.

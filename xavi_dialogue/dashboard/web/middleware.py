@@ -43,7 +43,7 @@ class GuardMiddleware:
     def __init__(
         self, app: App, guard: RequestGuard, clock: Callable[[], float] = time.monotonic
     ) -> None:
-        """A gate.
+        """Make a gate.
 
         Args:
             app: the application.
@@ -90,7 +90,7 @@ class GuardMiddleware:
 
     def _too_often(self, scope: Scope, asked: RequestHeaders, *, known: bool) -> Refused | None:
         whose, now = (scope.get("client") or ("",))[0], self._clock()
-        if not known:  # else tokens could be guessed
+        if not known:  # limits the guessing of tokens
             return None if self._tries.take(whose, now) else Refused(429, TRIED_OFTEN)
         if asked.kind == "websocket":
             return None if self._visits.take(whose, now) else Refused(429, VISITED_OFTEN)
