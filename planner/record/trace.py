@@ -121,7 +121,7 @@ class Track(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 class HeldUp(msgspec.Struct, frozen=True):
-    """A stretch of a drive, imagined or predicted, in which another vehicle held one up."""
+    """A stretch of a rollout or predicted drive in which another road user held the driver up."""
 
     vehicle: int
     since: float = msgspec.field(name="from")  # [s] simulation time

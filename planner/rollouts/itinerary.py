@@ -1,4 +1,4 @@
-"""The ego's way to its destination: how far it is, and the junctions on it that people count."""
+"""The ego's way to its destination: distance, free driving time, and junctions."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -13,10 +13,10 @@ from planner.roads.trajectory import Roads
 from planner.rollouts.waypoints import next_link, toll, way
 from sim.roads.network import Direction, Link, Location, Network, angle_between, point_at
 
-STEPS = 8  # junctions ahead that are stated at most
-BEARING = 20.0  # [m] from a roundabout at which the bearing of a road is taken
-STRAIGHT = math.radians(45.0)  # up to which the road after a roundabout leads straight on
-BACK = 2.6  # [rad] from which it leads back
+STEPS = 8  # maximum number of junctions ahead that are recorded
+BEARING = 20.0  # [m] distance from a roundabout at which the bearing of a road is taken
+STRAIGHT = math.radians(45.0)  # [rad] greatest turn that counts as straight on
+BACK = 2.6  # [rad] least turn that counts as the way back
 TURNS: dict[Direction, Turn] = {
     "left": "exit-left",
     "straight": "exit-straight",
@@ -34,11 +34,11 @@ class Leg:
 
 @dataclass(frozen=True, slots=True)
 class Itinerary:
-    """The way from a place to the destination, as far as one leads there."""
+    """The way from a place towards the destination."""
 
     legs: tuple[Leg, ...]
     distance: float | None  # [m] to the destination; None where no way leads there
-    free_time: float | None  # [s] to it where nobody is in the way
+    free_time: float | None  # [s] to the destination if nobody is in the way
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,12 +51,12 @@ class _Stretch:
 
 
 def itinerary(roads: Roads, here: Location, planned: tuple[str, ...], goal: EgoGoal) -> Itinerary:
-    """Lay out the way to the destination.
+    """Return the way to the destination.
 
     Args:
         roads: the road network.
         here: where the ego is.
-        planned: connected lanes that it drives along first, from its own on; () leaves it open.
+        planned: connected lanes that it drives along first, beginning with its own; () if open.
         goal: the destination.
     """
     network = roads.network
@@ -94,7 +94,7 @@ def _length(stretches: Sequence[_Stretch]) -> float:
 def _edges(
     roads: Roads, here: Location, planned: tuple[str, ...], goal: EgoGoal
 ) -> tuple[str, ...]:
-    """The edges to drive along, from the ego's on; inside a junction, from that beyond it on."""
+    """Return the edges to drive along, from the ego's on; in a junction, from the next one on."""
     network = roads.network
     start = (here.lane, *rest_of(network, here.lane))
     own = network.lanes[start[-1]].edge
@@ -106,7 +106,7 @@ def _edges(
 
 
 def _links(network: Network, lane: str, edges: Sequence[str]) -> Iterator[Link]:
-    """The links from edge to edge, from a lane on; those from it, or from the lanes beside it."""
+    """Yield the link from each edge to the next, from the lane nearest to the one driven."""
     for before, after in pairwise(edges):
         index = network.lanes[lane].index
         found = [
@@ -123,7 +123,7 @@ def _links(network: Network, lane: str, edges: Sequence[str]) -> Iterator[Link]:
 
 
 def is_junction(network: Network, link: Link) -> bool:
-    """Whether passengers would call it a junction: several ways on, or others that come in."""
+    """Check whether passengers would call it a junction: several ways on, or others come in."""
     start = network.lanes[link.from_lane].edge
     links = [x for lane in network.edge_lanes(start) for x in network.links_from(lane.id)]
     ways = {network.lanes[x.to_lane].edge for x in links if x.direction != "turnaround"}
@@ -183,7 +183,7 @@ def _roundabout(
     left: Leg | None,
     exits: tuple[str, ...],
 ) -> RouteStep:
-    """Return a roundabout from its entry, or from within, to where it is left, if it is."""
+    """Return the step for a roundabout, from its entry (or from within) to its exit, if any."""
     first = entered or left
     assert first is not None
     number = None if left is None else 1 + exits.index(network.lanes[left.link.to_lane].edge)
@@ -199,7 +199,7 @@ def _roundabout(
 
 
 def _turn(network: Network, ring: frozenset[str], entered: Leg | None, left: Leg | None) -> Turn:
-    """How the road after a roundabout leads on; for who is in it already, to which side it is."""
+    """Return the direction of the road after a roundabout; from within, the side of its exits."""
     side = way_out(network, ring)
     if left is None:
         return "exit-straight"

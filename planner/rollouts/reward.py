@@ -1,4 +1,4 @@
-"""Reward: from a driven trajectory to its components, and from components to one number."""
+"""Reward: the components of a driven trajectory, and one number from these."""
 
 import math
 
@@ -7,19 +7,19 @@ import numpy as np
 from planner.record.trace import SAMPLE_PERIOD, Action, Component, Costs, Outcome, RewardTerm
 from planner.roads.trajectory import Array
 
-#: What a drive costs, in seconds of travelling time: time as it is, and for each of the others
-#: the seconds per unit of its total over the drive (mean absolute value x time). With totals,
-#: waiting does not make a turn any smoother.
+#: The cost of a drive, in seconds of travelling time: time counts as it is, each other component
+#: with so many seconds per unit of its total over the drive (mean absolute value x time). Unlike
+#: a mean, a total does not fall when a vehicle waits.
 WEIGHTS: dict[Component, float] = {
     "time": 1.0,  # per s
     "jerk": 0.05,  # per m/s2
     "angular-acceleration": 4.0,  # per rad/s
     "curvature": 20.0,  # per s/m
 }
-#: What the other outcomes cost, in the same seconds. A goal that is merely out of time is still
-#: within reach: that costs what was driven, and the rest of the way.
+#: The cost [s] of the other outcomes. After a termination the goal is still within reach, so
+#: what was driven and the rest of the way count as well.
 PENALTY: dict[Outcome, float] = {"collision": 200.0, "dead": 150.0, "termination": 10.0}
-#: [s] Beyond the whole way, what losing the way to the goal costs at least: being late is better.
+#: [s] Minimum cost of losing the way to the goal, on top of the whole way: being late is better.
 LOST = 100.0
 
 
@@ -54,29 +54,29 @@ def absent() -> dict[Component, float | None]:
     return {"time": None, "jerk": None, "angular-acceleration": None, "curvature": None}
 
 
-#: What an action costs by itself [s]: passengers wonder what a stop is for, and every change of
-#: lanes is a risk.
+#: The cost of an action by itself [s]: passengers wonder what a stop is for, and every lane change
+#: is a risk.
 EFFORT: dict[Action, float] = {"stop": 2.0, "change-left": 1.0, "change-right": 1.0}
 
 
-#: What every trace records of this.
+#: The costs as every trace records them.
 COSTS = Costs(WEIGHTS, PENALTY, EFFORT)
 
 
 def terms(
     outcome: Outcome, parts: dict[Component, float], left: float, effort: float
 ) -> dict[RewardTerm, float]:
-    """Take what a rollout costs apart, in seconds of travelling time.
+    """Return the cost of a rollout by term, in seconds of travelling time.
 
     Args:
         outcome: of the rollout.
         parts: the components of what was driven.
-        left: [s] that the rest of the way costs where nobody is in the way; where the way to the
-            goal is lost (dead), what it would have cost in the beginning.
-        effort: [s] that its actions cost by themselves.
+        left: [s] cost of the rest of the way if nobody is in the way; if the way to the goal is
+            lost (dead), its cost at the start of the rollout.
+        effort: [s] cost of its actions by themselves.
 
     Returns:
-        The terms [s] that are not 0; minus the reward is their sum.
+        The terms [s] that are not 0; the reward is minus their sum.
     """
     if outcome == "collision":
         return {"collision": PENALTY[outcome]}
@@ -94,5 +94,5 @@ def terms(
 
 
 def reward(costs: dict[RewardTerm, float]) -> float:
-    """Tell the reward of a rollout, in (negative) seconds of travelling time, from its terms."""
+    """Return the reward of a rollout, in (negative) seconds of travelling time, from its terms."""
     return -sum(costs.values())

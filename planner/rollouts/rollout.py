@@ -1,9 +1,9 @@
 """Rollouts: the ego takes macro actions in turn while the others follow sampled trajectories.
 
-They react to the ego where the task says so: see `planner.kernels.reaction`. A collision that
-then remains is one that the other could not have avoided by braking firmly (`FIRM`) along its
-path, once it had seen the ego there for its reaction time; or one at its side. As in traffic law,
-who is hit from behind without having changed lanes has not collided.
+They react to the ego if the task says so: see `planner.kernels.reaction`. A collision that then
+remains is one at the other's side, or one that it could not have avoided by braking firmly
+(`FIRM`) along its path, once it had seen the ego there for its reaction time. As in traffic law,
+an ego that is hit from behind without having changed lanes has not collided.
 """
 
 import math
@@ -27,24 +27,24 @@ from planner.rollouts.reward import components
 from sim.roads.network import Location
 from sim.scene import Signal
 
-STILL = 0.1  # [m/s] below which one stands
-GRACE = 3  # steps by which two stretches of one hold-up may lie apart
+STILL = 0.1  # [m/s] speed below which a vehicle counts as standing
+GRACE = 3  # maximum difference of steps within one stretch of a hold-up
 
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """What the rollouts of one decision have in common."""
+    """The inputs that the rollouts of one decision have in common."""
 
     roads: Roads
     goal: EgoGoal
     size: tuple[float, float]  # [m] length and width of the ego
     start: float  # [s] simulation time of step 0
     horizon: int  # last step
-    view: float  # [m]
-    yielding: bool = False  # whether those behind brake for a vehicle that moves in before them
-    pace: float = math.inf  # [m/s] faster than which it does not want to drive
-    reacting: bool = False  # whether the others brake for who drives
-    #: links to come slowly to, and where [m] behind their lines to be slow: see
+    view: float  # [m] how far ahead junctions are seen
+    yielding: bool = False  # whether those behind brake for a vehicle that moves in front of them
+    pace: float = math.inf  # [m/s] maximum speed at which it wants to drive
+    reacting: bool = False  # whether the others brake for the ego
+    #: links to approach slowly, and how far [m] behind their lines to be slow: see
     #: planner.hidden_areas.caution
     slow: Mapping[tuple[str, int], float] = field(default_factory=dict)
 
@@ -76,7 +76,7 @@ def take(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traf
     """Drive one macro action, from its beginning or from where it is under way.
 
     Args:
-        task: the decision's frame.
+        task: what the rollouts of the decision have in common.
         plan: the action.
         motion: where on its path the ego is.
         first: the step at which it is there.
@@ -95,9 +95,9 @@ def take(task: Task, plan: ActionPlan, motion: Motion, first: int, traffic: Traf
 
 
 def _matters(plan: ActionPlan, states: Array, first: int, traffic: Traffic) -> bool:
-    """Check whether it may matter to who drives along states [S, 4] how the others have reacted.
+    """Check whether the others' reactions may matter to the ego that drives along states [S, 4].
 
-    On an open road it does not where those that brake stay behind.
+    On a plan without lines or areas to keep clear, they do not if all that brake stay behind it.
     """
     if plan.lines or plan.keep_clears:
         return True
@@ -124,7 +124,7 @@ def _placed(task: Task, plan: ActionPlan, driven: Drive) -> tuple[Array, Array]:
 def _leg(
     task: Task, plan: ActionPlan, driven: Drive, traffic: Traffic, states: Array, curvature: Array
 ) -> Leg:
-    """Return what came of a drive."""
+    """Return a drive as a leg, with its outcome."""
     careless = plan.changes_lane and not task.yielding
     braking = FIRM if task.reacting else 0.0
     hit, who = first_hit(
@@ -166,16 +166,16 @@ def _leg(
 
 
 def _real(traffic: Traffic, path: Path) -> tuple[Array, Array]:
-    """The motions and sizes of those who can be collided with: who is imagined would brake."""
+    """Return the motions and sizes of all but phantoms: these would brake, and never collide."""
     states = traffic.beside(path)
     if min(traffic.vehicles, default=0) >= 0:
         return states, traffic.sizes
-    there = np.array(traffic.vehicles) >= 0  # who is imagined comes last
+    there = np.array(traffic.vehicles) >= 0  # phantoms come last
     return states[there], traffic.sizes[there]
 
 
 def _leads_on(task: Task, plan: ActionPlan) -> bool:
-    """Check whether the goal can still be reached when an action that is under way is over."""
+    """Check whether the goal can still be reached after an action that is under way."""
     if plan.stops or plan.goal is not None:
         return True
     lane, begin = plan.path.lane_at(plan.end)
@@ -185,7 +185,7 @@ def _leads_on(task: Task, plan: ActionPlan) -> bool:
 def _ahead(plan: ActionPlan, arc: float) -> tuple[tuple[str, float], ...]:
     """Return the lanes from an arc [m] to the end of a plan, and how much [m] of each that is.
 
-    There are none where it reaches the goal or stops.
+    There are none if the plan reaches the goal or stops.
     """
     if plan.stops or plan.goal is not None:
         return ()
@@ -218,7 +218,7 @@ def _reachable(task: Task, here: Location) -> bool:
 
 
 def summarise(task: Task, legs: Sequence[Leg]) -> dict[Component, float]:
-    """The reward components of what was driven, to the goal or as far as the rollout went."""
+    """Return the reward components of what was driven, to the goal or the end of the rollout."""
     if not legs:
         return components(0.0, np.empty(0), np.empty(0), np.empty(0))
     passed = legs[-1].goal_time
@@ -231,7 +231,7 @@ def summarise(task: Task, legs: Sequence[Leg]) -> dict[Component, float]:
 
 
 def _driven_curvature(leg: Leg) -> Array:
-    """The curvature [1/m] [N] of a leg; 0 while it stands at a light: waiting is no turning."""
+    """Return the curvature [1/m] [N] of a leg; 0 while it waits at a light, as it does not turn."""
     waits = leg.stops.step - leg.first
     waits = waits[leg.speed[waits] < STILL]
     if len(waits) == 0:
@@ -244,14 +244,14 @@ def _driven_curvature(leg: Leg) -> Array:
 def held_up(legs: Sequence[Leg], start: float) -> tuple[HeldUp, ...]:
     """Join the hindered steps of a rollout into stretches, by vehicle.
 
-    A leader that brakes while it is in the way is recorded as leader even where it cut in
-    before: what costs time then is its braking.
+    A vehicle that cut in is recorded as a leader if it then brakes while it is in the way: what
+    costs time then is its braking.
     """
     return tuple(stretch for stretch in hindered(legs, start) if stretch.vehicle >= 0)
 
 
 def hindered(legs: Sequence[Leg], start: float) -> tuple[HeldUp, ...]:
-    """Do the same of everybody, those among them who are imagined: their names are negative."""
+    """Join the hindered steps into stretches, phantoms (with negative numbers) included."""
     known = [leg.hindrances for leg in legs]
     step = np.concatenate([h.step for h in known]) if known else np.empty(0, np.int64)
     if len(step) == 0:
@@ -276,7 +276,7 @@ def hindered(legs: Sequence[Leg], start: float) -> tuple[HeldUp, ...]:
 def _stretch(
     start: float, vehicle: int, first: int, last: int, code: int, speed: float, lowest: float
 ) -> HeldUp:
-    """Return a stretch of steps `first` to `last` in which a vehicle held one up."""
+    """Return a stretch of steps `first` to `last` in which a vehicle held the ego up."""
     how: HoldUp = HOW[code]
     if how == "cut-in" and speed - lowest > 2.0:
         how = "leader"
@@ -291,7 +291,7 @@ def _stretch(
 
 
 def held_by_lights(legs: Sequence[Leg], start: float) -> tuple[HeldByLight, ...]:
-    """Join the steps in which lights held a rollout up into stretches, in order."""
+    """Join the steps in which lights held the ego up into stretches, in order."""
     runs: list[tuple[Signal, int, int]] = []
     for leg in legs:
         for step, which in zip(leg.stops.step.tolist(), leg.stops.which.tolist(), strict=True):

@@ -1,7 +1,7 @@
-"""How far the goal is, and the place on the way to it that one decision aims for.
+"""The cost of the way to the goal, and the place on it that one decision aims for.
 
 Rollouts cannot reach a goal on the other side of town. They aim for a place on the shortest way
-to it; what comes beyond does not matter to what is decided now.
+to it; what comes after that place does not matter to the present decision.
 """
 
 import heapq
@@ -18,19 +18,19 @@ from planner.roads.trajectory import Roads
 from planner.rollouts.reward import WEIGHTS
 from sim.roads.network import Link, Location
 
-AIM = 20.0  # [s] of free driving ahead that a decision aims for at most
-LEAST = 10.0  # [m] into a road at which a waypoint lies
+AIM = 20.0  # [s] maximum time of free driving to a waypoint
+LEAST = 10.0  # [m] minimum distance of a waypoint from the start of its edge
 
 
 class LaneCost(NamedTuple):
-    """What driving along a lane takes where nobody is in the way."""
+    """The time and cost of driving along a lane if nobody is in the way."""
 
     time: float  # [s]
-    cost: float  # [s] with what its bends cost in comfort
+    cost: float  # [s] time and the comfort cost of its bends
 
 
 def toll(roads: Roads, lane: str) -> LaneCost:
-    """Return what driving along a lane takes, at the speed that its limit and its bends allow."""
+    """Return the cost of driving along a lane at the speed that its limit and its bends allow."""
     found = roads.tolls.get(lane)
     if found is None:
         line = roads.line((lane,))
@@ -45,9 +45,9 @@ def toll(roads: Roads, lane: str) -> LaneCost:
 
 
 def waypoint(roads: Roads, here: Location, goal: EgoGoal, aim: float = AIM) -> EgoGoal:
-    """Return the goal; where it is farther, the place that free driving reaches in `aim` [s].
+    """Return the goal or, if it is farther, the place that free driving reaches in `aim` [s].
 
-    Where no way leads to the goal, it is the goal.
+    If no way leads to the goal, return the goal.
     """
     network = roads.network
     ahead = [here.lane, *rest_of(network, here.lane)]
@@ -91,7 +91,7 @@ def way(roads: Roads, lanes: tuple[str, ...], goal: EgoGoal) -> tuple[str, ...]:
 def time_left(roads: Roads, here: Location, goal: EgoGoal) -> float:
     """Return a lower bound of the time [s] to a goal: the distance at the highest speed limit.
 
-    It is 1e6 where no way leads there.
+    It is 1e6 if no way leads there.
     """
     network = roads.network
     lane = network.lanes[here.lane]
@@ -106,9 +106,9 @@ def time_left(roads: Roads, here: Location, goal: EgoGoal) -> float:
 
 
 def cost_left(roads: Roads, here: Location, goal: EgoGoal) -> float:
-    """What free driving to a goal costs [s], comfort included; infinite where no way leads there.
+    """Return the cost [s] of free driving to a goal, comfort included; infinite without a way.
 
-    Unlike `time_left` an estimate and no bound: it knows the bends on the way.
+    Unlike `time_left`, it is an estimate and not a bound: it takes account of bends on the way.
     """
     network = roads.network
     lane = network.lanes[here.lane]
@@ -129,13 +129,13 @@ def cost_left(roads: Roads, here: Location, goal: EgoGoal) -> float:
 def cost_by(
     roads: Roads, here: Location, lanes: tuple[tuple[str, float], ...], goal: EgoGoal
 ) -> float:
-    """Return what free driving costs [s] along some lanes, and from their end to a goal.
+    """Return the cost [s] of free driving along some lanes, and from their end to a goal.
 
     Args:
-        roads: to drive on.
+        roads: the road network.
         here: where it begins, on the first of the lanes.
         lanes: connected lanes, and how much [m] is driven of each; () for the shortest way.
-        goal: to reach.
+        goal: the goal to reach.
     """
     if not lanes:
         return cost_left(roads, here, goal)
@@ -147,7 +147,7 @@ def cost_by(
 
 
 def _costs_to(roads: Roads, edge: str) -> Mapping[str, float]:
-    """The cost [s] from the end of each edge to the start of one, where a way leads there."""
+    """Return the cost [s] from the end of each edge to the start of one to which a way leads."""
     found = roads.costs.get(edge)
     if found is None:
         found = roads.costs[edge] = _search_back(roads, edge)
@@ -155,7 +155,7 @@ def _costs_to(roads: Roads, edge: str) -> Mapping[str, float]:
 
 
 def survey(roads: Roads, goal: EgoGoal) -> None:
-    """Reckon beforehand what the first decision would else reckon for all of the network."""
+    """Compute in advance what the first decision would otherwise compute for the whole network."""
     network = roads.network
     network.distance_to(goal.edge)
     _costs_to(roads, goal.edge)
@@ -169,7 +169,7 @@ def survey(roads: Roads, goal: EgoGoal) -> None:
 
 
 def _before(roads: Roads) -> Mapping[str, Mapping[str, float]]:
-    """Return the edges from which each edge is entered, and what crossing over costs [s]."""
+    """Return, for each edge, the edges that lead to it, with the cost [s] of the links between."""
     if roads.before is None:
         network, before = roads.network, dict[str, dict[str, float]]()
         for link in network.links:
@@ -182,7 +182,7 @@ def _before(roads: Roads) -> Mapping[str, Mapping[str, float]]:
 
 
 def _search_back(roads: Roads, target: str) -> dict[str, float]:
-    """Dijkstra against the driving direction; lane changes are free."""
+    """Return costs found by Dijkstra against the driving direction; lane changes are free."""
     network, before = roads.network, _before(roads)
     costs: dict[str, float] = {}
     frontier = [(across, start) for start, across in before.get(target, {}).items()]

@@ -1,8 +1,9 @@
-"""Joint samples of others and lights: drawn to search; with weights, to compare first actions.
+"""Joint samples of other road users, lights and phantoms.
 
-Where few joint samples make up nearly all of the probability, they are enumerated, and the mean
-reward of an action is its exact expectation. Where there are more, the likeliest are enumerated
-and draws of the search stand for the rest: a stratified estimate without bias.
+The search draws them at random. The comparison of first actions takes a weighted set of them. If
+few joint samples cover nearly all of the probability, they are enumerated, and the weighted mean
+reward of an action is its expectation. If there are more, the likeliest are enumerated, and draws
+of the search represent the rest: a stratified estimate without bias.
 """
 
 import heapq
@@ -20,11 +21,11 @@ from planner.record.light_record import LightPrediction, LightSample
 from planner.record.trace import Sample
 from planner.traffic_lights.signals import DARK, Outlook
 
-#: Of vehicles, then of lights, then of those who are imagined.
+#: Samples of road users, then of lights, then of phantoms.
 Samples: TypeAlias = tuple[Sample | LightSample | PhantomSample, ...]
 
-COVERED = 0.99  # probability from which on what is left is left out
-INEXACT = 0.5  # of the bound: joint samples where that does not suffice to cover enough
+COVERED = 0.99  # total probability of samples from which the remaining ones are ignored
+INEXACT = 0.5  # share of the maximum number that is used if it does not suffice for COVERED
 
 
 def draw(
@@ -33,9 +34,9 @@ def draw(
     lights: Outlook = DARK,
     phantoms: Sequence[Phantom] = (),
 ) -> Samples:
-    """Draw a goal and a trajectory for every other vehicle, and a course for every controller.
+    """Draw a goal and a trajectory for every other road user, and a course for every controller.
 
-    Of everybody who is imagined, draw whether he comes. Each is drawn from its own generator.
+    For every phantom, draw whether it comes. Each draw uses a random generator of its own.
     """
     found: list[Sample | LightSample | PhantomSample] = []
     for vehicle, known in beliefs.items():
@@ -52,7 +53,7 @@ def draw(
 
 
 def source_of(phantom: int) -> str:
-    """Return the name of the generator of one who is imagined."""
+    """Return the name of the random generator of a phantom."""
     return f"phantom {phantom}"
 
 
@@ -82,20 +83,21 @@ def weighted(
     lights: Outlook = DARK,
     phantoms: Sequence[Phantom] = (),
 ) -> list[tuple[Samples, float]]:
-    """Joint samples with weights that sum to 1; the likeliest first.
+    """Return joint samples with weights that sum to 1: the likeliest in order, then drawn ones.
 
-    Where they cannot all be enumerated, as many are as make the error least: with n draws for
-    the mass q that is left, its variance is that of the rewards times q squared over n.
+    If enumeration does not reach COVERED, the number of enumerated samples is the one with the
+    least error. With n draws for the remaining probability q, the variance is that of the
+    rewards times q squared over n.
 
     Args:
-        beliefs: of every other vehicle.
-        drawn: by the search, independently of one another.
-        most: joint samples that are enumerated at most.
-        lights: how they may go on.
-        phantoms: who might come out of what is hidden.
+        beliefs: those about every other road user.
+        drawn: joint samples that the search drew independently of one another.
+        most: maximum number of joint samples.
+        lights: the courses that the lights may take.
+        phantoms: road users that may come out of hidden areas.
     """
     found: dict[Samples, float] = {}
-    mass = [0.0]  # of the first 0, 1, 2, ... of them
+    mass = [0.0]  # probability of the first 0, 1, 2, ... samples
     for samples, probability in itertools.islice(likeliest(beliefs, lights, phantoms), most):
         found[samples] = probability
         mass.append(mass[-1] + probability)
@@ -123,9 +125,10 @@ def likeliest(
     lights: Outlook = DARK,
     phantoms: Sequence[Phantom] = (),
 ) -> Iterator[tuple[Samples, float]]:
-    """Yield the joint samples of others that are independent, with probabilities, likeliest first.
+    """Yield joint samples with their probabilities, likeliest first; all choices are independent.
 
-    Best-first over ranks: a vehicle's next choice is considered once all before it are.
+    This is a best-first search over tuples of ranks, one rank for each road user, controller or
+    phantom. A tuple is considered once its parent, with one rank lower by 1, has been yielded.
     """
     choices: list[_Choices] = [_choices(vehicle, known) for vehicle, known in beliefs.items()]
     choices += [_courses(one) for one in lights.varying]
@@ -146,7 +149,7 @@ _Choices: TypeAlias = list[tuple[Sample | LightSample | PhantomSample, float]]
 
 
 def _comings(index: int, one: Phantom) -> _Choices:
-    """Return whether somebody who is imagined comes, the likelier first."""
+    """Return the choices of a phantom, to come or not to come, the likelier first."""
     chance = one.probability
     found: _Choices = [(PhantomSample(index, True), chance)]
     found.append((PhantomSample(index, False), 1.0 - chance))
@@ -154,7 +157,7 @@ def _comings(index: int, one: Phantom) -> _Choices:
 
 
 def _courses(known: LightPrediction) -> _Choices:
-    """Return how one controller may go on, the likeliest first."""
+    """Return the possible courses of one controller, the likeliest first."""
     found: _Choices = [
         (LightSample(known.controller, k), course.probability)
         for k, course in enumerate(known.courses)
@@ -164,7 +167,7 @@ def _courses(known: LightPrediction) -> _Choices:
 
 
 def _choices(vehicle: int, known: Sequence[Belief]) -> _Choices:
-    """Return what one vehicle may do, the likeliest first; what cannot be is left out."""
+    """Return the possible goals and ways of a road user, the likeliest first."""
     found: _Choices = [
         (Sample(vehicle, goal, way), belief.probability * trajectory.probability)
         for goal, belief in enumerate(known)

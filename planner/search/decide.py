@@ -1,4 +1,4 @@
-"""One decision: recognise the others, search, and record it all as a PlanTrace."""
+"""One decision: recognition of the others' goals, the search, and the record as a PlanTrace."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -46,7 +46,7 @@ from sim.scene import EGO, Point, VehicleState
 
 Line: TypeAlias = tuple[tuple[Point, ...], tuple[float, ...]]  # places [m], speeds [m/s]
 
-CROWD = 16  # vehicles of which the goals are recognised at most
+CROWD = 16  # maximum number of vehicles whose goals are recognised
 DIGITS: dict[Component, int] = {
     "time": 2,
     "jerk": 4,
@@ -57,7 +57,7 @@ DIGITS: dict[Component, int] = {
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """What stays the same from decision to decision."""
+    """The inputs that stay the same from decision to decision."""
 
     roads: Roads
     goal: EgoGoal
@@ -68,27 +68,27 @@ class Frame:
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """What is new in every decision."""
+    """The inputs that are new in every decision."""
 
     number: int
     time: float  # [s]
     scene: Mapping[int, VehicleState]
     history: Mapping[int, Track]
     root: Root
-    unseen: Mapping[int, float] = field(default_factory=dict)  # [s] hidden ones were seen last
-    unpaced: frozenset[int] = frozenset()  # whose pace was that of somebody who is not there
+    unseen: Mapping[int, float] = field(default_factory=dict)  # [s] when last seen
+    unpaced: frozenset[int] = frozenset()  # whose pace somebody no longer there set
     lights: tuple[LightPrediction, ...] = ()
     phantoms: tuple[Phantom, ...] = ()
 
     @property
     def outlook(self) -> Outlook:
-        """How the lights may go on."""
+        """The courses that the lights may take."""
         return Outlook(self.time, self.lights)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Decision:
-    """A decision, with what the driver needs of it beside the record."""
+    """A decision: its record, and the beliefs, which the driver needs besides."""
 
     trace: PlanTrace
     beliefs: Mapping[int, Sequence[Belief]]
@@ -103,10 +103,10 @@ def decide(frame: Frame, moment: Moment) -> Decision:
 
 
 def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
-    """Recognise the goals of the others in view; in a crowd, of those that may meet the ego.
+    """Recognise the goals of vehicles that may meet the ego, and of people who may get in its way.
 
-    Of these, the nearest count; the rest are in the way of others at most. Of people on foot,
-    those matter that may get in the way.
+    In a crowd, this covers only the nearest CROWD of these vehicles. Others that are near the ego
+    count only as obstacles to them.
     """
     ego, view = moment.scene[EGO], frame.settings.view_radius
     nearest = sorted(
@@ -133,7 +133,7 @@ def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
 
 
 def _crossings_ahead(frame: Frame, moment: Moment) -> tuple[Crossing, ...]:
-    """Return the crossings for people on the ego's way."""
+    """Return the crossings for people on foot that lie on the ego's way."""
     here, under_way = moment.root.here.location.lane, moment.root.under_way
     lanes: tuple[str, ...] = (here,)
     if under_way is not None:
@@ -147,7 +147,7 @@ def _crossings_ahead(frame: Frame, moment: Moment) -> tuple[Crossing, ...]:
 def prepare(
     frame: Frame, moment: Moment, beliefs: Mapping[int, Sequence[Belief]], salt: str = ""
 ) -> Search:
-    """Return a search that has not been run yet; `salt` sets its draws apart."""
+    """Return a search that has not been run yet; another `salt` gives it other random draws."""
     ego = moment.scene[EGO]
     task = Task(
         frame.roads,
@@ -217,9 +217,9 @@ def record(
 
 
 def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> tuple[Rollout, ...]:
-    """Record rollouts from index `offset` on; a line that was driven before is referred to."""
+    """Return the records of rollouts, numbered from `offset`, each path and speed recorded once."""
     seen: dict[Line, int] = {}
-    lines: dict[tuple[int, ...], Line] = {}  # by the legs: many rollouts have the same
+    lines: dict[tuple[int, ...], Line] = {}  # by legs, which many rollouts share
     parts: dict[int, dict[Component, float | None]] = {}  # by identity, as they are shared
     costs: dict[int, dict[RewardTerm, float]] = {}
     found = []
@@ -274,13 +274,13 @@ def _line(one: Simulated) -> Line:
 
 
 def points(position: Array) -> tuple[Point, ...]:
-    """Positions [m] [N, 2] as the trace records them, to the decimetre."""
+    """Return positions [m] [N, 2] as the trace records them, to the decimetre."""
     x, y = np.round(position, 1).T.tolist()
     return tuple(zip(x, y, strict=True))
 
 
 def numbers(values: Array) -> tuple[float, ...]:
-    """Speeds [m/s] [N] as the trace records them."""
+    """Return speeds [m/s] [N] as the trace records them."""
     return tuple(np.round(values, 1).tolist())
 
 
@@ -311,7 +311,7 @@ def _trajectory(way: Trajectory) -> TrajectoryPrediction:
 
 
 def root_at(roads: Roads, ego: VehicleState, time: float) -> Situation | None:
-    """Return where the ego is, from its pose alone; None off the road."""
+    """Return the situation of the ego, from its state alone; None off the road."""
     found = lanes_at(roads, ego.position, ego.heading)
     if not found:
         return None

@@ -1,6 +1,6 @@
-"""MCTS over macro actions: sample the others, roll out the ego, learn.
+"""MCTS over macro actions: sample the others, simulate the ego, update the tree.
 
-The same seed gives the same rollouts: the generator is made from arguments alone.
+The same seed gives the same rollouts, since random generators depend on arguments alone.
 """
 
 import random
@@ -37,22 +37,22 @@ from planner.search.tree import Edge, Node, Tree
 from planner.traffic_lights.signals import DARK, Lights, Outlook
 from sim.roads.network import Location
 
-Choose: TypeAlias = Callable[[Node, Sequence[Action]], Action]  # at a node, of several
-#: What can be done, and in which order it is tried.
+Choose: TypeAlias = Callable[[Node, Sequence[Action]], Action]  # one of several, at a node
+#: The plans of actions that apply at a node, and the order in which these are tried.
 Options: TypeAlias = tuple[Mapping[Action, ActionPlan], tuple[Action, ...]]
 
-LATE = 1e3  # [s] by which a stop is put behind all that leads on
-ENOUGH = 0.05  # share of the rollouts that an action of the plan must have had
+LATE = 1e3  # [s] added to the cost of a stop, so that it is tried last
+ENOUGH = 0.05  # minimum share of the rollouts for the first action of a plan
 FATAL: tuple[Outcome, ...] = ("collision", "dead")
 
 
 @dataclass(frozen=True, slots=True)
 class Root:
-    """Where the search begins."""
+    """The situation in which the search begins."""
 
     here: Situation
     under_way: tuple[ActionPlan, Motion] | None = None  # must be finished first
-    driving: Action | None = None  # what is being driven, and can be taken back
+    driving: Action | None = None  # being driven, but can be abandoned
 
 
 @dataclass
@@ -63,13 +63,13 @@ class Search:
     root: Root
     beliefs: Mapping[int, Sequence[Belief]]
     settings: Settings
-    seed: str  # of all that is drawn
+    seed: str  # of all random draws
     lights: Outlook = DARK
     phantoms: tuple[Phantom, ...] = ()
     rollouts: list[Simulated] = field(default_factory=list)
     tree: Tree = field(default_factory=Tree)
     refusals: dict[tuple[Node, Action], str] = field(default_factory=dict)
-    compared: dict[Action, float] = field(default_factory=dict)  # expected, by first action
+    compared: dict[Action, float] = field(default_factory=dict)  # expected reward by action
     _plans: dict[tuple[Samples, Node], Options] = field(default_factory=dict)
     _expanded: dict[tuple[Situation, Action], ActionPlan | Refusal] = field(default_factory=dict)
     _legs: dict[tuple[Samples, Node], Leg] = field(default_factory=dict)
@@ -78,7 +78,7 @@ class Search:
     _lit: dict[tuple[int, ...], Lights] = field(default_factory=dict)  # by courses
     _pool: Pool = field(default_factory=Pool)
     _imagined: dict[int, Obstacle] = field(default_factory=dict)  # by index
-    # By vehicle, controller and who is imagined: nobody shifts another's.
+    # By road user, controller and phantom, so that one's draws do not shift another's.
     _draws: dict[int | str, random.Random] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -90,7 +90,7 @@ class Search:
         self._draws = {name: random.Random(f"{self.seed}/{name}") for name in names}
 
     def run(self) -> None:
-        """Draw the rollouts of the search; then compare the first actions, and force the rest."""
+        """Run the rollouts of the search, compare the first actions, and force missing rollouts."""
         for _ in range(self.settings.rollouts):
             drawn = draw(self.beliefs, self._draws, self.lights, self.phantoms)
             self._learn(self.tree, drawn, (), forced=False)
@@ -100,9 +100,9 @@ class Search:
             self.force((action,), self.settings.min_rollouts - tried[action])
 
     def force(self, actions: Node, count: int) -> None:
-        """Draw rollouts that begin with given actions, without teaching the search.
+        """Run rollouts that begin with given actions, without an effect on the search tree.
 
-        Where one of the actions does not apply, the rollout is dropped and the reason kept.
+        If one of the actions does not apply, the rollout is dropped and the reason kept.
         """
         apart = self.tree.copy()
         for _ in range(max(count, 0)):
@@ -110,10 +110,10 @@ class Search:
             self._learn(apart, drawn, actions, forced=True)
 
     def _compare(self) -> None:
-        """Drive the best continuation of every first action through the same samples.
+        """Drive the best continuation of every first action under the same samples.
 
-        Values in the tree carry its exploration, and every action met other samples there. What
-        is chosen is what does best in expectation, where all are tried alike.
+        Values in the tree are distorted by exploration, and each action met other samples there.
+        The choice therefore depends on expected rewards under common samples.
         """
         rivals = self._first_actions()
         if len(rivals) < 2:
@@ -125,7 +125,7 @@ class Search:
             self.compared[action] = 0.0
             for samples, weight in common:
                 one = self._roll(samples, self._greedily(action), forced=True, weight=weight)
-                assert one is not None  # what was tried first applies whatever the others do
+                assert one is not None  # a first action applies whatever the others do
                 self.compared[action] += weight * one.reward
 
     def _greedily(self, first: Action) -> Choose:
@@ -150,9 +150,10 @@ class Search:
         )
 
     def _preferred(self) -> Action:
-        """Return the first action that does best; what is being driven, where that is as good.
+        """Return the best first action, or the one that is being driven if it is as good.
 
-        It is where the best is ahead by no more than the error of the difference, and no safer.
+        It is as good if the best one leads by no more than the standard error of the difference
+        and is no safer.
         """
         best, kept = max(self.compared, key=lambda action: self.compared[action]), self.root.driving
         if kept is None or kept not in self.compared:
@@ -173,7 +174,7 @@ class Search:
         )
 
     def _learn(self, tree: Tree, samples: Samples, begin: Node, *, forced: bool) -> None:
-        """One rollout that begins with given actions, then follows and teaches a tree."""
+        """Run a rollout that begins with given actions and follows a tree; then update the tree."""
 
         def choose(node: Node, options: Sequence[Action]) -> Action:
             if len(node) < len(begin):
@@ -187,7 +188,7 @@ class Search:
     def _roll(
         self, samples: Samples, choose: Choose, *, forced: bool, weight: float | None = None
     ) -> Simulated | None:
-        """One rollout; None, and nothing recorded, where the action chosen does not apply."""
+        """Run and keep a rollout; return None, and keep nothing, if an action does not apply."""
         legs: list[Leg] = []
         outcome: Outcome | None = None
         while outcome is None:
@@ -207,7 +208,7 @@ class Search:
         return one
 
     def _simulated(self, samples: Samples, legs: Sequence[Leg], outcome: Outcome) -> Simulated:
-        """What came of a rollout; the same actions under the same samples come to the same."""
+        """Return the result of a rollout; equal actions under equal samples share one result."""
         key = (samples, tuple(leg.action for leg in legs))
         found = self._known.get(key)
         if found is None:
@@ -226,9 +227,9 @@ class Search:
         return found
 
     def _invites(self, plan: ActionPlan) -> float:
-        """Return how soon [s] a plan would lead to the goal if nobody were in the way.
+        """Return an estimate of the cost [s] of a plan and the way from its end if all is free.
 
-        The search tries actions in this order, and beyond its depth drives on by it.
+        The search tries actions in this order. Beyond its depth, a rollout takes the first one.
         """
         effort = EFFORT.get(plan.action, 0.0)
         if plan.stops:
@@ -241,17 +242,17 @@ class Search:
         return effort + plan.end / pace + cost_left(self.task.roads, end, self.task.goal)
 
     def _left(self, legs: Sequence[Leg]) -> float:
-        """Return what is left to the goal [s] after these legs, where nobody is in the way.
+        """Return the cost [s] of the way to the goal after these legs if nobody is in the way.
 
-        Out of time within an action, that is the rest of it and the way from its end.
+        If time ran out within an action, that is the rest of the action and the way from its end.
         """
         end, ahead = (legs[-1].end, legs[-1].ahead) if legs else (self.root.here, ())
         return cost_by(self.task.roads, end.location, ahead, self.task.goal)
 
     def _options(self, samples: Samples, node: Node, legs: Sequence[Leg]) -> Options:
-        """Return what can be done at a node that was reached under these samples.
+        """Return the options at a node that was reached under these samples.
 
-        Microseconds are no reason for an order: the last digit differs between processors.
+        Costs are ordered to the microsecond, since their last digits differ between processors.
         """
         key = (samples, node) if legs else ((), node)
         found = self._plans.get(key)
@@ -282,7 +283,7 @@ class Search:
         return found
 
     def _leg(self, samples: Samples, branch: Node, plan: ActionPlan, legs: Sequence[Leg]) -> Leg:
-        """Return the last action of a branch, driven; the same samples give the same leg."""
+        """Return the leg of the last action of a branch; the same samples give the same leg."""
         found = self._legs.get((samples, branch))
         if found is None:
             here, first, traffic = self.root.here, 0, self._traffic(samples)
@@ -321,7 +322,7 @@ class Search:
         return held_by_hidden(self.phantoms, hindered(legs, start), careful, start)
 
     def _comes(self, phantom: int) -> Obstacle:
-        """Return how somebody who is imagined would come."""
+        """Return the motion of a phantom that comes."""
         found = self._imagined.get(phantom)
         if found is None:
             steps = self.task.horizon + GAP_HORIZON

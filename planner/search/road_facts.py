@@ -1,7 +1,7 @@
-"""The road around the ego at one decision: who is where, what comes next, and who goes first.
+"""Facts of the road at one decision: places, the route, right of way, and lights ahead.
 
-It follows from the network alone, and from what can be seen: the others' ways are not known, so
-every link counts that they may take from where they are.
+They follow from the network and from what can be seen. The others' routes are not known, so every
+link that they may take from where they are counts.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -23,7 +23,7 @@ from sim.roads.network import Link, Location, Network
 from sim.scene import EGO, LightState, Signal, VehicleState
 
 PROTECTED = LightState.GREEN.value
-Places = Mapping[int, tuple[Location, ...]]  # where each may be, the likeliest first
+Places = Mapping[int, tuple[Location, ...]]  # possible places by number, likeliest first
 
 
 def road_facts(
@@ -39,12 +39,12 @@ def road_facts(
 
     Args:
         roads: the road network.
-        scene: everybody, by name.
-        root: where the ego is, and what it must finish.
-        plan: what was decided.
+        scene: all road users, the ego included, by number.
+        root: the ego's situation, and the manoeuvre that it must finish.
+        plan: the plan that was chosen.
         goal: the destination.
-        view: [m] from a junction within which others count.
-        lights: in view.
+        view: [m] distance to a junction within which others count.
+        lights: those in view.
     """
     here = root.here.location
     at = {v: _lanes_at(roads, state) for v, state in scene.items()}
@@ -62,7 +62,7 @@ def road_facts(
 
 
 def _lanes_at(roads: Roads, state: VehicleState) -> tuple[Location, ...]:
-    """Return where a vehicle may be on lanes for cars; nowhere on one of its own."""
+    """Return the possible places of a vehicle on lanes for cars; none on a lane of its own kind."""
     own, lanes = roads_of(roads, state.kind), roads.network.lanes
     return tuple(x for x in lanes_at(own, state.position, state.heading) if x.lane in lanes)
 
@@ -88,7 +88,7 @@ def _ahead(legs: Sequence[Leg], lights: Sequence[LightPrediction]) -> tuple[Ligh
 def _planned(
     roads: Roads, root: Root, plan: Sequence[PlannedAction], goal: EgoGoal, view: float
 ) -> tuple[str, ...]:
-    """Return the lanes of the manoeuvre that is under way, or else of the first one planned."""
+    """Return the lanes of the action that is under way, or otherwise of the first one planned."""
     if root.under_way is not None:
         begun, motion = root.under_way
         current, _ = begun.path.lane_at(motion.arc)
@@ -101,7 +101,7 @@ def _planned(
 
 
 def place(network: Network, location: Location) -> RoadPlace:
-    """Return where a place on a lane is, as passengers see it."""
+    """Return a place on a lane in the terms in which passengers see it."""
     lane, link = network.lanes[location.lane], network.link_via(location.lane)
     inside = link is not None and is_junction(network, link)
     on_ring = link is not None and any(ring is not None for ring in rings_of(network, link))
@@ -121,7 +121,7 @@ def place(network: Network, location: Location) -> RoadPlace:
 def _meetings(
     network: Network, here: Location, legs: Sequence[Leg], view: float
 ) -> tuple[Link, ...]:
-    """The ego's links where it meets others next: of a junction, or of the rest of a ring."""
+    """Return the links where the ego next meets others: at a junction, or on the rest of a ring."""
     inside = network.link_via(here.lane)
     ahead = [] if inside is None else [inside]
     ahead += [leg.link for leg in legs if leg.distance <= view]
@@ -161,7 +161,7 @@ def _priority(
 def _first_now(
     roads: Roads, where: Location, mine: Link, theirs: Link, lights: Sequence[LightPrediction]
 ) -> First | None:
-    """Return who goes first as lights show; who is held at red has no right of way now."""
+    """Return who goes first under the present lights; at red, there is no right of way."""
     first = goes_first(mine, theirs)
     inside = roads.network.lanes[where.lane].internal
     if first is None or not lights:
@@ -184,7 +184,7 @@ def _state(link: Link, lights: Sequence[LightPrediction]) -> str:
 
 
 def goes_first(mine: Link, theirs: Link) -> First | None:
-    """Who goes first of the ego and another at a junction; None where their ways do not meet."""
+    """Return who goes first at a junction, ego or other; None if their links do not conflict."""
     if theirs.index not in mine.foes and mine.index not in theirs.foes:
         return None
     i_yield, they_yield = theirs.index in mine.yields_to, mine.index in theirs.yields_to
@@ -194,7 +194,7 @@ def goes_first(mine: Link, theirs: Link) -> First | None:
 
 
 def _ways(roads: Roads, location: Location, mine: Link, view: float) -> Iterator[Link]:
-    """The links by which another may cross the junction of the ego's link, from other roads."""
+    """Yield links by which a vehicle from another road may cross the junction of the ego's link."""
     network = roads.network
     own = network.lanes[mine.from_lane].edge
     for link in _reached(roads, location, mine.junction, view):
@@ -203,14 +203,14 @@ def _ways(roads: Roads, location: Location, mine: Link, view: float) -> Iterator
 
 
 def _reached(roads: Roads, location: Location, junction: str, view: float) -> list[Link]:
-    """Return the links of a junction that a vehicle drives along, or comes to."""
+    """Return the links of a junction that a vehicle is driving along or may come to."""
     network = roads.network
     inside = network.link_via(location.lane)
     if inside is not None and inside.junction == junction:
         return [inside]
     lane = location.lane if inside is None else inside.to_lane
     ring = network.roundabout(network.lanes[lane].edge)
-    if ring is not None:  # it may go round as far as there
+    if ring is not None:  # it may go round to this junction
         links = network.junction_links(junction).values()
         return [link for link in links if network.lanes[link.from_lane].edge in ring]
     ahead = approach(roads, location, view)

@@ -1,4 +1,4 @@
-"""What came of one rollout."""
+"""The result of one rollout."""
 
 from dataclasses import dataclass
 
@@ -12,14 +12,14 @@ from planner.search.tree import Node
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Simulated:
-    """One rollout."""
+    """A rollout with its samples, its outcome and its reward."""
 
     drawn: Samples
     legs: tuple[Leg, ...]
     outcome: Outcome
     components: dict[Component, float | None]
     reward: float
-    terms: dict[RewardTerm, float]  # [s] that the reward is made of
+    terms: dict[RewardTerm, float]  # [s] costs that the reward consists of
     held_up: tuple[HeldUp, ...]
     held_by_lights: tuple[HeldByLight, ...]
     held_by_hidden: tuple[HeldByHidden, ...]
@@ -38,12 +38,12 @@ class Simulated:
 
     @property
     def phantoms(self) -> tuple[PhantomSample, ...]:
-        """Who was drawn to come out of what is hidden."""
+        """The draws of whether each phantom comes."""
         return tuple(one for one in self.drawn if isinstance(one, PhantomSample))
 
     @property
     def braking(self) -> tuple[int, ...]:
-        """Who brakes for the ego, or for one that does, in increasing order."""
+        """The vehicles that brake for the ego, or for another that does, in increasing order."""
         if not self.legs:
             return ()
         traffic = self.legs[-1].traffic

@@ -1,8 +1,8 @@
-"""The search tree of MCTS: select by UCB1, back up by Q-learning.
+"""The search tree of MCTS: selection by UCB1, back-up by Q-learning.
 
 Nodes are sequences of macro actions, since the others' motions differ from rollout to rollout
 (open-loop search). The back-up is that of IGP2 (Albrecht et al. 2021, Algorithm 2): the last
-action of a rollout learns its reward, an earlier one the value of the best that follows it.
+action of a rollout learns its reward, an earlier one the value of the best action after it.
 """
 
 import math
@@ -18,7 +18,7 @@ Node = tuple[Action, ...]
 
 @dataclass(slots=True)
 class Edge:
-    """What is known of one action at one node."""
+    """The estimate of one action at one node."""
 
     visits: int = 0
     value: float = 0.0
@@ -29,8 +29,8 @@ class Tree:
     """Visits and values of the actions at every node."""
 
     edges: dict[Node, dict[Action, Edge]] = field(default_factory=dict)
-    low: float = math.inf  # reward seen
-    high: float = -math.inf
+    low: float = math.inf  # lowest reward so far
+    high: float = -math.inf  # highest reward so far
 
     def select(self, node: Node, actions: Sequence[Action]) -> Action:
         """Choose the action with the highest UCB1 bound; untried ones first, in their order."""
@@ -49,7 +49,7 @@ class Tree:
         return max(actions, key=bound)
 
     def back_up(self, actions: Node, reward: float) -> None:
-        """Learn from a rollout that took `actions` and earned `reward`."""
+        """Update the tree with a rollout that took `actions` and earned `reward`."""
         self.low, self.high = min(self.low, reward), max(self.high, reward)
         target = reward
         for depth in range(len(actions) - 1, -1, -1):
@@ -68,13 +68,13 @@ class Tree:
         return Tree(edges, self.low, self.high)
 
     def greedy(self, node: Node, actions: Sequence[Action]) -> Action:
-        """Return the tried action of highest value; where none was tried, the first."""
+        """Return the tried action of highest value; if none was tried, the first."""
         known = self.edges.get(node, {})
         tried = [action for action in actions if action in known]
         return max(tried, key=lambda action: known[action].value, default=actions[0])
 
     def best(self, enough: int, node: Node = ()) -> list[tuple[Action, Edge]]:
-        """Return the plan from a node on: the action of highest value among those tried enough."""
+        """Return the plan from a node on: at each node, the tried action of highest value."""
         plan: list[tuple[Action, Edge]] = []
         while self.edges.get(node):
             known = self.edges[node]
