@@ -1,1 +1,1 @@
-"""What the ride was like: its way, places, delays, comfort and right of way."""
+"""Explainers of the ride: its way, places, delays, comfort and right of way."""

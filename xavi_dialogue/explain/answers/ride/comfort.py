@@ -8,12 +8,12 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, was_said, window
 from xavi_dialogue.explain.answers.reference.occasions import overlaps, taken_place
 
-HARD = 4.0  # [m/s2] of braking that passengers call hard
+HARD = 4.0  # [m/s2] minimum deceleration that passengers call hard
 BRAKING: tuple[ActionName, ...] = ("brake", "slow-down", "stop", "give-way")
 
 
 def comfort(asked: Asked, event: Event | None, about: Window) -> Comfort:
-    """Tell how hard it was: the peak deceleration with its time, and the jerk where it is known.
+    """Return how hard it was: the peak deceleration with its time, and the jerk if it is known.
 
     Raises:
         Unanswered: the event did not happen, or the record has no motion there.
@@ -23,7 +23,7 @@ def comfort(asked: Asked, event: Event | None, about: Window) -> Comfort:
 
 
 def comfort_of(asked: Asked, about: Window, episode: Episode | None = None) -> Comfort:
-    """Tell how hard a stretch of the ride was.
+    """Return how hard a stretch of the ride was.
 
     Raises:
         Unanswered: the record has no motion there.
@@ -40,12 +40,12 @@ def comfort_of(asked: Asked, about: Window, episode: Episode | None = None) -> C
 
 
 def stretch(asked: Asked, episode: Episode) -> Window:
-    """Give the stretch of the ride that an episode takes."""
+    """Return the stretch of the ride that an episode covers."""
     return Window(episode.begin, asked.now if episode.end is None else episode.end)
 
 
 def asked_stretch(asked: Asked, event: Event | None) -> Window:
-    """Give the stretch that a question about comfort is about: the ride, if it says nothing."""
+    """Return the stretch that a question about comfort covers; by default the whole ride."""
     if event is not None:
         return window(asked, event.time, event.tense)
     about = window(asked)
@@ -55,7 +55,7 @@ def asked_stretch(asked: Asked, event: Event | None) -> Window:
 
 
 def _braking(asked: Asked, at: float) -> Episode | None:
-    """Give the braking of ours at a time [s]."""
+    """Return our braking at a time [s]."""
     found = asked.world.episodes(actor=Ego(), actions=BRAKING)
     here = [e for e in found if overlaps(asked, e, Window(at, at))]
     return here[-1] if here else None

@@ -1,4 +1,4 @@
-"""Conduct: what can be seen of somebody's driving though no episode of that name is recorded."""
+"""Conduct: what can be seen of somebody's driving when no episode of that name is recorded."""
 
 import math
 
@@ -22,21 +22,21 @@ HALTING: tuple[ActionName, ...] = ("stop", "brake", "slow-down")
 BENDING: tuple[ActionName, ...] = (
     "exit-left", "exit-right", "change-left", "change-right", "continue-next-exit",
 )  # fmt: skip
-TRACK = 2.0  # [m] from our own line within which somebody drives where we drove
-ALONG = 0.6  # [rad] by which his heading there may differ from ours
-BACK = 8.0  # [s] how long ago we may have been there
-SOON = 150.0  # [m] to a turn up to which we are not going straight on
-LATELY = 6.0  # [s] since when a lane change is hardly over
-ASIDE = 1.0  # [m] sideways from which somebody is in the lane that we change to
-CLOSE, CLOSE_GAP = 1.5, 8.0  # [s], [m] up to which we moved in close ahead of him
-FIRM = 1.0  # [m/s2] deceleration from which somebody who brakes is stopping
+TRACK = 2.0  # [m] maximum distance from our path of somebody who drives where we drove
+ALONG = 0.6  # [rad] maximum difference from our heading there
+BACK = 8.0  # [s] maximum time since we were there
+SOON = 150.0  # [m] minimum distance of the next turn while we go straight on
+LATELY = 6.0  # [s] maximum time since a lane change that counts as recent
+ASIDE = 1.0  # [m] minimum sideways distance of somebody in the lane that we change to
+CLOSE, CLOSE_GAP = 1.5, 8.0  # [s], [m] maximum headway and gap of moving in close ahead
+FIRM = 1.0  # [m/s2] minimum deceleration of somebody who is stopping
 
 
 CHANGING: tuple[ActionName, ...] = ("change-left", "change-right", "change-lane")
 
 
 def conduct(asked: Asked, event: Event) -> Finding | None:
-    """Weigh what positions and speeds show of an event; None where they add nothing."""
+    """Weigh an event by positions and speeds; None if they add nothing."""
     if is_ahead(asked, event.time, event.tense):
         return None
     if (found := _for_us(asked, event)) is not None:
@@ -68,7 +68,7 @@ def conduct(asked: Asked, event: Event) -> Finding | None:
 
 
 def _for_us(asked: Asked, event: Event) -> Finding | None:
-    """Tell how close it came where somebody braked hard near us: for whom, no record tells."""
+    """Return how close it came if somebody braked hard near us; the record lacks for whom."""
     nobody_named = number(event.actor) is None and not is_us(event.actor)
     if not nobody_named or event.action not in HALTING or not is_us(event.object):
         return None
@@ -79,7 +79,7 @@ def _for_us(asked: Asked, event: Event) -> Finding | None:
 
 
 def _cutting_in(asked: Asked, event: Event, behind: int) -> Finding | None:
-    """Tell whether a lane change of ours that is hardly over leads in close ahead of somebody."""
+    """Weigh that a recent lane change of ours was close ahead of somebody."""
     if occasion(asked, event) is not None:
         return None
     changes = asked.world.episodes(
@@ -100,7 +100,7 @@ def _cutting_in(asked: Asked, event: Event, behind: int) -> Finding | None:
 
 
 def _cut_in(asked: Asked, event: Event, behind: Vehicle) -> Finding | None:
-    """Tell that we moved in ahead of somebody, and that he braked then."""
+    """Return that we moved in ahead of somebody, and that they braked then."""
     changes = asked.world.episodes(actor=Ego(), actions=CHANGING, begin=asked.now - LATELY)
     held = occasion(asked, event) or next(iter(changes[-1:]), None)
     braked = occasion(asked, Event("brake", behind, time=event.time))
@@ -111,7 +111,7 @@ def _cut_in(asked: Asked, event: Event, behind: Vehicle) -> Finding | None:
 
 
 def _moving_behind(asked: Asked, event: Event, leader: int) -> Finding | None:
-    """Tell whether we are changing to the lane in which somebody drives ahead."""
+    """Weigh that we are changing to the lane in which somebody drives ahead."""
     look = asked.world.look(leader, asked.now)
     if _over(asked, event) or look is None or look.ahead <= 0.0 or look.oncoming:
         return None
@@ -125,7 +125,7 @@ def _moving_behind(asked: Asked, event: Event, leader: int) -> Finding | None:
 
 
 def _passing(asked: Asked, event: Event, other: int) -> Finding | None:
-    """Tell whether we are about to pass somebody: faster than he, beside his line or leaving it."""
+    """Weigh that we are about to pass somebody: faster, next to their path or leaving it."""
     look = asked.world.look(other, asked.now)
     if look is None or not look.in_view or look.oncoming or occasion(asked, event) is not None:
         return None
@@ -142,7 +142,7 @@ def _over(asked: Asked, event: Event) -> bool:
 
 
 def _straight(asked: Asked) -> Finding | None:
-    """Tell whether we go straight on: nothing else is under way, and no turn comes soon."""
+    """Weigh that we go straight on: nothing else is under way, and no turn comes soon."""
     own = asked.world.episodes(actor=Ego(), actions=BENDING, begin=asked.now - 0.2)
     if any(e.end is None and e.begin <= asked.now for e in own):
         return None
@@ -154,7 +154,7 @@ def _straight(asked: Asked) -> Finding | None:
 
 
 def _following(asked: Asked, event: Event, vehicle: int) -> Finding | None:
-    """Tell whether somebody drives on the line that we drove shortly before, next after us."""
+    """Weigh that somebody drives where we drove shortly before, as the next one after us."""
     if occasion(asked, event) is not None:
         return None
     since = _on_our_line(asked, vehicle)
@@ -168,7 +168,7 @@ def _following(asked: Asked, event: Event, vehicle: int) -> Finding | None:
 
 
 def _on_our_line(asked: Asked, vehicle: int) -> float | None:
-    """Tell when [s] we were where a vehicle is now; None where we were not, or long ago."""
+    """Return when [s] we were where a vehicle is now; None if never, or long ago."""
     look = asked.world.look(vehicle, asked.now)
     theirs, ours = asked.ride.motion(vehicle), asked.ride.motion(EGO)
     last = theirs.index(asked.now)
@@ -184,7 +184,7 @@ def _on_our_line(asked: Asked, vehicle: int) -> float | None:
 
 
 def _halting(asked: Asked, event: Event, vehicle: int) -> Finding | None:
-    """Tell whether somebody stops, or does so for us, by his braking and the right of way."""
+    """Weigh that somebody stops, or stops for us, by their braking and the right of way."""
     if occasion(asked, event) is not None:
         return None
     past = _over(asked, event)
@@ -202,7 +202,7 @@ def _halting(asked: Asked, event: Event, vehicle: int) -> Finding | None:
 
 
 def _braking(asked: Asked, event: Event, past: bool) -> Episode | None:
-    """Give the braking with which somebody comes to a stop."""
+    """Return the braking with which somebody comes to a stop."""
     found = occasion(asked, replace(event, action="brake"))
     if found is None or (found.peak or 0.0) < FIRM:
         return None

@@ -1,4 +1,4 @@
-"""Crossings: whose way met ours at a junction, who came there first, and who stood meanwhile."""
+"""Crossings: whose way met ours at a junction, who came first, and who stood meanwhile."""
 
 import math
 from itertools import pairwise
@@ -12,13 +12,13 @@ from xavi_dialogue.explain.answers.reference.moments import SHORT, Window
 from xavi_dialogue.explain.answers.reference.naming import number
 from xavi_dialogue.explain.answers.reference.occasions import overlaps
 
-NEAR = 6.0  # [s] before and after a crossing in which way is given for it
-MEETING = 2.5  # [m] within which two lines meet
-MOVING = 0.5  # [m/s] from which a vehicle drives along its line
+NEAR = 6.0  # [s] before and after a crossing in which giving way belongs to it
+MEETING = 2.5  # [m] maximum distance between two paths that meet
+MOVING = 0.5  # [m/s] minimum speed of a vehicle that drives along its path
 
 
 def crossing_now(asked: Asked) -> int | None:
-    """Tell whose way crosses ours next: whom we give way to, else the nearest."""
+    """Return whose way crosses ours next: the one that we give way to, else the closest."""
     road = asked.world.road(asked.now)
     if road is None:
         return None
@@ -35,7 +35,7 @@ def crossing_now(asked: Asked) -> int | None:
 def went_first(
     asked: Asked, vehicle: int | None, near: Window, waited: Episode | None
 ) -> Somebody | None:
-    """Tell who went first: where their lines meet, else out of the junction; else who waited."""
+    """Return who was first where the paths meet, else out of the junction; else by who waited."""
     if vehicle is None:
         return None
     order = line_order(asked, vehicle, near)
@@ -44,7 +44,7 @@ def went_first(
     entered = any(near.begin <= t for t in entries(asked))
     inside = _inside(asked, vehicle, near)
     if entered and inside and not any(one for _, one in inside) and _let_us(asked, vehicle, near):
-        ours = _inside(asked, EGO, near)  # it waits before the junction that we are in or crossed
+        ours = _inside(asked, EGO, near)  # it lets us go through or out first
         return None if ours[-1][1] and ours[-1][0] >= asked.now - SHORT else Ego()
     if not entered and _left(asked, vehicle, near) is not None:
         return Vehicle(vehicle)
@@ -53,14 +53,14 @@ def went_first(
 
 
 def _let_us(asked: Asked, vehicle: int, near: Window) -> bool:
-    """Tell whether a vehicle stood, or waited for us, in a stretch of the ride."""
+    """Check whether a vehicle stood, or waited for us, in a stretch of the ride."""
     kinds: tuple[ActionName, ...] = ("give-way", "wait", "stop", "stand")
     found = asked.world.episodes(actor=Vehicle(vehicle), actions=kinds)
     return any(overlaps(asked, e, near) for e in found)
 
 
 def stood(asked: Asked, vehicle: int, near: Window) -> bool:
-    """Tell whether a vehicle was at a standstill when we came into the junction."""
+    """Check whether a vehicle was at a standstill when we came into the junction."""
     entered = [t for t in entries(asked) if near.begin <= t <= near.end]
     speeds = [
         asked.world.measure("speed", Vehicle(vehicle), min(t + 1.0, asked.now)).value
@@ -70,7 +70,7 @@ def stood(asked: Asked, vehicle: int, near: Window) -> bool:
 
 
 def met_about(asked: Asked, about: Window) -> int | None:
-    """Tell whose way crossed ours in a stretch of the ride: the last, or whom we waited for."""
+    """Return whose way crossed ours in a stretch of the ride: the last, or one we waited for."""
     found = [
         (trace.sim_time, fact.vehicle)
         for trace in asked.ride.traces
@@ -89,7 +89,7 @@ def met_about(asked: Asked, about: Window) -> int | None:
 
 
 def line_order(asked: Asked, vehicle: int, near: Window) -> tuple[float, float] | None:
-    """Tell when [s] we and a vehicle came to where our lines meet; None where they do not."""
+    """Return when [s] we and a vehicle came to where our paths meet; None if they do not."""
     ours, other = asked.ride.motion(EGO), asked.ride.motion(vehicle)
     mine = [k for k in ours.within(near.begin, near.end) if ours.speed[k] > MOVING]
     theirs = [k for k in other.within(near.begin, near.end) if other.speed[k] > MOVING]
@@ -106,7 +106,7 @@ def line_order(asked: Asked, vehicle: int, near: Window) -> tuple[float, float] 
 
 
 def _inside(asked: Asked, vehicle: int, near: Window) -> list[tuple[float, bool]]:
-    """Tell whether a vehicle was inside a junction, at each decision of a stretch of the ride."""
+    """Return at each decision of a stretch [s] whether a vehicle was inside a junction."""
     found = []
     for trace in asked.ride.traces:
         if trace.road is not None and near.begin <= trace.sim_time <= near.end:
@@ -117,13 +117,13 @@ def _inside(asked: Asked, vehicle: int, near: Window) -> list[tuple[float, bool]
 
 
 def _left(asked: Asked, vehicle: int, near: Window) -> float | None:
-    """Tell when [s] a vehicle was first seen out of a junction or roundabout that it was in."""
+    """Return when [s] a vehicle was first seen outside of a junction that it was in."""
     pairs = pairwise(_inside(asked, vehicle, near))
     return next((later[0] for before, later in pairs if before[1] and not later[1]), None)
 
 
 def entries(asked: Asked) -> list[float]:
-    """Tell when [s] we were first seen inside each junction that we crossed so far."""
+    """Return when [s] we were first seen inside each junction that we crossed so far."""
     inside = _inside(asked, EGO, Window(asked.world.begin, asked.now))
     first = [inside[0][0]] if inside and inside[0][1] else []
     return first + [later[0] for before, later in pairwise(inside) if later[1] and not before[1]]

@@ -13,14 +13,14 @@ from xavi_dialogue.explain.answers.reference.occasions import duration, overlaps
 
 YIELDS = frozenset[ActionName](("give-way", "wait", "let-go"))
 SLOWING = frozenset[ActionName](("brake", "slow-down", "stop"))
-TRAILING = 3.0  # [s] from which on it held us up to be behind somebody
+TRAILING = 3.0  # [s] minimum time behind somebody that counts as being held up
 HELD = 0.9  # share of the limit below which somebody ahead drives slowly
-SLOWER = 1.0  # [m/s] by which somebody is slower than us for whom we slow down
-NEAR = 50.0  # [m] ahead up to which he is
+SLOWER = 1.0  # [m/s] minimum difference in speed to somebody that we slow down for
+NEAR = 50.0  # [m] maximum distance ahead of them
 
 
 def held_up(asked: Asked, about: Window, *, lights: bool = False) -> Happenings:
-    """List who held us up in a stretch of the ride: whom we let go first, or trailed behind.
+    """List who held us up in a stretch of the ride: those we let go first, or followed.
 
     Args:
         asked: the setting.
@@ -44,9 +44,9 @@ def held_up(asked: Asked, about: Window, *, lights: bool = False) -> Happenings:
 
 
 def let_past(event: Event, asked: Asked) -> tuple[Look, ...]:
-    """List whom we let go first at a time that is over, in the order in which they went.
+    """List those we let go first at a past time, in the order in which they went.
 
-    Each went when he came nearest to us.
+    The time of each is when it was closest to us.
     """
     if event.action not in YIELDS or event.tense not in ("past", "perfect"):
         return ()
@@ -70,7 +70,7 @@ def let_past(event: Event, asked: Asked) -> tuple[Look, ...]:
 
 
 def for_whom(asked: Asked, episode: Episode) -> Episode:
-    """Name whom we slowed down for, where we let him go first or closed up to him."""
+    """Return our slowing with its object: the one that we let go first, or closed up to."""
     if not isinstance(episode.actor, Ego) or episode.object is not None:
         return episode
     if episode.action not in SLOWING:
@@ -84,7 +84,7 @@ def for_whom(asked: Asked, episode: Episode) -> Episode:
 
 
 def _trails(asked: Asked, episode: Episode) -> bool:
-    """Tell whether somebody ahead drove well below the limit while we were behind him."""
+    """Check whether somebody ahead drove well below the limit while we followed."""
     if duration(asked, episode) < TRAILING:
         return False
     end = asked.now if episode.end is None else episode.end
@@ -99,7 +99,7 @@ def _trails(asked: Asked, episode: Episode) -> bool:
 
 
 def _closes(asked: Asked, follow: Episode, at: float) -> bool:
-    """Tell whether we drove up to somebody slower ahead at a time."""
+    """Check whether we closed up to somebody slower ahead at a time."""
     leader = follow.object
     if not isinstance(leader, Vehicle):
         return False

@@ -1,4 +1,4 @@
-"""Existing: whether there is or was anybody, or anything, of a sort."""
+"""Existing: whether there is or was anybody, or anything, that fits a description."""
 
 from xavi_dialogue.domain.answers import Located, NotRecorded, Verdict
 from xavi_dialogue.domain.facts import Look
@@ -34,7 +34,7 @@ def exists(of: Exists, asked: Asked) -> Finding:
     """Weigh that there is or was such a thing.
 
     Raises:
-        Unanswered: it has no sense here.
+        Unanswered: the thing has no known meaning.
     """
     check_sense(of.thing)
     at = instant(asked, of.time, of.tense)
@@ -73,7 +73,7 @@ def exists(of: Exists, asked: Asked) -> Finding:
 
 
 def _drives_behind(described: Described | None, look: Look) -> bool:
-    """Tell whether who is said to follow us is behind us, be it in another lane."""
+    """Check whether one that is said to follow us is behind us, possibly in another lane."""
     deed = None if described is None else described.doing
     if described is None or deed is None or deed.action != "follow":
         return False
@@ -82,12 +82,12 @@ def _drives_behind(described: Described | None, look: Look) -> bool:
 
 
 def about_past(asked: Asked, of: Exists) -> bool:
-    """Tell whether it is asked of the past."""
+    """Check whether the question is about the past."""
     return is_past(asked, of.time, of.tense)
 
 
 def _anybody(thing: Everyone, asked: Asked, about: Window, at: float) -> Finding:
-    """Tell whether anybody of a kind is or was in view; kinds that no record has cannot be told."""
+    """Weigh that anybody of a kind is or was in view; None of kinds that are not recorded."""
     ever = asked.world.vehicles if about.end - about.begin > 1.5 else asked.world.in_view(at)
     fits = of_kind(asked, ever, thing.kind, at)
     if not fits and thing.kind in ("pedestrian", "tram"):
@@ -96,7 +96,7 @@ def _anybody(thing: Everyone, asked: Asked, about: Window, at: float) -> Finding
 
 
 def _near(asked: Asked, at: float, described: Described | None) -> tuple[Look, ...]:
-    """Tell who is in view when nobody fits: the nearest of the kind that was asked for."""
+    """Return who is in view when nobody fits: the closest of the kind asked for."""
     kind = "vehicle" if described is None else described.kind
     seen = looks(asked, of_kind(asked, asked.world.in_view(at), kind, at), at)
     return tuple(sorted(seen, key=lambda look: look.distance)[:1])

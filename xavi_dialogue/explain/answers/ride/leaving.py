@@ -1,4 +1,4 @@
-"""Leaving: whom we have left behind, who is still there, and how far two others are apart."""
+"""Leaving: who is behind us by now, who is still there, and how far two others are apart."""
 
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Fact
@@ -11,7 +11,7 @@ from xavi_dialogue.explain.answers.reference.occasions import occasion
 
 
 def left_behind(asked: Asked, event: Event) -> Finding | None:
-    """Tell that somebody is behind us who was not at first, though no overtaking is on record."""
+    """Return that somebody is behind us who was not at first, though no overtaking is recorded."""
     if event.action not in ("overtake", "pass") or not is_us(event.actor):
         return None
     vehicle = number(event.object)
@@ -28,7 +28,7 @@ def left_behind(asked: Asked, event: Event) -> Finding | None:
 
 
 def still_there(asked: Asked, event: Event) -> tuple[Fact, ...]:
-    """Tell where somebody is whom we have not passed, or who has not passed us."""
+    """Return where somebody is that we have not passed, or that has not passed us."""
     if event.action not in ("overtake", "pass") or event.tense == "present":
         return ()
     other = event.object if is_us(event.actor) else event.actor
@@ -37,9 +37,9 @@ def still_there(asked: Asked, event: Event) -> tuple[Fact, ...]:
 
 
 def apart(asked: Asked, event: Event) -> Finding:
-    """Tell how far two others are apart, of whom it is asked whether they hit each other.
+    """Return how far two others are apart, for a question whether they hit each other.
 
-    The risk that is computed is that of our own collisions.
+    Risks are only computed for our own collisions.
     """
     at = min(window(asked, event.time, event.tense).end, asked.now)
     crash = occasion(asked, Event("collide", event.actor, event.object, time=event.time))

@@ -1,4 +1,4 @@
-"""Mistakes: what we expected of others that came otherwise, and whether anything was amiss."""
+"""Mistakes: expectations of others that turned out wrong, and whether anything went wrong."""
 
 from msgspec.structs import replace
 
@@ -13,7 +13,7 @@ from xavi_dialogue.explain.answers.reference.naming import is_us, number
 from xavi_dialogue.explain.answers.reference.occasions import overlaps, taken_place
 from xavi_dialogue.explain.answers.ride.comfort import HARD, stretch
 
-#: What tells which way a vehicle went.
+#: Actions that show which way a vehicle went.
 WAYS: tuple[ActionName, ...] = (
     "exit-left",
     "exit-right",
@@ -27,12 +27,12 @@ WAYS: tuple[ActionName, ...] = (
 def mistakes(
     asked: Asked, vehicle: int | None, about: Window
 ) -> tuple[tuple[Belief, Episode], ...]:
-    """List the beliefs that what came contradicts, each with what came, oldest first.
+    """List the beliefs that later events contradict, each with the event, oldest first.
 
     Args:
         asked: the act and its setting.
-        vehicle: of whom; None: of anybody.
-        about: when it came.
+        vehicle: the vehicle that they are about; None: any.
+        about: when the events happened.
     """
     who = asked.world.vehicles if vehicle is None else (vehicle,)
     near = about.widened() if about.instant else about
@@ -50,7 +50,7 @@ def mistakes(
 
 
 def wrong(of: Is, asked: Asked) -> Finding:
-    """Tell whether we were wrong in what we expected, of a vehicle or of anybody."""
+    """Weigh that we were wrong in what we expected of a vehicle, or of anybody."""
     if of.event is not None and is_us(of.event.actor):
         return _trouble(of, asked, of.event)
     about, vehicle = window(asked, of.time, "past"), number(of.thing)
@@ -58,12 +58,12 @@ def wrong(of: Is, asked: Asked) -> Finding:
     if not found:
         right = Finding(of.state == "right")
         return right if vehicle is None else _borne_out(of, asked, vehicle, about)
-    belief, came = found[-1]  # the latest is the one that is spoken of
+    belief, came = found[-1]  # the question is about the latest
     return Finding(of.state == "wrong", (came,), None, (belief,), mistaken=True)
 
 
 def _borne_out(of: Is, asked: Asked, vehicle: int, about: Window) -> Finding:
-    """Tell what we believed of a vehicle, where it came so or is yet to be seen."""
+    """Return what we believed of a vehicle, if that happened or is still open."""
     whole = asked.past is None and not about.instant
     ways = asked.world.episodes(actor=Vehicle(vehicle), actions=WAYS)
     at = ways[-1].begin - SHORT if whole and ways else asked.now if whole else about.begin
@@ -77,7 +77,7 @@ def _borne_out(of: Is, asked: Asked, vehicle: int, about: Window) -> Finding:
 
 
 def _trouble(of: Is, asked: Asked, event: Event) -> Finding:
-    """Tell whether there was anything amiss in what we did: a collision, or hard braking."""
+    """Weigh that something went wrong in what we did: a collision, or hard braking."""
     found = taken_place(asked, event)
     crashed = asked.world.episodes(actor=Ego(), actions=("collide", "nearly-collide"))
     near = [e for e in crashed if overlaps(asked, e, stretch(asked, found).widened())]
@@ -86,7 +86,7 @@ def _trouble(of: Is, asked: Asked, event: Event) -> Finding:
 
 
 def broken_down(of: Is, asked: Asked) -> Finding:
-    """Tell what shows of whether a vehicle has broken down: since when it stands, and for whom."""
+    """Return signs that a vehicle has broken down or not: how long it stands, and for whom."""
     if isinstance(of.thing, Ego):
         return Finding(False, known(asked.world.measure("speed", Ego(), asked.now)))
     who = number(of.thing)

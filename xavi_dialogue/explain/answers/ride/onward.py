@@ -1,4 +1,4 @@
-"""Onward: our way ahead, as the record has it: junctions, exits, turns left, the road."""
+"""Onward: our way ahead as recorded: junctions, exits, turns that are left, the road."""
 
 from msgspec.structs import replace
 
@@ -62,17 +62,17 @@ def _step(step: RouteStep, rank: int, inside: bool) -> WayStep:
 
 
 def course(asked: Asked, form: str, steps: tuple[WayStep, ...], **more: object) -> Course:
-    """Give our way ahead, with how far it is to the destination."""
+    """Return our way ahead, with the distance to the destination."""
     left = asked.world.measure("distance-to-go", Ego(), asked.now, Destination())
     return Course(form, steps, left=left.value, **more)  # type: ignore[arg-type]
 
 
 def which_way(of: Measured, asked: Asked) -> Answer:
-    """Tell which way we take at the junction asked about; in the past, which way we took."""
+    """Return which way we take at a junction; for the past, which way we took."""
     past = is_past(asked, of.time, of.tense) and not _to_come(of)
     at = instant(asked, of.time, of.tense)
     still_on = of.attribute == "exit-number" and on_ring(asked.world.road(asked.now))
-    if not still_on and (past or at < asked.now - SHORT):  # the exit is to come as long as that
+    if not still_on and (past or at < asked.now - SHORT):  # until then the exit is still to come
         return _way_taken(of, asked, at)
     steps = steps_ahead(asked)
     if of.event is not None:  # "after how many metres do we turn?"
@@ -89,7 +89,7 @@ def which_way(of: Measured, asked: Asked) -> Answer:
 
 
 def next_halt(asked: Asked) -> Course:
-    """Tell the next junction at which we may have to stop: for a light, or to give way."""
+    """Return the next junction at which we may have to stop: for a light, or to give way."""
     road = asked.world.road(asked.now)
     trace = asked.ride.at(asked.now)
     lights = () if road is None or trace is None else road.lights
@@ -102,7 +102,7 @@ def next_halt(asked: Asked) -> Course:
 
 
 def next_turning(asked: Asked) -> Course | None:
-    """Tell where we turn off next; None where we do not turn any more."""
+    """Return where we turn off next; None if we do not turn any more."""
     turning = [s for s in steps_ahead(asked) if _turned(s) and s.kind == "junction"]
     return course(asked, "way", tuple(turning[:1])) if turning else None
 
@@ -112,7 +112,7 @@ def _to_come(of: Measured) -> bool:
 
 
 def _way_taken(of: Measured, asked: Asked, at: float) -> Answer:
-    """Give the turn of ours at a time, as it was; else what the record had as our way then."""
+    """Return the turn of ours at a time, as it was; else our way according to the record then."""
     about = window(asked, of.time, of.tense)
     kinds: tuple[ActionName, ...] = ("exit-left", "exit-right", "exit-straight", "leave")
     found = asked.world.episodes(actor=Ego(), actions=kinds)
@@ -123,12 +123,12 @@ def _way_taken(of: Measured, asked: Asked, at: float) -> Answer:
 
 
 def turns_left(asked: Asked, event: Event) -> Course:
-    """Tell how many turns are still to come, and which: roundabouts count."""
+    """Return how many turns are left, and which; roundabouts count."""
     return course(asked, "turns", _turning(steps_ahead(asked), event))
 
 
 def _turning(steps: tuple[WayStep, ...], event: Event) -> tuple[WayStep, ...]:
-    """List where we turn as asked about: roundabouts count."""
+    """List where we turn in the way asked about; roundabouts count."""
     wanted = None if event.action == "turn" else event.action
     return tuple(
         s for s in steps
@@ -137,13 +137,13 @@ def _turning(steps: tuple[WayStep, ...], event: Event) -> tuple[WayStep, ...]:
 
 
 def junctions_left(asked: Asked, of: Junction) -> Course:
-    """Tell how many junctions or roundabouts are still to come, and what we do there."""
+    """Return how many junctions or roundabouts are left, and what we do there."""
     steps = [s for s in steps_ahead(asked) if of.form == "junction" or s.kind == "roundabout"]
     return course(asked, "junctions" if of.form == "junction" else "roundabouts", tuple(steps))
 
 
 def leaves_when(asked: Asked, event: Event) -> Course | None:
-    """Tell when we get off: at which exit; where there is none, that we stay on the road."""
+    """Return at which exit we leave the road; if there is none, that we stay on it."""
     to_come = event.tense in ("present", "future") and is_us(event.actor)
     if event.action != "leave" or not to_come or number(event.object) is not None:
         return None
@@ -156,7 +156,7 @@ def leaves_when(asked: Asked, event: Event) -> Course | None:
 
 
 def stays_on(asked: Asked, event: Event) -> Course | None:
-    """Tell that we stay on the road, where it is asked why we do not leave it; None: else."""
+    """Return that we stay on the road, for a question why we do not leave it; None: else."""
     over = asked.past is not None and asked.past.end < asked.now - SHORT
     found = None if over else leaves_when(asked, event)
     return found if found is not None and found.form == "road" else None
@@ -207,7 +207,7 @@ def whether_ours(question: Whether, asked: Asked) -> Course | None:
 
 
 def _ahead_of_us(that: Proposition) -> Junction | None:
-    """Find the sort of junction of which it is asked whether there is one on our way."""
+    """Find the kind of junction for a question whether there is one on our way."""
     while isinstance(that, Not):
         that = that.content
     if isinstance(that, Exists) and that.tense != "past" and isinstance(that.thing, Junction):
@@ -220,7 +220,7 @@ def _ahead_of_us(that: Proposition) -> Junction | None:
 
 
 def _is_turning(that: Proposition) -> bool:
-    """Tell whether it is asked whether a place is where we turn: "is this our turning?"."""
+    """Check whether the question is whether we turn at a place: "is this our turning?"."""
     return (
         isinstance(that, Related)
         and that.relation == "same-as"
@@ -229,7 +229,7 @@ def _is_turning(that: Proposition) -> bool:
 
 
 def _missed(that: Proposition, asked: Asked) -> Event | None:
-    """Take "did we go past our exit?" for whether we have left, where we did not pass one."""
+    """Read "did we go past our exit?" as whether we have left, unless we did pass one."""
     match that:
         case Happens(
             event=Event(
@@ -242,7 +242,7 @@ def _missed(that: Proposition, asked: Asked) -> Event | None:
 
 
 def _own_way(that: Proposition) -> Event | None:
-    """Find an event of ours at a junction to come, that is asked about."""
+    """Find an event of ours at a junction ahead, if the question is about one."""
     while isinstance(that, Not):
         that = that.content
     if not isinstance(that, Happens) or not is_us(that.event.actor):
@@ -269,7 +269,7 @@ def _is_exit(thing: Thing | None) -> bool:
 
 
 def _by_exit(asked: Asked, steps: tuple[WayStep, ...], event: Event) -> Course | None:
-    """Compare the exit that we take with the one asked about."""
+    """Compare the exit that we take with the one in the question."""
     ring = next((s for s in steps if s.kind == "roundabout"), None)
     rank = event.object.rank if isinstance(event.object, Exit) else None
     if ring is None or ring.exit is None:
@@ -290,7 +290,7 @@ def _turns(event: Event) -> bool:
 
 
 def _agrees(event: Event, step: WayStep) -> bool:
-    """Tell whether what is asked is what we do at a junction."""
+    """Check whether an event is what we do at a junction."""
     if event.action == "turn":
         return step.turn != "exit-straight"
     return event.action == step.turn or (event.action == "continue" and not _turned(step))
@@ -301,7 +301,7 @@ def _turned(step: WayStep) -> bool:
 
 
 def other_exit(asked: Asked, event: Event) -> Measure | None:
-    """Give the exit that we take, where another one was asked about."""
+    """Return the exit that we take, if the question names another one."""
     if not isinstance(event.object, Exit) or event.object.rank is None:
         return None
     taken = asked.world.measure("exit-number", Ego(), asked.now)

@@ -1,4 +1,4 @@
-"""Passages: our way through a junction or roundabout: how long it took, which exits we passed."""
+"""Passages: our way through a junction or roundabout, its duration, and the exits we passed."""
 
 from msgspec.structs import replace
 
@@ -13,12 +13,12 @@ from xavi_dialogue.explain.facts.episodes.lead_in import held_since
 from xavi_dialogue.explain.history.nearing import junctions_ahead
 
 THROUGH: tuple[ActionName, ...] = ("exit-left", "exit-right", "exit-straight")
-NOTED = 1.5  # [s] from which it is stated that we slowed down before
+NOTED = 1.5  # [s] minimum slowing before it that is stated
 BEFORE = 0.2  # [s] before we enter
 
 
 def passage(asked: Asked, place: Junction) -> tuple[float, float | None] | None:
-    """Tell from when to when [s] we were on a junction; the end is None while we are on it."""
+    """Return from when to when [s] we were on a junction; the end is None while we are on it."""
     entered = [e for e in asked.world.episodes(Ego(), "enter") if _is_ring(e.object)]
     if place.form == "roundabout":
         near = _nearest(entered, place.time)
@@ -33,7 +33,7 @@ def passage(asked: Asked, place: Junction) -> tuple[float, float | None] | None:
 
 
 def _nearest(found: list[Episode], time: float | None) -> Episode | None:
-    """Give the episode that begins nearest to a time [s]; the last one where none is named."""
+    """Return the episode that begins closest to a time [s]; without a time, the last one."""
     if time is None:
         return found[-1] if found else None
     return min(found, key=lambda e: (abs(e.begin - time), -e.begin), default=None)
@@ -44,7 +44,7 @@ def _is_ring(place: object) -> bool:
 
 
 def taken(of: Proposition, asked: Asked) -> Lasted | None:
-    """Tell how long we were on a junction; None where it is no such question or we were on none."""
+    """Return how long we were on a junction; None for other questions, or if we were on none."""
     match of:
         case Related(relation="on", thing=Ego(), to=Junction() as place, tense=tense) if (
             tense != "future"
@@ -60,7 +60,7 @@ def taken(of: Proposition, asked: Asked) -> Lasted | None:
 
 
 def cost_of_passage(asked: Asked, place: Junction) -> Measure | None:
-    """Tell what a junction cost us in time, with slowing down and waiting before it."""
+    """Return the time that a junction cost us, slowing and waiting before it included."""
     found = passage(asked, place)
     if found is None:
         return None
@@ -68,15 +68,15 @@ def cost_of_passage(asked: Asked, place: Junction) -> Measure | None:
 
 
 def _held_since(asked: Asked, begin: float) -> float:
-    """Tell since when [s] we had slowed down and waited before a junction."""
+    """Return since when [s] we had slowed down and waited before a junction."""
     return held_since(asked.world.episodes(Ego(), end=begin), begin)
 
 
 def exits_passed(event: Event, asked: Asked) -> Counted:
-    """Count the exits of the roundabout that we are on, or were on last, that we went past.
+    """Count the exits that we passed on the roundabout where we are, or were last.
 
     Raises:
-        Unanswered: we were on none, and come to none.
+        Unanswered: we were on none, and there is none ahead.
     """
     entered = [e for e in asked.world.episodes(Ego(), "enter") if _is_ring(e.object)]
     if not entered and is_us(event.actor) and _exit_at(asked, asked.now) is not None:
@@ -96,6 +96,6 @@ def exits_passed(event: Event, asked: Asked) -> Counted:
 
 
 def _exit_at(asked: Asked, time: float) -> int | None:
-    """Tell which exit we take, counted from where we are at a time [s]."""
+    """Return which exit we take, counted from where we are at a time [s]."""
     steps = junctions_ahead(asked.ride, time)
     return next((step.exit for step in steps if step.kind == "roundabout"), None)

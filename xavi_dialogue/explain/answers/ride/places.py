@@ -39,9 +39,9 @@ from xavi_dialogue.explain.answers.ride.onward import next_halt, next_turning
 from xavi_dialogue.explain.causes.vehicles.announced import announced
 from xavi_dialogue.explain.history.nearing import still_to
 
-TOLD = 2  # most vehicles whose whereabouts one answer gives
+TOLD = 2  # maximum of vehicles whose places one answer states
 HERE: tuple[Attribute, ...] = ("lane", "turn", "distance-to-go")
-#: What somebody did of whom it is asked where he has gone.
+#: Actions that say where somebody has gone.
 LEAVING: frozenset[ActionName] = frozenset(
     ("go", "move", "head", "leave", "disappear", "turn", "continue")
 )
@@ -49,7 +49,7 @@ WAY: tuple[Attribute, ...] = ("turn", "exit-number", "distance-to-go", "time-to-
 
 
 def where(question: Where, asked: Asked) -> Answer:
-    """Tell where a thing is or was, or where an event took place.
+    """Return where a thing is or was, or where an event took place.
 
     Raises:
         Unanswered: it is unknown, or did not take place.
@@ -70,7 +70,7 @@ def where(question: Where, asked: Asked) -> Answer:
 
 
 def locate(asked: Asked, thing: Thing, at: float) -> Answer:
-    """Tell where a thing is at a time [s].
+    """Return where a thing is at a time [s].
 
     Raises:
         Unanswered: it is unknown.
@@ -96,17 +96,17 @@ def locate(asked: Asked, thing: Thing, at: float) -> Answer:
 
 
 def _may_come(event: Event) -> bool:
-    """Tell whether it is asked where we may have to stop or give way, and not where we did."""
+    """Check whether the question is where we may have to stop or give way, not where we did."""
     halting = is_us(event.actor) and event.action in HALTS | YIELDS | {"brake", "slow-down"}
     ahead = event.tense == "future" or event.modal is not None or isinstance(event.time, Next)
     return halting and ahead and event.tense not in ("past", "perfect")
 
 
-EVEN = 0.5  # chance from which somebody is expected to go somewhere
+EVEN = 0.5  # minimum probability of a goal that is stated as expected
 
 
 def whither(question: Whither, asked: Asked) -> Answer:
-    """Tell where somebody is going, was going, or has gone.
+    """Return where somebody is going, was going, or has gone.
 
     Raises:
         Unanswered: it was never seen.
@@ -129,7 +129,7 @@ def whither(question: Whither, asked: Asked) -> Answer:
 
 
 def _shows(asked: Asked, vehicle: int, belief: Belief | None) -> Answer | None:
-    """Tell what a vehicle of which nothing is expected for certain announces by its indicator."""
+    """Return what the indicator of a vehicle announces, if no expectation is certain."""
     likeliest = belief.expectations[:1] if belief is not None else ()
     lit = [e for e in asked.world.episodes(Vehicle(vehicle), "signal") if e.end is None]
     if not lit or any(one.probability >= EVEN for one in likeliest):
@@ -138,31 +138,31 @@ def _shows(asked: Asked, vehicle: int, belief: Belief | None) -> Answer | None:
 
 
 def gone(asked: Asked, who: Vehicle) -> Bound:
-    """Tell where a vehicle has gone: which way it took last, and where it is or was seen last."""
+    """Return where a vehicle has gone: its last turn, and where it is or was last seen."""
     look = asked.world.look(who.number, asked.now)
     return Bound(who, None, _last_way(asked, who.number), look)
 
 
 def our_way(asked: Asked, at: float) -> Answer:
-    """Give our way: the next junction, and how far it still is; or that we are there."""
+    """Return our way: the next junction, and the rest of the distance; or that we have arrived."""
     if asked.ride.arrived and at >= asked.now - SHORT:
         return PlanAhead((), arrived=True)
     if at < asked.now - SHORT:
         return Bound(Ego(), measures=told(measured(asked, ("distance-to-go",), at)))
     ring = junction(asked, Junction("roundabout", 1), at)
     known = measured(asked, WAY, at)
-    if ring.gap is not None:  # what exit was taken is past
+    if ring.gap is not None:  # the exit that was taken is past
         known = tuple(m for m in known if m.attribute != "exit-number")
     return Bound(Ego(), measures=told((*known, ring)))
 
 
 def next_turn(asked: Asked, at: float) -> PlanAhead:
-    """Tell what we come to next, and which way we take there."""
+    """Return what comes next, and which way we take there."""
     return plan_ahead(asked) if at >= asked.now - SHORT else PlanAhead((), here(asked, at))
 
 
 def here(asked: Asked, at: float) -> tuple[Measure, ...]:
-    """Tell where we are at a time [s]: the lane, how far to what comes next and to the end."""
+    """Return where we are at a time [s]: the lane, the distances to what comes next and the end."""
     road = asked.world.road(at)
     step = road.route[0] if road is not None and road.route else None
     found = list(measured(asked, ("lane",), at))
@@ -175,7 +175,7 @@ def here(asked: Asked, at: float) -> tuple[Measure, ...]:
 
 
 def junction(asked: Asked, thing: Junction, at: float) -> Measure:
-    """Tell how far it is to a junction or roundabout ahead, or that one is not recorded."""
+    """Return the distance of a junction or roundabout ahead, or that none is recorded."""
     road = asked.world.road(at)
     if road is None:
         return Measure("distance", Ego(), at, to=thing, gap="not-recorded")
@@ -189,13 +189,13 @@ def junction(asked: Asked, thing: Junction, at: float) -> Measure:
 
 
 def to_go(asked: Asked, at: float) -> tuple[Measure, ...]:
-    """Tell how far and how long it still is to the destination."""
+    """Return how far and how long it is to the destination."""
     world = asked.world
     return (world.measure("distance-to-go", Ego(), at, Destination()), time_to_go(asked, at))
 
 
 def time_to_go(asked: Asked, at: float) -> Measure:
-    """Tell how long it still takes; where the record has no such fact, as the plan foresees it."""
+    """Return how long it is to the destination: as recorded, else as the plan expects."""
     found = asked.world.measure("time-to-go", Ego(), at, Destination())
     if found.gap is None or at < asked.now - SHORT:
         return found
@@ -224,7 +224,7 @@ def time_to_go(asked: Asked, at: float) -> Measure:
 
 
 def measured(asked: Asked, attributes: tuple[Attribute, ...], at: float) -> tuple[Measure, ...]:
-    """Give several measures of our car at a time [s]."""
+    """Return several measures of our car at a time [s]."""
     return tuple(
         time_to_go(asked, at)
         if attribute == "time-to-go"
@@ -234,13 +234,13 @@ def measured(asked: Asked, attributes: tuple[Attribute, ...], at: float) -> tupl
 
 
 def told(measures: tuple[Measure, ...]) -> tuple[Measure, ...]:
-    """Keep those that have a value; where none has one, those that tell the reason."""
+    """Return the measures that have a value; if none has, those that state a reason."""
     known = tuple(m for m in measures if m.gap is None)
     return known or tuple(m for m in measures if m.gap == "no-way")[:1] or measures
 
 
 def took_place(asked: Asked, event: Event) -> Located:
-    """Tell where an event took place: the place of its episode, and where we were then.
+    """Return where an event took place: the place of its episode, and where we were then.
 
     Raises:
         Unanswered: it did not take place.
@@ -250,7 +250,7 @@ def took_place(asked: Asked, event: Event) -> Located:
 
 
 def place_of(asked: Asked, episode: Episode) -> Located:
-    """Tell where an episode took place, by where it began."""
+    """Return where an episode took place, by where it began."""
     at = episode.begin
     if isinstance(episode.actor, Vehicle):
         look = first_look(asked, episode.actor.number, at)
@@ -271,7 +271,7 @@ def _vehicles(asked: Asked, thing: Thing, at: float) -> Located:
 
 
 def _left_behind(asked: Asked) -> tuple[int, ...]:
-    """Tell who is no longer around: those out of view, else those behind us."""
+    """Return who is no longer around us: those out of view, else those behind us."""
     seen = looks(asked, asked.world.vehicles, asked.now)
     lost = sorted((x for x in seen if not x.in_view), key=lambda x: -(x.seen or 0.0))
     gone_by = tuple(look.vehicle for look in seen if look.ahead < 0.0)
@@ -279,7 +279,7 @@ def _left_behind(asked: Asked) -> tuple[int, ...]:
 
 
 def _last_way(asked: Asked, vehicle: int) -> Episode | None:
-    """Tell which way a vehicle took last, before it was lost from view."""
+    """Return the last turn of a vehicle before it was out of view."""
     ways: tuple[ActionName, ...] = (
         "exit-left",
         "exit-right",
@@ -292,7 +292,7 @@ def _last_way(asked: Asked, vehicle: int) -> Episode | None:
 
 
 def _to_junction(asked: Asked, thing: Thing, distance: float, at: float) -> Measure:
-    """Give the distance to a junction: as last recorded, less what was driven since."""
+    """Return the distance to a junction: as last recorded, minus what we have driven since."""
     left = still_to(asked.ride, distance, at)
     return Measure("distance", Ego(), at, value=max(left, 0.0), to=thing)
 

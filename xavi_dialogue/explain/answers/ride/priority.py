@@ -1,7 +1,7 @@
-"""Priority: who has or had right of way, who went first, and the facts behind a question of fault.
+"""Priority: who has or had right of way, who went first, and facts for questions of fault.
 
-The rule follows from the road (`RoadFacts`), and from whom way was given to in fact. It is stated
-who had to yield and who did; whose fault something is, is not.
+The rule follows from the road (`RoadFacts`), and from whom way was actually given to. The answer
+states who had to yield and who did, but not whose fault something is.
 """
 
 from typing import Any, Literal, TypeAlias, cast
@@ -46,19 +46,19 @@ CROSSINGS: tuple[ActionName, ...] = (
     "turn",
 )
 MINOR: tuple[ActionName, ...] = ("speed-up", "change-plan", "leave")
-#: Whether it is us who have to let the other one go first.
+#: By rule: whether we must let the other one go first.
 YIELDS: dict[str, bool] = {
     "priority": False, "give-way": True, "we-change": True, "it-changes": False,
 }  # fmt: skip
 CHANGES: tuple[ActionName, ...] = ("change-left", "change-right", "merge")
-STILL = 0.5  # [m/s] below which somebody stands
-GOING = 1.0  # [m/s] from which we go
-ASIDE = 1.5  # [m] sideways from which somebody is in another lane
-LEAD = 3.0  # [s] before a crossing at which its rule is read off
+STILL = 0.5  # [m/s] speed below which somebody stands
+GOING = 1.0  # [m/s] minimum speed at which we count as going
+ASIDE = 1.5  # [m] minimum sideways distance of somebody in another lane
+LEAD = 3.0  # [s] before a crossing, when its rule is read
 
 
 def fault(question: Fault, asked: Asked) -> Answer:
-    """Tell the facts that a question of fault or law turns on.
+    """Return the facts for a question of fault or law.
 
     Raises:
         Unanswered: a vehicle is unknown, or nothing is recorded of it.
@@ -80,7 +80,7 @@ def fault(question: Fault, asked: Asked) -> Answer:
 
 
 def lawful(asked: Asked, about: Window | None, vehicle: int | None = None) -> Priority:
-    """Tell what bears on whether we, or a vehicle, may do that: the limit, and who goes first.
+    """Return facts on whether we, or a vehicle, may do that: the limit, and who goes first.
 
     Raises:
         Unanswered: the record does not hold it.
@@ -94,7 +94,7 @@ def lawful(asked: Asked, about: Window | None, vehicle: int | None = None) -> Pr
 
 
 def right_of_way(asked: Asked, thing: Thing | None, to: Thing | None, about: Window) -> Priority:
-    """Tell who goes first of two, or of us and whoever crosses our way.
+    """Return who goes first of two, or of us and those whose way crosses ours.
 
     Raises:
         Unanswered: a vehicle is unknown, or the record does not hold it.
@@ -106,7 +106,7 @@ def right_of_way(asked: Asked, thing: Thing | None, to: Thing | None, about: Win
 def priority_at(
     asked: Asked, vehicle: int | None, about: Window, *, blame: bool = False
 ) -> Priority:
-    """Tell who has or had right of way in a stretch of the ride, and who went first.
+    """Return who has or had right of way in a stretch of the ride, and who went first.
 
     Raises:
         Unanswered: the vehicle is unknown, or the record does not hold it.
@@ -123,7 +123,7 @@ def priority_at(
     near = Window(time - NEAR, max(about.end, time) + NEAR)
     waited = _waited(asked, vehicle, near)
     if general and present and (ringed or (waited is not None and waited.end is not None)):
-        waited = None  # it is asked of now
+        waited = None  # the question is about now
     if vehicle is None and waited is not None:
         vehicle = number(waited.object)
     rule: Rule | None = rule_for(asked.world.road(time), vehicle, waited is not None)
@@ -148,7 +148,7 @@ def priority_at(
 def _let_by(
     asked: Asked, vehicle: int, first: Somebody | None, near: Window, about: Window
 ) -> bool:
-    """Tell whether a vehicle stood when we went, or stands now that we go."""
+    """Check whether a vehicle stood when we went, or stands now that we go."""
     if first is None and about.instant and about.end >= asked.now - 0.1:
         theirs = asked.world.measure("speed", Vehicle(vehicle), asked.now).value
         ours = asked.world.measure("speed", Ego(), asked.now).value
@@ -157,7 +157,7 @@ def _let_by(
 
 
 def goes_first(question: Question, asked: Asked) -> Answer:
-    """Tell who has right of way, where it is asked why somebody goes before us.
+    """Return who has right of way, for a question why somebody goes before us.
 
     Raises:
         Unanswered: the vehicle is unknown, or the record does not hold the rule.
@@ -171,7 +171,7 @@ def goes_first(question: Question, asked: Asked) -> Answer:
 
 
 def owed(found: Priority, *, ours_yield: bool) -> Finding:
-    """Give what a rule says of a claim that we, or the others, have to yield."""
+    """Return whether the rule supports a claim that we, or the others, must yield."""
     yields = YIELDS.get(found.rule)
     if yields is None:
         told = changed(found, holds=False if found.rule == "none" else None)
@@ -181,9 +181,9 @@ def owed(found: Priority, *, ours_yield: bool) -> Finding:
 
 
 def rule_between(asked: Asked, vehicle: int, about: Window) -> tuple[float, Rule] | None:
-    """Give the rule between us and a vehicle, and when [s] it held, closest to a stretch.
+    """Return the rule between us and a vehicle, and when [s] it held, closest to a stretch.
 
-    None where their ways never met, or not near the moment that is asked about.
+    None if their ways never met, or not near the time in question.
     """
     found = [
         (trace.sim_time, fact.who)
@@ -203,7 +203,7 @@ def rule_between(asked: Asked, vehicle: int, about: Window) -> tuple[float, Rule
 
 
 def _changing(asked: Asked, vehicle: int, about: Window) -> Rule | None:
-    """Tell who of both changed lanes about then, or is about to."""
+    """Return which of the two changed lanes about then, or is about to."""
     near = about.widened(NEAR)
     for who, rule in ((Ego(), "we-change"), (Vehicle(vehicle), "it-changes")):
         found = asked.world.episodes(actor=who, actions=CHANGES)
@@ -219,7 +219,7 @@ def _changing(asked: Asked, vehicle: int, about: Window) -> Rule | None:
 def _walks_first(
     asked: Asked, vehicle: int | None, about: Window, waited: Episode | None
 ) -> Rule | None:
-    """Tell whether we have to let somebody on foot go first: that is planned so, or done."""
+    """Return the rule if we must let somebody on foot go first, as planned or done."""
     if vehicle is None:
         return None
     look, trace = asked.world.look(vehicle, about.end), asked.world.states.trace(about.end)
@@ -232,7 +232,7 @@ def _walks_first(
 
 
 def _indicates_to_us(asked: Asked, vehicle: int, at: float) -> bool:
-    """Tell whether a vehicle beside or behind us on our road indicates towards our lane."""
+    """Check whether a vehicle beside or behind us on our road indicates towards our lane."""
     look = asked.world.look(vehicle, at)
     shown = asked.world.episodes(actor=Vehicle(vehicle), actions=("signal",), begin=at, end=at)
     sides = {e.side for e in shown if e.begin <= at and (e.end is None or e.end >= at)}
@@ -248,7 +248,7 @@ _WHO: dict[str, Rule] = {"ego": "priority", "vehicle": "give-way", "depends": "d
 
 
 def rule_for(road: RoadFacts | None, vehicle: int | None, gave_way: bool) -> Rule | None:
-    """Give the rule for us against a vehicle, or all at the next junction; None: not recorded."""
+    """Return the rule for us against a vehicle, or all at the next junction; None: not recorded."""
     if road is None:
         return "give-way" if gave_way else None
     for fact in road.priority:
@@ -262,13 +262,13 @@ def rule_for(road: RoadFacts | None, vehicle: int | None, gave_way: bool) -> Rul
 
 
 def where_rule_holds(asked: Asked, of: Proposition | None, about: Window) -> Window:
-    """Give the stretch of the ride whose right of way is asked about: the last crossing, or now."""
+    """Return the stretch whose right of way matters: of the whole ride, its last crossing."""
     del of
     return _last_crossing(asked, about) if _whole(asked, about) else about
 
 
 def _rule_time(asked: Asked, about: Window) -> float:
-    """Tell when [s] the rule is read off: shortly before we came into the junction; else then."""
+    """Return when [s] the rule is read: shortly before we came to the junction, if we did."""
     if about.instant and about.end >= asked.now - 0.1:
         return asked.now
     near = [t for t in entries(asked) if about.begin - NEAR <= t <= about.end + NEAR]
@@ -289,7 +289,7 @@ def _last_crossing(asked: Asked, about: Window) -> Window:
 
 
 def _waited(asked: Asked, vehicle: int | None, near: Window) -> Episode | None:
-    """Give our giving way within a stretch of the ride: to a vehicle, or to anybody."""
+    """Return our giving way within a stretch of the ride: to a vehicle, or to anybody."""
     found = [
         e
         for e in asked.world.episodes(actor=Ego(), actions=("give-way", "wait"))
@@ -301,7 +301,7 @@ def _waited(asked: Asked, vehicle: int | None, near: Window) -> Episode | None:
 
 
 def _conflict(asked: Asked, vehicle: int | None, near: Window) -> bool | None:
-    """Tell whether one of both had to brake hard; None where it is not known."""
+    """Check whether one of the two had to brake hard; None if it is not known."""
     begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
     who: tuple[Somebody, ...] = (Ego(),) if vehicle is None else (Ego(), Vehicle(vehicle))
     peaks = [asked.world.extreme("deceleration", one, "highest", begin, end) for one in who]
@@ -310,7 +310,7 @@ def _conflict(asked: Asked, vehicle: int | None, near: Window) -> bool | None:
 
 
 def _limit(asked: Asked, about: Window, who: Somebody) -> Measure | None:
-    """Give somebody's highest speed then, beside the limit."""
+    """Return somebody's highest speed then, with the limit."""
     near = about.widened() if about.instant else about
     begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
     if about.instant and about.end >= asked.now:
@@ -328,7 +328,7 @@ def _limit(asked: Asked, about: Window, who: Somebody) -> Measure | None:
 
 
 def _deeds(asked: Asked, vehicle: int | None, about: Window) -> tuple[Episode, ...]:
-    """Tell what the vehicle and we did then that bears on it."""
+    """Return what the vehicle and we did then that bears on the question."""
     near = about.widened(NEAR / 2.0)
     begin, end = max(near.begin, asked.world.begin), min(near.end, asked.now)
     names = [Ego()] if vehicle is None else [Vehicle(vehicle), Ego()]

@@ -1,4 +1,4 @@
-"""Reaching: when we come to a junction, or draw level with a vehicle, at the speeds of now."""
+"""Reaching: when we come to a junction, or draw level with a vehicle, at the present speeds."""
 
 from xavi_dialogue.domain.answers import Answer, Measures
 from xavi_dialogue.domain.facts import Measure
@@ -9,13 +9,13 @@ from xavi_dialogue.explain.answers.ride.places import junction
 
 TO_PLACES = frozenset(("arrive", "enter", "approach", "head", "come"))
 PASSING = frozenset(("overtake", "pass"))
-CRAWLING = 1.5  # [m/s] below which the speed of now tells nothing of the time to come
-CLOSING = 0.5  # [m/s] by which one must be faster to draw level
-BESIDE = 2.0  # [m] to the side from which one is not behind a vehicle
+CRAWLING = 1.5  # [m/s] speed below which no time can be estimated
+CLOSING = 0.5  # [m/s] minimum difference in speed to draw level
+BESIDE = 2.0  # [m] minimum sideways distance at which one is not behind a vehicle
 
 
 def reaching(asked: Asked, event: Event) -> Answer | None:
-    """Tell when we come to a place or pass a vehicle; None where that cannot be reckoned."""
+    """Return when we come to a place or pass a vehicle; None if that cannot be estimated."""
     if not is_us(event.actor):
         return None
     if event.action in TO_PLACES and isinstance(event.object, Junction):
