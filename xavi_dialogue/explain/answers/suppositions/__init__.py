@@ -1,1 +1,1 @@
-"""What would have come of something else, and what could have been done."""
+"""Explainers: the consequences of suppositions, and what could have been done."""

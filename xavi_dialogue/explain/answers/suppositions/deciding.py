@@ -1,4 +1,4 @@
-"""Deciding: options and comparisons, whether it was needed, what would change it, how to avoid."""
+"""Deciding: options, comparisons, need, what would change a decision, how to avoid things."""
 
 import dataclasses
 from typing import Literal
@@ -46,15 +46,15 @@ from xavi_dialogue.explain.causes.vehicles.actions import (
 from xavi_dialogue.explain.causes.vehicles.course import hard_braking
 from xavi_dialogue.explain.history.ride import planned
 
-EQUAL = 0.25  # [s] of value within which two options are the same
-#: What is asked of one option that is compared with what was decided.
+EQUAL = 0.25  # [s] maximum difference in value of two options that count as equal
+#: Merits by which a single option is compared with the decision.
 FORMS: dict[str, Asking] = {"safety": "safer", "best": "better"}
 LEAST: dict[str, Asking] = {"safety": "riskier", "best": "worse"}
-EVEN = 0.01  # probability of a collision within which two options are equally safe
+EVEN = 0.01  # maximum difference in the probability of a collision that counts as none
 
 
 def needed(question: Whether, scene: Asked) -> Answer:
-    """Tell whether what we did was necessary, worth it, or better than the alternative.
+    """Answer whether what we did was necessary, worth it, or better than the alternative.
 
     Raises:
         Unanswered: we did not do it; or the record lacks it; or rollouts are needed.
@@ -76,7 +76,7 @@ def needed(question: Whether, scene: Asked) -> Answer:
 
 
 def _moved(event: Event, scene: Asked) -> Answer:
-    """Return why we drove so: at the time meant, or at whatever time we did where none was said.
+    """Return why we drove in some way, at the time named; without one, whenever we did.
 
     Raises:
         Unanswered: we did not; or rollouts are needed.
@@ -91,7 +91,7 @@ def _moved(event: Event, scene: Asked) -> Answer:
 
 
 def listed(question: Listing, scene: Asked) -> Answer:
-    """List what could have been done, best first; or what came nearest to what was done.
+    """List what could have been done, best first; or what was closest to what was done.
 
     Raises:
         Unanswered: the record lacks it, or has too little evidence.
@@ -102,7 +102,7 @@ def listed(question: Listing, scene: Asked) -> Answer:
         moment = ride.at(said.begin)
     if question.event is not None:
         found = options.with_choice(ride, premise(ride, subject(scene, question.event)))
-    elif moment is None:  # of the deed that was spoken of before, where no time is said
+    elif moment is None:  # the time of the action discussed before, if no time is named
         found = options.with_choice(ride, premise(ride, Subject(None, (), False, scene.span)))
     else:
         found = options.with_choice(ride, Premise(moment, None))
@@ -115,16 +115,16 @@ def listed(question: Listing, scene: Asked) -> Answer:
 
 
 def compared(question: Compare, scene: Asked) -> Answer:
-    """Compare two of our options by a measure; what was done with what was not.
+    """Compare two options of ours by a measure, or what was done with what was not.
 
     Raises:
-        Unanswered: an option did not apply; or the record lacks it; or rollouts are needed.
+        Unanswered: an option was not possible; or the record lacks it; or rollouts are needed.
     """
     named = [option for option in question.options if _own_event(option) is not None]
     events = [event for option in named if (event := _own_event(option)) is not None]
     if not events:
         return listed(Listing("options"), scene)
-    kept = events[0].action == "keep-lane"  # going straight on is another action
+    kept = events[0].action == "keep-lane"  # going straight on is another action then
     plain = kept or events[0].action == "go" or not _was_done(scene, events[0])
     single = len(question.options) == 1 and plain
     if single and question.by in ("time", "speed", "best", "safety"):
@@ -141,7 +141,7 @@ def compared(question: Compare, scene: Asked) -> Answer:
 
 
 def what_would_change(question: WhatWouldChange, scene: Asked) -> Answer:
-    """Tell what would have made us decide otherwise, or what mattered most.
+    """Return what would have made us decide otherwise, or what mattered most.
 
     Raises:
         Unanswered: we did not do it; or the record lacks it; or rollouts are needed.
@@ -153,7 +153,7 @@ def what_would_change(question: WhatWouldChange, scene: Asked) -> Answer:
     ride = scene.ride
     if event is not None and not choices.is_choice(event) and not negated:
         found_motive = _motive(event, scene)
-        if not isinstance(found_motive, ChoiceReason):  # it came of a choice: what that hung on
+        if not isinstance(found_motive, ChoiceReason):  # it was a choice
             return found_motive
         event = None
     if event is not None and (negated or not _was_done(scene, event)):
@@ -165,7 +165,7 @@ def what_would_change(question: WhatWouldChange, scene: Asked) -> Answer:
 
 
 def how_avoid(question: HowAvoid, scene: Asked) -> Answer:
-    """Tell which option would have avoided what happened, or that none would.
+    """Return which option would have avoided what happened, or that none would.
 
     Raises:
         Unanswered: it did not happen; or the record lacks the decisions before it.
@@ -183,7 +183,7 @@ def how_avoid(question: HowAvoid, scene: Asked) -> Answer:
 
 
 def _mishap(scene: Asked, event: Event | None) -> tuple[ActionName, float]:
-    """Return what happened and when [s]: what the question names, else the worst.
+    """Return what happened and when [s]: the event of the question, else the worst one.
 
     Raises:
         Unanswered: it did not happen.
@@ -208,7 +208,7 @@ def _mishap(scene: Asked, event: Event | None) -> tuple[ActionName, float]:
 
 
 def _factor(event: Event | None, scene: Asked, *, negated: bool) -> Answer:
-    """Return the first cause of a deed; where no vehicle is, what the choice turned on."""
+    """Return the first cause of an action; if that is no vehicle, what decided the choice."""
     chosen = event is not None and (choices.is_choice(event) or event.action == "stop")
     undone = event is not None and chosen and not _was_done(scene, event)
     if event is not None and (negated or undone):
@@ -229,7 +229,7 @@ def _factor(event: Event | None, scene: Asked, *, negated: bool) -> Answer:
 
 
 def _motive(event: Event, scene: Asked, *, most: bool = False) -> Answer:
-    """Return what a way of driving hung on: without whom it would not have come about."""
+    """Return what a way of driving depended on: whose absence would have changed it."""
     found = motions.motion(event, scene)
     if not isinstance(found, MotionReason):
         return found
@@ -243,7 +243,7 @@ def _motive(event: Event, scene: Asked, *, most: bool = False) -> Answer:
 
 
 def _is_needed(cause: MotionCause, reason: MotionReason) -> bool:
-    """Tell whether it hung on a cause: planned again without it, or because there is no other."""
+    """Check whether a cause was necessary, by planning without it or because there is no other."""
     return len(reason.causes) == 1 if cause.necessary is None else cause.necessary
 
 
@@ -265,7 +265,7 @@ def _was_done(scene: Asked, event: Event) -> bool:
 def _sides(
     scene: Asked, events: list[Event]
 ) -> tuple[Premise, tuple[MacroAction, ...], tuple[MacroAction, ...]]:
-    """Return the decision, what was done, and the foil, of one or two options named."""
+    """Return the decision, what was done, and the foil, for one or two options."""
     done = next((event for event in events if _was_done(scene, event)), None)
     others = [event for event in events if event is not done]
     if done is not None and others:
@@ -289,7 +289,7 @@ def _named(
     fact: tuple[MacroAction, ...],
     foil: tuple[MacroAction, ...],
 ) -> tuple[Proposition | Thing, Proposition | Thing]:
-    """Return the two options as they are to be named, in the order of the question."""
+    """Return the two options with their names, in the order of the question."""
     if len(named) > 1:
         return named[0], named[1]
     ours = fact[0] if fact and not _is_fact(events[0], fact) else None
@@ -301,7 +301,7 @@ def _named(
 def _better(
     by: str, against: Contrast, *, swapped: bool
 ) -> Literal["first", "second", "same", "unknown"]:
-    """Return which of fact (first) and foil is better by a measure."""
+    """Return which is better by a measure: fact (first) or foil."""
     gain = _gain(by, against)
     if gain is None:
         return "unknown"
@@ -311,7 +311,7 @@ def _better(
 
 
 def _gain(by: str, against: Contrast) -> float | None:
-    """By how much the fact is better, in the measure's own unit; 0 where it is the same."""
+    """Return by how much the fact is better, in the unit of the measure; 0 if they are equal."""
     effects = {effect.component: effect.delta for effect in against.effects}
     if by == "safety":
         gain = against.collision - against.fact_collision

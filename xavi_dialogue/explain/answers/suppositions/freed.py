@@ -1,4 +1,4 @@
-"""Freed: what would be without a vehicle, for us and for another one that waits for it."""
+"""Freed: consequences of a vehicle's absence for us, and for another one that waits for it."""
 
 from xavi_dialogue.domain.answers import Answer
 from xavi_dialogue.domain.meaning import HowMuch, Question, Whether
@@ -11,7 +11,7 @@ WAITING = frozenset[ActionName](("wait", "give-way", "stand", "stop", "let-go", 
 
 
 def freed(then: Question | None, without: int | None, scene: Asked) -> Answer | None:
-    """Tell for whom a vehicle waited, where that is the one supposed away; None: it is not.
+    """Return who a vehicle waited for, if that one is supposed to be absent; else None.
 
     Raises:
         Unanswered: rollouts are needed.
@@ -29,6 +29,6 @@ def freed(then: Question | None, without: int | None, scene: Asked) -> Answer | 
 
 
 def asks_pace(then: Question | None) -> bool:
-    """Tell whether it is asked how much faster we could go: our speed and the limit tell it."""
+    """Check whether the question is how much faster we could go, for our speed and the limit."""
     event = then.of.event if isinstance(then, HowMuch) else None
     return event is not None and event.action in ("go", "move") and event.modal == "could"

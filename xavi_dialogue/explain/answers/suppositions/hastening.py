@@ -1,4 +1,4 @@
-"""Hastening: what would come of not slowing down, not waiting, or going before another vehicle."""
+"""Hastening: what if we had not slowed down or waited, or had gone before another vehicle."""
 
 from msgspec import structs
 
@@ -26,24 +26,24 @@ from xavi_dialogue.explain.facts.episodes.light_waits import held_at
 from xavi_dialogue.explain.facts.traffic_lights import shown_at
 from xavi_dialogue.explain.history.nearing import speed_at
 
-SLOW = 4.0  # [m/s] below which going now is setting off
-JOINED = 0.5  # [s] between what belongs together
-LATELY = 1.0  # [s] since when what is named is still now
-QUEUING = 1.0  # [m/s] below which somebody stands in a queue
-QUEUE = 15.0  # [m] ahead within which somebody stands in the same queue
-BESIDE = 1.5  # [m] aside from which somebody is in another lane
-NEAR = 25.0  # [s] around the slowing in which somebody let go counts
+SLOW = 4.0  # [m/s] speed below which going now is setting off
+JOINED = 0.5  # [s] maximum time between episodes that belong together
+LATELY = 1.0  # [s] maximum age of an action that counts as now
+QUEUING = 1.0  # [m/s] speed below which somebody stands in a queue
+QUEUE = 15.0  # [m] maximum distance ahead of somebody in the same queue
+BESIDE = 1.5  # [m] minimum sideways distance of somebody in another lane
+NEAR = 25.0  # [s] before and after the slowing, in which letting somebody go counts
 
 
 def hastened(
     event: Event, scene: Asked, form: Asking = "what-if", struck: int | None = None
 ) -> Answer:
-    """Tell who would have been in our way had we not slowed or waited, and how close.
+    """Return who would have been in our way if we had not slowed or waited, and how close.
 
     Args:
         event: what we are supposed to do: go, enter, not brake.
         scene: the setting.
-        form: what is asked of it.
+        form: the question about it.
         struck: the vehicle that is asked about, if any.
 
     Raises:
@@ -89,7 +89,7 @@ def hastened(
 
 
 def _through(scene: Asked, deed: Episode, cause: MotionCause) -> bool:
-    """Tell whether the light that held us was still red when we would have come to it."""
+    """Check whether the light that held us was still red when we would have come to it."""
     shown, speed = cause.shown, deed.speed_from or 0.0
     if cause.kind != "light" or shown is None or cause.vehicle is not None or speed <= 0.0:
         return False
@@ -100,7 +100,7 @@ def _through(scene: Asked, deed: Episode, cause: MotionCause) -> bool:
 
 
 def past_red(event: Event, scene: Asked) -> Unslowed | None:
-    """Tell that, had we not stopped, we would have passed a red light; None where none held us."""
+    """Return that we would have passed a red light without our stop; None if none held us."""
     if event.action != "stop" or event.tense == "present":
         return None
     stands = scene.world.episodes(Ego(), ("stand",))
@@ -114,7 +114,7 @@ def past_red(event: Event, scene: Asked) -> Unslowed | None:
 
 
 def _leader(scene: Asked, stand: Episode) -> int | None:
-    """Find who stood right ahead of us in our lane as we came to stand, if anybody."""
+    """Find the vehicle right ahead of us in our lane when we came to stand, if any."""
     at = stand.begin
     looks = (scene.world.look(v, at) for v in scene.world.in_view(at))
     ahead = [
@@ -127,7 +127,7 @@ def _leader(scene: Asked, stand: Episode) -> int | None:
 
 
 def _at_red(scene: Asked) -> bool:
-    """Tell whether a red light holds us now."""
+    """Check whether a red light holds us now."""
     trace = scene.ride.at(scene.now)
     if trace is None or held_at(trace, EGO) is None:
         return False
@@ -136,7 +136,7 @@ def _at_red(scene: Asked) -> bool:
 
 
 def _ahead_of(event: Event) -> int | None:
-    """Ahead of whom it is supposed to be done."""
+    """Return the vehicle before which we are supposed to go."""
     place = event.where
     return vehicle_in(place.to) if place is not None and place.relation == "ahead-of" else None
 
@@ -153,7 +153,7 @@ def _letting(scene: Asked, vehicle: int) -> Episode | None:
 
 
 def _now(event: Event, scene: Asked) -> Episode | None:
-    """The waiting that would end now, where it is asked of now; None where it is of the past."""
+    """Return the waiting that would end now; None if the question is about the past."""
     speed = speed_at(scene.ride, scene.now)
     said = scene.past is not None and scene.past.said and scene.past.end < scene.now - LATELY
     present = event.tense in ("present", "future") and not said
@@ -186,7 +186,7 @@ def _met(
     *,
     setting_off: bool,
 ) -> Crossing | None:
-    """Whose way we would have crossed: the vehicle asked about, else the one closest in time."""
+    """Return the one whose way we would have crossed: as asked, else the closest in time."""
     ride, speed = scene.ride, deed.speed_from or 0.0
     others = {c.vehicle for c in causes if c.vehicle} | _let_go(scene, deed)
     if setting_off:
@@ -199,7 +199,7 @@ def _met(
 
 
 def _let_go(scene: Asked, deed: Episode) -> set[int | None]:
-    """Return whom we gave way to about then."""
+    """Return the vehicles that we gave way to about then."""
     end = scene.now if deed.end is None else deed.end
     gave = scene.world.episodes(Ego(), ("give-way", "wait"), deed.begin - 1.0, end)
     near = [e for e in gave if e.begin <= deed.begin + NEAR]

@@ -1,4 +1,4 @@
-"""Jointly: what is supposed of several vehicles at once, taken out of a proposition."""
+"""Jointly: suppositions about several vehicles at once, taken from a proposition."""
 
 from dataclasses import dataclass
 
@@ -25,23 +25,23 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import check_seen, is_own, unwrapped
 
-#: States of another vehicle that mean that it were not there, or gone, where they are denied.
+#: States of another vehicle whose denial means that it is absent or gone.
 ABSENT = ("present", "visible")
 
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """What is supposed of the vehicles of `numbers`; `left_out` cannot be supposed beside it."""
+    """The supposition about the vehicles `numbers`; `left_out` are those that do not fit in."""
 
     numbers: tuple[int, ...]
-    event: Event | None  # of the first of them; None: they were not there
+    event: Event | None  # of the first of them; None: they are absent
     negated: bool = False
     left_out: tuple[int, ...] = ()
-    everybody: bool = False  # there were nobody else
+    everybody: bool = False  # all others are absent
 
 
 def is_absence(of: Proposition | None, *, negated: bool) -> bool:
-    """Tell whether a proposition, or its denial, means that a vehicle were not there."""
+    """Check whether a proposition, or its denial, means that a vehicle is absent."""
     match of:
         case Exists() | Related():
             return negated
@@ -55,10 +55,10 @@ def is_absence(of: Proposition | None, *, negated: bool) -> bool:
 
 
 def joint(of: Proposition, scene: Asked) -> Joint | None:
-    """Read what is supposed of several vehicles, or of all; None where it is of one, or of us.
+    """Read a supposition about several vehicles, or all; None if it is about one, or about us.
 
     Raises:
-        Unanswered: one of them was never seen; or it is supposed of us and of others at once.
+        Unanswered: one of them was never seen; or it is about us and others at once.
     """
     if _of_nobody(of):
         everybody = _around(scene)
@@ -87,7 +87,7 @@ def joint(of: Proposition, scene: Asked) -> Joint | None:
 
 
 def _parts(of: Proposition) -> tuple[Proposition, ...]:
-    """List what holds together; that not all of it does is read as that none does."""
+    """Return the parts that hold together; the denial of all is read as that of each."""
     match of:
         case Both(contents=contents):
             return tuple(part for one in contents for part in _parts(one))
@@ -97,7 +97,7 @@ def _parts(of: Proposition) -> tuple[Proposition, ...]:
 
 
 def _singly(of: Proposition) -> tuple[Proposition, ...]:
-    """Say of each of several vehicles what is said of them together."""
+    """Return one proposition for each of several vehicles that it is about."""
     match of:
         case Not(content=content):
             return tuple(Not(one) for one in _singly(content))
@@ -109,7 +109,7 @@ def _singly(of: Proposition) -> tuple[Proposition, ...]:
 
 
 def _number(of: Proposition, scene: Asked) -> int | None:
-    """Tell the vehicle of which something is supposed; None where it is of us, or of nobody."""
+    """Return the vehicle that a supposition is about; None if it is about us, or nobody."""
     content, _ = unwrapped(of)
     match content:
         case Happens(event) if not is_own(event.actor):
@@ -120,7 +120,7 @@ def _number(of: Proposition, scene: Asked) -> int | None:
 
 
 def _kind(of: Proposition | None, *, negated: bool) -> object:
-    """Tell two suppositions apart but for whom they are of."""
+    """Return a key for suppositions that are the same except for the vehicle."""
     if is_absence(of, negated=negated):
         return "away"
     if isinstance(of, Happens):
@@ -129,7 +129,7 @@ def _kind(of: Proposition | None, *, negated: bool) -> object:
 
 
 def _of_nobody(of: Proposition) -> bool:
-    """Tell whether it is supposed that there were nobody else."""
+    """Check whether the supposition is that nobody else is there."""
     content, negated = unwrapped(of)
     match content:
         case Exists(thing=Nobody(described=None)):
@@ -144,6 +144,6 @@ def _of_nobody(of: Proposition) -> bool:
 
 
 def _around(scene: Asked) -> tuple[int, ...]:
-    """List the vehicles that the decision at the moment asked about knows of."""
+    """Return the vehicles that are known to the decision at the time asked about."""
     trace = scene.ride.at(scene.moment)
     return () if trace is None else tuple(sorted(v for v in trace.scene if v != EGO))

@@ -1,4 +1,4 @@
-"""Own suppositions: what would have come of it, had we done otherwise."""
+"""Own suppositions: what would have happened if we had acted otherwise."""
 
 from dataclasses import replace
 from typing import TypeGuard
@@ -58,16 +58,16 @@ from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.ride import planned
 
 STANDING = 0.5  # [m/s]
-FAST = 15.0  # [m/s] from which staying is staying in the lane
-ABOUT = 1.5  # factor up to which a time is about as long as it is said to be
-LATELY = 12.0  # [s] since when it may be our braking that is meant
+FAST = 15.0  # [m/s] minimum speed at which staying means staying in the lane
+ABOUT = 1.5  # maximum factor between a time and what the question says about it
+LATELY = 12.0  # [s] maximum age of a braking that may be meant
 PAST = frozenset[ActionName](("overtake", "pass", "avoid"))
 SQUEEZING = frozenset[ActionName](("cut-in", "merge", "pull-out", "pass"))
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "speed-up", "continue"))
 
 
 def form_of(then: Question | None) -> Asking:
-    """Tell what is asked of a supposed world."""
+    """Return the question about a supposed world."""
     if reacting.asks(then) == "collide":
         return "crash"
     if _collision_in(then) is not None:
@@ -101,7 +101,7 @@ def form_of(then: Question | None) -> Asking:
 
 
 def claimed_in(that: Proposition | None) -> float | None:
-    """Tell how long [s] a delay is said or asked to be; None where nothing is said of it."""
+    """Return the length [s] of a delay according to the question; None if it does not say."""
     match that:
         case Compares(left=Measured(attribute="delay"), right=Quantity(value=value, unit="s")):
             return value
@@ -109,7 +109,7 @@ def claimed_in(that: Proposition | None) -> float | None:
 
 
 def claimed(found: Answer, that: Proposition | None) -> Answer:
-    """Hold what time something cost, or would gain, against what it is said to be."""
+    """Add to an answer what time the question says that something cost, or would gain."""
     said = claimed_in(that)
     match found:
         case SupposedOfUs() if said is not None:
@@ -123,7 +123,7 @@ def claimed(found: Answer, that: Proposition | None) -> Answer:
 
 
 def is_sooner(then: Question | None) -> bool:
-    """Tell whether it is asked if we would have gone, or been there, sooner."""
+    """Check whether the question is if we would have gone, or been there, sooner."""
     event = event_of(then.that) if isinstance(then, Whether) else None
     if event is None or event.action not in (*GOING, "arrive", "go"):
         return False
@@ -131,13 +131,13 @@ def is_sooner(then: Question | None) -> bool:
 
 
 def struck_in(then: Question | None) -> int | None:
-    """Tell whom it is asked whether we would collide with."""
+    """Return the vehicle that a question about our collision names."""
     event = _collision_in(then)
     return None if event is None else vehicle_in(event.object) or vehicle_in(event.actor)
 
 
 def _collision_in(then: Question | None) -> Event | None:
-    """Read the collision that it is asked of whether it would happen, how probably, with whom."""
+    """Read a question whether, how probably, or with whom a collision would happen."""
     match then:
         case Whether(that=of) | HowSure(of=of) | Which(such=of):
             event = event_of(of)
@@ -147,7 +147,7 @@ def _collision_in(then: Question | None) -> Event | None:
 
 
 def with_chance(found: Answer, vehicle: int | None, scene: Asked) -> Answer:
-    """Add how probably we would have collided with the vehicle that is asked about.
+    """Add how probably we would have collided with the vehicle in the question.
 
     Raises:
         Unanswered: rollouts are needed.
@@ -165,19 +165,19 @@ def with_chance(found: Answer, vehicle: int | None, scene: Asked) -> Answer:
 
 
 def stays_ahead(event: Event | None) -> TypeGuard[Event]:
-    """Tell whether somebody is supposed to go on driving ahead of us."""
+    """Check whether somebody is supposed to go on driving ahead of us."""
     return event is not None and event.action == "continue" and event.object == Ego()
 
 
 def kept_ahead(event: Event, form: Asking) -> tuple[Proposition, bool]:
-    """Give what is tried for it, and whether denied: how much later with it is sooner without."""
+    """Return the supposition to test, and whether it is denied: later with it is sooner without."""
     if form == "arrival":
         return Exists(event.actor), True
     return Happens(structs.replace(event, object=None)), False
 
 
 def paced(of: Proposition | None) -> Event | None:
-    """Read that we were faster or slower as driving so."""
+    """Read "if we were faster or slower" as driving that way."""
     match of:
         case Compares(left=Measured(attribute="speed", thing=thing, tense=tense), comparator=how):
             if not is_own(thing):
@@ -194,7 +194,7 @@ def paced(of: Proposition | None) -> Event | None:
 def of_us(
     event: Event, scene: Asked, form: Asking = "what-if", struck: int | None = None
 ) -> Answer:
-    """Tell what would have come of another action of ours.
+    """Return the consequences of another action of ours.
 
     Raises:
         Unanswered: it cannot be done; or rollouts are needed.
@@ -202,7 +202,7 @@ def of_us(
     past = is_past(scene, event) or event.modal == "would"
     asked, event = event, _staying(event, scene)
     if asked.action == "wait" and event.action == "keep-lane":
-        scene = replace(scene, span=None)  # until when is no time at which it was chosen
+        scene = replace(scene, span=None)  # the end of a duration is not when it was chosen
     if event.action in SQUEEZING and scene.world.episodes(Ego(), ("give-way",)):
         return hastened(structs.replace(event, object=None), scene, form, struck)
     if event.action in reacting.COLLIDING:
@@ -238,7 +238,7 @@ def of_us(
 
 
 def _drove(event: Event, scene: Asked) -> Episode | None:
-    """Find the braking or slowing that is asked about where we did so lately, or just then."""
+    """Find the braking or slowing that is asked about, if we did it recently, or just then."""
     plain = not event.manner and event.object is None and event.where is None
     if event.action not in ("brake", "slow-down") or not plain or not is_past(scene, event):
         return None
@@ -249,7 +249,7 @@ def _drove(event: Event, scene: Asked) -> Episode | None:
 
 
 def _standing_ahead(scene: Asked, against: Contrast) -> MotionCause | None:
-    """Tell who stood in our lane where it is supposed that we had stayed in it."""
+    """Return who stood in our lane, if the supposition is that we had stayed in it."""
     fact = against.fact[:1]
     if against.foil != STAYING or not fact or fact[0] not in CHANGES:
         return None
@@ -258,7 +258,7 @@ def _standing_ahead(scene: Asked, against: Contrast) -> MotionCause | None:
 
 
 def _staying(event: Event, scene: Asked) -> Event:
-    """Read staying, or waiting behind somebody whom we moved out for, as staying in our lane."""
+    """Read staying, or waiting behind somebody that we moved out for, as staying in our lane."""
     behind = event.where is not None and event.where.relation == "behind"
     lane = None if event.where is None else event.where.to
     if isinstance(lane, Lane) and lane.which == "own" and event.action in ("pass", "overtake"):
@@ -279,20 +279,20 @@ def _staying(event: Event, scene: Asked) -> Event:
 
 
 def arrival(scene: Asked, against: Contrast) -> float | None:
-    """Tell when [s] we would be there under the foil."""
+    """Return when [s] we would be there under the foil."""
     due = scene.world.measure("arrival-time", Ego(), scene.now).value
     later = next((e.delta for e in against.effects if e.component == "time"), None)
     return None if due is None or later is None else due + later
 
 
 def _stopped(scene: Asked) -> bool:
-    """Check whether a stop was chosen, so that driving on was the other choice."""
+    """Check whether a stop was chosen, so that driving on was the alternative."""
     trace = scene.ride.at(scene.moment)
     return trace is not None and "stop" in planned(trace)[:1]
 
 
 def _done(did: Did, scene: Asked, form: Asking) -> SupposedOfUs:
-    """It is just what we did, do or plan: beside what one would naturally do instead.
+    """Return that it is exactly what we did, do or plan, with its natural alternative.
 
     Raises:
         Unanswered: there is too little evidence, or rollouts are needed.
@@ -304,14 +304,14 @@ def _done(did: Did, scene: Asked, form: Asking) -> SupposedOfUs:
     foil, done = compared.foil[len(found.node) :], did.performed.action
     elsewhere = done == "keep-lane" and not set(foil[:1]) & set(CHANGES)
     if elsewhere or (foil == ("stop",) and done != "stop"):
-        model = ride.model(found.trace)  # stopping is nothing that one thinks of
+        model = ride.model(found.trace)  # stopping is not a natural alternative
         compared = alone(ride, model, factual(model, found.trace))
     past = did.performed.when == "did"
     return SupposedOfUs(compared, done=did.performed, past=past, form=form)
 
 
 def undone(event: Event, scene: Asked, form: Asking, struck: int | None) -> Answer:
-    """Tell what would have been had we not done what we did: the best alternative.
+    """Return what would have happened without what we did: the best alternative.
 
     Raises:
         Unanswered: it cannot be known; or rollouts are needed.
@@ -325,7 +325,7 @@ def undone(event: Event, scene: Asked, form: Asking, struck: int | None) -> Answ
             found = natural(scene.ride, trace, ())
             over = scene.past is not None
             return SupposedOfUs(found, past=over, form=form, arrival=arrival(scene, found))
-        return hastened(event, scene, form, struck)  # no choice of its own
+        return hastened(event, scene, form, struck)  # it was not a choice of its own
     try:
         reason = choices.why(event, scene)
     except Unanswered as unanswered:

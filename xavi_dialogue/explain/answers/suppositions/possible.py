@@ -24,7 +24,7 @@ from xavi_dialogue.explain.answers.ride.comfort import comfort_of, stretch
 from xavi_dialogue.explain.answers.suppositions import deciding
 from xavi_dialogue.explain.answers.suppositions.own_suppositions import of_us
 
-#: What is no way of driving that could be chosen.
+#: Actions that are not ways of driving to choose from.
 NOT_DRIVING = frozenset[ActionName](
     ("see", "do", "happen", "collide", "nearly-collide", "arrive", "signal", "appear", "disappear")
 )
@@ -34,7 +34,7 @@ FASTER = frozenset[ActionName](("speed-up",))
 
 
 def is_could(of: Proposition | None) -> bool:
-    """Tell whether it is asked of what we could have done."""
+    """Check whether the question is what we could have done."""
     of = _uncounted(of)
     event = event_of(of)
     if not isinstance(of, Happens) or event is None or not is_own(event.actor):
@@ -44,7 +44,7 @@ def is_could(of: Proposition | None) -> bool:
 
 
 def _uncounted(of: Proposition | None) -> Proposition | None:
-    """Take "could have overtaken twice by now" for that it could have been done."""
+    """Read "could have overtaken twice by now" as that it could have been done."""
     of, _ = unwrapped(of)
     match of:
         case Compares(left=Measured(attribute="count", event=Event() as event)):
@@ -54,20 +54,20 @@ def _uncounted(of: Proposition | None) -> Proposition | None:
 
 
 def is_must(of: Proposition | None) -> bool:
-    """Tell whether it is asked of what we had to do; right of way is another matter."""
+    """Check whether the question is what we had to do; right of way is another matter."""
     of, _ = unwrapped(of)
     event = event_of(of)
     if not isinstance(of, Happens) or event is None or not is_own(event.actor):
         return False
     named = event.object is not None or event.tense == "present"
     owed = event.action in ("give-way", "let-go", "wait") and named
-    coming = event.action in HALTS and event.tense == "future"  # the plan tells
+    coming = event.action in HALTS and event.tense == "future"  # the plan answers that
     driving = event.action not in NOT_DRIVING and not coming
     return event.modal == "must" and driving and not owed
 
 
 def could(question: Whether, scene: Asked) -> Answer:
-    """Tell what would have come of what we could have done.
+    """Return the consequences of what we could have done.
 
     Raises:
         Unanswered: it could not be done; or rollouts are needed.
@@ -82,7 +82,7 @@ def could(question: Whether, scene: Asked) -> Answer:
 
 
 def _braked(event: Event, scene: Asked) -> Answer:
-    """Tell how hard we braked: later, it would have been harder.
+    """Return how hard we braked: braking later would have been harder.
 
     Raises:
         Unanswered: we did not brake, or the record has no motion there.
@@ -94,7 +94,7 @@ def _braked(event: Event, scene: Asked) -> Answer:
 
 
 def must(question: Whether, scene: Asked) -> Answer:
-    """Tell whether we had to do what we did, or have to.
+    """Answer whether we had to do what we did, or have to.
 
     Raises:
         Unanswered: we did not do it; or rollouts are needed.

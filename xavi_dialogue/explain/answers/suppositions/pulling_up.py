@@ -1,6 +1,6 @@
 """Pulling up: whether another vehicle, or we, stop in time for the other one.
 
-Of who comes up behind somebody, the distance tells it; of who crosses our way, the right of way.
+For one that comes up behind another, the distance decides; for one on a crossing way, the rule.
 """
 
 from msgspec.structs import replace
@@ -23,12 +23,12 @@ from xavi_dialogue.explain.facts.measures.between import leader
 from xavi_dialogue.explain.history.thresholds import STANDING
 
 HALTS: frozenset[ActionName] = frozenset(("stop", "brake", "stand"))
-HARDLY = 0.1  # probability below which who has right of way is not expected to let us go
-SOON = 2.5  # [s] within which who brakes on comes to a standstill
+HARDLY = 0.1  # probability below which one with right of way is not expected to let us go
+SOON = 2.5  # [s] maximum time in which one that brakes on comes to a standstill
 
 
 def pulls_up(asked: Asked, event: Event) -> Finding | None:
-    """Tell whether somebody stops in time; None where that is not asked."""
+    """Weigh that somebody stops in time; None if the question is not that."""
     if event.action not in HALTS or not _of_now(asked, event):
         return None
     able = event.modal in ("can", "could") or "early" in event.manner
@@ -44,7 +44,7 @@ def pulls_up(asked: Asked, event: Event) -> Finding | None:
     now = Window(asked.now, asked.now)
     met = rule_between(asked, vehicle, now)
     if met is not None and isinstance(priority_at(asked, vehicle, now).first, Vehicle):
-        met = None  # it has gone by
+        met = None  # it has gone by already
     if not able and not is_us(event.object) and not behind and met is None:
         return None
     found = PullingUp(
@@ -58,7 +58,7 @@ def pulls_up(asked: Asked, event: Event) -> Finding | None:
 
 
 def _of_now(asked: Asked, event: Event) -> bool:
-    """Tell whether it is asked of what is about to come."""
+    """Check whether the question is about what is about to happen."""
     could = event.modal == "could" and "early" in event.manner  # "could we stop in time?"
     if asked.past is not None or (event.tense in ("past", "perfect") and not could):
         return False
@@ -66,25 +66,25 @@ def _of_now(asked: Asked, event: Event) -> bool:
 
 
 def _comes_up(asked: Asked, one: int, other: int) -> bool:
-    """Tell whether one drives behind the other on one line."""
+    """Check whether one drives behind the other on the same path."""
     line = following(asked.world.states, one, other, asked.now)
     return line is not None and line.behind == one
 
 
 def _follows(asked: Asked, vehicle: int) -> bool:
-    """Tell whether a vehicle drives our way behind us, be it in another lane."""
+    """Check whether a vehicle drives our way behind us, possibly in another lane."""
     seen = asked.world.states.offset(EGO, vehicle, asked.now)
     return seen is not None and seen.same_way and seen.ahead + seen.clear < 0.0
 
 
 def _braking(asked: Asked, vehicle: int) -> Episode | None:
-    """Find the braking of a vehicle that goes on."""
+    """Find the braking of a vehicle that is under way."""
     found = asked.world.episodes(actor=Vehicle(vehicle), actions=("brake",))
     return next((e for e in reversed(found) if e.end is None), None)
 
 
 def _from_behind(asked: Asked, found: PullingUp) -> PullingUp:
-    """Judge by the room that it has to come down to our speed."""
+    """Judge by the distance that a vehicle has for braking to our speed."""
     ours = asked.world.measure("speed", Ego(), asked.now).value or 0.0
     closing = max((found.speed.value if found.speed and found.speed.value else 0.0) - ours, 0.0)
     needed = stopping_distance(closing)
@@ -95,13 +95,13 @@ def _from_behind(asked: Asked, found: PullingUp) -> PullingUp:
 
 
 def _crossing(asked: Asked, found: PullingUp) -> PullingUp:
-    """Judge by the right of way, and by what is expected of it."""
+    """Judge by the right of way, and by what the vehicle is expected to do."""
     met = rule_between(asked, found.vehicle, Window(asked.now, asked.now))
     rule = None if met is None else met[1]
     share = chance(asked, Event("let-go", Vehicle(found.vehicle), Ego()), asked.now)
     found = replace(found, chance=share)
     goes = rule == "give-way" and share is not None and share < HARDLY
-    if not goes and _halts_soon(asked, found):  # who goes first may brake for a bend
+    if not goes and _halts_soon(asked, found):  # one that goes first may brake for a bend
         return replace(found, how="brakes")
     if rule == "give-way":
         return replace(found, how="goes-first")
@@ -111,7 +111,7 @@ def _crossing(asked: Asked, found: PullingUp) -> PullingUp:
 
 
 def _halts_soon(asked: Asked, found: PullingUp) -> bool:
-    """Tell whether it would stand within SOON seconds, were it to brake on as it does."""
+    """Check whether a vehicle would stand within SOON seconds if it brakes on as it does."""
     speed = None if found.speed is None else found.speed.value
     rate = asked.world.measure("deceleration", Vehicle(found.vehicle), asked.now).value
     if found.braking is None or speed is None or rate is None:
@@ -120,7 +120,7 @@ def _halts_soon(asked: Asked, found: PullingUp) -> bool:
 
 
 def _we_stop(asked: Asked, event: Event) -> Finding | None:
-    """Judge whether we can stop behind whoever is ahead of us."""
+    """Judge whether we can stop behind the vehicle ahead of us."""
     named = number(event.object) or (None if event.where is None else number(event.where.to))
     ahead = named if named is not None else leader(asked.world.states, EGO, asked.now)
     if ahead is None or not _comes_up(asked, EGO, ahead):

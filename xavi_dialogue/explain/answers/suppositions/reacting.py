@@ -1,4 +1,4 @@
-"""Reacting: what another vehicle's sudden act would ask of us, and whether we could stop."""
+"""Reacting: how we could react to another vehicle's sudden action, and whether we could stop."""
 
 from typing import Literal
 
@@ -23,18 +23,18 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import event_of, is_own, manner_of, unwrapped
 from xavi_dialogue.explain.causes.driving.stopping import stopping, stopping_distance
 
-#: What another vehicle does all of a sudden, so that no decision is left to us but to brake.
+#: Sudden actions of another vehicle that leave us only braking.
 SUDDEN = frozenset[ActionName](
     ("stop", "brake", "pull-out", "cut-in", "block", "swerve", "reverse", "merge", "stand")
 )
-#: What it is sudden not to do.
+#: Actions whose omission is sudden.
 DUTIES = frozenset[ActionName](("wait", "give-way", "let-go", "stop", "brake", "see", "slow-down"))
 IN_LANE = frozenset[ActionName](("stop", "brake", "slow-down", "stand", "go", "move", "speed-up"))
-#: What is sudden of anyone who stands or was about to stop.
+#: Actions that are sudden if the vehicle stands or was about to stop.
 STARTING = frozenset[ActionName](("go", "move", "enter", "cross"))
 HALTING = frozenset[ActionName](("stop", "brake", "slow-down", "avoid", "swerve"))
 COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
-LOOK_BACK = 15.0  # [s] in which what might have happened is looked for
+LOOK_BACK = 15.0  # [s] before the question, in which the worst time is searched
 STEP = 0.5  # [s]
 
 Asks = Literal["stop", "collide"]
@@ -49,7 +49,7 @@ def is_sudden(
     *,
     negated: bool,
 ) -> bool:
-    """Tell whether what is supposed of another vehicle leaves us nothing but to brake."""
+    """Check whether a supposition about another vehicle leaves us only braking."""
     if asks(then) is not None:
         return True
     if negated:
@@ -61,7 +61,7 @@ def is_sudden(
 
 
 def asks(then: Question | None) -> Asks | None:
-    """Tell whether a question is for stopping in time, or for a collision."""
+    """Return whether a question is about stopping in time or a collision; None: neither."""
     if not isinstance(then, Whether):
         return None
     of, _ = unwrapped(then.that)
@@ -92,9 +92,9 @@ def reaction(
     negated: bool = False,
     past: bool = False,
 ) -> Reaction:
-    """Tell whether we could stop, had another vehicle done something at a time [s].
+    """Return whether we could stop if another vehicle did something at a time [s].
 
-    Of what is past and not said when: at the time when it would have been closest.
+    For the past without a time, it is the time when it would have been closest.
 
     Raises:
         Unanswered: it is not known where it was.
@@ -103,14 +103,14 @@ def reaction(
     in_lane = action in IN_LANE
     if past and not (scene.past is not None and scene.past.said):
         ahead = _closest(scene, vehicle, scene.now, in_lane=in_lane)
-        if ahead is None and action in STARTING:  # it stood beside our way, not on it
+        if ahead is None and action in STARTING:  # it stood next to our way, not on it
             in_lane = False
             ahead = _closest(scene, vehicle, scene.now, in_lane=False)
         time = scene.now if ahead is None else ahead
     found = stopping(scene.world.states, vehicle, time, in_lane=in_lane)
     if found is None:
         raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=time))
-    along = in_lane and action in STARTING and found.left is not None  # it gets under way ahead
+    along = in_lane and action in STARTING and found.left is not None  # it sets off ahead of us
     sayable = event if event is None or event.action not in ("do", "happen") else None
     if sayable is not None and not isinstance(sayable.object, Ego | Vehicle):
         sayable = replace(sayable, object=None)
@@ -130,10 +130,10 @@ def reaction(
 
 
 def _closest(scene: Asked, vehicle: int, last: float, *, in_lane: bool) -> float | None:
-    """The time [s] up to the last one at which a sudden act would have left us the least room.
+    """Return the time [s] before the last at which a sudden action would leave the least room.
 
-    Somebody who stops or brakes matters to us while it drives ahead of us, else while we wait;
-    None where it never did.
+    Times when it drives ahead of us come first. For an action in its own lane, only these and times
+    when we stand count. None if there is no such time.
     """
     found = []
     for k in range(round(LOOK_BACK / STEP) + 1):
@@ -148,14 +148,14 @@ def _closest(scene: Asked, vehicle: int, last: float, *, in_lane: bool) -> float
 
 
 def is_somebody(event: Event | None) -> bool:
-    """Tell whether somebody who is not there is supposed to get in our way: a child, a dog."""
+    """Check whether somebody who is not there is supposed to get in our way: a child, a dog."""
     if event is None or not isinstance(event.actor, Nobody | Described):
         return False
     return event.action in SUDDEN or event.action in ("move", "go", "enter", "cross", "appear")
 
 
 def for_anybody(event: Event, scene: Asked) -> Reaction:
-    """Tell how far we need to stop for somebody who gets in our way."""
+    """Return our stopping distance for somebody who gets in our way."""
     speed = scene.world.measure("speed", Ego(), scene.now).value or 0.0
     needed = stopping_distance(speed)
     kind: Literal["standing", "anybody"] = "standing" if stands(scene) else "anybody"

@@ -1,4 +1,4 @@
-"""Risks: with whom an option of a decision would have collided, in what was imagined of it."""
+"""Risks: who an option of a decision would have collided with in its rollouts."""
 
 import dataclasses
 from collections import Counter
@@ -22,7 +22,7 @@ ONWARD = frozenset(("continue", "exit-straight"))
 
 
 def what_if(question: WhatIf, asked: Asked) -> Answer:
-    """Tell what would come of something, or whom an option would have struck.
+    """Return the consequences of something, or who an option would have hit.
 
     Raises:
         Unanswered: it cannot be supposed; or it is what was; or rollouts are needed.
@@ -31,7 +31,7 @@ def what_if(question: WhatIf, asked: Asked) -> Answer:
 
 
 def who(question: Which, scene: Asked) -> Answer:
-    """Tell whom we may strike in what we plan, in what was imagined of it.
+    """Return who we may hit by our plan, according to its rollouts.
 
     Raises:
         Unanswered: no decision is recorded.
@@ -46,7 +46,7 @@ def who(question: Which, scene: Asked) -> Answer:
 
 
 def _struck_by(question: WhatIf, asked: Asked) -> Options | None:
-    """Tell whom an option would have struck; None where that is not asked, or not recorded."""
+    """Return who an option would have hit; None if that is not asked, or not recorded."""
     match question:
         case WhatIf(
             supposed=Happens(event=Event(actor=Ego()) as event),
@@ -65,7 +65,7 @@ def _struck_by(question: WhatIf, asked: Asked) -> Options | None:
         return None
     option, evidence = found[0], situations(Premise(trace, None))
     begun = (r for r in trace.rollouts if r.actions and r.actions[0].action == option.action)
-    drives = {(r.samples, plan_of(r)): r for r in begun}  # each simulation once
+    drives = {(r.samples, plan_of(r)): r for r in begun}  # each rollout once
     struck = Counter(r.collided_with for r in drives.values() if r.collided_with is not None)
     if option.collided_with is None and struck:
         option = replace(option, collided_with=struck.most_common(1)[0][0])

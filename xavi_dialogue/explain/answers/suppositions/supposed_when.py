@@ -1,4 +1,4 @@
-"""Supposed when: at which decision something that is supposed is to be tried."""
+"""Supposed when: the decision at which a supposition is to be tested."""
 
 import dataclasses
 
@@ -41,7 +41,7 @@ POSSIBLE = 0.02  # probability from which it is open whether somebody does somet
 
 
 def imagined(event: Event, then: Question | None, scene: Asked) -> tuple[Event, Asked]:
-    """Read "if you turned left" as of now, unless a time is said or the past is spoken of."""
+    """Read "if you turned left" as about now, unless a time or the past is named."""
     over = scene.past is not None and scene.past.end < scene.ride.latest.sim_time
     said = scene.past is not None and (scene.past.said or (over and not _of_now(then)))
     open_ = event.tense == "past" and event.modal is None and not said
@@ -51,7 +51,7 @@ def imagined(event: Event, then: Question | None, scene: Asked) -> tuple[Event, 
 
 
 def _of_now(then: Question | None) -> bool:
-    """Tell whether what is asked of a supposed world is of what would be, not have been."""
+    """Check whether a question about a supposed world is about the present, not the past."""
     match then:
         case Compare():
             return True
@@ -65,7 +65,7 @@ def _of_now(then: Question | None) -> bool:
 
 
 def driven(scene: Asked, then: Event | None) -> Episode | None:
-    """Find the episode of driving that is asked about, where it is one and no choice."""
+    """Find the episode that is asked about, if it is a way of driving and not a choice."""
     if then is None:
         return None
     if choices.is_choice(then):
@@ -82,7 +82,7 @@ def driven(scene: Asked, then: Event | None) -> Episode | None:
 
 
 def was_done(scene: Asked, then: Event) -> bool:
-    """Tell whether what is asked about came about, as a choice or in how we drove."""
+    """Check whether an event came about, as a choice or in how we drove."""
     if then.action == "keep-lane" and _left_lane(scene) is not None:
         return False
     if choices.is_choice(then):
@@ -95,7 +95,7 @@ def was_done(scene: Asked, then: Event) -> bool:
 
 
 def is_new(found: Supposed, then: Event) -> bool:
-    """Tell whether what is asked about is no part of the plan as things are."""
+    """Check whether an event is not part of the plan as things are."""
     names = names_of(then)
     if set(names) & DRIVING:
         return False
@@ -105,19 +105,19 @@ def is_new(found: Supposed, then: Event) -> bool:
 def without_at(
     scene: Asked, drove: Episode, vehicles: tuple[int, ...]
 ) -> tuple[Supposed, bool] | None:
-    """Tell whether we would have driven so without vehicles, as `why` tries it.
+    """Check whether we would have driven that way without vehicles, as `why` tests it.
 
     Args:
         scene: the setting.
         drove: how we drove.
-        vehicles: those that are supposed not to be there.
+        vehicles: those that are supposed to be absent.
 
     Returns:
-        The decision that explains it, planned again without them, and whether we would; None
-        where that cannot be planned.
+        The decision that explains it, planned again without them, and whether we would; None if
+        that cannot be planned.
 
     Raises:
-        Unanswered: that decision does not know them; or what it shows is not sure.
+        Unanswered: that decision does not know them, or does not show it surely enough.
     """
     reasons = reasons_for(scene.ride, scene.world, drove, scene.moment)
     trace = reasons.trace
@@ -133,7 +133,7 @@ def without_at(
 def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bool) -> float:
     """Find the time [s] of the decision that a supposition is about."""
     if driven is not None:
-        return driven.begin  # once it is under way, planning again without its cause tells less
+        return driven.begin  # later, planning without its cause shows less
     left = None if then is None or then.action != "keep-lane" else _left_lane(scene)
     if then is not None and choices.is_choice(then):
         turns = set(names_of(then)) <= set(EXITS) and scene.ride.latest.under_way is None
@@ -181,16 +181,16 @@ def is_turn_ahead(scene: Asked, then: Event | None) -> bool:
 
 
 def _left_lane(scene: Asked) -> Deed | None:
-    """Find the change of lanes that was made instead of keeping the lane."""
+    """Find the lane change that was made instead of keeping the lane."""
     made = [deed for deed in scene.ride.deeds if deed.action in CHANGES]
     return scene.pick(made, lambda deed: deed.span)
 
 
 def open_until(scene: Asked, vehicle: int, event: Event, moment: float) -> float:
-    """Find the last time [s] up to a moment at which it was open whether a vehicle would do so.
+    """Find the last time [s] up to a moment when it was possible that a vehicle would do so.
 
-    The moment itself where it never was, or where we decided otherwise as long as it was: then
-    it is planned again with what is supposed, if the vehicle was still in view.
+    It is the moment itself if it was never possible, or if we decided otherwise while it was. Then
+    that decision is planned again with the supposition, if the vehicle was still in view.
     """
     names, decided = conduct_names(event), scene.ride.at(moment)
     known = [trace for trace in known_to(scene.ride, vehicle, moment) if trace.sim_time <= moment]
@@ -209,17 +209,17 @@ def is_over(
     then: Event | None,
     vehicle: int,
 ) -> bool:
-    """Check whether it is supposed of what has been: "if he braked now" is not.
+    """Check whether a supposition is about the past: "if he braked now" is not.
 
-    "If he stopped" may be either: of now as long as it can still come about. Asked why, it is of
-    what the reason is asked of.
+    "If he stopped" may be either: it is about now while it can still happen. With the question why,
+    it is about the time of what that asks about.
 
     Args:
         scene: the act and its setting.
         of: what is supposed, without its negation.
-        question: what is asked of the supposed world.
-        then: the deed of ours that it is asked about.
-        vehicle: of which it is supposed.
+        question: the question about the supposed world.
+        then: the action of ours that it is about.
+        vehicle: the vehicle of the supposition.
     """
     if isinstance(question, Why):
         asked = event_of(question.of)
@@ -242,7 +242,7 @@ def is_over(
 
 
 def _asks_now(question: Question | None) -> bool:
-    """Check whether what is asked of the supposed world is what we would do, not have done."""
+    """Check whether a question about a supposed world is what we would do, not have done."""
     event = event_of(question.that) if isinstance(question, Whether) else None
     if event is not None:
         return event.tense != "past"

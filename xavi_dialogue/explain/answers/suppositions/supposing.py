@@ -1,4 +1,4 @@
-"""Supposing: what would have been if we, or another vehicle, had done otherwise."""
+"""Supposing: what would have happened if we, or another vehicle, had acted otherwise."""
 
 from msgspec import structs
 
@@ -70,14 +70,14 @@ from xavi_dialogue.explain.causes.driving.suppositions import (
 from xavi_dialogue.explain.causes.vehicles.actions import DRIVING, names_of, same
 from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names
 
-LIKELY = 0.5  # probability from which the ego is said to do something
+LIKELY = 0.5  # minimum probability of an action that the ego is said to take
 
 
 def what_if(question: WhatIf, scene: Asked) -> Answer:
-    """Tell what would have been, or would be, under a supposition.
+    """Return the consequences of a supposition.
 
     Raises:
-        Unanswered: it cannot be supposed; or it is what was; or rollouts are needed.
+        Unanswered: it cannot be supposed; or it is what happened; or rollouts are needed.
     """
     form = form_of(question.then)
     several = joint(question.supposed, scene)
@@ -120,7 +120,7 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
 def _mistaken(
     scene: Asked, of: Proposition | None, *, negated: bool
 ) -> tuple[Proposition | None, bool]:
-    """Read "if you were wrong about it" as its not doing what is expected of it."""
+    """Read "if you were wrong about it" as that it does not do what is expected of it."""
     if not isinstance(of, Is) or of.state != "wrong" or negated:
         return of, negated
     about = of.thing.number if isinstance(of.thing, Vehicle) else least_sure(scene, scene.moment)
@@ -143,14 +143,14 @@ def _faster(event: Event | None, then: Question | None) -> Event | None:
 
 
 def _asks_of_other(then: Question | None) -> bool:
-    """Tell whether it is asked what another vehicle would have done: no plan tells that."""
+    """Check whether the question is what another vehicle would have done; no plan shows that."""
     event = event_of(then.that) if isinstance(then, Whether) else None
     other = event is not None and isinstance(event.actor, Vehicle)
     return other and event is not None and event.action not in reacting.COLLIDING
 
 
 def _is_free_road(of: Proposition | None, *, negated: bool) -> bool:
-    """Tell whether it is supposed that nobody, or no queue, had been in our way."""
+    """Check whether the supposition is that nobody, or no queue, had been in our way."""
     match of:
         case Exists(thing=Nobody(described=None)) | Related(thing=Nobody(described=None)):
             return not negated
@@ -192,7 +192,7 @@ def _of_other(
         )
     quick = manner_of(event, "fast", "slowly", "early", "late") is not None
     away = is_absence(of, negated=negated)
-    if quick or (event is None and not negated and not away):  # nobody can be put where he was not
+    if quick or (event is None and not negated and not away):  # nobody can be placed somewhere else
         topic = "imagined" if isinstance(of, Exists) else "unsupported-condition"
         raise Unanswered(CannotSay(topic))
     supposed = None if away else event
@@ -203,10 +203,10 @@ def _of_other(
 
 
 def _of_several(question: WhatIf, scene: Asked, several: Joint) -> Answer:
-    """What would have been planned, had several vehicles done otherwise, or not been there."""
+    """Return what we would have planned if several vehicles had acted otherwise, or were absent."""
     first, event = several.numbers[0], several.event
     content, _ = unwrapped(question.supposed)
-    tense = content.tense if isinstance(content, Exists) else "present"  # "was gone" is of now
+    tense = content.tense if isinstance(content, Exists) else "present"  # "was gone" is about now
     gone = Exists(Vehicle(first), tense=tense)
     of = gone if event is None else Happens(event)
     past = is_over(scene, of, question.then, _then(question.then), first)
@@ -214,7 +214,7 @@ def _of_several(question: WhatIf, scene: Asked, several: Joint) -> Answer:
 
 
 def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> SupposedOfOther:
-    """Return what would have been planned, had vehicles done otherwise, or not been there."""
+    """Return what we would have planned if vehicles had acted otherwise, or were absent."""
     then, event = _then(question.then), of.event
     past = past and not is_turn_ahead(scene, then)
     drove = driven(scene, then)
@@ -230,17 +230,17 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
         at = open_until(scene, numbers[0], event, at) if past else at
         names, negated = conduct_names(event), of.negated
         both = together(scene.ride, numbers, names, at, negated=negated) if numbers[1:] else None
-        if both is None:  # nothing in the record has them all do so
+        if both is None:  # the record has no sample in which all of them do so
             numbers, left = numbers[:1], (*numbers[1:], *left)
         found = both or otherwise(scene.ride, numbers[0], names, at, negated=negated)
         if found.proxy is not None and not negated and event.action in ("brake", "slow-down"):
             event = structs.replace(event, action=found.proxy, manner=())
         still = _still(found, then, drove)
     new = then is not None and (not was_done(scene, then) if past else is_new(found, then))
-    if past and new and then is not None and still:  # what the plan has yet to do stays
+    if past and new and then is not None and still:  # what the plan has not done yet stays in it
         still = not _comes_anyway(found, then)
     if still and "stop" in found.here.plan[:1] and "stop" not in found.there.plan[:1]:
-        then, still = None, None  # it would come to a halt, but no more by choice: tell the plan
+        then, still = None, None  # we would stand, but not by choice: state the plan
     return SupposedOfOther(
         vehicle=numbers[0],
         supposed=event,
@@ -266,7 +266,7 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
 
 
 def _then(question: Question | None) -> Event | None:
-    """Return what is asked of the supposed world: whether we would still have done something."""
+    """Return the event of the question whether we would still have done something."""
     if isinstance(question, Whether):
         slow = question.that
         if isinstance(slow, Is) and slow.state == "slow" and is_own(slow.thing):
@@ -278,7 +278,7 @@ def _then(question: Question | None) -> Event | None:
 
 
 def _still(found: Supposed, then: Event | None, driven: Episode | None) -> bool | None:
-    """Check whether what is asked about would have come about."""
+    """Check whether the event of the question would have come about."""
     if then is None:
         return None
     names = names_of(then)
@@ -292,7 +292,7 @@ def _still(found: Supposed, then: Event | None, driven: Episode | None) -> bool 
 
 
 def _comes_anyway(found: Supposed, then: Event) -> bool:
-    """Check whether the plan, as things were, comes to drive so as well."""
+    """Check whether the plan, as things were, leads to driving that way as well."""
     if not set(names_of(then)) & DRIVING:
         return False
     share = share_of(found.trace, found.here, _mark(then.action, None))
@@ -300,7 +300,7 @@ def _comes_anyway(found: Supposed, then: Event) -> bool:
 
 
 def _slows(found: Supposed) -> bool | None:
-    """Check whether we would have to slow down for it where we do not as things are."""
+    """Check whether we would have to slow down for it, but do not as things are."""
     there = share_of(found.again, found.there, "slow-down")
     here = share_of(found.trace, found.here, "slow-down")
     if there is None or here is None:
@@ -309,7 +309,7 @@ def _slows(found: Supposed) -> bool | None:
 
 
 def _mark(action: ActionName, driven: Episode | None) -> ActionName:
-    """Return the change of speed by which a way of driving is stated in a rollout."""
+    """Return the change of speed that shows a way of driving in a rollout."""
     if action in ("stop", "stand") or (driven is not None and driven.standing):
         return "stop"
     return "speed-up" if action == "speed-up" else "slow-down"
