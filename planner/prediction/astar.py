@@ -1,4 +1,4 @@
-"""A* over macro actions: how a vehicle would best reach a goal among the others."""
+"""A* over macro actions: the best ways of a vehicle to a goal among the others."""
 
 import heapq
 from collections.abc import Sequence
@@ -15,13 +15,13 @@ from planner.rollouts.rollout import Leg, Task, take
 from planner.rollouts.waypoints import time_left
 from sim.roads.network import Location
 
-LANE_CHANGE_COST = 3.0  # [s] that changing by one lane is worth
-DEPTH = 3  # macro actions in a row
-GRIP = 12.0  # [m/s2] of lateral acceleration; well beyond that of tyres, for paths are rough
+LANE_CHANGE_COST = 3.0  # [s] cost of a change by one lane
+DEPTH = 3  # maximum number of macro actions in a row
+GRIP = 12.0  # [m/s2] lateral acceleration; more than tyres allow, since paths are rough
 SOLUTIONS = 2
 SLOW = 2.0  # [m/s] below which a vehicle waits rather than drives
-SLACK = 8.0  # [s] by which a further solution may cost more than the best
-SPARE = 0.5  # [s] of error in lower bounds
+SLACK = 8.0  # [s] maximum cost of a further solution beyond that of the best
+SPARE = 0.5  # [s] allowance for errors of lower bounds
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,7 +38,7 @@ class Solution:
 
     @property
     def waits(self) -> tuple[int, ...]:
-        """The steps in which others, or lights, keep it all but standing."""
+        """The steps in which others, or lights, make it stand or drive slower than SLOW."""
         return tuple(
             step
             for leg in self.legs
@@ -49,7 +49,7 @@ class Solution:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Reached:
-    """A node of the search: what was driven to get there."""
+    """A node of the search: the legs driven so far, and the situation at their end."""
 
     cost: float  # [s] of time and lane changes so far
     here: Situation
@@ -63,14 +63,14 @@ class _Reached:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Ahead:
-    """An action that may be taken at a node. It is driven when no other node is more promising.
+    """An action that may be taken at a node; it is driven when no other node is more promising.
 
-    What leads elsewhere than to the goal is mostly ruled out before.
+    Actions that do not lead to the goal are mostly ruled out before they are driven.
     """
 
     node: _Reached
     plan: ActionPlan
-    changes: float  # [s] that the lane changes are worth, its own among them
+    changes: float  # [s] cost of all lane changes so far, its own included
 
 
 def ways(
@@ -84,10 +84,10 @@ def ways(
 
     Args:
         task: frame and goal; its size is that of the vehicle.
-        starts: where it may be, one for each lane that fits.
+        starts: situations that it may be in, one for each lane that fits.
         traffic: the others' motions.
         wanted: how many ways to look for.
-        grip: [m/s2] of lateral acceleration that no way may exceed.
+        grip: [m/s2] maximum lateral acceleration.
     """
     frontier: list[tuple[float, int, _Reached | _Ahead]] = []
     count = 0
@@ -116,12 +116,12 @@ def ways(
 def held(
     task: Task, starts: Sequence[Situation], actions: Sequence[Action], traffic: Traffic
 ) -> tuple[Leg, ...]:
-    """The actions in turn, as far as others let it drive; () where the first one cannot be done.
+    """Return the actions driven in turn, as far as others allow; () if the first one is impossible.
 
     Args:
         task: frame; its size is that of the vehicle.
-        starts: where it may be; the first from which the actions apply counts.
-        actions: what it does.
+        starts: situations that it may be in; the first from which the first action works counts.
+        actions: its macro actions.
         traffic: the others' motions.
     """
     for start in starts:
@@ -162,7 +162,7 @@ def _expand(task: Task, starts: Sequence[Situation], node: _Reached) -> list[_Ah
 
 
 def _driven(task: Task, ahead: _Ahead, traffic: Traffic, grip: float) -> _Reached | None:
-    """Return what comes of an action; None where it fails."""
+    """Return the node that an action leads to; None if the action fails."""
     here, legs = ahead.node.here, ahead.node.legs
     first = legs[-1].first + len(legs[-1].speed) - 1 if legs else 0
     leg = take(task, ahead.plan, Motion(0.0, here.speed, here.acceleration), first, traffic)
@@ -173,10 +173,10 @@ def _driven(task: Task, ahead: _Ahead, traffic: Traffic, grip: float) -> _Reache
 
 
 def _least(task: Task, ahead: _Ahead) -> float:
-    """Return a lower bound of the cost [s] of ways to the goal that go on with an action.
+    """Return a lower bound of the cost [s] of ways to the goal that continue with an action.
 
-    No speed is beyond what a vehicle has, or its path allows. The action is over at most a step
-    beyond its end.
+    The vehicle is never faster than now or than its path allows, whichever is more. It completes
+    the action within one step after the end of the plan.
     """
     plan, here = ahead.plan, ahead.node.here
     fastest = max(here.speed, float(np.max(plan.path.cap)))
@@ -194,12 +194,12 @@ def _at(plan: ActionPlan, arc: float) -> Location:
 
 
 def _drivable(leg: Leg, grip: float) -> bool:
-    """Check whether no bend is taken faster than any car could."""
+    """Check whether the lateral acceleration stays below `grip` [m/s2] everywhere."""
     return bool(np.max(leg.speed**2 * np.abs(leg.curvature)) < grip)
 
 
 def _lanes_moved(action: Action, starts: Sequence[Situation], index: int) -> float:
-    """By how many lane widths an action moves sideways; the first one starts from where it is."""
+    """Return by how many lane widths an action moves sideways, the first one from its offset."""
     moved = 1.0 if action in ("change-left", "change-right") else 0.0
     if index > 0:
         return moved

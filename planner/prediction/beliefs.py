@@ -1,4 +1,4 @@
-"""What somebody else may be up to: goals with probabilities, and the ways to each."""
+"""Beliefs about other road users: goals with probabilities, and the ways to each."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ NEGLIGIBLE = 0.01  # probability below which a goal or a way is dropped
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trajectory:
-    """One way in which somebody may go on, as an obstacle from now (step 0) on."""
+    """One way in which a road user may go on, as an obstacle from now (step 0) on."""
 
     probability: float  # given the goal
     actions: tuple[Action, ...]
@@ -23,7 +23,7 @@ class Trajectory:
 
     @property
     def motion(self) -> Obstacle:
-        """The motion where lights take their likeliest courses."""
+        """The motion if lights take their likeliest courses."""
         return self.motions.usual
 
 
@@ -35,11 +35,11 @@ class Belief:
     likelihood: float
     probability: float
     trajectories: tuple[Trajectory, ...]
-    indicators: float = 1.0  # how probable those shown are for it; a factor of the likelihood
+    indicators: float = 1.0  # p(shown | goal), a factor of the likelihood
 
 
 def likeliest(beliefs: Sequence[Belief]) -> Motions:
-    """Return the likeliest motion of somebody."""
+    """Return the likeliest motion of a road user."""
     pairs = (
         (belief.probability * way.probability, way.motions)
         for belief in beliefs

@@ -11,7 +11,7 @@ from planner.roads.routes import Approach, approach, direction_of, lane_end
 from planner.roads.trajectory import Roads
 from sim.roads.network import Direction, Link, Location, Network, angle_between, point_at, project
 
-BEYOND = 4.0  # [m] into its exit that a vehicle has reached its goal
+BEYOND = 4.0  # [m] distance of a goal from the start of its exit
 STOP_PRIOR = 0.01  # of stopping; the exits share the rest equally
 
 
@@ -25,8 +25,8 @@ class Goal:
     prior: float
 
 
-LATER = 20.0  # [m] from a roundabout at which the bearing of a road is taken
-OPPOSITE = 2.6  # [rad] between a road that leads there and one that leads back
+LATER = 20.0  # [m] distance from a roundabout at which the bearing of a road is taken
+OPPOSITE = 2.6  # [rad] least angle between the entry road and an exit that leads back
 BACK = "the way back"
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth")
 
@@ -37,8 +37,8 @@ PLACES: dict[Action, str] = {
     "continue": "the road straight on",
     "stop": "where it comes to a stop",
 }
-ASIDE = 40.0  # [m] into the roads of a fork at which one is seen to branch off
-#: Where a road branches off to the side of the one that goes on, neither being a turn.
+ASIDE = 40.0  # [m] distance from a fork at which the side of a branch is taken
+#: Places of roads that branch off beside the one that goes on, where neither is a turn.
 BRANCHES: dict[str, str] = {"left": "the exit on the left", "right": "the exit on the right"}
 
 
@@ -49,8 +49,8 @@ _Exit: TypeAlias = tuple[Action, str, EgoGoal]
 def goals_in_view(roads: Roads, starts: tuple[Situation, ...], view: float) -> tuple[Goal, ...]:
     """Return the goals of a vehicle that may be on one of several lanes, stopping last.
 
-    They are the roads that leave the next junction, or all exits of a roundabout; where none is
-    in view, to go on.
+    The goals are the roads that leave the next junction, or the exits of a roundabout. If none is
+    in view, the goal is to go on.
     """
     found: dict[str, _Exit] = {}
     for here in starts:
@@ -74,7 +74,7 @@ def _exits(roads: Roads, here: Location, view: float) -> list[_Exit]:
     ahead = approach(roads, here, view)
     last = network.lanes[ahead.lanes[-1]]
     if all(network.lanes[lane].internal for lane in ahead.lanes):
-        return []  # on a way through a junction that no link for cars leads along
+        return []  # on a lane through a junction that no link for cars uses
     lanes = () if last.internal else network.edge_lanes(last.edge)
     leads = [lead for lane in lanes for lead in lane_end(roads, lane.id).leads]
     if ahead.distance > view or not leads:
@@ -86,7 +86,7 @@ def _exits(roads: Roads, here: Location, view: float) -> list[_Exit]:
 
 
 def _branches(network: Network, links: list[Link]) -> dict[str, str]:
-    """Name the roads that branch off where several lead straight on: all but the widest."""
+    """Return names of roads that branch off if several lead straight on: all but the widest."""
     edges = sorted({network.lanes[link.to_lane].edge for link in links})
     if len(edges) < 2:
         return {}
@@ -118,7 +118,7 @@ def _beyond(roads: Roads, link: Link) -> EgoGoal:
 
 
 def _farther(roads: Roads, here: Location, ahead: Approach, view: float) -> _Exit:
-    """Some way on along the road, or at its end."""
+    """Return a goal farther along the road: at the end of the view, or of the known lanes."""
     rest = view + here.offset
     for name in ahead.lanes:
         lane = roads.network.lanes[name]
@@ -133,7 +133,7 @@ def _farther(roads: Roads, here: Location, ahead: Approach, view: float) -> _Exi
 
 
 def _ring_exits(roads: Roads, here: Location, ring: Roundabout) -> list[_Exit]:
-    """Return all exits of a roundabout but the one that leads back."""
+    """Return all exits of a roundabout except for the one that leads back."""
     kind: Action = "exit-right" if ring.side == "right" else "exit-left"
     found = []
     for number, way in enumerate(ring.exits[: len(ORDINALS)]):

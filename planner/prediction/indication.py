@@ -1,10 +1,10 @@
-"""What the indicators of a vehicle tell about where it wants to go.
+"""The probability of a vehicle's indicators, given its goal.
 
 Drivers who turn usually indicate it, the more surely the nearer the turn is. Those who do not turn
 hardly ever indicate, except before a lane change. Turn signals are used in about three of four
 turns on the road (Ponziani 2012, SAE 2012-01-0261), and nearly always in SUMO; the shares here lie
 between.
-On roundabouts habits differ too much: there the lights say nothing.
+On roundabouts habits differ too much, so indicators are ignored there.
 """
 
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from planner.prediction.goals import BACK, BRANCHES, Goal
 from planner.roads.routes import approach
 from planner.roads.trajectory import Roads
 
-SOON = 4.0  # [s] to the turn, at the speed limit, from which on nearly everybody indicates
+SOON = 4.0  # [s] to the turn, at the speed limit, within which nearly everybody indicates
 RAMP = 1.0  # [s] before that, over which their share grows
 SHOWN = (0.9, 0.6)  # share of those who indicate a turn: soon, and early
 BRANCHING = 0.4  # ... and a turn into a road that branches off, which some take without it
@@ -26,13 +26,13 @@ MEANT = {False: 0.03, True: 0.2}  # ... and who do not turn; True: to a side wit
 def indicated(
     roads: Roads, observed: Observed, here: Situation, goals: Sequence[Goal], view: float
 ) -> list[float]:
-    """Return how probable the indicators shown are for each goal.
+    """Return the probability of the indicators shown, given each goal.
 
     Args:
         roads: the road network.
         observed: the vehicle, with what it indicates now.
         here: where it is.
-        goals: those that it may have.
+        goals: its possible goals.
         view: [m] how far ahead junctions are looked for.
     """
     if len(observed.indicating) > 1 or any("roundabout" in goal.place for goal in goals):
@@ -51,9 +51,9 @@ def _share(
     """Return the share of the drivers with a goal on one side who indicate as observed.
 
     Args:
-        side: to which the goal turns, and whether it only branches off there; None: neither.
+        side: the side to which the goal turns, and whether it only branches off; None: straight.
         shown: the side indicated.
-        soon: how near the turn is, from 0 (early) to 1 (soon); the shares change evenly between,
+        soon: how near the turn is, from 0 (early) to 1 (soon). Shares change linearly between,
             so that a metre more or less does not change what is believed.
         beside: whether there is a lane on the side indicated.
     """
@@ -73,7 +73,7 @@ def _between(early: float, late: float, soon: float) -> float:
 
 
 def _side(goal: Goal) -> tuple[Side, bool] | None:
-    """Return to which side a goal turns off, and whether it only branches off there."""
+    """Return the side to which a goal turns off, and whether it only branches off there."""
     if goal.place == BRANCHES["left"]:
         return "left", True
     if goal.place == BRANCHES["right"]:
@@ -84,7 +84,7 @@ def _side(goal: Goal) -> tuple[Side, bool] | None:
 
 
 def _lane_beside(roads: Roads, here: Situation, side: Side) -> bool:
-    """Tell whether there is a lane of the same road on a side of a vehicle."""
+    """Check whether there is a lane of the same road on a side of a vehicle."""
     lane = roads.network.lanes[here.location.lane]
     lanes = () if lane.internal else roads.network.edge_lanes(lane.edge)
     return lane.index + (1 if side == "left" else -1) in {one.index for one in lanes}

@@ -1,9 +1,9 @@
-"""How well a goal explains the track of a vehicle: the likelihood of inverse planning.
+"""The likelihood of inverse planning: how well a goal explains the track of a vehicle.
 
 A goal is the more probable, the less the observed track costs in excess of the best way to it:
 p(goal | track) ~ p(goal) exp(-beta (cost of the track and the best way on - cost of the best way
-from its start)), as in IGP2 (Albrecht et al. 2021, Equations 6 and 7). Costs are seconds. A small
-share of drivers is taken to drive for reasons that we do not see, whatever their goal.
+from its start)), as in IGP2 (Albrecht et al. 2021, Equations 6 and 7). Costs are seconds. The
+tracks of a small share of drivers are assumed to be independent of their goals.
 """
 
 import math
@@ -24,9 +24,9 @@ from planner.roads.trajectory import Roads
 from planner.rollouts.rollout import Task
 
 UNEXPLAINED = 0.03  # share of drivers whose track says nothing of their goal
-NO_WAY = 30.0  # [s] in excess for a goal to which no way is found any more
-CLUTCH = 0.3  # [m] of sideways movement that is not taken for one
-PAUSE = 3  # steps from which a vehicle counts as standing
+NO_WAY = 30.0  # [s] excess cost for a goal to which no way is found
+CLUTCH = 0.3  # [m] sideways movement up to this much is ignored
+PAUSE = 3  # minimum number of slow steps for a vehicle to count as waiting
 
 
 def likelihoods(
@@ -37,13 +37,13 @@ def likelihoods(
     before: Traffic,
     settings: Settings,
 ) -> list[float]:
-    """Return how well each goal explains the track, relative to the one that does so best.
+    """Return how well each goal explains the track, relative to the one that explains it best.
 
     Args:
         frame: the planning from now on; its goal does not matter.
         observed: the track.
         goals: to compare.
-        left: [s] that the best way on to each goal takes, without waiting; None without a way.
+        left: [s] cost of the best way on to each goal, without waiting; None without a way.
         before: the others, from the first sample of the track on.
         settings: rationality [1/s].
     """
@@ -69,9 +69,9 @@ def _excess(
     before: Traffic,
     moved: float,
 ) -> float:
-    """By how much [s] the track and the best way on cost more than the best way from its start.
+    """Return the excess cost [s] of the track and the best way on over the best way from its start.
 
-    Waiting for others is never held against a goal: some take a gap that others let pass.
+    Waiting for others does not count: some drivers take gaps that others let pass.
     """
     if left is None:
         return NO_WAY
@@ -89,7 +89,7 @@ def _excess(
 
 
 def _waited(frame: Task, observed: Observed, target: EgoGoal, before: Traffic) -> float:
-    """For how long [s] up to now the vehicle stood because somebody was in the way of its goal."""
+    """Return how long [s] up to now the vehicle has stood because others were in its way."""
     driving = np.flatnonzero(observed.speed >= SLOW)
     since = int(driving[-1]) + 1 if len(driving) else 0
     stood = observed.elapsed - since
@@ -104,7 +104,7 @@ def _waited(frame: Task, observed: Observed, target: EgoGoal, before: Traffic) -
 
 
 def _stop_excess(frame: Task, observed: Observed) -> float:
-    """Return the same for stopping where the vehicle would now come to rest."""
+    """Return the excess cost [s] for stopping where the vehicle would now come to rest."""
     moving = np.flatnonzero(observed.speed > 0.1)
     until = int(moving[-1]) if len(moving) else 0
     rest = float(observed.speed[-1])
@@ -116,7 +116,7 @@ def _stop_excess(frame: Task, observed: Observed) -> float:
 
 
 def _sideways(roads: Roads, observed: Observed) -> float:
-    """By how many lane widths the vehicle moved sideways on its present edge."""
+    """Return by how many lane widths the vehicle moved sideways on its present edge."""
     edge, last, moved = None, 0.0, 0.0
     for sample in range(0, len(observed.speed), 2):
         position = (float(observed.position[sample, 0]), float(observed.position[sample, 1]))

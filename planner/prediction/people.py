@@ -2,8 +2,8 @@
 
 As with vehicles, a goal is more probable the less the observed track costs in excess of the best
 way to it (see `planner.prediction.likelihood`). Waiting at a red light, or for vehicles that do
-not make way, does not make a goal less probable. Somebody who stands although nothing keeps him
-from going probably does not intend to go.
+not make way, does not make a goal less probable. A person who stands although nothing keeps them
+from going probably intends to stay.
 """
 
 import math
@@ -57,9 +57,9 @@ STAY = 0.1  # prior of staying; the other goals share the rest equally
 UNEXPLAINED = 0.01  # share of people whose track says nothing about their goal
 ROADSIDE = 50.0  # [m] from the ego within which people on a road count, wherever they go
 TURNING = 0.5  # [s] of excess for heading at a right angle to the way to a goal
-BEFORE_IT = 0.5  # [m] beside the line of a crossing within which somebody is right in front of it
+BEFORE_IT = 0.5  # [m] from the line of a crossing within which a person is in front of it
 AT_KERB = 3.0  # [m] from a crossing within which somebody waits for it
-FARTHER = 20.0  # [m] ahead of somebody who walks on, where his goal is assumed to be
+FARTHER = 20.0  # [m] assumed distance of the goal of a person who walks on
 COMING = 6.0  # [s] before a vehicle reaches a crossing, during which people wait for it
 CREEPING = 1.0  # [m/s] up to which a vehicle counts as making way
 ASLANT = math.pi / 4  # [rad] to the road; somebody who walks on it at a greater angle crosses it
@@ -73,7 +73,7 @@ PLACES = {
 
 @dataclass(frozen=True, slots=True)
 class _Aim:
-    """One goal of somebody, and the way there."""
+    """One goal of a person on foot, and the way there."""
 
     goal: Goal
     route: Route | None  # None: stays
@@ -87,8 +87,8 @@ def concerned(
 
     Args:
         roads: the road network.
-        scene: everybody, by number.
-        crossings: on the ego's way.
+        scene: all road users, by number.
+        crossings: those on the ego's way.
         view: [m] how far away people matter.
     """
     ego, found = scene[EGO], []
@@ -117,8 +117,8 @@ def recognise_people(
 
     Args:
         scenery: the roads and lights.
-        people: whose goals are recognised; their tracks end now.
-        vehicles: all in view, the ego among them.
+        people: tracks of the people whose goals are recognised; they end now.
+        vehicles: all in view, the ego included.
         coasting: the same vehicles, each going on as it does now.
         settings: rationality [1/s].
     """
@@ -137,7 +137,7 @@ def ways_of(
     coasting: Sequence[Obstacle],
     settings: Settings,
 ) -> tuple[Belief, ...]:
-    """Return every goal that somebody may have, however improbable, each as if it were certain."""
+    """Return every goal that a person may have, however improbable, each with probability 1."""
     aims = _aims(scenery, person, vehicles, settings)
     busy: dict[str, Bools] = {}
     return tuple(
@@ -149,7 +149,7 @@ def ways_of(
 def _aims(
     scenery: Scenery, person: Observed, vehicles: Sequence[Observed], settings: Settings
 ) -> list[_Aim]:
-    """Return the goals that somebody may have, staying last."""
+    """Return the goals that a person may have, staying last."""
     network, here = scenery.roads.network, place_of(person)
     on = crossing_under(scenery.roads, here)
     routes: list[tuple[Crossing, Route]] = []
@@ -246,7 +246,7 @@ def _crossing_excess(
 
 
 def _turned(person: Observed, route: Route) -> float:
-    """Return the angle [rad] between where somebody heads and where he would head to cross."""
+    """Return the angle [rad] between a person's direction and the direction to cross."""
     here, entry, far = place_of(person), route.points[1], route.points[2]
     assert route.crossing is not None
     _, aside, _ = project((entry, far), here)
@@ -278,7 +278,7 @@ def _pace(speed: Array) -> float:
 def _excused(
     scenery: Scenery, crossing: Crossing, vehicles: Sequence[Observed], samples: int
 ) -> Bools:
-    """Return in which of the last samples somebody had to wait at a crossing [samples]."""
+    """Return in which of the last samples a person had to wait at a crossing [samples]."""
     if isinstance(crossing.control, Signal):
         before = scenery.outlook.before(samples, scenery.steps + GAP_HORIZON)
         held: Bools = before.shows(crossing.control, samples)[:samples] > OPEN
@@ -315,7 +315,7 @@ def _busy(crossing: Crossing, coasting: Sequence[Obstacle], steps: int) -> Bools
 
 
 def _aslant(roads: Roads, person: Observed) -> bool:
-    """Check whether somebody on a road walks across it rather than along it."""
+    """Check whether a person on a road walks across it rather than along it."""
     found = roads.network.locate(place_of(person), 0.0, HALF_LANE, math.pi)
     if not found or person.speed[-1] < WALKING:
         return False
@@ -324,7 +324,7 @@ def _aslant(roads: Roads, person: Observed) -> bool:
 
 
 def past_of(person: Observed, motion: Obstacle) -> Obstacle:
-    """Return a motion with somebody's track, from its first sample on, put before it."""
+    """Return a person's whole track, followed by a motion."""
     return replace(
         motion,
         position=np.vstack((person.position[:-1], motion.position)),

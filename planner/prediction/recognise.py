@@ -1,7 +1,7 @@
-"""Goal recognition by inverse planning: what the other vehicles may be up to, and how likely.
+"""Goal recognition by inverse planning: goals of other road users, with probabilities.
 
-For every goal in view, the best ways there are planned; how well it explains what was seen so
-far tells `planner.prediction.likelihood`.
+For every goal in view, the best ways there are planned. `planner.prediction.likelihood` computes
+how well a goal explains the track.
 """
 
 import math
@@ -41,23 +41,23 @@ __all__ = ["Belief", "Trajectory", "motion_along", "recognise", "trajectories_to
 
 @dataclass(frozen=True, eq=False)
 class _Way:
-    """One way on from now; how it is driven beyond its goal is worked out when it is needed."""
+    """One way on from now; its motion beyond the goal is computed when it is needed."""
 
     cost: float  # [s]
-    waiting: float  # [s] of it, for others and at lights
+    waiting: float  # [s] part of the cost: waiting for others and at lights
     actions: tuple[Action, ...]
     legs: tuple[Leg, ...]
     drive_on: Callable[[], Motions]
 
     @cached_property
     def motions(self) -> Motions:
-        """Return it as others reckon with it."""
+        """Return the motions that others expect."""
         return self.drive_on()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Coasting:
-    """How one vehicle goes on if nothing changes, as others reckon with it."""
+    """The motion of one road user that others expect."""
 
     elapsed: int  # steps of its track
     now: Motions  # from now on
@@ -74,22 +74,21 @@ def recognise(
     apart: Collection[int] = (),
     bound: EgoGoal | None = None,
 ) -> dict[int, tuple[Belief, ...]]:
-    """Return what everybody but the ego may be up to.
+    """Return the beliefs about all road users except for the ego.
 
-    Others are reckoned with as they coast. Who stands would stand forever; it is reckoned with as
-    it will most likely move off, so that a queue dissolves from its head on; and so is who will
-    be held at a light. Those who have to give way to the ego reckon with it as it would drive to
-    where it is bound for.
+    Each expects the others to coast. A vehicle that stands, or will be held at a light, would then
+    stand forever, so the others expect its likeliest motion: a queue dissolves from its head.
+    Vehicles that have to give way to the ego expect it to drive to the place that it is bound for.
 
     Args:
         roads: the road network.
-        tracks: vehicles in view, the ego among them, and people on foot; each ends now.
+        tracks: vehicles in view, the ego included, and people on foot; each ends now.
         settings: view radius [m], horizon [s], rationality [1/s].
         time: [s] now.
-        ego: name of the ego.
+        ego: number of the ego.
         outlook: the lights.
-        apart: vehicles that are not planned for: they are in the way of others at most.
-        bound: for where the ego is; None if that is not known, and it coasts.
+        apart: vehicles without beliefs: they count only as obstacles to others.
+        bound: the place that the ego is bound for; None if it is not known, and the ego coasts.
     """
     steps = round(settings.horizon / DT)
     scenery = Scenery(roads, outlook, steps)
@@ -127,7 +126,7 @@ def recognise(
 
 
 def _frame(scenery: Scenery, observed: Observed, settings: Settings, time: float) -> Task:
-    """Return the planning of a vehicle from now on, without a goal."""
+    """Return the task of planning for a vehicle from now on, without a goal."""
     size, nowhere = (observed.length, observed.width), EgoGoal("", 0.0, None)
     steps, view, pace = scenery.steps, settings.view_radius, observed.pace
     return Task(scenery.roads, nowhere, size, time, steps, view, yielding=True, pace=pace)
@@ -141,7 +140,7 @@ def _bound_for(
     time: float,
     bound: EgoGoal,
 ) -> _Coasting | None:
-    """Return a vehicle as it will most likely drive to where it is bound for."""
+    """Return the likeliest motion of a vehicle to the place that it is bound for."""
     others = [other.now for vehicle, other in coasting.items() if vehicle != observed.vehicle]
     starts = observed.situation(scenery.roads, -1, time)
     goal, frame = Goal("continue", "", bound, 1.0), _frame(scenery, observed, settings, time)
@@ -200,7 +199,7 @@ def _beliefs(
 
 
 def _before(scenery: Scenery, observed: Observed, others: Sequence[_Coasting]) -> Traffic:
-    """Return the others from the first sample of a track on."""
+    """Return the motions of the others from the first sample of a track on."""
     return Traffic.shifted(
         [(other.past, observed.elapsed - other.elapsed) for other in others],
         scenery.steps + observed.elapsed,
@@ -209,7 +208,7 @@ def _before(scenery: Scenery, observed: Observed, others: Sequence[_Coasting]) -
 
 
 def _unknown(scenery: Scenery, observed: Observed) -> tuple[Belief, ...]:
-    """Return a vehicle for which no goal makes sense: it is taken to go on as it does."""
+    """Return the belief about a vehicle for which no goal is possible: it coasts."""
     goal = Goal("continue", PLACES["continue"], None, 1.0)
     return (Belief(goal, 1.0, 1.0, (Trajectory(1.0, ("continue",), scenery.coast(observed)),)),)
 
@@ -223,7 +222,8 @@ def _ways_to(
 ) -> list[list[_Way]]:
     """Return the ways on to each goal.
 
-    Where none but to stop could be driven as fast as it comes, the bends are drawn too sharp.
+    If only stopping is possible within GRIP, the bends of the map are too sharp, and GRIP is
+    ignored.
     """
     found = [_ways_on(frame, starts, goal, observed, others) for goal in goals]
     if any(ways for goal, ways in zip(goals, found, strict=True) if goal.target is not None):
@@ -262,7 +262,7 @@ def _ways_on(
 def _held_up(
     task: Task, starts: tuple[Situation, ...], observed: Observed, others: Others, grip: float
 ) -> list[_Way]:
-    """The best way to a goal that others or lights keep it from, as far as they let it drive."""
+    """Return the best way to a goal that others or lights block, as far as they allow."""
     found = []
     for free in ways(task, starts, NOBODY, 1, grip):
         legs = held(task, starts, free.actions, others.usual) or free.legs
@@ -279,7 +279,7 @@ def _motions(
     observed: Observed,
     others: Others,
 ) -> Motions:
-    """Return a solution as it is driven under all courses of the lights."""
+    """Return the motions of a solution under all courses of the lights."""
 
     def under(courses: tuple[int, ...]) -> Obstacle:
         traffic = others.under(courses)
@@ -292,7 +292,7 @@ def _motions(
 
 
 def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic) -> Obstacle:
-    """Return a solution as an obstacle, driving on beyond its goal."""
+    """Return the motion of a solution, which goes on beyond its goal."""
     legs = solution.legs
     first = legs[-1].first + len(legs[-1].speed) - 1
     position, heading, speed, lanes = drive_on(
@@ -337,11 +337,11 @@ def trajectories_to(
     others: Others,
     settings: Settings,
 ) -> tuple[Trajectory, ...]:
-    """Return the ways on to a goal, however improbable it is; none where no way leads there."""
+    """Return the ways on to a goal, however improbable it is; () if no way leads there."""
     onwards = _ways_on(frame, starts, goal, observed, others)
     return _trajectories(onwards, settings, frame.start) if onwards else ()
 
 
 def motion_along(frame: Task, legs: Sequence[Leg], observed: Observed, others: Traffic) -> Obstacle:
-    """Legs driven one after the other from now, and the road followed from there."""
+    """Return the motion along legs from now, and along the road from their end."""
     return _motion(frame, Solution(0.0, tuple(legs)), observed, others)

@@ -1,9 +1,9 @@
-"""Which vehicles may meet the ego: by the ways that each may take within the horizon.
+"""Vehicles that may meet the ego, by the ways that each may take within the horizon.
 
-A prediction leads a vehicle along its road, out of the next junction by any of its links, and from
-there straight on; so far as it comes at the highest speed limit. The ego may choose at every
-junction on its way. Whoever can neither come onto a road that the ego may take, nor across its way
-in a junction, matters to it no more than who is out of view.
+Another vehicle is assumed to drive along its road, out of the next junction by any of its links,
+and then straight on, up to the distance covered at the highest speed limit. The ego may choose at
+every junction on its way. A vehicle that can neither enter a road that the ego may take nor cross
+its way in a junction is ignored.
 """
 
 from collections.abc import Collection, Iterable, Mapping
@@ -16,13 +16,13 @@ from planner.roads.trajectory import Roads
 from sim.roads.network import Link, Location, Network
 from sim.scene import VehicleState
 
-FEW = 8  # others, up to which all of them are planned for
+FEW = 8  # maximum number of others for which all of them count
 ASIDE = frozenset({"bicycle", "tram", "bus"})  # kinds that have ways of their own
 
 
 @dataclass(slots=True)
 class Reach:
-    """Where a vehicle may come to."""
+    """The roads and links that a vehicle may reach."""
 
     edges: set[str] = field(default_factory=set)
     links: dict[str, set[int]] = field(default_factory=dict)  # indices, by junction
@@ -45,15 +45,15 @@ def relevant(
     goal: EgoGoal,
     settings: Settings,
 ) -> frozenset[int]:
-    """Return the vehicles that may meet the ego; all of them where they are FEW.
+    """Return the vehicles that may meet the ego; all of them if there are no more than FEW.
 
-    Who is on no lane, or has ways of its own, is one of them.
+    Vehicles on no lane, and those with lanes of their own, always count.
 
     Args:
         roads: the road network.
-        others: in view.
+        others: the vehicles in view, by number.
         here: where the ego is.
-        goal: of the ego.
+        goal: the ego's goal.
         settings: horizon [s], and how far ahead [m] junctions are seen.
     """
     if len(others) <= FEW:
@@ -76,7 +76,7 @@ def _may_meet(roads: Roads, state: VehicleState, own: Reach, settings: Settings)
 
 
 def _of_ego(roads: Roads, here: Location, goal: EgoGoal, reach: float, view: float) -> Reach:
-    """Return where the ego may come to: out of every junction on its ways by any link."""
+    """Return the reach of the ego: out of every junction on its ways by any link."""
     network, found = roads.network, Reach()
     ahead = approach(roads, here, view)
     _add(network, found, ahead.lanes)
@@ -95,7 +95,7 @@ def _of_ego(roads: Roads, here: Location, goal: EgoGoal, reach: float, view: flo
 
 
 def _of_other(roads: Roads, here: Location, reach: float, view: float) -> Reach:
-    """Return where another may come to: out of the next junction by any link, and straight on."""
+    """Return the reach of another: out of the next junction by any link, and straight on."""
     network, found = roads.network, Reach()
     ahead = approach(roads, here, view)
     _add(network, found, onward(roads, ahead.lanes, reach + here.offset))
@@ -134,7 +134,7 @@ def _with(found: Reach, link: Link) -> Reach:
 
 
 def _beside(network: Network, lanes: Iterable[str]) -> list[str]:
-    """The lanes of the roads of some lanes, all that a vehicle may change to; none of junctions."""
+    """Return all lanes of the roads of some lanes, except for lanes inside junctions."""
     edges = dict.fromkeys(
         network.lanes[lane].edge for lane in lanes if not _internal(network, lane)
     )
@@ -144,7 +144,7 @@ def _beside(network: Network, lanes: Iterable[str]) -> list[str]:
 def gives_way(
     network: Network, links: Iterable[tuple[str, int]], others: Collection[tuple[str, int]]
 ) -> bool:
-    """Whether who drives along links (junction, index) has to give way to who does along others."""
+    """Check whether one of some links (junction, index) has to give way to one of others."""
     return any(
         (junction, first) in others
         for junction, index in links

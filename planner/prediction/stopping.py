@@ -1,4 +1,4 @@
-"""How a vehicle that means to stop on the road brakes and stays there."""
+"""The motion of a vehicle that brakes to stop on the road and stays there."""
 
 import math
 
@@ -11,14 +11,14 @@ from planner.motion.tracks import Observed, berth_of, links_of, sample_path
 from planner.roads.routes import onward
 from planner.rollouts.rollout import Task
 
-STOPPING = 100.0  # [m] at least of road on which a vehicle may stop
+STOPPING = 100.0  # [m] minimum length of road on which a vehicle may stop
 
 
 def stopping(frame: Task, here: Situation, observed: Observed, others: Traffic) -> Obstacle | None:
-    """Brake to a standstill and stay there; None inside a junction, where nobody means to stay.
+    """Return the motion of braking to a standstill; None if it ends inside a junction.
 
     Args:
-        frame: of the planning, from now on.
+        frame: the task of planning from now on.
         here: where the vehicle is now.
         observed: its track.
         others: the others' motions.
