@@ -1,4 +1,4 @@
-"""Everybody in a scene, people on foot among the vehicles, as they go on."""
+"""All road users of a scene, people on foot included, and their motions from now on."""
 
 import numpy as np
 
@@ -13,20 +13,20 @@ from sim.scene import PersonState, Scene, VehicleState
 
 
 def everybody_in(scene: Scene) -> dict[int, VehicleState]:
-    """Vehicles and people by name, in increasing order; people are known by their kind."""
+    """Return vehicles and people by number, in increasing order; people differ by their kind."""
     people = {name: _as_traffic(state) for name, state in scene.people.items()}
     return dict(sorted({**scene.vehicles, **people}.items()))
 
 
 def going_on(roads: Roads, track: Observed, steps: int) -> Obstacle:
-    """Somebody who goes on as he does: vehicles along their lanes, people straight ahead."""
+    """Return the motion of a road user that goes on: along its lane or, on foot, straight ahead."""
     if track.kind in ON_FOOT:
         return straight(track, steps + 1)
     return coast(roads_of(roads, track.kind), track, steps, past=False)
 
 
 def standing(roads: Roads, vehicle: int, state: VehicleState) -> Obstacle:
-    """Return somebody where he is now, for one step."""
+    """Return a road user that stays at its present place, for one step."""
     position, heading = np.array([state.position]), np.array([state.heading])
     speed, on_foot = np.array([state.speed]), state.kind in ON_FOOT
     size, berth = (state.length, state.width), SIDE_MARGIN

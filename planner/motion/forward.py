@@ -183,15 +183,15 @@ def accelerate(
     length: float,
     dt: float,
 ) -> tuple[float, Keeping]:
-    """Return how to accelerate in the coming step, and what is in the way.
+    """Return the acceleration in the coming step, and what is in the way.
 
     Args:
         plan: what is being driven.
         lane: its path, prepared.
         motion: where on the path the vehicle is.
         seen: the vehicles to stay behind, from now on, and the lights.
-        crossing: motions to give way to, from now on.
-        foreseen: motions that will come onto the path, to make room for, from now on.
+        crossing: motions that the vehicle must give way to, from now on.
+        foreseen: motions that will enter the path, for which it makes room, from now on.
         length: [m] of the vehicle.
         dt: [s] length of the coming step.
 

@@ -1,4 +1,4 @@
-"""Where people are beside crossings, and on them."""
+"""Places of people on foot beside crossings and on them."""
 
 import math
 from collections.abc import Iterator
@@ -12,10 +12,10 @@ from planner.roads.trajectory import Array, Roads
 from sim.roads.network import Crossing, angle_between, cumulative, project
 from sim.scene import Point
 
-REACH = 12.0  # [m] from a crossing within which one may be about to use it
-LATELY = 25  # samples within which somebody has just crossed
-LONGEST = 20.0  # [m] of half a crossing at most
-ASIDE = 0.5  # [m] beside a crossing where one is on it
+REACH = 12.0  # [m] from a crossing within which people may be about to use it
+LATELY = 25  # samples within which a person counts as having just crossed
+LONGEST = 20.0  # [m] maximum length of half a crossing
+ASIDE = 0.5  # [m] beside a crossing within which a person counts as on it
 
 
 def crossings_near(roads: Roads, here: Point) -> Iterator[tuple[Crossing, bool]]:
@@ -28,7 +28,7 @@ def crossings_near(roads: Roads, here: Point) -> Iterator[tuple[Crossing, bool]]
 
 
 def crossing_under(roads: Roads, here: Point) -> Crossing | None:
-    """Return the crossing that somebody is on, beyond its kerb."""
+    """Return the crossing that a person is on, beyond its kerb."""
     for k in _around(roads, here, LONGEST).tolist():
         crossing: Crossing = roads.network.crossings[k // 2]
         offset, aside, _ = project(crossing.line, here)
@@ -54,20 +54,20 @@ def is_by(crossing: Crossing, here: Point) -> bool:
 
 
 def people_first(roads: Roads, crossing: Crossing) -> bool:
-    """Check whether people have priority on a crossing before who would drive over it."""
+    """Check whether people on a crossing have priority over vehicles."""
     links = roads.network.junction_links(crossing.junction).values()
     over = [link for link in links if crossing.index in link.other_foes]
     return bool(over) and all(crossing.index in link.other_yields_to for link in over)
 
 
 def walks_back(person: Observed, crossing: Crossing) -> bool:
-    """Check whether somebody on a crossing walks against the direction of its line."""
+    """Check whether a person on a crossing walks against the direction of its line."""
     _, _, heading = project(crossing.line, place_of(person))
     return math.cos(angle_between(direction_of(person), heading)) < 0.0
 
 
 def came_over(person: Observed, crossing: Crossing) -> bool:
-    """Check whether somebody has just walked over a crossing."""
+    """Check whether a person has just walked over a crossing."""
     length = cumulative(crossing.line)[-1]
     for x, y in person.position[max(person.elapsed - LATELY, 0) :: 5].tolist():
         offset, aside, _ = project(crossing.line, (x, y))
@@ -84,7 +84,7 @@ def _around(roads: Roads, here: Point, reach: float) -> Ints:
 
 
 def _ends(roads: Roads) -> Array:
-    """Return where crossings begin and end [m] [2 C, 2]."""
+    """Return the places where crossings begin and end [m] [2 C, 2]."""
     if roads.kerbs is None:
         ends = [point for x in roads.network.crossings for point in (x.line[0], x.line[-1])]
         roads.kerbs = np.array(ends, np.float64).reshape(-1, 2)

@@ -1,4 +1,4 @@
-"""The stretches of a path that others occupy in time, and who of them goes first."""
+"""The stretches of a path that others occupy over time, and which of them go first."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ __all__ = [
     "occupancy",
 ]
 
-#: How a vehicle is held up, by the kernel's index.
+#: The ways in which a vehicle is held up, by the kernel's index.
 HOW: tuple[HoldUp, ...] = ("leader", "right-of-way", "cut-in", "blocked", "cut-in")
 
 
@@ -40,13 +40,13 @@ class Occupancy:
     stretches: Stretches
 
     def behind(self, front: float, length: float) -> Bools:
-        """Return whom driving on does not come to, at step 0 [M].
+        """Return which others the vehicle cannot run into by driving on, at step 0 [M].
 
-        These are vehicles behind the middle of the own body, and people behind its front.
+        These are vehicles behind the middle of its own body, and people behind its front.
 
         Args:
-            front: [m] arc of the own front.
-            length: [m] of the own body.
+            front: [m] arc of the vehicle's front.
+            length: [m] length of the vehicle.
         """
         low, high = self.stretches.low[:, 0], self.stretches.high[:, 0]
         found: Bools = 0.5 * (low + high) < front - 0.5 * length
@@ -54,10 +54,10 @@ class Occupancy:
         return found
 
     def manner(self, who: Ints, step: Ints, how: Ints) -> Ints:
-        """How vehicles hold up, as indices into HOW: people who walk across have right of way.
+        """Return the kinds of hold-ups, as indices into HOW; people walking across have right of way.
 
         Args:
-            who, step, how: [H] index of the one, when, and how it would be of a vehicle.
+            who, step, how: [H] the other's index, the step, and the kind if it is a vehicle.
         """
         if not np.any(self.traffic.on_foot):
             return how
@@ -67,7 +67,7 @@ class Occupancy:
         return found
 
     def firsts(self, lines: Sequence[GiveWay | LetCross]) -> Bools:
-        """Return who goes first at each line [L, M, T], at each step where there are lights."""
+        """Return which others go first at each line [L, M, T], at each step if there are lights."""
         links = self.traffic.links
         found = [[not own.isdisjoint(line.yields_to) for own in links] for line in lines]
         always = np.array(found, dtype=np.bool_).reshape(len(found), len(links), 1)
@@ -99,7 +99,7 @@ def occupancy(path: Path, traffic: Traffic, width: float, first: int, last: int)
 def _projected(
     path: Path, traffic: Traffic, width: float, first: int, last: int, which: Ints
 ) -> tuple[Ints, Stretches]:
-    """Return where some are on a path, by their indices; see `occupancy` and the kernel."""
+    """Project some motions, by their indices, onto a path; see `occupancy` and the kernel."""
     line, states = (path.points, path.arc, path.heading), traffic.beside(path)
     return project(*line, states, traffic.spaces, width, first, last, which)
 
@@ -112,11 +112,11 @@ def meeting(
     first: int,
     last: int,
 ) -> Occupancy:
-    """Project onto a path what comes onto it; what has been projected before is looked up.
+    """Project the motions that come onto a path; earlier projections are looked up.
 
     Args:
         path: the line that is driven.
-        met_at_lines: links, as (junction, index); who drives along one counts, wherever it is.
+        met_at_lines: links, as (junction, index); vehicles that use one of them always count.
         traffic: the other vehicles.
         width: [m] of the vehicle that drives along the path.
         first, last: steps from which, and up to which, the occupancy is needed.
@@ -166,10 +166,10 @@ def _add(
 
 
 def _by_light(traffic: Traffic, line: GiveWay, steps: int) -> Bools:
-    """Return who goes first at a line with a light [M, T], which may show others red.
+    """Return which others go first at a line with a light [M, T], which may show them red.
 
-    Who is inside the junction is let out, whatever the light; of the others, those go first for
-    whom the junction's rules say so while their light lets them in, and ours does not let us first.
+    Vehicles inside the junction may leave it, whatever the light. Others go first if the junction's
+    rules say so, their light lets them in, and our own light does not let us go first.
     """
     key = (line.link.junction, line.link.index, traffic.lights, steps)
     known = traffic.pool.firsts.setdefault(key, {})
@@ -183,7 +183,7 @@ def _by_light(traffic: Traffic, line: GiveWay, steps: int) -> Bools:
 
 
 def _not_first(traffic: Traffic, line: GiveWay, steps: int) -> Bools:
-    """At which steps [T] our own light does not let us first at a line."""
+    """Return the steps [T] at which our own light does not let us go first at a line."""
     ours = line.link.control
     if not isinstance(ours, Signal):
         return np.ones(steps, np.bool_)
@@ -198,7 +198,7 @@ def _first_by_light(
     states: Array,
     yields: Bools,
 ) -> Bools:
-    """Return when one of the others goes first at a line with a light [T]."""
+    """Return the steps at which another vehicle goes first at a line with a light [T]."""
     first: Bools = np.zeros(len(states), np.bool_)
     for foe in line.foes:
         if foe.key in links:
@@ -210,14 +210,14 @@ def _first_by_light(
 
 
 def _beyond(states: Array, foe: Foe) -> Bools:
-    """At which steps [T] of its motion [T, 4] who drives along a link is beyond its line."""
+    """Return the steps [T] of a motion [T, 4] along a link at which it is beyond the line."""
     x, y, cos, sin = foe.line
     found: Bools = (states[:, 0] - x) * cos + (states[:, 1] - y) * sin > 0.0
     return found
 
 
 def _held(traffic: Traffic, foe: Foe, inside: Bools, steps: int) -> Bools:
-    """At which steps [T] a light holds who comes along a link; not one who passes it anyway."""
+    """Return the steps [T] at which a light holds a vehicle; none if it passes the light anyway."""
     if foe.signal is None:
         return np.zeros(steps, np.bool_)
     shows = traffic.lights.shows(foe.signal, steps)[:steps]

@@ -1,4 +1,4 @@
-"""What predictions have in common: the roads, the lights as they may go on, and the others."""
+"""The inputs that predictions share: roads, possible courses of lights, other road users."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
@@ -15,7 +15,7 @@ from sim.scene import Signal
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scenery:
-    """What all vehicles have in common: the roads, and the lights as they may go on."""
+    """The inputs that all vehicles share: the roads, and the possible courses of lights."""
 
     roads: Roads
     outlook: Outlook
@@ -24,12 +24,12 @@ class Scenery:
     _before: dict[int, Lights] = field(default_factory=dict)
 
     def on(self, kind: str) -> "Scenery":
-        """Return the same on the roads for a kind of vehicle."""
+        """Return the scenery with the roads for a kind of vehicle."""
         roads = roads_of(self.roads, kind)
         return self if roads is self.roads else replace(self, roads=roads)
 
     def lights(self, courses: tuple[int, ...]) -> Lights:
-        """Return what lights show from now on, where controllers take certain courses."""
+        """Return the lights from now on if controllers take certain courses."""
         found = self._lights.get(courses)
         if found is None:
             found = self.outlook.lights(courses, self.steps + GAP_HORIZON)
@@ -37,7 +37,7 @@ class Scenery:
         return found
 
     def lights_before(self, elapsed: int) -> Lights:
-        """Return what lights showed from so many steps ago on, and most likely will show."""
+        """Return the lights from `elapsed` steps ago on, with their likeliest course from now on."""
         found = self._before.get(elapsed)
         if found is None:
             found = self.outlook.before(elapsed, self.steps + GAP_HORIZON)
@@ -45,7 +45,7 @@ class Scenery:
         return found
 
     def motions(self, make: Callable[[tuple[int, ...]], Obstacle]) -> Motions:
-        """Return how a vehicle moves under each course of the controllers that it comes to."""
+        """Return the motions of a vehicle under each course of controllers that it comes to."""
         usual = self.outlook.usual
         motion = make(usual)
         if len(self.outlook.joint) == 1:
@@ -62,7 +62,7 @@ class Scenery:
         return Motions(motion, under)
 
     def coast(self, track: Observed) -> Motions:
-        """Return how a vehicle goes on if nothing changes but the lights."""
+        """Return the motions of a vehicle that coasts, under each course of the lights."""
         return self.motions(
             lambda courses: coast(
                 self.roads, track, self.steps, past=False, lights=self.lights(courses)
@@ -72,7 +72,7 @@ class Scenery:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Others:
-    """The others as they go on, from now, and the lights."""
+    """The motions of the others from now on, and the lights."""
 
     scenery: Scenery
     motions: tuple[Motions, ...]
@@ -80,7 +80,7 @@ class Others:
     _traffic: dict[tuple[int, ...], Traffic] = field(default_factory=dict)
 
     def under(self, courses: tuple[int, ...]) -> Traffic:
-        """Return the traffic where controllers take certain courses."""
+        """Return the traffic if controllers take certain courses."""
         found = self._traffic.get(courses)
         if found is None:
             known = [motion.under(courses) for motion in self.motions]
@@ -90,12 +90,12 @@ class Others:
 
     @property
     def usual(self) -> Traffic:
-        """The traffic where lights take their likeliest courses."""
+        """The traffic if lights take their likeliest courses."""
         return self.under(self.scenery.outlook.usual)
 
 
 def _controllers(roads: Roads, ways: Iterable[tuple[str, int]]) -> frozenset[str]:
-    """Return what controls the lights of some links and crossings, given as (junction, index)."""
+    """Return the controllers of the lights of links and crossings, given as (junction, index)."""
     network = roads.network
     found = []
     for junction, index in ways:

@@ -1,4 +1,4 @@
-"""Observed tracks, and how they are carried on: history, coasting, driving on."""
+"""Observed tracks, and motions that continue them: coasting and driving on."""
 
 import itertools
 import math
@@ -23,20 +23,20 @@ from sim.scene import Point, Signal, VehicleState
 
 Side: TypeAlias = Literal["left", "right"]
 
-TREND = 5  # steps over which a change of speed is read off a track
-STEADY = 15  # steps after which an unchanged speed counts as the one that is wanted
-RIPPLE = 0.5  # [m/s] by which a steady speed varies
+TREND = 5  # steps of a track from which a change of speed is taken
+STEADY = 15  # steps after which an unchanged speed counts as the wanted one
+RIPPLE = 0.5  # [m/s] greatest variation of a steady speed
 INDICATORS: tuple[Side, ...] = ("left", "right")
 #: [m/s] faster than which few ride a bicycle; the mean of those without a motor is 4.3 (Schleinitz
 #: et al. 2017, The German Naturalistic Cycling Study, Safety Science 92).
 CYCLING = 6.0
-#: [m] kept free beside a bicycle by who passes it on the road, its own side margin included
+#: [m] that a vehicle keeps free beside a bicycle that it passes, its own side margin included
 #: (German road traffic regulations, StVO, section 5 (4)).
 PASSING = 1.5
-LEAST_PACE = 3.0  # [m/s] below which nobody wants to drive for long
+LEAST_PACE = 3.0  # [m/s] minimum speed at which anybody wants to drive for long
 CRAWLING = 2.0  # [m/s] below which a vehicle waits for something
-QUEUE = 60.0  # [m] over which one stands behind another
-FAR_ASIDE = (5.0, 1.4)  # [m], [rad] from its lane at which a vehicle that turns may be
+QUEUE = 60.0  # [m] maximum distance between vehicles of one queue
+FAR_ASIDE = (5.0, 1.4)  # [m], [rad] greatest offset of a turning vehicle from its lane
 AT_LINE = 0.3  # [m] farther away that the lane before a junction may lie than those inside
 ON_CENTRELINE = 1.0  # [m] by which rival lanes inside a junction may lie farther away
 
@@ -52,7 +52,7 @@ class Observed:
     heading: Array  # [rad] [N]
     speed: Array  # [m/s] [N]
     indicating: frozenset[Side] = frozenset()  # the sides that it indicates now
-    paced: bool = True  # False: how fast it drove says nothing of how fast it wants to drive
+    paced: bool = True  # False: its speed so far does not show how fast it wants to drive
     kind: str = "car"  # what it looks like, as in a scene
 
     @property
@@ -62,14 +62,14 @@ class Observed:
 
     @property
     def standing(self) -> bool:
-        """Whether it stands or crawls, as nobody does of his own accord for long."""
+        """Whether it stands or crawls, so that it probably waits for something."""
         return float(self.speed[-1]) < CRAWLING
 
     @property
     def pace(self) -> float:
-        """The speed [m/s] faster than which it does not seem to want to drive; often infinite.
+        """The highest speed [m/s] at which it seems to want to drive; often infinite.
 
-        Who has driven steadily for a while, and never faster, has got to the speed it wants.
+        A vehicle that has driven steadily for a while, and never faster, drives as it wants to.
         """
         lately, fastest = self.speed[-STEADY:], float(np.max(self.speed)) + RIPPLE
         most = max(CYCLING, fastest) if self.kind == "bicycle" else math.inf
@@ -93,9 +93,9 @@ def indicating(state: VehicleState) -> frozenset[Side]:
 
 
 def berth_of(roads: Roads, observed: Observed) -> float:
-    """Return what [m] is kept free beside a vehicle by who passes it: more, where it is a bicycle.
+    """Return the margin [m] that others keep when they pass a vehicle: more for a bicycle.
 
-    On a lane of its own, a bicycle is passed as the lanes allow.
+    For a bicycle on a lane of its own, the margin is the usual one.
     """
     if observed.kind != "bicycle":
         return SIDE_MARGIN
@@ -108,9 +108,9 @@ def berth_of(roads: Roads, observed: Observed) -> float:
 def queued(
     tracks: Sequence[Observed], held: Collection[int] = (), early: int | None = None
 ) -> list[Observed]:
-    """Return those who stand, or are held, first, in a queue from its head on; then the others.
+    """Return vehicles that stand or are held, from the head of a queue on; then the others.
 
-    One that is to come early comes first, but for those before it.
+    The vehicle `early` comes first, except for those in front of it.
     """
     waiting = [track for track in tracks if track.standing or track.vehicle in held]
     queue = sorted(waiting, key=lambda track: sum(leads(track, other) for other in waiting))
@@ -121,7 +121,7 @@ def queued(
 
 
 def leads(track: Observed, other: Observed) -> bool:
-    """Check whether another is before a vehicle in its track."""
+    """Check whether another vehicle is in front of one in its track."""
     dx, dy = other.position[-1] - track.position[-1]
     cos, sin = math.cos(track.heading[-1]), math.sin(track.heading[-1])
     along, aside = dx * cos + dy * sin, dy * cos - dx * sin
@@ -129,7 +129,7 @@ def leads(track: Observed, other: Observed) -> bool:
 
 
 def lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, ...]:
-    """The lanes that a pose may belong to: the nearest one; inside a junction, its rivals too."""
+    """Return the lanes that a pose may belong to: the nearest and, in a junction, its rivals."""
     key = (position, heading)
     found: tuple[Location, ...] | None = roads.located.get(key)
     if found is None:
@@ -141,7 +141,7 @@ def lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, .
 
 def _lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, ...]:
     found = roads.network.locate(position, heading)
-    if not found:  # who turns sharply cuts the corner
+    if not found:  # a vehicle that turns sharply cuts the corner
         found = roads.network.locate(position, heading, *FAR_ASIDE)
     if not found:
         return ()
@@ -162,7 +162,7 @@ def _lanes_at(roads: Roads, position: Point, heading: float) -> tuple[Location, 
 def _on_one_level(
     roads: Roads, found: tuple[Location, ...], position: Point, heading: float
 ) -> tuple[Location, ...]:
-    """Return those lanes that do not pass above or below the one that leads where a body points."""
+    """Return the lanes that do not pass above or below the one in the direction of the pose."""
     crossing = [x for x in found[1:] if roads.levels.cross(found[0].lane, x.lane)]
     if not crossing:
         return found
@@ -190,8 +190,8 @@ def coast(
 ) -> Obstacle:
     """Return the vehicle as an obstacle that goes on along its lane as it does now.
 
-    Where it comes to a line at which it must give way, or to a red light, it is taken to wait
-    there: those who go first need not reckon with it.
+    At a line where it must give way, or at a red light, it is assumed to wait, so that vehicles
+    with priority do not expect it in their way.
 
     Args:
         roads: the road network.
@@ -232,7 +232,7 @@ def coast(
 
 
 def aligned(obstacle: Obstacle, shift: int, steps: int) -> Obstacle:
-    """The obstacle with its track moved by `shift` steps: absent before, cut to 0 ... steps."""
+    """Return the obstacle later by `shift` steps: absent before, and cut to 0 ... steps."""
     moved = obstacle.shifted(shift, steps)
     return replace(obstacle, position=moved[:, :2], heading=moved[:, 2], speed=moved[:, 3])
 
@@ -246,7 +246,7 @@ def drive_on(
     horizon: int,
     pace: float = math.inf,
 ) -> tuple[Array, Array, Array, tuple[str, ...]]:
-    """Follow the road until the horizon, or out of the network.
+    """Return the motion along the road until the horizon, or out of the network.
 
     Returns:
         Positions [m] [N, 2], headings [rad] [N] and speeds [m/s] [N] after step `first`,
@@ -270,14 +270,14 @@ def drive_on(
 
 
 def sample_path(path: Path, arcs: Array, length: float) -> tuple[Array, Array]:
-    """Positions [m] [N, 2] and headings [rad] [N] of a vehicle with its front at arcs [m]."""
+    """Return positions [m] [N, 2] and headings [rad] [N] for a vehicle's front at arcs [m]."""
     x = np.interp(arcs, path.arc, path.points[:, 0])
     y = np.interp(arcs, path.arc, path.points[:, 1])
     return np.column_stack((x, y)), path.headings(arcs, length)
 
 
 def _speeds(roads: Roads, observed: Observed, now: tuple[Situation, ...], steps: int) -> Array:
-    """The speeds [m/s] at which a vehicle coasts: speeding up goes on, to the speed limit."""
+    """Return speeds [m/s] of a coasting vehicle; it goes on speeding up, to the speed limit."""
     speed = float(observed.speed[-1])
     back = min(TREND, observed.elapsed)
     gained = (speed - float(observed.speed[-1 - back])) / (back * DT) if back else 0.0
@@ -291,13 +291,13 @@ def _speeds(roads: Roads, observed: Observed, now: tuple[Situation, ...], steps:
 def _line_ahead(
     roads: Roads, row: Sequence[str], here: Location, arcs: Array, lights: Lights
 ) -> float:
-    """Distance [m] to the first line on a row of lanes at which one must wait.
+    """Return the distance [m] to the first line on a row of lanes at which a vehicle must wait.
 
     Args:
         roads: the road network.
         row: the lanes.
-        here: on the first of them.
-        arcs: [m] to which one would come by each step.
+        here: the place on the first of them.
+        arcs: [m] arcs that the vehicle would reach by each step.
         lights: from now on.
     """
     ahead = -here.offset

@@ -53,13 +53,13 @@ class Obstacle:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Motions:
-    """How one vehicle moves, which may depend on how lights go on."""
+    """The motion of one vehicle, which may depend on the courses of lights."""
 
-    usual: Obstacle  # where they take their likeliest courses
+    usual: Obstacle  # if they take their likeliest courses
     make: Callable[[tuple[int, ...]], Obstacle] | None = None  # by courses; None: always as usual
 
     def under(self, courses: tuple[int, ...]) -> Obstacle:
-        """Return the motion where controllers take certain courses, made when it is needed."""
+        """Return the motion if controllers take certain courses, computed when it is needed."""
         return self.usual if self.make is None else self.make(courses)
 
 
@@ -68,7 +68,7 @@ class Met:
     """The stretches of one path that motions occupy, as far as these have been projected."""
 
     stretches: Stretches | None = None
-    rows: dict[object, int] = field(default_factory=dict)  # by tag; -1 where it is never on it
+    rows: dict[object, int] = field(default_factory=dict)  # by tag; -1: never on the path
 
 
 @dataclass(slots=True, eq=False)
@@ -77,9 +77,9 @@ class Pool:
 
     #: By path, width, first and last step, and steps in all.
     met: dict[tuple[Path, float, int, int, int], Met] = field(default_factory=dict)
-    #: Who is above or below a path at each step [T]; by path, and steps in all.
+    #: Whether a motion is above or below a path at each step [T]; by path, and steps in all.
     elsewhere: dict[tuple[Path, int], dict[object, Bools]] = field(default_factory=dict)
-    #: Who goes first at a line with a light at each step [T]; by its link, what lights show, and
+    #: Whether it goes first at a line with a light at each step [T]; by link, lights shown, and
     #: steps in all.
     firsts: dict[tuple[str, int, Lights, int], dict[object, Bools]] = field(default_factory=dict)
 
@@ -92,8 +92,8 @@ class Traffic:
     states: Array  # [M, T, 4] x, y [m], heading [rad], speed [m/s]
     sizes: Array  # [M, 2] length and width [m]
     links: tuple[frozenset[tuple[str, int]], ...]  # [M]
-    noticed: Ints  # [M] steps for which the ego has been on their path, as `reacting` counts
-    braking: Bools  # [M] who has braked for the ego, or for one that did
+    noticed: Ints  # [M] steps for which they have seen the ego on their path
+    braking: Bools  # [M] whether each has braked for the ego, or for one that did
     spaces: Array  # [M, 2] length and width [m] with what is kept free beside them
     on_foot: Bools  # [M]
     tags: tuple[object, ...]  # [M] the same where a motion is the same one, to the same step
@@ -107,7 +107,7 @@ class Traffic:
         lights: Lights = NO_LIGHTS,
         pool: Pool | None = None,
     ) -> "Traffic":
-        """Return the motions of obstacles; one that ends sooner than others stays as it is then.
+        """Return the motions of obstacles; one that ends sooner than others keeps its last state.
 
         Args:
             obstacles: the others.
@@ -142,13 +142,13 @@ class Traffic:
     def reacting(
         self, own: Array, size: tuple[float, float], first: int, path: Path | None = None
     ) -> "Traffic":
-        """The motions where the others react to a vehicle; the same object where nobody does.
+        """Return the motions with reactions to a vehicle; the same object if nobody reacts.
 
         Args:
             own: [S, 4] states of the vehicle at steps `first`, `first` + 1, ...
             size: length and width [m] of the vehicle.
             first: step of the first of them.
-            path: that it drives along.
+            path: the path that it drives along.
         """
         apart = NOBODY_ELSEWHERE if path is None else self.elsewhere(path)
         others = (self.states, self.sizes, self.noticed, self.braking)
@@ -156,13 +156,13 @@ class Traffic:
         if states is self.states and np.array_equal(noticed, self.noticed):
             return self
         tags = self.tags
-        if states is not self.states:  # only who brakes moves otherwise than before
+        if states is not self.states:  # only vehicles that brake have a new motion
             late = zip(tags, braking.tolist(), strict=True)
             tags = tuple(object() if brakes else tag for tag, brakes in late)
         return replace(self, states=states, noticed=noticed, braking=braking, tags=tags)
 
     def elsewhere(self, path: Path) -> Bools:
-        """Who is above or below a path, and not on it [M, T]; [0, 0] where there is no bridge."""
+        """Return which others are above or below a path [M, T]; [0, 0] if there is no bridge."""
         if not path.passings:
             return NOBODY_ELSEWHERE
         known = self.pool.elsewhere.setdefault((path, self.states.shape[1]), {})
@@ -184,7 +184,7 @@ class Traffic:
         return replace(self, states=states, tags=tags, lights=self.lights.since(step))
 
     def only(self, which: Sequence[int]) -> "Traffic":
-        """Some of the others, by their indices in increasing order."""
+        """Return the traffic of some of the others, by their indices in increasing order."""
         if len(which) == len(self.vehicles):
             return self
         at = np.array(which, np.int64)

@@ -1,4 +1,4 @@
-"""How people on foot walk: over crossings, along the road, and when they set out.
+"""Motions of people on foot: over crossings, along the road, and when they set out.
 
 Walking speeds are those of Weidmann (1993, Transporttechnik der Fussgaenger, ETH Zurich): 1.34 m/s
 with a standard deviation of 0.26.
@@ -22,10 +22,10 @@ from sim.scene import Point, Signal
 MEAN, DEVIATION = 1.34, 0.26  # [m/s]
 #: Three speeds that represent all, in standard deviations from the mean, with probabilities.
 SPREAD = ((-1.04, 0.3), (0.0, 0.4), (1.04, 0.3))
-WALKING = 0.3  # [m/s] from which somebody counts as walking
-BESIDE = 0.3  # [m] that people on a crossing keep from its edge, at the least
-AWAY = 2.0  # [m] beyond a crossing, where somebody is out of the way
-SAFE = 1.5  # [s] by which a gap must be longer than crossing takes
+WALKING = 0.3  # [m/s] minimum speed of a person who counts as walking
+BESIDE = 0.3  # [m] minimum distance of people on a crossing from its edge
+AWAY = 2.0  # [m] distance beyond a crossing at which a person is out of the way
+SAFE = 1.5  # [s] spare time of a gap beyond what crossing takes
 LEAVES = 0.5  # [m] between the places ahead at which to look for a road
 SEEN = 15.0  # [m] how far ahead to look for it
 HALF_LANE = 1.6  # [m]
@@ -34,15 +34,15 @@ KERB = 0.2  # [m] to either side of the beginning of a crossing within which som
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Route:
-    """The way that somebody walks, from where he is."""
+    """The way of a person on foot, from the present place on."""
 
     points: tuple[Point, ...]  # [m]
-    kerb: float | None  # [m] along it, where he may have to wait; None where that is behind him
+    kerb: float | None  # [m] arc where the person may have to wait; None if it is behind them
     crossing: Crossing | None  # that it leads over
 
     @property
     def links(self) -> frozenset[tuple[str, int]]:
-        """The crossing, as (junction, index), at which others give way to him."""
+        """The crossing, as (junction, index), at which others give way to the person."""
         one = self.crossing
         return frozenset() if one is None else frozenset(((one.junction, one.index),))
 
@@ -72,7 +72,7 @@ def across(person: Observed, crossing: Crossing, *, back: bool, on: bool) -> Rou
 def onward(network: Network, person: Observed, reach: float, *, waits: bool = False) -> Route:
     """Return the route straight on; it ends before a road for cars unless the person is on one.
 
-    Somebody who waits at a kerb may stand right where the road begins: he is not on it.
+    A person who waits at a kerb may stand right where the road begins, and is not on it.
     """
     (x, y), heading = place_of(person), direction_of(person)
     cos, sin = math.cos(heading), math.sin(heading)
@@ -91,17 +91,17 @@ def on_road(network: Network, position: Point, half: float = HALF_LANE) -> bool:
 
 
 def place_of(person: Observed) -> Point:
-    """Return where somebody is [m]."""
+    """Return the place of a person [m]."""
     return float(person.position[-1, 0]), float(person.position[-1, 1])
 
 
 def direction_of(person: Observed) -> float:
-    """Return the heading [rad] of somebody."""
+    """Return the heading [rad] of a person."""
     return float(person.heading[-1])
 
 
 def paces(person: Observed) -> tuple[tuple[float, float], ...]:
-    """Return how fast [m/s] somebody may walk, with probabilities; if he walks already, as now."""
+    """Return possible walking speeds [m/s] with probabilities; the observed one of a walker."""
     walked = person.speed[person.speed >= WALKING]
     if float(person.speed[-1]) >= WALKING:
         return ((float(np.mean(walked)), 1.0),)
@@ -111,7 +111,7 @@ def paces(person: Observed) -> tuple[tuple[float, float], ...]:
 def may_go(
     route: Route, pace: float, lights: Lights, busy: Bools, steps: int, *, gaps: bool
 ) -> Bools:
-    """Return at which steps somebody would set out over a crossing [steps].
+    """Return at which steps a person would set out over a crossing [steps].
 
     Args:
         route: the way over it.
@@ -119,7 +119,7 @@ def may_go(
         lights: from now on.
         busy: [steps] when vehicles are on it.
         steps: how many.
-        gaps: whether he has no priority, so that he waits for a gap.
+        gaps: whether the person has no priority, and so waits for a gap.
     """
     one = route.crossing
     free: Bools = np.ones(steps, np.bool_)
@@ -136,13 +136,13 @@ def may_go(
 
 
 def walk(person: Observed, route: Route, pace: float, free: Bools) -> Obstacle:
-    """Return the motion of somebody who walks along a route, and is gone at its end.
+    """Return the motion of a person who walks along a route, and is gone at its end.
 
     Args:
         person: who walks.
         route: from now on.
         pace: [m/s]
-        free: [T] at which steps he would set out from the kerb.
+        free: [T] whether the person would set out from the kerb at each step.
     """
     steps = np.arange(len(free), dtype=np.float64)
     arcs: Array = pace * STEP * steps
@@ -155,7 +155,7 @@ def walk(person: Observed, route: Route, pace: float, free: Bools) -> Obstacle:
 
 
 def stand(person: Observed, steps: int) -> Obstacle:
-    """Return the motion of somebody who stays where he is."""
+    """Return the motion of a person who stays at the same place."""
     return Obstacle(
         person.vehicle,
         person.length,
@@ -169,7 +169,7 @@ def stand(person: Observed, steps: int) -> Obstacle:
 
 
 def straight(person: Observed, steps: int) -> Obstacle:
-    """Return the motion of somebody who goes on as he does now, wherever that leads."""
+    """Return the motion of a person who goes straight on, wherever that leads."""
     pace, heading = float(person.speed[-1]), direction_of(person)
     arcs = pace * STEP * np.arange(steps, dtype=np.float64)
     ahead = np.array([math.cos(heading), math.sin(heading)])
@@ -186,7 +186,7 @@ def straight(person: Observed, steps: int) -> Obstacle:
 
 
 def _along(person: Observed, route: Route, arcs: Array) -> Obstacle:
-    """Return the motion of somebody at given arcs [m] [T] of a route; NaN beyond its end."""
+    """Return the motion of a person at given arcs [m] [T] of a route; NaN beyond its end."""
     points = np.array(route.points)
     sides = np.diff(points, axis=0)
     lengths = np.hypot(sides[:, 0], sides[:, 1])
