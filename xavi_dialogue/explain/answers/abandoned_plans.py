@@ -1,4 +1,4 @@
-"""Wavering: why a plan was given up, and taken up again: the risk that it carried each time."""
+"""Wavering: why a plan was given up and resumed, by its risk each time."""
 
 from itertools import pairwise
 from typing import Final
@@ -18,12 +18,12 @@ from xavi_dialogue.explain.answers.reference.reading import unwrapped
 from xavi_dialogue.explain.causes.plans.options import of_trace
 from xavi_dialogue.explain.history.ride import planned
 
-BACK: Final = 20.0  # [s] that "each time" reaches back where no time is said
-RISKY: Final = 0.05  # risk of a collision from which a plan was given up for it
+BACK: Final = 20.0  # [s] to which "each time" reaches back if no time is named
+RISKY: Final = 0.05  # minimum risk of a collision that counts as the reason for giving up a plan
 
 
 def wavered(question: Why, asked: Asked) -> Answer:
-    """Tell why we changed our mind: what made us give up a plan, each time.
+    """Return why we changed our mind: what made us give up a plan, each time.
 
     Raises:
         Unanswered: the record does not hold it, or rollouts are needed.
@@ -54,13 +54,13 @@ def wavered(question: Why, asked: Asked) -> Answer:
 
 
 def _given_up(before: PlanTrace, after: PlanTrace) -> Action | None:
-    """Give the first step of a plan that was given up for a stop."""
+    """Return the first step of a plan that was given up for a stop."""
     old, new = planned(before)[:1], planned(after)[:1]
     return old[0] if new == ("stop",) and old and old != new else None
 
 
 def _turn(asked: Asked, trace: PlanTrace, plan: Action) -> AbandonedPlan | None:
-    """Give the risk that a plan carried at a decision; None where it was not for that."""
+    """Return the risk of a plan at a decision; None if the risk was not the reason."""
     found = next((o for o in of_trace(asked.ride, trace) if o.action == plan), None)
     if found is None or found.collision < RISKY:
         return None

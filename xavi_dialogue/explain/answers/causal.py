@@ -1,4 +1,4 @@
-"""Causal: who explains reasons, suppositions and decisions, by question and predicate."""
+"""Causal: which explainer answers about reasons, suppositions and decisions."""
 
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
@@ -64,7 +64,7 @@ from xavi_dialogue.explain.answers.suppositions import deciding, possible, risks
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
-#: By type of question alone.
+#: Explainers by type of question alone.
 QUESTIONS: Mapping[type, Explainer] = {
     Why: reasons.why,
     WhatIf: risks.what_if,
@@ -76,7 +76,7 @@ QUESTIONS: Mapping[type, Explainer] = {
 }
 NEEDED = frozenset(("necessary", "worth-it", "better"))
 LISTED = frozenset(("options", "rivals"))
-#: What of ours is for something or somebody.
+#: Actions of ours that are for something or somebody.
 HELD = frozenset(("wait", "slow-down", "brake", "stop", "stand", "give-way", "let-go"))
 SLOWED = frozenset(("brake", "slow-down", "stop", "wait"))
 RULED = frozenset(("give-way", "let-go", "wait"))
@@ -84,7 +84,7 @@ REASONS = frozenset(("causes", "reasons"))
 
 
 def explainer(question: Question, scene: Asked) -> Explainer | None:
-    """Find the explainer of a causal question; None where it asks for facts alone."""
+    """Find the explainer of a causal question; None if the question is about facts only."""
     match question:
         case Whether(Both(join="or")):
             return None
@@ -132,12 +132,12 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
 
 
 def _names_several(question: Which) -> bool:
-    """Check whether it is asked of several that are named."""
+    """Check whether a question names several vehicles."""
     return len({n for of in (question.thing, *question.among) for n in numbers_in(of)}) > 1
 
 
 def _holds_us_up(such: Proposition | None) -> bool:
-    """Check whether it is asked for what or whom we wait, slow down, stop or give way."""
+    """Check whether the question is for what or whom we wait, slow down, stop or give way."""
     of, negated = unwrapped(such)
     if isinstance(of, Is) and not negated:
         return of.state in ("stuck", "stationary") and is_own(of.thing)
@@ -147,14 +147,14 @@ def _holds_us_up(such: Proposition | None) -> bool:
         return False
     event = of.event
     if event.modal == "must" and event.tense == "present" and event.action in RULED:
-        return False  # the rule of the road tells
+        return False  # the rule of the road answers that
     if event.action == "block":
         return isinstance(event.actor, Wanted) and is_own(event.object)
     return is_own(event.actor) and event.action in HELD and isinstance(event.object, Wanted)
 
 
 def _over_the_ride(thing: object, such: Proposition | None) -> bool:
-    """Check whether it is asked of all who held us up: "which vehicles", or "so far"."""
+    """Check whether the question is about all who held us up: "which vehicles", or "so far"."""
     of, _ = unwrapped(such)
     asked = of.left if isinstance(of, Compares) else of.event if isinstance(of, Happens) else None
     if asked is None or (isinstance(asked, Event) and asked.action != "block"):
@@ -172,7 +172,7 @@ def _who_held_up(question: Which, scene: Asked) -> Answer:
 
 
 def _what_for(question: Which, scene: Asked) -> Answer:
-    """For what or whom we wait or slow down: the reason."""
+    """Return for what or whom we wait or slow down, as the reason."""
     of, _ = unwrapped(question.such)
     event = of.event if isinstance(of, Happens) else Event("block")
     if isinstance(of, Compares):
@@ -191,7 +191,7 @@ def _what_for(question: Which, scene: Asked) -> Answer:
 
 
 def _why_safe(question: HowKnow, scene: Asked) -> Answer:
-    """On what grounds we took something of ours for safe: why we did it then."""
+    """Return why we considered an action of ours safe: the reason for it at that time."""
     return reasons.why(Why(question.of or Is("safe")), scene)
 
 
@@ -218,7 +218,7 @@ def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
 
 
 def _on_our_way(of: Proposition | None) -> bool:
-    """Check whether it is asked which way we have to go from here: our route tells."""
+    """Check whether the question is which way we must go from here; our route answers that."""
     if not isinstance(of, Happens) or of.event.tense != "present" or not is_own(of.event.actor):
         return False
     turning = of.event.action in ("turn", "exit-left", "exit-right", "exit-straight")
@@ -226,14 +226,14 @@ def _on_our_way(of: Proposition | None) -> bool:
 
 
 def _worth(question: Whether, scene: Asked) -> Answer:
-    """Return whether it was worth it, spoken of another vehicle: what we did is meant."""
+    """Return whether it was worth it; if another vehicle is named, our own action is meant."""
     of, _ = unwrapped(question.that)
     tense = of.tense if isinstance(of, Is) else "past"
     return deciding.needed(Whether(Is("worth-it", tense=tense)), scene)
 
 
 def _slowed_for(of: Proposition | None, scene: Asked) -> bool:
-    """Check whether it is asked if we slowed for somebody, and we did slow, for whatever reason."""
+    """Check whether the question is if we slowed for somebody, and we did slow for any reason."""
     if not isinstance(of, Happens) or not is_own(of.event.actor):
         return False
     event = of.event
@@ -243,13 +243,13 @@ def _slowed_for(of: Proposition | None, scene: Asked) -> bool:
         found = _because_of(event, scene)
     except Unanswered as unanswered:
         return isinstance(unanswered.result, NeedRollout)
-    # What we do for another reason tells nothing of what we will do for them.
+    # What we do for another reason does not show what we will do for them.
     ahead = event.tense == "future" and getattr(found, "suspected", None) == "none"
     return not ahead or stands(scene)
 
 
 def _slowed_because(question: Whether, scene: Asked) -> Answer:
-    """Return whether we slowed for somebody: the reason, with a word on them."""
+    """Return the reason why we slowed, with a verdict on those whom the question names."""
     of, _ = unwrapped(question.that)
     assert isinstance(of, Happens)
     found = _because_of(of.event, scene)
@@ -259,7 +259,7 @@ def _slowed_because(question: Whether, scene: Asked) -> Answer:
 
 
 def _because_of(event: Event, scene: Asked) -> Answer:
-    """Return why we slow or stand, with a word on those whom an event names.
+    """Return why we slow or stand, with a verdict on those that an event names.
 
     Raises:
         Unanswered: we do not; or the record lacks it; or rollouts are needed.
@@ -285,12 +285,12 @@ def _is_option(option: object) -> bool:
 
 
 def _was_cause(question: Whether, scene: Asked) -> Answer:
-    """Whether somebody is why something came about: the reason, with a word on that vehicle."""
+    """Return the reason of an event, with a verdict on the supposed cause."""
     return reasons.why(Why(question.that), scene)
 
 
 def _who_caused(question: Which, scene: Asked) -> Answer:
-    """Because of whom something came about: the reason."""
+    """Return the reason of an event, for a question because of whom it came about."""
     of, _ = unwrapped(question.such)
     assert isinstance(of, Caused)
     found = reasons.why(Why(of), scene)
@@ -299,6 +299,6 @@ def _who_caused(question: Which, scene: Asked) -> Answer:
 
 
 def _reasons(question: Listing, scene: Asked) -> Answer:
-    """Return the reasons of what was spoken of, or of the last manoeuvre."""
+    """Return the reasons of the action discussed, or of the last manoeuvre."""
     del question
     return choices.why(None, scene)

@@ -1,7 +1,7 @@
-"""Engine: a grounded act and the record in; an answer, a refusal or a request to plan again out.
+"""Engine: from a grounded act and the record to an answer, a refusal or a request to plan again.
 
-One table tells who explains what. `causal` has the questions after reasons, suppositions and
-decisions, also those whose type alone does not tell ("was it necessary?"); `factual` the others.
+Tables state which explainer answers what. `causal` has questions about reasons, suppositions and
+decisions, even if their type does not show it ("was it necessary?"); `factual` has the others.
 """
 
 from typing import TypeAlias
@@ -34,26 +34,26 @@ Result: TypeAlias = Answer | Refusal | NeedRollout
 def explain(act: GroundedAct, record: Record) -> Result:
     """Answer a grounded act from the record of the ride.
 
-    Pure: the same act and record give the same result. A NeedRollout is answered by asking again
-    with the plan made anew among `record.extra`.
+    Pure: the same act and record give the same result. After a NeedRollout, the caller asks again
+    with the new plan in `record.extra`.
     """
     ride = Ride(record)
     return explain_in(act, ride, World(ride))
 
 
 def explain_in(act: GroundedAct, ride: Ride, world: World) -> Result:
-    """Answer a grounded act from a ride that was read before; see `explain`."""
+    """Answer a grounded act from a ride that was read already; see `explain`."""
     scene = Asked(ride, world, act.span or _span(act, ride), act)
     try:
         return _answer(scene)
     except Unanswered as unanswered:
         return _doubted(unanswered.result, ride)
-    except CausalError:  # a record that contradicts itself explains nothing
+    except CausalError:  # a contradictory record explains nothing
         return NotRecorded("gap-in-record", since=ride.now)
 
 
 def _span(act: GroundedAct, ride: Ride) -> Span | None:
-    """Return the part of the ride that the terms of a question name, where the act names none."""
+    """Return the part of the ride that the terms of a question name, if the act names none."""
     question = act.act.question if isinstance(act.act, Ask) else None
     event = event_of(getattr(question, "of", None))
     for time in (getattr(question, "time", None), None if event is None else event.time):
@@ -93,7 +93,7 @@ def _answer(scene: Asked) -> Answer:
 
 
 def _doubted(result: Refusal | NeedRollout, ride: Ride) -> Refusal | NeedRollout:
-    """The result, unless it denies what may have been in a part of the record that was lost."""
+    """Return the result; or another, if it denies what a lost part of the record may contain."""
     if not isinstance(result, DidNotHappen) or result.planned is not None or not ride.gaps:
         return result
     if result.instead or result.elsewhen is not None:

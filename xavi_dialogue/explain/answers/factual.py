@@ -1,4 +1,4 @@
-"""Factual: the explainers of what was, is and is expected, by type of question or act."""
+"""Factual: the explainers for facts and expectations, by type of question or act."""
 
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
@@ -48,7 +48,7 @@ from xavi_dialogue.explain.answers.turns import how_many, how_much, who
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
-#: By type of question; those after reasons, suppositions and decisions are in `causal`.
+#: Explainers by type of question; `causal` has those for reasons, suppositions and decisions.
 QUESTIONS: Mapping[type, Explainer] = {
     Whether: whether,
     Which: who,
@@ -68,11 +68,11 @@ QUESTIONS: Mapping[type, Explainer] = {
     Fault: blamed,
     Compare: rivals,
 }
-#: By type of act beside `Ask`.
+#: Explainers by type of act, except `Ask`.
 
 
 def _claim(act: Claim, asked: Asked) -> Answer:
-    """Check a claim; what we should do about our distance is as good as a request."""
+    """Check a claim; what we should do about our distance counts as a request."""
     match act.that:
         case Happens(event=Event(actor=Ego(), modal="should", tense="present") as event) if (
             event.action in NEARNESS

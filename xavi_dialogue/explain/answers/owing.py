@@ -1,4 +1,4 @@
-"""Owing: why we have to let somebody go first, and on what that rule rests."""
+"""Owing: why we must let somebody go first, and the basis of that rule."""
 
 from typing import Final, Literal, TypeAlias
 
@@ -21,12 +21,12 @@ from xavi_dialogue.explain.answers.ride.priority import goes_first, priority_at,
 Grounds: TypeAlias = Literal["right", "across", "beside", "on-foot", "road"]
 LETTING: Final = frozenset[ActionName](("wait", "give-way", "let-go"))
 DUTIES: Final = frozenset(("must", "should"))
-BESIDE: Final = 4.0  # [m] sideways up to which somebody drives along beside us
-SOON: Final = 1.5  # [s] for which a rule that was read off holds
+BESIDE: Final = 4.0  # [m] maximum sideways distance of somebody who drives along beside us
+SOON: Final = 1.5  # [s] for which a rule that was read holds
 
 
 def reason(asked: Asked, told: Priority) -> Priority:
-    """Give with a rule that holds now on what it rests, where the record of the road tells it."""
+    """Return a rule that holds now with its basis, if the road record shows it."""
     road = asked.world.road(asked.now)
     past = asked.now - told.time > SOON or told.first is not None
     if road is None or past or told.rule != "give-way" or told.vehicle is None:
@@ -36,7 +36,7 @@ def reason(asked: Asked, told: Priority) -> Priority:
 
 
 def before_us(question: Why, asked: Asked) -> Answer:
-    """Tell the rule by which somebody goes first, and on what it rests.
+    """Return the rule by which somebody goes first, and its basis.
 
     Raises:
         Unanswered: the vehicle is unknown, or the record does not hold the rule.
@@ -46,7 +46,7 @@ def before_us(question: Why, asked: Asked) -> Answer:
 
 
 def is_owed(of: Proposition) -> bool:
-    """Tell whether it is said that we have to let somebody who is named go first."""
+    """Check whether a proposition says that we must let somebody named go first."""
     match of:
         case Happens(event=Event(actor=Ego(), action=action, modal=modal, object=other)):
             named = isinstance(other, Vehicle | Vehicles)
@@ -55,13 +55,13 @@ def is_owed(of: Proposition) -> bool:
 
 
 def is_rule(of: Proposition | None) -> bool:
-    """Tell whether it is said who of two has right of way."""
+    """Check whether a proposition says which of two has right of way."""
     plain, _ = unwrapped(of)
     return isinstance(plain, Related) and plain.relation in ("has-priority-over", "must-yield-to")
 
 
 def why_rule(question: Why | HowKnow, asked: Asked) -> Answer:
-    """Tell who has right of way, and on what that rests.
+    """Return who has right of way, and the basis of that.
 
     Raises:
         Unanswered: a vehicle is unknown, or the record does not hold the rule.
@@ -74,7 +74,7 @@ def why_rule(question: Why | HowKnow, asked: Asked) -> Answer:
 
 
 def why_owed(question: Why, asked: Asked) -> Answer:
-    """Tell the rule by which we have to let somebody go first; without one, why we wait.
+    """Return the rule by which we must let somebody go first; without one, why we wait.
 
     Raises:
         Unanswered: a vehicle is unknown, we do not wait, or rollouts are needed.
@@ -93,7 +93,7 @@ def why_owed(question: Why, asked: Asked) -> Answer:
 
 
 def grounds(asked: Asked, road: RoadFacts, before: tuple[Look, ...]) -> Grounds | None:
-    """Tell on what it rests that they go first: they walk, come from the right, or we turn."""
+    """Return why they go first: they walk, come from the right, or we turn."""
     if before and all(x.kind in ON_FOOT for x in before):
         return "on-foot"
     step = asked.world.junction(asked.now)

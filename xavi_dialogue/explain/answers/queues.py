@@ -1,4 +1,4 @@
-"""Queues: who stands at the head of the row of vehicles that we stand in."""
+"""Queues: who stands at the head of the queue that we stand in."""
 
 from typing import Final
 
@@ -9,23 +9,23 @@ from xavi_dialogue.domain.terms import Ego, Feature, Proposition, Related, Vehic
 from xavi_dialogue.explain.answers.propositions.identify import identified, which
 from xavi_dialogue.explain.answers.reference.asked import Asked
 
-APART: Final = 15.0  # [m] between two who stand in one row
-SLOW: Final = 3.0  # [m/s] up to which somebody is in it
-SETTING_OFF: Final = 0.8  # [m/s] from which the head of it has set off
+APART: Final = 15.0  # [m] maximum gap between two in a queue
+SLOW: Final = 3.0  # [m/s] maximum speed of somebody in it
+SETTING_OFF: Final = 0.8  # [m/s] minimum speed of a head that has set off
 
 
 def who(question: Which, asked: Asked) -> Answer:
-    """Tell of whom something holds; of the head of a queue, who stands there.
+    """Return for whom something holds; for the head of a queue, who stands there.
 
     Raises:
-        Unanswered: it takes for granted what did not happen.
+        Unanswered: it presupposes something that did not happen.
     """
     first = head(asked, asked.moment) if is_head(question.such) else None
     return which(question, asked) if first is None else identified(asked, first, asked.moment)
 
 
 def is_head(such: Proposition | None) -> bool:
-    """Tell whether it is asked who is at the front of a queue."""
+    """Check whether the question is who is at the front of a queue."""
     match such:
         case Related(relation="on" | "ahead-of" | "near", thing=Wanted(), to=Feature("queue")):
             return True
@@ -33,7 +33,7 @@ def is_head(such: Proposition | None) -> bool:
 
 
 def head(asked: Asked, at: float) -> Vehicle | None:
-    """Find who is foremost of the row that stands ahead of us at a time [s]; None: nobody does."""
+    """Find the first of the queue ahead of us at a time [s]; None if nobody stands there."""
     row: list[Vehicle] = []
     while (other := _next(asked, row[-1] if row else Ego(), at)) is not None:
         if other in row:
@@ -43,7 +43,7 @@ def head(asked: Asked, at: float) -> Vehicle | None:
 
 
 def _next(asked: Asked, one: Somebody, at: float) -> Vehicle | None:
-    """Find who stands next ahead of somebody, close to him."""
+    """Find who stands next and close ahead of somebody."""
     world = asked.world
     near: list[tuple[float, int]] = []
     for v in world.in_view(at):

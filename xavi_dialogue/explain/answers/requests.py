@@ -1,4 +1,4 @@
-"""Requests: what the car does instead of driving as it is told, or why it cannot."""
+"""Requests: what the car does instead of what it is asked to do, or why it cannot do that."""
 
 from msgspec.structs import replace
 
@@ -34,24 +34,24 @@ from xavi_dialogue.explain.answers.reference.occasions import occasion
 from xavi_dialogue.explain.answers.talk import speed_of
 from xavi_dialogue.explain.causes.plans.options import options_at
 
-#: Requests to be stated how fast we are, and those to be stated when we are there.
+#: Requests that are answered by our speed, and those that are answered by our arrival.
 SPEEDS: frozenset[ActionName] = frozenset(("slow-down", "speed-up", "brake"))
 ENDING: frozenset[ActionName] = frozenset(("stop", "pull-over", "drop-off", "park", "open"))
 STAYING: frozenset[ActionName] = frozenset(("continue", "keep-lane", "follow"))
 DRIVING: frozenset[ActionName] = frozenset(("go", "move", "continue", "do", "head"))
 PACED: frozenset[ActionName] = DRIVING | {"pass", "overtake", "turn", "enter", "cross"}
 NEARNESS: frozenset[ActionName] = frozenset(("keep-distance", "approach"))
-KEPT = 1.8  # [s] behind somebody from which on we keep our distance
+KEPT = 1.8  # [s] minimum headway at which we keep our distance
 ELSEWHERE = "the way to the destination leads elsewhere"
-SOON = 3.0  # [s] within which what is planned is as good as begun
+SOON = 3.0  # [s] within which a planned action counts as begun
 TREND = {"slow-down": "slowing", "brake": "slowing", "speed-up": "speeding-up"}
 
 
 def request(act: Request, asked: Asked) -> Answer:
-    """Decline to drive as told, with what the car is about to do anyway, or why it cannot.
+    """Decline to drive otherwise, with what the car is about to do anyway, or why it cannot.
 
     Raises:
-        Unanswered: it is of what is unknown; or rollouts are needed.
+        Unanswered: it is about something unknown; or rollouts are needed.
     """
     act = replace(act, event=past_leader(asked, _paced(act.event)))
     if act.negated and "close" in act.event.manner:  # "do not get so close"
@@ -82,7 +82,7 @@ def request(act: Request, asked: Asked) -> Answer:
 
 
 def _asks_manner(act: Request) -> bool:
-    """Tell whether nothing but the manner of driving is to change: "drive more gently"."""
+    """Check whether only the manner of driving is to change: "drive more gently"."""
     gentle = not GENTLE.isdisjoint(act.event.manner)
     return gentle and not act.negated and act.event.action in DRIVING | {"brake", "turn"}
 
@@ -95,7 +95,7 @@ def _paced(event: Event) -> Event:
 
 
 def _meant(asked: Asked, event: Event, trend: str | None) -> bool:
-    """Tell whether the car does, or plans to do, what it is told not to do."""
+    """Check whether the car does, or plans to do, what it is asked not to do."""
     if _doing(asked, event, trend):
         return True
     found = foreseen(asked, replace(event, actor=Ego(), manner=()))
@@ -103,7 +103,7 @@ def _meant(asked: Asked, event: Event, trend: str | None) -> bool:
 
 
 def _cause(asked: Asked) -> MotionCause | None:
-    """Tell for whom or what we slow down or stand now.
+    """Return for whom or what we slow down or stand now.
 
     Raises:
         Unanswered: rollouts are needed.
@@ -124,7 +124,7 @@ def _cause(asked: Asked) -> MotionCause | None:
 
 
 def _instead(asked: Asked, event: Event) -> tuple[Measure, ...]:
-    """Tell what bears on a request: our speed, when we drive on, when we are there."""
+    """Return measures that bear on a request: our speed, when we drive on, when we arrive."""
     action = sided(event)
     if action in SPEEDS or "fast" in event.manner or "slowly" in event.manner:
         return _speed(asked)
@@ -146,7 +146,7 @@ def _speed(asked: Asked) -> tuple[Measure, ...]:
 
 
 def _doing(asked: Asked, event: Event, trend: str | None) -> bool:
-    """Tell whether the car is just doing what it is told to do."""
+    """Check whether the car already does what it is asked to do."""
     action = sided(event)
     if action == "keep-distance":
         to = event.object if isinstance(event.object, Vehicle) else None
@@ -167,7 +167,7 @@ def _doing(asked: Asked, event: Event, trend: str | None) -> bool:
 
 
 def _stays(asked: Asked, event: Event) -> bool:
-    """Tell whether the car means to stay in its lane, behind whom it is told to stay."""
+    """Check whether the car plans to stay in its lane, behind the vehicle of the request."""
     moves = [foreseen(asked, Event(a)) for a in ("change-left", "change-right")]
     moving = max((f.share for f in moves if f is not None), default=0.0)
     whom = number(event.object)
@@ -179,7 +179,7 @@ def _stays(asked: Asked, event: Event) -> bool:
 
 
 def _coming(asked: Asked, event: Event) -> float | None:
-    """Tell when [s] the plan comes to it, where that is shortly."""
+    """Return when [s] the plan does what is asked, if that is soon."""
     if sided(event) in ("continue", "do", "happen"):
         return None
     if sided(event) in STARTS and not stands(asked):
@@ -191,7 +191,7 @@ def _coming(asked: Asked, event: Event) -> float | None:
 
 
 def _cannot(asked: Asked, event: Event) -> str | None:
-    """Tell why the plan cannot have it, as the last decision found; None where it can."""
+    """Return why the plan cannot do it, according to the last decision; None if it can."""
     trace = asked.ride.latest
     names = macros(event)
     options = {o.action for o in options_at(asked.ride, asked.now)}

@@ -1,4 +1,4 @@
-"""Talk: feelings, each with what bears on it."""
+"""Talk: replies to feelings and social moves, with facts that bear on them."""
 
 from xavi_dialogue.domain.answers import Answer, Comforting, Measures, Sociable
 from xavi_dialogue.domain.facts import Measure
@@ -31,7 +31,7 @@ from xavi_dialogue.explain.answers.reference.occasions import occasion
 from xavi_dialogue.explain.answers.ride.comfort import BRAKING, HARD, comfort_of
 from xavi_dialogue.explain.answers.ride.places import time_to_go
 
-NEAR = 8.0  # [m] within which a vehicle may be what startles somebody
+NEAR = 8.0  # [m] maximum distance of a vehicle that may have startled somebody
 FRIGHT: frozenset[FeelingKind] = frozenset(("afraid", "nervous", "startled", "distrustful"))
 TIRESOME: frozenset[FeelingKind] = frozenset(("impatient", "bored", "tired"))
 HASTE: frozenset[FeelingKind] = TIRESOME | {"annoyed", "angry"}
@@ -42,7 +42,7 @@ def feel(act: Feel, asked: Asked) -> Answer:
     """Reply to a feeling with a fact that bears on what it is about.
 
     Raises:
-        Unanswered: it is about what is unknown.
+        Unanswered: it is about something unknown.
     """
     try:
         return Comforting(act, _bearing(act, asked))
@@ -51,7 +51,7 @@ def feel(act: Feel, asked: Asked) -> Answer:
 
 
 def social(act: Social, asked: Asked) -> Answer:
-    """Reply to a social move; where it is asked what stirred us, with how close that came."""
+    """Reply to a social move; a question about our feelings gets how close that came."""
     if act.about is None:
         return Sociable(act.kind)
     vehicle, _, _ = _about(act.about)
@@ -91,7 +91,7 @@ def _bearing(act: Feel, asked: Asked) -> Answer | None:
 
 
 def _about(about: Proposition | Thing | None) -> tuple[int | None, bool, Event | None]:
-    """Tell what a feeling is about: a vehicle, our speed, something we do."""
+    """Return what a feeling is about: a vehicle, our speed, or an action of ours."""
     match about:
         case Not(content=content):
             return _about(content)
@@ -115,14 +115,14 @@ def _about(about: Proposition | Thing | None) -> tuple[int | None, bool, Event |
 
 
 def _recent(asked: Asked) -> Window:
-    """Give the stretch that a feeling comes from: the one spoken of, else the last few seconds."""
+    """Return the stretch that a feeling is about: the one discussed, else the last seconds."""
     if asked.past is not None:
         return window(asked)
     return Window(max(asked.now - RECENT, asked.world.begin), asked.now)
 
 
 def speed_of(asked: Asked) -> Answer:
-    """Tell how fast we drive, beside the limit."""
+    """Return our speed, with the limit."""
     speed = asked.world.measure("speed", Ego(), asked.now)
     limit = asked.world.measure("limit", Ego(), asked.now)
     if limit.value is not None and speed.value is not None:
@@ -132,7 +132,7 @@ def speed_of(asked: Asked) -> Answer:
 
 
 def _of_event(act: Feel, asked: Asked, event: Event) -> Answer | None:
-    """Tell what bears on a feeling about something we did: how hard it was, or how close."""
+    """Return facts on a feeling about an action of ours: how hard it was, or how close."""
     if event.action in ("wait", "stand", "stop") and act.feeling in HASTE:
         return _waiting(asked)
     found = occasion(asked, event) if is_us(event.actor) else None
@@ -145,7 +145,7 @@ def _of_event(act: Feel, asked: Asked, event: Event) -> Answer | None:
 
 
 def _fright(asked: Asked, time: Window) -> Answer:
-    """Tell what may have frightened: a vehicle that came close, else braking, else the speed."""
+    """Return what may have caused fear: a vehicle that came close, else braking, else the speed."""
     near = closeness(asked, None, time, "safe")
     if near.closest is not None and near.closest.value is not None and near.closest.value <= NEAR:
         return near
@@ -156,6 +156,6 @@ def _fright(asked: Asked, time: Window) -> Answer:
 
 
 def _waiting(asked: Asked) -> Answer:
-    """Tell how long it still takes: until we drive on, and until we are there."""
+    """Return how long it will take until we drive on, and until we arrive."""
     wait = (remaining_wait(asked),) if stands(asked) else ()
     return Measures((*known(*wait), time_to_go(asked, asked.now)))

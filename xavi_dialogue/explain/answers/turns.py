@@ -1,7 +1,7 @@
-"""Turns: who all goes before us at a junction and who after, and who has to move so that we can.
+"""Turns: who goes before us at a junction and who after, and who must move so that we can.
 
-The rules are those of the record of the road. Who goes before us is stated in the order in which
-they are near; at the head of a row that stands, who has to move first.
+The rules come from the record of the road. Those who go before us are stated by distance, the
+closest first; at the head of a queue that stands, who must move first.
 """
 
 from typing import Final
@@ -42,14 +42,14 @@ from xavi_dialogue.explain.answers.ride.priority import priority_at
 
 GOING: Final = frozenset[ActionName](("go", "move", "enter", "cross", "turn", "continue", "pass"))
 WAITS: Final[tuple[ActionName, ...]] = ("give-way", "wait")
-BOTH: Final = 2  # vehicles from which their order is stated
+BOTH: Final = 2  # minimum of vehicles whose order is stated
 
 
 def who(question: Which, asked: Asked) -> Answer:
-    """Tell of whom something holds; of who goes first, everybody whose way meets ours.
+    """Return for whom something holds; for who goes first, all whose way meets ours.
 
     Raises:
-        Unanswered: it takes for granted what did not happen.
+        Unanswered: it presupposes something that did not happen.
     """
     such = question.such
     if isinstance(such, Happens) and (earliest := _earliest(question, such.event, asked)):
@@ -74,7 +74,7 @@ def who(question: Which, asked: Asked) -> Answer:
 
 
 def how_much(question: HowMuch, asked: Asked) -> Answer:
-    """Tell a value; of the rule that holds here, for whom it holds and on what it rests.
+    """Return a measure; of the rule that holds here, for whom it holds, and its basis.
 
     Raises:
         Unanswered: the record does not hold it.
@@ -89,7 +89,7 @@ def how_much(question: HowMuch, asked: Asked) -> Answer:
 
 
 def _earliest(question: Which, event: Event, asked: Asked) -> Identified | None:
-    """Find who was the first to do something: whoever began soonest; None where nobody is known."""
+    """Find the first to do something: the one that began first; None if nobody is known."""
     past = event.tense in ("past", "perfect") and event.modal is None
     if not past or "first" not in event.manner or event.action in GOING - {"move"}:
         return None
@@ -105,10 +105,10 @@ def _earliest(question: Which, event: Event, asked: Asked) -> Identified | None:
 
 
 def how_many(question: HowMany, asked: Asked) -> Answer:
-    """Tell how many there are; of those that we still have to let go first, who they are.
+    """Return how many there are; of those that we still must let go first, who they are.
 
     Raises:
-        Unanswered: it is of what the record does not hold.
+        Unanswered: it is about something that the record does not contain.
     """
     doing = question.such.doing if isinstance(question.such, Described) else None
     if doing is None or not _asks_whom(Happens(doing)) or is_past(asked, Unsaid(), doing.tense):
@@ -124,7 +124,7 @@ def how_many(question: HowMany, asked: Asked) -> Answer:
 
 
 def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
-    """Tell who all goes before us now, and who has to wait for us; None for fewer than two."""
+    """Return all who go before us now, and who must wait for us; None for fewer than two."""
     road = asked.world.road(asked.now)
     if road is None:
         return None
@@ -144,13 +144,13 @@ def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
 
 
 def _next(asked: Asked) -> Priority | None:
-    """Tell who goes before us now, or after; None where our way meets nobody's."""
+    """Return who goes before us now, or after us; None if nobody's way meets ours."""
     told = order(asked, ()) or priority_at(asked, None, Window(asked.now, asked.now))
     return None if told.rule == "none" or told.vehicle is None else reason(asked, told)
 
 
 def unblocking(asked: Asked) -> Answer | None:
-    """Tell who has to move first so that we can go; None where nobody stands in our way."""
+    """Return who must move first so that we can go; None if nobody stands in our way."""
     head = queues.head(asked, asked.now)
     if head is None:
         return order(asked, ())
@@ -165,7 +165,7 @@ def unblocking(asked: Asked) -> Answer | None:
 def _in_order(
     asked: Asked, road: RoadFacts, who_goes: str, only: tuple[int, ...]
 ) -> tuple[Look, ...]:
-    """Find who in view goes before or after us by the rules, the nearest first."""
+    """Find those in view who go before or after us by the rules, the closest first."""
     found = [
         look
         for fact in road.priority
@@ -180,7 +180,7 @@ def _numbers(seen: tuple[Look, ...]) -> tuple[int, ...]:
 
 
 def _is_now(asked: Asked, such: Proposition) -> bool:
-    """Tell whether it is asked of now, or of what is to come."""
+    """Check whether a proposition is about the present, or the future."""
     of = such.event if isinstance(such, Happens) else such
     if not isinstance(of, Event | Related | Is) or of.tense not in ("present", "future"):
         return False
@@ -191,7 +191,7 @@ def _is_now(asked: Asked, such: Proposition) -> bool:
 
 
 def _asks_turn(such: Proposition) -> bool:
-    """Tell whether it is asked whose turn it is to go."""
+    """Check whether the question is whose turn it is to go."""
     match such:
         case Happens(event=Event(actor=Wanted(), object=Vehicles(), modal=None) as event):
             return event.action in GOING and "first" in event.manner  # "us or the people?"
@@ -199,7 +199,7 @@ def _asks_turn(such: Proposition) -> bool:
 
 
 def _asks_mover(such: Proposition) -> bool:
-    """Tell whether it is asked who has to move so that we can go."""
+    """Check whether the question is who must move so that we can go."""
     match such:
         case Happens(event=Event(actor=Wanted(), object=None) as event):
             return event.action in GOING and event.modal in DUTIES and not event.where
@@ -209,7 +209,7 @@ def _asks_mover(such: Proposition) -> bool:
 
 
 def _asks_order(such: Proposition) -> bool:
-    """Tell whether it is asked who goes first, of nobody in particular."""
+    """Check whether the question is who goes first, with nobody named."""
     match such:
         case Related(relation="has-priority-over", thing=Wanted(), to=to):
             return number(to) is None
@@ -226,7 +226,7 @@ def _asks_order(such: Proposition) -> bool:
 
 
 def _asks_next(such: Proposition) -> bool:
-    """Tell whether it is asked who goes next."""
+    """Check whether the question is who goes next."""
     match such:
         case Happens(event=Event(actor=Wanted(), object=None, time=Next(), modal=None) as event):
             return event.action in GOING
@@ -234,7 +234,7 @@ def _asks_next(such: Proposition) -> bool:
 
 
 def _asks_whom(such: Proposition) -> bool:
-    """Tell whether it is asked whom we have to let go first."""
+    """Check whether the question is whom we must let go first."""
     match such:
         case Happens(event=Event(actor=Ego(), object=Wanted()) as event):
             return event.action in LETTING and event.modal in DUTIES

@@ -1,1 +1,1 @@
-"""What can be seen, what cannot, and which lanes are free."""
+"""Explainers: what can be seen, what cannot, and which lanes are free."""

@@ -1,6 +1,6 @@
 """Hidden areas: what we cannot see past, whether somebody might come from there, and what if not.
 
-Who might come is imagined by the planner. It is spoken of as possible, and never as of somebody.
+The planner imagines who might come, as phantoms. An answer names them as a possibility only.
 """
 
 import math
@@ -37,14 +37,14 @@ from xavi_dialogue.explain.history.ride import ROUNDING, planned
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
-JUST_NOW = 1.5  # [s] for which what was decided on still holds
-TALL = frozenset(("bus", "truck", "van", "tram"))  # too tall to see past
-SAME_LINE = 2.0  # [m] sideways within which one drives ahead of another
-TOGETHER = 3.0  # [s] between decisions about one hidden part
+JUST_NOW = 1.5  # [s] for which a decision still holds
+TALL = frozenset(("bus", "truck", "van", "tram"))  # kinds that are too tall to see past
+SAME_LINE = 2.0  # [m] maximum sideways distance of two vehicles on one path
+TOGETHER = 3.0  # [s] maximum time between decisions about one hidden part
 
 
 def explainer(act: object, scene: Asked) -> Explainer | None:
-    """Find who answers an act about what is hidden; None where it is about nothing hidden."""
+    """Find the explainer of an act about hidden parts of the road; None for other acts."""
     if not isinstance(act, Ask):
         return None
     match act.question:
@@ -82,7 +82,7 @@ def _told(asked: Any) -> Explainer:
 
 
 def _tell(asked: Any, question: Any, scene: Asked) -> Answer:
-    """Tell what is hidden, and what may be there."""
+    """Return what is hidden, and who may be there."""
     that = question.such if isinstance(question, Which) else _said(question)
     past = _is_past(that) if that is not None else scene.past is not None
     about = None
@@ -101,7 +101,7 @@ def _tell(asked: Any, question: Any, scene: Asked) -> Answer:
 
 
 def _said(question: Any) -> Proposition | None:
-    """Give what is said in a question; None where it only lists."""
+    """Return the proposition of a question; None if it only asks for a list."""
     if isinstance(question, Listing):
         return None
     names = ("that", "of", "supposed")
@@ -109,13 +109,13 @@ def _said(question: Any) -> Proposition | None:
 
 
 def _anybody_behind(scene: Asked, hider: Vehicle) -> bool:
-    """Tell whether anybody is seen behind a vehicle."""
+    """Check whether anybody is seen behind a vehicle."""
     seen = (Vehicle(v) for v in scene.world.in_view(scene.now) if v != hider.number)
     return any(scene.world.relation("behind", one, hider, scene.now) for one in seen)
 
 
 def _beyond(scene: Asked, hider: Vehicle) -> bool:
-    """Tell whether a vehicle ahead of us is too tall to see past, and nobody seen ahead of it."""
+    """Check whether a vehicle ahead is too tall to see past, with nobody in view ahead of it."""
     look = scene.world.look(hider.number, scene.now)
     if look is None or look.ahead <= 0.0 or look.oncoming or not _covers(scene, None, hider):
         return False
@@ -125,14 +125,14 @@ def _beyond(scene: Asked, hider: Vehicle) -> bool:
 
 
 def _covers(scene: Asked, that: Proposition | None, where: Thing) -> bool:
-    """Tell whether somebody may be behind a vehicle, since it is too tall to see past."""
+    """Check whether somebody may be behind a vehicle, because it is too tall to see past."""
     look = scene.world.look(where.number, scene.now) if isinstance(where, Vehicle) else None
     tall = look is not None and look.in_view and look.kind in TALL
     return tall and not _is_past(that) and not _is_deed(that)
 
 
 def _supposed(question: WhatIf, scene: Asked) -> Answer:
-    """Tell what would have been, or would be, could we see past what hides the road.
+    """Return what we would do, or would have done, if we could see past what hides the road.
 
     Raises:
         Unanswered: the decision must be planned again first, or cannot be.
@@ -145,7 +145,7 @@ def _supposed(question: WhatIf, scene: Asked) -> Answer:
     trace = _first(found, about)
     seen = _seen(trace, about)
     over = found[-1].sim_time < scene.now - JUST_NOW
-    if not seen:  # something else hides them, too
+    if not seen:  # something else hides them too
         hiders = _hiders(trace, _fitting(trace, about), about)
         plan = planned(trace)
         return SupposedSeeing(hiders, trace.sim_time, plan, plan, 0.0, past or over)
@@ -169,7 +169,7 @@ def _duration(drive: Any) -> float:
 
 
 def _hiding(scene: Asked, about: Thing | None, past: bool) -> list[PlanTrace]:
-    """List the decisions about the hidden part that is asked about: of now, else the last."""
+    """List the decisions about the hidden part in question: present ones, else the last."""
     known = [
         t for t in scene.ride.traces if t.sim_time <= scene.now + ROUNDING and _fitting(t, about)
     ]
@@ -191,7 +191,7 @@ def _first(found: list[PlanTrace], about: Thing | None) -> PlanTrace:
 
 
 def _fitting(trace: PlanTrace, about: Thing | None) -> tuple[Phantom, ...]:
-    """Return who is imagined behind a vehicle, behind a building, or behind anything."""
+    """Return the phantoms behind a vehicle, behind a building, or behind anything."""
     match about:
         case Vehicle(number=number):
             return tuple(x for x in trace.phantoms if number in (x.behind, *x.beyond))
@@ -201,7 +201,7 @@ def _fitting(trace: PlanTrace, about: Thing | None) -> tuple[Phantom, ...]:
 
 
 def _seen(trace: PlanTrace, about: Thing | None) -> tuple[int, ...]:
-    """Whom one would see past a vehicle, past a building, or past anything, by their indices."""
+    """Return the phantoms that we would see past a vehicle, a building or anything, by index."""
     match about:
         case Vehicle(number=number):
             return opened(trace, number)
@@ -213,7 +213,7 @@ def _seen(trace: PlanTrace, about: Thing | None) -> tuple[int, ...]:
 def _hiders(
     trace: PlanTrace, phantoms: tuple[Phantom, ...], about: Thing | None
 ) -> tuple[Hider, ...]:
-    """Return what hides the road on which side, with the chance that somebody is there."""
+    """Return what hides the road on which side, with the probability that somebody is there."""
     nobody: dict[tuple[Any, Any], float] = {}
     for one in phantoms:
         hider = one.behind
@@ -228,7 +228,7 @@ def _hiders(
 
 
 def _anybody_new(scene: Asked, about: Thing) -> bool:
-    """Tell whether anybody has come into view since the hidden part was decided on."""
+    """Check whether anybody has come into view since the decision about the hidden part."""
     since = _hiding(scene, about, past=True)[0].sim_time
     return any(
         math.isclose(time, since) or time > since
@@ -245,7 +245,7 @@ def _first_seen(scene: Asked, vehicle: int) -> float:
 
 
 def _seen_past(supposed: Proposition) -> Thing | None:
-    """Return what is supposed to be seen past, or not to be there: a building."""
+    """Return what is supposed to be seen past, or a building that is supposed to be absent."""
     of, negated = unwrapped(supposed)
     match of:
         case Related("sees-past", thing, to) if is_us(thing) and not negated:
@@ -256,7 +256,7 @@ def _seen_past(supposed: Proposition) -> Thing | None:
 
 
 def _emerges(supposed: Proposition) -> Thing | None:
-    """From behind what somebody who is not known is supposed to come."""
+    """Return what an unknown road user is supposed to come from behind of."""
     of, negated = unwrapped(supposed)
     return None if negated or _is_there(supposed) else _comes_from(of)
 
@@ -273,7 +273,7 @@ def _is_blind(thing: Thing | None) -> bool:
 
 
 def _comes_from(that: Proposition | None) -> Thing | None:
-    """Return what somebody, not known, is said to be behind, or to come from behind."""
+    """Return what an unknown road user is said to be behind, or to come from behind of."""
     of, _ = unwrapped(that)
     if isinstance(of, Believed):
         of, _ = unwrapped(of.content)
@@ -293,7 +293,7 @@ def _comes_from(that: Proposition | None) -> Thing | None:
 
 
 def _is_there(that: Proposition | None) -> bool:
-    """Tell whether it is asked if somebody is there, rather than comes from there."""
+    """Check whether the question is if somebody is there, rather than comes from there."""
     of, _ = unwrapped(that)
     if isinstance(of, Believed):
         of, _ = unwrapped(of.content)
@@ -301,7 +301,7 @@ def _is_there(that: Proposition | None) -> bool:
 
 
 def _is_deed(that: Proposition | None) -> bool:
-    """Tell whether it is asked what somebody did, rather than could have done."""
+    """Check whether the question is what somebody did, rather than could have done."""
     of, _ = unwrapped(that)
     if isinstance(of, Happens):
         return of.event.tense == "past" and of.event.modal is None

@@ -8,11 +8,11 @@ from xavi_dialogue.explain.answers.reference.findings import Finding, known, unk
 from xavi_dialogue.explain.answers.reference.moments import instant
 from xavi_dialogue.explain.answers.reference.naming import looks
 
-FREE = (15.0, 30.0)  # [m] behind and ahead of us that a free lane has nobody in
+FREE = (15.0, 30.0)  # [m] behind and ahead of us, where nobody is in a free lane
 
 
 def free(of: Is, asked: Asked) -> Finding:
-    """Tell whether there is room in a lane beside us, or nobody ahead in ours."""
+    """Weigh that there is room in a lane beside us, or nobody ahead in ours."""
     at = instant(asked, of.time, of.tense)
     lane = of.thing.which if isinstance(of.thing, Lane) else "own"
     road = asked.world.road(at)
@@ -36,7 +36,7 @@ def free(of: Is, asked: Asked) -> Finding:
 
 
 def _lane(own: RoadPlace, which: str) -> int | None:
-    """Give the index of a lane from the right; None where there is none."""
+    """Return the index of a lane, counted from the right; None if there is no such lane."""
     if own.lane is None:
         return None
     lanes = {

@@ -17,8 +17,8 @@ from xavi_dialogue.explain.answers.reference.naming import (
     somebodies,
 )
 
-MANY = 6  # vehicles in view from which it is busy
-#: What a driver does for another one whom he sees.
+MANY = 6  # minimum of vehicles in view on a busy road
+#: Actions of a driver for another one that they see.
 KIND: tuple[ActionName, ...] = (
     "give-way",
     "let-go",
@@ -31,7 +31,7 @@ KIND: tuple[ActionName, ...] = (
 
 
 def sees(asked: Asked, event: Event) -> Finding:
-    """Tell whether we saw somebody; of others it can only be told how they behaved towards us."""
+    """Weigh that we saw somebody; for others, only their conduct towards us can be stated."""
     if is_us(event.actor):
         vehicle = number(event.object)
         at = window(asked, event.time, event.tense).end
@@ -54,9 +54,9 @@ def sees(asked: Asked, event: Event) -> Finding:
 
 
 def _sees_again(asked: Asked, vehicle: int) -> Finding:
-    """Tell what bears on whether we are going to see a vehicle: where it is, or which way it went.
+    """Return facts on whether we will see a vehicle: where it is, or which way it went.
 
-    A prediction of where vehicles are later than the plan reaches is in no record.
+    The record has no prediction of where vehicles are beyond the horizon of the plan.
     """
     look = asked.world.look(vehicle, asked.now)
     went = None if look is None else came_of(asked, vehicle, asked.world.begin)
@@ -66,7 +66,7 @@ def _sees_again(asked: Asked, vehicle: int) -> Finding:
 
 
 def minded(of: Is, asked: Asked) -> Finding:
-    """Tell what bears on how a driver feels, or attends to the road: what he did for us."""
+    """Return facts on how a driver feels, or attends to the road: what they did for us."""
     vehicle = number(of.thing)
     if vehicle is None:
         return unknown("others-thoughts")
@@ -74,14 +74,14 @@ def minded(of: Is, asked: Asked) -> Finding:
 
 
 def busy(of: Is, asked: Asked) -> Finding:
-    """Tell whether many vehicles are in view."""
+    """Weigh that many vehicles are in view."""
     at = instant(asked, of.time, of.tense)
     seen = looks(asked, asked.world.in_view(at), at)
     return Finding(len(seen) >= MANY, seen)
 
 
 def others_mind(asked: Asked, vehicle: int) -> Finding:
-    """Tell what bears on what a driver knows of us: what he did for us, and where he was."""
+    """Return facts on what a driver knows about us: what they did for us, and where they were."""
     behaved = [
         e
         for e in asked.world.episodes(actor=Vehicle(vehicle), actions=KIND)
@@ -94,7 +94,7 @@ def others_mind(asked: Asked, vehicle: int) -> Finding:
 
 
 def comes(asked: Asked, event: Event) -> Finding | None:
-    """Tell whether somebody comes towards us, or for our way from a side; None of other things."""
+    """Weigh that somebody comes towards us, or from a side into our way; None for other things."""
     if event.object is not None and not is_us(event.object):
         return None
     look = look_of(asked, event.actor, asked.now)
