@@ -1,8 +1,8 @@
 """The causal network of a decision as dense tables, for a general library of Bayesian networks.
 
-The library is pgmpy, which comes with the extra `compare`; the tables themselves need nothing.
-What was not tried has the outcome `unknown`, the last one; ours needs no room for it. Doing sets
-the actions, so that how they are chosen is without effect: their tables are even.
+The library is pgmpy, from the extra `compare`; making the tables does not need it. Combinations
+that were not tried have the last outcome, `unknown`; our own model needs no entries for them. An
+intervention sets the actions, so their tables have no effect and are uniform.
 """
 
 import time
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 class Uneven(ValueError):
-    """A record whose plans differ in length: variables would have no value."""
+    """A record whose plans differ in length, so that variables would have no value."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Tables:
 
     @property
     def entries(self) -> int:
-        """Numbers in all tables."""
+        """The number of entries in all tables."""
         every = (*self.goals, *self.choices, *self.actions, self.outcome)
         return sum(table.size for table in every)
 
@@ -82,7 +82,7 @@ def tables(trace: PlanTrace) -> Tables:
 
 
 def _marginals(model: CausalModel, vehicle: int, side: Sequence[Choice]) -> tuple[Array, Array]:
-    """p(G_i) and p(S_i | G_i)."""
+    """Return p(G_i) and p(S_i | G_i)."""
     chances = model.choices(vehicle)
     goals = np.zeros(1 + max(goal for goal, _ in side))
     ways = np.zeros((len(side), len(goals)))
@@ -93,7 +93,7 @@ def _marginals(model: CausalModel, vehicle: int, side: Sequence[Choice]) -> tupl
 
 
 def done_by_pgmpy(trace: PlanTrace, plan: Sequence[Action]) -> tuple[Array, float, float, int]:
-    """p(O | do(plan)) by pgmpy: the probabilities, [s] to build, [s] to query, and entries.
+    """Return p(O | do(plan)) by pgmpy, the times [s] to build and to query, and the entries.
 
     Raises:
         Uneven: its plans differ in length.

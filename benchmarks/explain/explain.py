@@ -40,11 +40,11 @@ REPEATS = 5
 VEHICLES = (1, 2, 3, 4, 6, 8, 10, 12)
 DEPTHS = (1, 2, 3, 4, 5)
 ROLLOUTS = (50, 100, 200, 400, 800, 1600)
-USUAL = (3, 4, 150)  # vehicles, depth and rollouts, where something else grows
-COMPLETE_DEPTH = 2  # of complete records
-MOST_COMPLETE = 5  # vehicles in them: rollouts grow by 4 with each, for both alike
-MOST_USUAL = 8  # vehicles beside pgmpy: its tables grow by 4 with each, to some hundred MB
-LIMIT = 10.0  # [s] for pgmpy; beyond it no larger network is tried
+USUAL = (3, 4, 150)  # vehicles, depth and rollouts if another size grows
+COMPLETE_DEPTH = 2  # depth of complete records
+MOST_COMPLETE = 5  # vehicles in complete records: each multiplies the rollouts by 4
+MOST_USUAL = 8  # vehicles in comparisons with pgmpy: each multiplies its tables by 4
+LIMIT = 10.0  # [s] for pgmpy, beyond which no larger network is tried
 ROUNDING = 1e-9
 QUESTIONS: Mapping[str, Act] = {
     "why": Ask(Listing("reasons")),
@@ -57,13 +57,13 @@ QUESTIONS: Mapping[str, Act] = {
     "how fast": Ask(HowMuch(Measured("speed"))),
 }
 EVERYTHING = "all"  # name of the figure of all questions about all rides
-TAIL = 5.0  # [ms] p99 of it, at most
+TAIL = 5.0  # [ms] target: greatest p99 of that figure
 
 
 class Growth(msgspec.Struct, frozen=True):
-    """Explaining made-up decisions of one size: medians of some repeats."""
+    """The median times of explaining synthetic decisions of one size."""
 
-    axis: str  # what grows: vehicles, depth or rollouts
+    axis: str  # the size that grows: vehicles, depth or rollouts
     vehicles: int
     depth: int
     rollouts: int
@@ -71,21 +71,21 @@ class Growth(msgspec.Struct, frozen=True):
 
 
 class Beside(msgspec.Struct, frozen=True):
-    """p(O | do(plan)) from one record, by ours and by pgmpy."""
+    """A comparison of our p(O | do(plan)) from one record with that of pgmpy."""
 
     vehicles: int
     depth: int
     rollouts: int
-    entries: int  # numbers in pgmpy's tables
+    entries: int  # number of entries in pgmpy's tables
     ours: float  # [ms] from the trace to the answer
     build: float  # [ms] from the trace to pgmpy's network
-    query: float  # [ms] from there to its answer
-    ratio: float  # theirs over ours, from the trace to the answer
-    difference: float  # of the coverage; of p(O) too where nothing is unknown
+    query: float  # [ms] from its network to its answer
+    ratio: float  # pgmpy's time to ours, from the trace to the answer
+    difference: float  # of the coverage, and of p(O) if nothing is unknown
 
 
 class ExplainReport(Aimed, frozen=True):
-    """What the benchmark found."""
+    """The results of the benchmark."""
 
     bench: str
     figures: tuple[Figure, ...]
@@ -104,11 +104,11 @@ class ExplainReport(Aimed, frozen=True):
 
 
 def measure(folder: Path, note: Callable[[str], None]) -> ExplainReport:
-    """Explanations of recorded decisions, growth with their size, and pgmpy beside.
+    """Time explanations of recorded decisions, their growth with size, and pgmpy's.
 
     Args:
-        folder: where recorded rides lie (*.ride.jsonl.gz).
-        note: takes notes on what is left out.
+        folder: folder of recorded rides (*.ride.jsonl.gz).
+        note: is called with notes on what is left out.
 
     Raises:
         RideFileError: a file there is no recorded ride.
@@ -118,7 +118,7 @@ def measure(folder: Path, note: Callable[[str], None]) -> ExplainReport:
     if not rides:
         note(f"no recorded rides in {folder}: their explanations are left out")
     known = {path.name.split(".")[0]: ride_file.load(path.read_bytes()) for path in rides}
-    with settled():  # as the service does once it is warm
+    with settled():  # as in a warm service
         for name, ride in known.items():
             recorded(name, ride, watch)
     if not available():
@@ -136,13 +136,13 @@ def measure(folder: Path, note: Callable[[str], None]) -> ExplainReport:
 
 
 def stories(rides: Mapping[str, RecordedRide]) -> tuple[factorisations.Beside, ...]:
-    """Return the paper's factorisation beside ours on the rides by its stories, S1 and S2."""
+    """Compare the paper's factorisation with ours on rides of its stories, S1 and S2."""
     found = (factorisations.beside(name, rides[name]) for name in STORIES if name in rides)
     return tuple(row for rows in found for row in rows)
 
 
 def recorded(name: str, ride: RecordedRide, watch: Watch) -> None:
-    """Ask about every decision of a ride, as soon as it is taken; those answered count."""
+    """Ask about every decision of a ride at its time; only answered questions count."""
     for trace in ride.traces:
         extra = tuple(ride.whatifs.values())
         record = Record(trace.sim_time, tuple(ride.traces), tuple(ride.events), False, extra)
@@ -157,7 +157,7 @@ def recorded(name: str, ride: RecordedRide, watch: Watch) -> None:
 
 
 def sizes() -> Iterator[tuple[str, int, int, int]]:
-    """Yield the sizes of made-up decisions: what grows, vehicles, depth, rollouts."""
+    """Yield the sizes of synthetic decisions: the axis, vehicles, depth, rollouts."""
     vehicles, depth, rollouts = USUAL
     yield from (("vehicles", count, depth, rollouts) for count in VEHICLES)
     yield from (("depth", vehicles, count, rollouts) for count in DEPTHS)
@@ -165,7 +165,7 @@ def sizes() -> Iterator[tuple[str, int, int, int]]:
 
 
 def growth(axis: str, vehicles: int, depth: int, rollouts: int) -> Growth:
-    """Explain a made-up decision of one size."""
+    """Time the explanation of a synthetic decision of one size."""
     trace = made_up(vehicles, depth, rollouts)
     taken = []
     for _ in range(REPEATS):
@@ -176,7 +176,7 @@ def growth(axis: str, vehicles: int, depth: int, rollouts: int) -> Growth:
 
 
 def answer(model: CausalModel) -> None:
-    """Effects and causes of the foil in a made-up decision."""
+    """Find effects and causes of the foil in a synthetic decision."""
     here, there = model.intervene((FACT,)), model.intervene((FOIL,))
     assert here is not None
     assert there is not None
@@ -184,7 +184,7 @@ def answer(model: CausalModel) -> None:
 
 
 def beside() -> Iterator[Beside]:
-    """Complete records of ever more vehicles, then usual ones, each until pgmpy takes too long."""
+    """Yield comparisons of complete records, then of usual ones, until pgmpy takes too long."""
     done_by_pgmpy(complete(1, 1), (FOIL,))  # imports it
     for records in (
         (complete(vehicles, COMPLETE_DEPTH) for vehicles in range(1, MOST_COMPLETE + 1)),
@@ -201,7 +201,7 @@ def beside() -> Iterator[Beside]:
 
 
 def compared(trace: PlanTrace) -> Beside:
-    """p(O | do(plan)) from one record, by both."""
+    """Compare p(O | do(plan)) from one record by both."""
     plan = tuple(timed.action for timed in trace.rollouts[0].actions)
     values, build, query, entries = done_by_pgmpy(trace, plan)
     began = time.perf_counter()

@@ -1,4 +1,4 @@
-"""The paper's factorisation beside ours, on recorded decisions."""
+"""The paper's factorisation, compared with ours on recorded decisions."""
 
 from collections.abc import Iterable, Iterator
 
@@ -17,7 +17,7 @@ BEGIN, END = "<!-- factorisations: begin -->", "<!-- factorisations: end -->"
 
 
 class Beside(msgspec.Struct, frozen=True):
-    """One foil of one recorded decision, by ours and as the paper has it."""
+    """One foil of one recorded decision, by our factorisation and by the paper's."""
 
     ride: str
     time: float  # [s] of the decision
@@ -25,35 +25,35 @@ class Beside(msgspec.Struct, frozen=True):
     foil: Action
     done: float  # p(done | do(foil))
     paper_done: float
-    paper_sum: float  # of its outcomes; ours sum to 1
+    paper_sum: float  # sum over outcomes of the paper's; ours sum to 1
     later: float | None  # [s] E[time | do(foil)] - E[time | do(fact)]; None: never done
     paper_later: float | None  # [s] with the sign of ours
-    cause: int | None  # the vehicle with the largest influence on the choice, if any has
-    paper_cause: int | None  # the vehicle of the least divergence
+    cause: int | None  # the vehicle with the largest influence on the choice, if any has one
+    paper_cause: int | None  # the vehicle with the least divergence
 
 
 class Summary(msgspec.Struct, frozen=True):
-    """How far the two are apart over the foils of some rides."""
+    """The differences between the two over the foils of some rides."""
 
     foils: int
     done_apart: float  # mean difference of p(done)
     done_most: float
     later_apart: float  # [s] mean difference of the times
-    later_most: float  # [s]
-    signs: int  # foils that the one has earlier and the other later
-    sums: int  # foils whose outcomes do not sum to 1 in the paper's (to 0.01)
-    causes: int  # foils for which they name another vehicle first
+    later_most: float  # [s] greatest difference of the times
+    signs: int  # foils that are earlier by one and later by the other
+    sums: int  # foils whose outcomes do not sum to 1 by the paper's (within 0.01)
+    causes: int  # foils for which the two put different vehicles first
 
 
 def beside(name: str, ride: RecordedRide) -> Iterator[Beside]:
-    """Yield every foil of every free decision of a ride that may reach the goal."""
+    """Yield every foil that may reach the goal, of every free decision of a ride."""
     for trace in ride.traces:
         if trace.under_way is None and trace.plan:
             yield from _foils(name, trace)
 
 
 def summary(rows: Iterable[Beside]) -> Summary:
-    """Return how far the two are apart."""
+    """Return the differences between the two."""
     rows = list(rows)
     done = [abs(row.done - row.paper_done) for row in rows]
     later = [
@@ -75,7 +75,7 @@ def summary(rows: Iterable[Beside]) -> Summary:
 
 
 def table(rows: Iterable[Beside]) -> str:
-    """Return the rows, and below them how far the two are apart, for people."""
+    """Return the rows and a summary of the differences, for people."""
     rows = list(rows)
     names = [name.replace("_", " ") for name in Beside.__struct_fields__]
     cells = [[_cell(value) for value in msgspec.structs.astuple(row)] for row in rows]
@@ -127,7 +127,10 @@ def _foils(name: str, trace: PlanTrace) -> Iterator[Beside]:
 
 
 def _least_divergent(model: CausalModel, paper: PaperNetwork) -> int | None:
-    """The vehicle that the paper's ordering puts first; those of one divergence are left out."""
+    """Return the vehicle that the paper's ordering puts first.
+
+    Vehicles whose divergence does not vary are left out.
+    """
     found = []
     for vehicle in model.vehicles:
         every = [paper.divergence(vehicle, choice) for choice in model.choices(vehicle)]

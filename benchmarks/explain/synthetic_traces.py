@@ -1,4 +1,4 @@
-"""Made-up decisions: traces of any size, to measure what explaining them takes."""
+"""Synthetic decisions: traces of any size, for timing their explanation."""
 
 import itertools
 import random
@@ -25,14 +25,14 @@ FACT: Action = "change-left"
 FOIL: Action = "continue"
 GOALS: tuple[Action, ...] = ("exit-right", "continue")
 WAYS = 2  # trajectories of a goal
-EVERY_SO_OFTEN = 9  # one of so many rollouts collides
+EVERY_SO_OFTEN = 9  # one of this many rollouts collides
 
 Choices = tuple[tuple[int, int], ...]  # goal and trajectory of every vehicle, in order
 Plan = tuple[Action, ...]
 
 
 def made_up(vehicles: int, depth: int, rollouts: int, seed: int = 0) -> PlanTrace:
-    """Return a decision with so many others, actions in a row, and rollouts drawn at random."""
+    """Return a decision with given numbers of others, actions in a row, and random rollouts."""
     rng = random.Random(f"{vehicles}/{depth}/{rollouts}/{seed}")
     seen = _predictions(vehicles, rng)
     options = [(g, t) for g in range(len(GOALS)) for t in range(WAYS)]
@@ -96,7 +96,7 @@ def _trace(
 
 
 def _rollout(index: int, plan: Plan, drawn: Choices) -> Rollout:
-    """What comes of a plan with a sample: the odd vehicles slow those who stay behind them."""
+    """Return the rollout of a plan with a sample: odd vehicles slow those that stay behind."""
     slow = [k + 1 for k, (goal, _) in enumerate(drawn) if goal == 0 and k % 2 == 0]
     behind = FOIL in plan
     dice = random.Random(f"{plan}/{drawn}")

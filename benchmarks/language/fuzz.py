@@ -1,12 +1,12 @@
-"""`xavi bench fuzz`: texts made at random, none of which may fail to be read and grounded.
+"""`xavi bench fuzz`: random texts, which must all be read and grounded without an error.
 
-A third each is drawn from forms of questions filled with the predicates of the lexicon, from
-annotated questions changed at random, and from anything; each is grounded in a recorded ride,
-behind earlier turns or none. Text k of a seed is always the same.
+One third are forms of questions filled with predicates of the lexicon, one third are annotated
+questions with random changes, and one third are arbitrary. Each is grounded in a recorded ride,
+after earlier turns or none. Text k of a seed is always the same.
 
 Errors::
 
-    FaultFound   a text cannot be read or grounded; holds the text, and what went wrong
+    FaultFound   a text cannot be read or grounded; holds the text and the fault
 """
 
 import math
@@ -34,32 +34,32 @@ from xavi_dialogue.nlu.grounding.result import Grounding
 from xavi_dialogue.nlu.grounding.salience import after
 
 LIMIT = 50.0  # [ms] of processor time: no text may take longer twice in a row
-BATCH = 1000  # texts that a process does at once
+BATCH = 1000  # texts of one task for a process
 SOURCES = ("forms", "mutations", "anything")
-_FOLLOWS = 0.3  # share of texts with turns before them
+_FOLLOWS = 0.3  # share of texts with earlier turns
 _MOST_TURNS = 4
 
 
 class Fault(msgspec.Struct, frozen=True):
-    """What went wrong with a text."""
+    """The fault of a text."""
 
     text: str  # as a Python literal in ASCII
-    context: str  # the turns before it, likewise
+    context: str  # the earlier turns, likewise
     what: str
 
 
 class Tried(msgspec.Struct, frozen=True):
-    """What came of a batch of texts."""
+    """The results of a batch of texts."""
 
     runs: dict[str, int]  # by source
     understood: dict[str, int]  # those with an act that the car can speak of
-    slowest: float  # [ms] the faster of two times
-    worst: str  # the text that took so long, as a Python literal
+    slowest: float  # [ms] of the slowest text, the faster of two times
+    worst: str  # the slowest text, as a Python literal
     faults: tuple[Fault, ...] = ()
 
 
 class FuzzReport(Aimed, frozen=True):
-    """What came of all texts."""
+    """The results of all texts."""
 
     bench: str
     seed: int
@@ -82,7 +82,7 @@ class FuzzReport(Aimed, frozen=True):
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A text to try, and the turns before it."""
+    """A text to try, with the earlier turns."""
 
     source: str
     text: str
@@ -104,20 +104,20 @@ class Batch:
 def measure(
     questions: Path, ride: Path, runs: int, seed: int, jobs: int, note: Callable[[str], None]
 ) -> FuzzReport:
-    """Try so many texts.
+    """Try a number of texts.
 
     Args:
-        questions: where the folder `learn` of annotated questions is.
+        questions: parent of the folder `learn` with annotated questions.
         ride: a recorded ride that the texts are about.
-        runs: how many texts.
+        runs: number of texts.
         seed: of the texts.
-        jobs: how many processes work side by side.
-        note: takes notes on progress.
+        jobs: number of parallel processes.
+        note: is called with notes on progress.
 
     Raises:
         FaultFound: a text cannot be read or grounded, or takes too long.
         QuestionFileError: the questions cannot be read.
-        RideFileError: the ride is none.
+        RideFileError: the file is no recorded ride.
     """
     asked(questions)
     record_of(ride)
@@ -145,7 +145,7 @@ def told(fault: Fault) -> str:
 
 
 def together(found: Sequence[Tried]) -> Tried:
-    """Return what came of several batches, at least one."""
+    """Combine the results of several batches, at least one."""
     slowest = max(found, key=lambda one: one.slowest)
     return Tried(
         dict(sum((Counter(one.runs) for one in found), Counter())),
@@ -179,9 +179,9 @@ def attempt(batch: Batch) -> Tried:
 
 
 def heard(one: Case, record: Record, slowest: float) -> tuple[Grounding, float]:
-    """Return what a text means, and the processor time [ms] that it takes.
+    """Return the meaning of a text, and the processor time [ms] to find it.
 
-    A text that seems the slowest is timed once more, and the faster time counts.
+    A text that seems to be the slowest is timed once more, and the faster time counts.
 
     Raises:
         FaultFound: the result is not a valid one.
@@ -203,7 +203,7 @@ def heard(one: Case, record: Record, slowest: float) -> tuple[Grounding, float]:
 
 
 def case(seed: int, number: int, questions: Sequence[str]) -> Case:
-    """Text `number` of a seed."""
+    """Return text `number` of a seed."""
     rng = Random(f"{seed} {number}")
     source = SOURCES[number % len(SOURCES)]
     turns = rng.randint(1, _MOST_TURNS) if rng.random() < _FOLLOWS else 0
@@ -232,7 +232,7 @@ def _record(ride: Path) -> Record:
 
 
 def shorter(one: Case, fails: Callable[[Case], bool]) -> Case:
-    """Return a text that fails as another does, with what it fails without left out."""
+    """Return a shortened case that still fails, without parts that are not needed for that."""
     turns = (Case(one.source, turn, ()) for turn in (*one.context, one.text))
     one = next((turn for turn in turns if fails(turn)), one)
     size = len(one.text)
@@ -245,7 +245,7 @@ def shorter(one: Case, fails: Callable[[Case], bool]) -> Case:
 
 
 def _failing(one: Case, record: Record) -> Fault:
-    """Return the fault of a text that fails, told of as short a text as possible."""
+    """Return the fault of a failing text, for a text that is as short as possible."""
     least = shorter(one, lambda case: _error(case, record) is not None)
     return _fault(least, _error(least, record) or "it failed once, and no longer does")
 

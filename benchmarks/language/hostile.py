@@ -1,4 +1,4 @@
-"""Hostile texts: as hard to parse as the caps on input allow, in families, drawn by seed."""
+"""Hostile texts, as hard to parse as the limits on input allow, in families, drawn by seed."""
 
 from collections.abc import Callable, Sequence
 from functools import cache
@@ -8,7 +8,7 @@ from random import Random
 from xavi_dialogue.nlu.grammar.lexicon import lexicon
 from xavi_dialogue.nlu.text.tokens import MAX_CHARACTERS, MAX_TOKENS
 
-#: Repeated on purpose: words of questions, of conditions, of negation, and what joins actions.
+#: Phrases to repeat: words of questions, conditions and negation, and words that join actions.
 FRAMES = (
     *("why", "if", "not", "what if", "why not", "stop and", "turn left and", "instead of", "or"),
     *("stop and stop and not", "because", "you", "vehicle 1", "did you not", "would it be", "than"),
@@ -17,17 +17,17 @@ FRAMES = (
 _DEEDS = ("stop", "turn left", "slow down", "change lanes", "go on", "overtake it", "give way")
 _LETTERS = "abcdefghijklmnopqrstuvwxyz"
 _SCRIPTS = (0x0370, 0x0400, 0x05D0, 0x0620, 0x0905, 0x3042, 0x4E00, 0xAC00, 0x1D400, 0x1F600)
-_SCRIPT_WIDTH = 40  # characters taken of each
+_SCRIPT_WIDTH = 40  # characters taken from each script
 _MARKS = ",.;:!?-()"
-CLASSES = 3  # word classes of a word from which it counts as ambiguous
-PAIRS = 200  # of ambiguous words, drawn
-WORDS = 300  # that are repeated, drawn
+CLASSES = 3  # least number of word classes of an ambiguous word
+PAIRS = 200  # pairs of ambiguous words that are drawn
+WORDS = 300  # words that are drawn to be repeated
 
 Family = Callable[[Random], list[str]]  # texts drawn by a generator
 
 
 def families() -> dict[str, Family]:
-    """Return the families by name; their texts are within the caps, and mostly at them."""
+    """Return the families by name; their texts are within the limits, and mostly reach them."""
     return {
         "frames repeated": lambda _: [repeated(frame) for frame in FRAMES],
         "each word repeated": lambda rng: [repeated(word) for word in rng.sample(known(), WORDS)],
@@ -60,18 +60,18 @@ def ambiguous() -> tuple[str, ...]:
 
 
 def repeated(phrase: str) -> str:
-    """Return a phrase over and over, up to the caps."""
+    """Return a phrase repeated up to the limits."""
     return capped(phrase.split() * MAX_TOKENS)
 
 
 def capped(words: Sequence[str]) -> str:
-    """Return as many of the words as are read."""
+    """Return as many of the words as the limits allow."""
     lengths = accumulate(len(word) + 1 for word in words[:MAX_TOKENS])
     return " ".join(words[: sum(1 for _ in takewhile(lambda n: n <= MAX_CHARACTERS + 1, lengths))])
 
 
 def half(text: str) -> str:
-    """Return the first half of a text's words, or of its characters where it is one word."""
+    """Return the first half of a text's words, or of its characters if it is one word."""
     words = text.split()
     return " ".join(words[: len(words) // 2]) if len(words) > 1 else text[: len(text) // 2]
 
@@ -110,7 +110,7 @@ def _letters(rng: Random, length: int) -> str:
 
 
 def _unknown(rng: Random) -> list[str]:
-    """Words of random letters; short ones may be corrected to many that are known."""
+    """Draw words of random letters; short ones may be corrected to many known words."""
     lengths = [rng.randint(3, 9) for _ in range(150)]  # at most, in a text
     return [
         capped([_letters(rng, rng.randint(1, most)) for _ in range(MAX_TOKENS)]) for most in lengths

@@ -1,7 +1,7 @@
-"""`xavi bench intents`: what texts as a whole ask, as the classifier, the grammar and rivals say.
+"""`xavi bench intents`: the intents of texts by the classifier, by the grammar and by rivals.
 
-Learnt from some sets of annotated texts and asked on others, which other people wrote about other
-rides. The grammar alone is measured by the intent that its reading stands for most often.
+They learn from some sets of annotated texts and are tested on another, which other people wrote
+about other rides. The grammar alone is measured by the most frequent intent of its reading.
 """
 
 from collections import Counter
@@ -16,32 +16,32 @@ from xavi_dialogue.nlu.intents.classifier import Head
 from xavi_dialogue.nlu.intents.features import features
 from xavi_dialogue.nlu.parse import Parser
 
-HELD_OUT = "fresh"  # the set that is asked on
-SURE = 0.6  # probability from which on it counts as sure
+HELD_OUT = "fresh"  # the set for the test
+SURE = 0.6  # least probability that counts as sure
 FIRST = 3
 
 
 class Rate(msgspec.Struct, frozen=True):
-    """How often one way to tell the intent is right."""
+    """The accuracy of one way to determine the intent."""
 
     name: str
     right: float
     among_three: float | None = None
     sure: float | None = None  # share of texts in which it is sure ...
-    right_when_sure: float | None = None  # ... and how often it is right then
+    right_when_sure: float | None = None  # ... and the share of these that are right
 
 
 class IntentsReport(Aimed, frozen=True):
-    """What the benchmark found."""
+    """The results of the benchmark."""
 
     bench: str
     learnt_from: int
     asked: int
     rates: tuple[Rate, ...]
-    confused: tuple[tuple[str, str, int], ...]  # asked, told, how often
+    confused: tuple[tuple[str, str, int], ...]  # true intent, the one found, how often
 
     def table(self) -> str:
-        """Give the report for people."""
+        """Return the report for people."""
         rows = [
             (r.name, _percent(r.right), _percent(r.among_three), _percent(r.sure),
              _percent(r.right_when_sure))
@@ -56,12 +56,12 @@ class IntentsReport(Aimed, frozen=True):
 
 
 def measure(folder: Path, keep: Path | None, note: Callable[[str], None]) -> IntentsReport:
-    """Learn from all sets but one and ask on that one.
+    """Learn from all sets except one, and test on that one.
 
     Args:
         folder: the sets of annotated texts.
-        keep: a file for the weights, learnt from all sets; None: they are not kept.
-        note: where progress goes.
+        keep: a file for the weights learnt from all sets; None: they are not kept.
+        note: is called with notes on progress.
     """
     sets = read(folder)
     fresh = sets.pop(HELD_OUT)
@@ -107,7 +107,7 @@ def _features(example: Example, grammar: bool) -> frozenset[str]:
 
 
 def _nearest(known: Sequence[Example], asked: Sequence[Example]) -> Rate:
-    """Take the intent of the text with most words in common (Jaccard)."""
+    """Score the intent of the text with most words in common (Jaccard)."""
     bags = [(frozenset(example.text.lower().split()), example) for example in known]
     right = 0
     for example in asked:

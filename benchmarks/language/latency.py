@@ -1,7 +1,7 @@
-"""Latency of understanding: times of single texts, none of which profits from texts before it.
+"""Latency of understanding: times of single texts, independent of earlier texts.
 
-Caches of the modules that read texts and are bounded hold what texts brought along; they are
-emptied before a text is timed. Unbounded ones hold the tables of grammar and word lists, and stay.
+Bounded caches of the modules that read texts hold results of earlier texts, so they are emptied
+before a text is timed. Unbounded caches hold tables of grammar and word lists, and are kept.
 """
 
 import time
@@ -21,7 +21,7 @@ RIDE = Path("transcripts/rides/s1-0.ride.jsonl.gz")
 
 
 def record_of(path: Path) -> Record:
-    """Return all that was recorded of a ride.
+    """Return the record of a ride.
 
     Raises:
         RideFileError: it is no recorded ride.
@@ -38,13 +38,13 @@ def understood(text: str, record: Record, discourse: Discourse) -> Grounding:
 def hearing_time(
     text: str, record: Record, discourse: Discourse | None = None, times: int = 1
 ) -> float:
-    """Return the processor time [ms] to read and ground a text once the tables are built.
+    """Return the processor time [ms] to read and ground a text, after the tables are built.
 
     Args:
-        text: what is read.
+        text: the text.
         record: of the ride that it is grounded in.
-        discourse: before it; None: nothing was said yet.
-        times: how often it is timed; the fastest counts.
+        discourse: the earlier discourse; None: nothing was said yet.
+        times: number of repeats; the fastest counts.
     """
     before = Discourse() if discourse is None else discourse
     return min(_timed(text, record, before) for _ in range(times))

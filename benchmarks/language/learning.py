@@ -19,9 +19,9 @@ from xavi_dialogue.nlu.parse import Parser
 
 RIDGE: Final = 0.03  # weight of the squared weights
 STEPS: Final = 60  # of L-BFGS
-TIMES: Final = 2  # texts in which a feature must occur
+TIMES: Final = 2  # least number of texts with a feature
 LEAST: Final = 0.5  # weights below this are left out
-COARSE: Final = ("word:", "asked:", "begin:", "asked pair:", "act:")  # for tense and action
+COARSE: Final = ("word:", "asked:", "begin:", "asked pair:", "act:")  # features for tense, action
 NONE: Final = "none"
 
 Array: TypeAlias = NDArray[np.float64]
@@ -44,7 +44,7 @@ class Example(msgspec.Struct, frozen=True):
 
     @property
     def intents(self) -> tuple[str, ...]:
-        """What it asks, in the order of the text."""
+        """The intents, in the order of the text."""
         return tuple(ask.i for ask in self.asks)
 
 
@@ -81,7 +81,7 @@ def learnt(examples: Sequence[Example]) -> Model:
 
 
 def grammar_alone(examples: Sequence[Example]) -> Head:
-    """Learn which intent an act of the grammar stands for, from texts that ask one thing."""
+    """Learn the intent that an act of the grammar stands for, from texts that ask one thing."""
     parser = Parser()
     rows: list[frozenset[str]] = []
     named: list[tuple[str, ...]] = []
@@ -94,7 +94,7 @@ def grammar_alone(examples: Sequence[Example]) -> Head:
 
 
 def _head(rows: Rows, classes: Sequence[Sequence[str]], times: int) -> Head:
-    """Fit one model; a text of several classes counts for each of them in part."""
+    """Fit one model; a text of several classes counts in part for each."""
     counts = Counter(name for row in rows for name in sorted(row))
     index = {n: k for k, n in enumerate(sorted(n for n, c in counts.items() if c >= times))}
     labels = sorted({label for row in classes for label in row})
@@ -114,7 +114,7 @@ def _head(rows: Rows, classes: Sequence[Sequence[str]], times: int) -> Head:
 
 
 def _matrix(rows: Iterable[frozenset[str]], index: dict[str, int]) -> csr_matrix:
-    """Give the features of texts [N, D]; each row has length 1."""
+    """Return the features of texts [N, D]; each row has length 1."""
     at, columns, values = [], [], []
     size = 0
     for size, row in enumerate(rows, start=1):

@@ -1,4 +1,4 @@
-"""Mutations: questions changed at random, and texts made of anything."""
+"""Mutations: random changes to questions, and arbitrary texts."""
 
 import unicodedata
 from collections.abc import Callable, Sequence
@@ -7,7 +7,7 @@ from random import Random
 
 from xavi_dialogue.nlu.grammar.lexicon import lexicon
 
-MOST_CHANGES = 4  # to one text
+MOST_CHANGES = 4  # greatest number of changes to one text
 _LIKE = dict(
     zip(
         "aceiopsxyACEHKMOPTXdhu0123l'\"-",
@@ -34,7 +34,7 @@ def mutated(rng: Random, questions: Sequence[str]) -> str:
 
 
 def anything(rng: Random) -> str:
-    """Random words, characters of any script, and pieces that parsers stumble over."""
+    """Return random words, characters of any script, and pieces that are hard for parsers."""
     make = rng.choice((_word, _odd, _character, _word, _likely))
     mixed = rng.random() < 0.5
     makers = (_word, _odd, _character, _number)

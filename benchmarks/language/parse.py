@@ -28,22 +28,22 @@ from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.nlu.parse import Parser
 from xavi_dialogue.process.garbage import settled
 
-AGAIN = 10  # slowest texts of a family that are timed anew
-TIMES = 3  # how often, then; the fastest counts
+AGAIN = 10  # slowest texts of a family that are timed again
+TIMES = 3  # number of repeats then; the fastest counts
 SEED = 0
-SHOWN = 60  # characters of the worst text
-RATIOS = 40  # texts of a family of which growth is taken, at most
-SHORTEST = 0.2  # [ms] texts that take less say nothing of growth
+SHOWN = 60  # characters of the worst text that are shown
+RATIOS = 40  # greatest number of texts of a family for measuring growth
+SHORTEST = 0.2  # [ms] least time of a text for measuring growth
 
-EXACT = 95.0  # [%] of blind questions, at least
-CONFIDENT = 1.0  # [%] of them that are confidently wrong, at most
-MEDIAN, TAIL, WORST = 3.0, 15.0, 50.0  # [ms] to read and ground: p50, p99, of hostile texts
+EXACT = 95.0  # target: least [%] of blind questions that are exact
+CONFIDENT = 1.0  # target: greatest [%] of them that are confidently wrong
+MEDIAN, TAIL, WORST = 3.0, 15.0, 50.0  # targets [ms] to read and ground: p50, p99, hostile texts
 
 Grouping = Callable[[Question], str]
 
 
 class Set(msgspec.Struct, frozen=True):
-    """How the parser fares on the questions of a folder."""
+    """The scores of the parser on the questions of a folder."""
 
     name: str
     all: Agreement
@@ -59,18 +59,18 @@ class Hardest(msgspec.Struct, frozen=True):
     n: int
     p50: float  # [ms]
     most: float  # [ms]
-    growth: float | None  # time of a text over that of its first half, median; None: too short
+    growth: float | None  # median ratio of a text's time to its first half's; None: too short
     growth_most: float | None
     worst: str  # the text that took longest
 
 
 class ParseReport(Aimed, frozen=True):
-    """What a benchmark of understanding found."""
+    """The results of the benchmark."""
 
     bench: str
     figures: tuple[Figure, ...]  # of latency, reading and grounding together
     sets: tuple[Set, ...]
-    unseen: Agreement | None  # of blind questions that stand in no other set; None: no such
+    unseen: Agreement | None  # on blind questions that are in no other set; None: there are none
     hostile: tuple[Hardest, ...]
 
     def table(self) -> str:
@@ -97,14 +97,14 @@ def measure(
     """Score annotated questions, and time them and hostile texts.
 
     Args:
-        questions: where the folders `learn` and `blind` are; there may be no blind ones.
+        questions: parent of the folders `learn` and `blind`; the latter may be missing.
         ride: a recorded ride in which texts are grounded when they are timed.
-        note: takes notes on progress.
+        note: is called with notes on progress.
         attacks: families of hostile texts; default: all of them.
 
     Raises:
         QuestionFileError: the folder `learn` has no questions, or a line is broken.
-        RideFileError: the ride is none.
+        RideFileError: the file is no recorded ride.
     """
     parser, record = Parser(), record_of(ride)
     asked = {LEARN: read_folder(questions / LEARN)}
@@ -113,7 +113,7 @@ def measure(
     else:
         note(f"{questions / BLIND} holds no .jsonl files: no figures of blind questions")
     sets = tuple(scored(parser, name, found) for name, found in asked.items())
-    with settled():  # as the service does once it is warm
+    with settled():  # as in a warm service
         figures = tuple(
             figure(f"{name} questions", "ms", [hearing_time(q.text, record) for q in found])
             for name, found in asked.items()
@@ -126,7 +126,7 @@ def measure(
 
 
 def _aimed(report: ParseReport) -> ParseReport:
-    """Return the report, held against its targets."""
+    """Return the report with its targets."""
     last, timed = report.sets[-1].all, report.figures[-1]
     worst = max((one.most for one in report.hostile), default=None)
     return aimed(
@@ -140,7 +140,7 @@ def _aimed(report: ParseReport) -> ParseReport:
 
 
 def scored(parser: Parser, name: str, questions: Sequence[Question]) -> Set:
-    """Return how a parser fares on questions, at least one."""
+    """Return the scores of a parser on questions, at least one."""
     verdicts = [(question, _verdict(parser, question)) for question in questions]
     return Set(
         name,
@@ -156,7 +156,7 @@ def _verdict(parser: Parser, question: Question) -> Verdict:
 
 
 def _unseen(parser: Parser, asked: dict[str, tuple[Question, ...]]) -> Agreement | None:
-    """Return how it fares on blind questions that do not stand among the others too."""
+    """Return the scores on blind questions that are not among the others too."""
     learnt = {question.text.casefold() for question in asked[LEARN]}
     rest = [question for question in asked.get(BLIND, ()) if question.text.casefold() not in learnt]
     verdicts = [_verdict(parser, question) for question in rest]
@@ -166,7 +166,7 @@ def _unseen(parser: Parser, asked: dict[str, tuple[Question, ...]]) -> Agreement
 def _grouped(
     verdicts: Sequence[tuple[Question, Verdict]], group: Grouping
 ) -> tuple[Agreement, ...]:
-    """Agreement by group, the largest first."""
+    """Return the agreement by group, the largest group first."""
     groups: dict[str, list[Verdict]] = {}
     for question, found in verdicts:
         groups.setdefault(group(question), []).append(found)
@@ -175,9 +175,9 @@ def _grouped(
 
 
 def hardest(name: str, family: Family, record: Record) -> Hardest:
-    """Return the times of a family's texts, and how they grow from half of each.
+    """Return the times of a family's texts, and their growth from the first half of each.
 
-    All are timed once; the slowest again, to tell texts that are slow from moments that were.
+    All are timed once. The slowest are timed again, as the machine may have been slow for a moment.
     """
     texts = family(Random(SEED))
     once = [hearing_time(text, record) for text in texts]
@@ -198,7 +198,7 @@ def hardest(name: str, family: Family, record: Record) -> Hardest:
 
 
 def _growth(texts: Sequence[str], record: Record) -> list[float]:
-    """Time of texts over that of their first halves; of as many as tell."""
+    """Return ratios of the times of texts to those of their first halves, if long enough."""
     chosen = texts[:: -(-len(texts) // RATIOS)]
     times = [
         (hearing_time(t, record, times=TIMES), hearing_time(half(t), record, times=TIMES))

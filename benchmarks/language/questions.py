@@ -2,7 +2,7 @@
 
 Errors::
 
-    QuestionFileError   a folder or file is missing, or a line broken; says which and how to mend it
+    QuestionFileError   a folder or file is missing, or a line is broken; states the remedy
 """
 
 from pathlib import Path
@@ -13,8 +13,8 @@ from benchmarks.errors import QuestionFileError
 from benchmarks.language.scoring import Question
 
 FOLDER = Path("tests/nlu/questions")
-LEARN = "learn"  # folder of the questions that rules and words may be written for
-BLIND = "blind"  # folder of those that they may not
+LEARN = "learn"  # folder of the questions for which rules and words may be written
+BLIND = "blind"  # folder of the questions for which they may not
 SHAPE = '{"id": .., "text": .., "style": .., "query": {"type": .., "actor": .., ..}}'
 
 
@@ -38,7 +38,7 @@ def read_folder(folder: Path) -> tuple[Question, ...]:
 
 
 def read(file: Path) -> tuple[Question, ...]:
-    """Return the questions of a file, in order; empty lines are passed over.
+    """Return the questions of a file, in order; empty lines are skipped.
 
     Raises:
         QuestionFileError: it cannot be read, or a line is broken.

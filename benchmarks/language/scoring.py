@@ -1,8 +1,8 @@
-"""Scoring: how well the fields of what was read agree with an annotated question.
+"""Scoring of how well the fields of a reading agree with an annotated question.
 
-The fields are a projection of the typed meaning, for scoring text alone. A question has one
-annotated query and may have alternatives that are as good. Time phrases, reasons and the like are
-not compared: what counts is that the car answers the right question.
+The fields are a projection of the typed meaning, for scoring only. A question has one annotated
+query and may have equally good alternatives. Time phrases, reasons and the like are not compared;
+it counts that the car answers the right question.
 """
 
 from collections.abc import Sequence
@@ -32,12 +32,12 @@ class Question(msgspec.Struct, frozen=True):
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """How a prediction fares."""
+    """The score of a prediction."""
 
-    type: bool  # the type is one of those accepted
-    exact: bool  # all that is compared is as in one of the accepted queries
-    exact_primary: bool  # as in the annotated query itself
-    false_confident: bool  # the car would answer what was not asked, and not notice
+    type: bool  # whether the type is one of those accepted
+    exact: bool  # whether all compared fields equal those of an accepted query
+    exact_primary: bool  # whether they equal those of the annotated query itself
+    false_confident: bool  # whether the car would answer another question without noticing
 
 
 class Agreement(msgspec.Struct, frozen=True):
@@ -54,9 +54,9 @@ class Agreement(msgspec.Struct, frozen=True):
 def verdict(question: Question, predicted: QueryFields) -> Verdict:
     """Score a prediction.
 
-    It is falsely confident where it is answerable, not exact, and each accepted query either has
-    no answer or is answerable for another actor or with the opposite negation; where some have no
-    answer, the answerable ones alone decide.
+    It is falsely confident if it is answerable and not exact, and each accepted query either has
+    no answer, or is answerable for another actor or with the opposite negation. If some have no
+    answer, only the answerable ones decide.
     """
     blurred = question.underspecified == "direction"
     wanted = [_essence(query, blurred) for query in question.accepted]
@@ -89,7 +89,7 @@ def _percent(held: Sequence[bool]) -> float:
 
 
 def _comparable(predicted: QueryFields, accepted: QueryFields) -> bool:
-    """Check whether both are about the same vehicle's doing or not doing."""
+    """Check whether both are about the same actor, with the same negation."""
     return (
         accepted.type not in TALK
         and predicted.actor == accepted.actor
@@ -98,7 +98,7 @@ def _comparable(predicted: QueryFields, accepted: QueryFields) -> bool:
 
 
 def _essence(query: QueryFields, blurred: bool) -> tuple[object, ...]:
-    """Return what of a query is compared."""
+    """Return the fields of a query that are compared."""
     if query.type in TALK:
         return (query.type,)
     return (
@@ -113,5 +113,5 @@ def _essence(query: QueryFields, blurred: bool) -> tuple[object, ...]:
 
 
 def _actions(actions: FieldActions | None, blurred: bool) -> tuple[str, ...]:
-    """Actions as they are compared; blurred ones have one direction only."""
+    """Return actions for comparison; blurred ones have one direction only."""
     return tuple(a.replace("-right", "-left") if blurred else a for a in actions or ())

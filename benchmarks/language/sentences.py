@@ -1,4 +1,4 @@
-"""Sentences drawn at random: every form of question, filled with the predicates of the lexicon."""
+"""Random sentences: forms of questions, filled with the predicates of the lexicon."""
 
 from collections.abc import Iterable, Mapping
 from functools import cache
@@ -7,7 +7,7 @@ from random import Random
 from xavi_dialogue.nlu.grammar.inflect import verb_forms
 from xavi_dialogue.nlu.text.tables import load, phrases
 
-#: Forms of questions; what stands in braces is drawn.
+#: Forms of questions; names in braces are slots.
 FORMS = (
     *("why did {we} {base}", "why didn't {we} {base} {tail}", "why did {it} {base} {tail}"),
     *("why are {we} {ing}", "why is {it} {ing} {tail}", "why not {base} {tail}"),
@@ -49,7 +49,7 @@ def sentence(rng: Random) -> str:
 
 
 def _filled(slot: str, rng: Random) -> str:
-    """Draw what stands in a slot."""
+    """Draw the words for a slot."""
     match slot:
         case "base" | "past" | "part" | "ing":
             return _verb(slot, rng)
@@ -83,7 +83,7 @@ def _time(rng: Random) -> str:
 
 
 def _thing(rng: Random) -> str:
-    """Draw another road user, by number or as it is described."""
+    """Draw a phrase for another road user, by number or description."""
     kind, colour = rng.choice(_words("KIND")), rng.choice(_words("COLOUR"))
     bearing = rng.choice(_words("BEARADJ"))
     return rng.choice(

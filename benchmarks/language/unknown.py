@@ -1,7 +1,7 @@
-"""`xavi bench unknown`: an unknown word in a question must not be ignored.
+"""`xavi bench unknown`: whether an unknown word in a question is ignored.
 
-Into each of some questions that are understood as they stand a made-up word is put. A plain answer
-then, without owning up to that word, may answer another question than the one that was asked.
+An invented word is inserted into questions that are understood without it. A plain answer that does
+not mention the word may answer another question than the one that was asked.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -35,7 +35,7 @@ ONSETS = ("bl", "dr", "fl", "gl", "kr", "pl", "skr", "spl", "thr", "vr", "zw", "
 NUCLEI = ("a", "e", "i", "o", "u", "oo", "ee")
 CODAS = ("b", "g", "lk", "mp", "nk", "rb", "rf", "sk", "x", "zz")
 
-#: What comes of a question with such a word: "owned up": answered, and the word was named.
+#: The result of a question with such a word; "owned up": answered, and the word was named.
 Fate: TypeAlias = Literal["plain answer", "owned up", "not understood", "asked back", "declined"]
 
 
@@ -49,11 +49,11 @@ class Heard(msgspec.Struct, frozen=True):
 
 
 class UnknownReport(Aimed, frozen=True):
-    """What the benchmark found."""
+    """The results of the benchmark."""
 
     bench: str
     questions: int
-    plain_answers: int  # to questions with a word that was not owned up to
+    plain_answers: int  # answers that do not mention the unknown word
     fates: dict[str, int]
     wrong: tuple[Heard, ...]  # the plain answers
 
@@ -71,15 +71,15 @@ def measure(
     """Ask questions with an unknown word.
 
     Args:
-        questions: where the folder `learn` of annotated questions is.
-        ride: the recorded ride that is asked about.
-        number: how many questions.
+        questions: parent of the folder `learn` with annotated questions.
+        ride: the recorded ride that the questions are about.
+        number: number of questions.
         seed: of the questions, the words and their places.
-        note: takes notes if there are too few questions.
+        note: is called if there are too few questions.
 
     Raises:
         QuestionFileError: the questions cannot be read.
-        RideFileError: the ride is none.
+        RideFileError: the file is no recorded ride.
     """
     rng, known = Random(seed), ride_file.load(ride.read_bytes())
     texts = [one.text for one in read_folder(questions / LEARN) if not one.context]
@@ -95,7 +95,7 @@ def measure(
 
 
 def plain_questions(texts: Sequence[str], ride: RecordedRide) -> Iterator[str]:
-    """Yield the questions of which each word is understood, and that have an answer."""
+    """Yield the questions that have an answer, and of which each word is understood."""
     record = Record(ride.halt, tuple(ride.traces), tuple(ride.events), ride.ended is not None)
     for text in texts:
         found = understood(text, record, Discourse())
@@ -116,7 +116,7 @@ def tried(text: str, rng: Random, ride: RecordedRide) -> Heard:
 
 
 def fate(reply: Reply, word: str) -> Fate:
-    """Describe the result of a question with an unknown word."""
+    """Return the kind of result of a question with an unknown word."""
     if reply.kind == "clarification":
         return "asked back"
     if reply.kind == "refusal":
@@ -125,7 +125,7 @@ def fate(reply: Reply, word: str) -> Fate:
 
 
 def made_up(rng: Random) -> str:
-    """Draw a word that could be one, and is nowhere near any that is known."""
+    """Draw a pronounceable word that is not similar to any known word."""
     vocabulary = lexicon().vocabulary
     while True:
         parts = (ONSETS, NUCLEI, CODAS) * rng.randint(1, 2)
@@ -135,7 +135,7 @@ def made_up(rng: Random) -> str:
 
 
 def report(found: Sequence[Heard]) -> UnknownReport:
-    """Return what was heard in numbers."""
+    """Count the results."""
     fates = dict.fromkeys(get_args(Fate), 0)
     for one in found:
         fates[one.fate] += 1
@@ -158,7 +158,7 @@ def _driven(pipeline: Pipeline, ride: RecordedRide) -> Dialogue:
 
 
 def _again(ride: RecordedRide) -> Callable[[PlanTrace, NeedRollout], PlanTrace]:
-    """Return what plans again as far as it is recorded."""
+    """Return a function that plans again from recorded plans."""
 
     def again(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
         found = ride.whatifs.get(ride_file.key(need))
