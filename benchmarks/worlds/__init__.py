@@ -1,1 +1,1 @@
-"""Worlds with one planted cause: scenario folders in which one vehicle alone matters to the ego."""
+"""Worlds with planted causes: scenario folders in which chosen vehicles matter to the ego."""

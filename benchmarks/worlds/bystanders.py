@@ -1,4 +1,4 @@
-"""Bystanders at random: vehicles that are not to matter to the ego."""
+"""Random bystanders: vehicles that are not to matter to the ego."""
 
 from collections.abc import Callable, Sequence
 from random import Random
@@ -7,13 +7,13 @@ from benchmarks.worlds.stories import JUNCTION, SHAPES
 from benchmarks.worlds.values import Edge, Halt, Sketch, Vehicle
 
 MOST = 8
-APART = 18.0  # [m] between the fronts of two that start in one lane
-TRIES = 8  # for a place that is free
-FOREVER = 300.0  # [s]
+APART = 18.0  # [m] least distance between the fronts of two that start in one lane
+TRIES = 8  # attempts to find a free place, per vehicle
+FOREVER = 300.0  # [s] longer than any ride
 
 
 def bystanders(draw: Random, sketch: Sketch) -> list[Vehicle]:
-    """From none to eight of them, each with a place of its own."""
+    """Draw some bystanders, possibly none, each with its own place."""
     there = [sketch.ego, *sketch.cast]
     wanted = draw.randint(0, MOST + 1 - len(sketch.cast))
     found: list[Vehicle] = []
@@ -39,7 +39,7 @@ def _driving(draw: Random, role: str, edge: Edge, lane: int = 0) -> Vehicle:
 
 
 def _parked(draw: Random, sketch: Sketch) -> Vehicle | None:
-    """Beside a road that the ego does not take."""
+    """Draw a vehicle parked beside a road that the ego does not take."""
     edges = [e for e in sketch.roads.edges.values() if e.id not in _ways(sketch)]
     return _standing(draw, "parked", draw.choice(edges), beside=True)
 
@@ -51,13 +51,13 @@ def _standing(draw: Random, role: str, edge: Edge, *, beside: bool) -> Vehicle:
 
 
 def _aside(draw: Random, sketch: Sketch) -> Vehicle | None:
-    """On a road that the ego's meets nowhere."""
+    """Draw a vehicle on a road that does not meet the ego's."""
     edge = sketch.roads.edges[draw.choice(("aside_there", "aside_back"))]
     return _driving(draw, "other-road", edge)
 
 
 def _behind(draw: Random, sketch: Sketch) -> Vehicle | None:
-    """Far behind the ego, and no faster."""
+    """Draw a vehicle far behind the ego, and not faster; None if there is no room."""
     ego, edge = sketch.ego, sketch.roads.edges[sketch.ego.route[0]]
     room = ego.position - 35.0
     if room < 14.0:
@@ -68,7 +68,7 @@ def _behind(draw: Random, sketch: Sketch) -> Vehicle | None:
 
 
 def _leaving(draw: Random, sketch: Sketch) -> Vehicle | None:
-    """Away from the junction, or towards the ego on a straight road; the ego crosses neither."""
+    """Draw a vehicle that drives away from the junction, or past the ego on a straight road."""
     edges = [e for e in sketch.roads.edges.values() if e.id == "back" or e.id.endswith("_out")]
     edge = draw.choice(edges)
     lane = draw.randrange(edge.lanes)
@@ -80,7 +80,7 @@ def _leaving(draw: Random, sketch: Sketch) -> Vehicle | None:
 
 
 def _passing(draw: Random, sketch: Sketch) -> Vehicle | None:
-    """In view in a lane that the ego does not need, ahead of it and fast."""
+    """Draw a fast vehicle ahead of the ego, in a lane that the ego does not need."""
     ego, edge = sketch.ego, sketch.roads.edges[sketch.ego.route[0]]
     place = ego.position + draw.uniform(5.0, 90.0)
     if edge.lanes < 2 or place > edge.length - JUNCTION - 8.0:
@@ -91,7 +91,7 @@ def _passing(draw: Random, sketch: Sketch) -> Vehicle | None:
 
 
 def _past(draw: Random, sketch: Sketch) -> Vehicle | None:
-    """Towards the ego, straight on past it, where the ego does not cross its way."""
+    """Draw an oncoming vehicle that goes straight on; None if the ego crosses its way."""
     if sketch.ego.route != ("west_in", "east_out"):
         return None
     edge = sketch.roads.edges["east_in"]

@@ -14,7 +14,7 @@ NAME = "world"
 EGO = "ego"
 STEP, DURATION, VIEW = 0.1, 90.0, 100.0  # [s], [s], [m]
 LANE_WIDTH = 3.5  # [m]
-END = 15.0  # [m] of the last road that lie beyond the goal
+END = 15.0  # [m] of the last road beyond the goal
 COLOURS = ("white", "grey", "black", "red", "orange", "green", "blue", "purple", "brown")
 RGB = {"purple": "128,0,128", "brown": "139,69,19", "green": "0,160,0"}
 #: vClass, length, width, height [m], acceleration and deceleration [m/s2].
@@ -42,7 +42,7 @@ def write(world: World, folder: Path) -> Scenario:
 
 
 def write_traffic(world: World, folder: Path, story: str) -> Scenario:
-    """Write what belongs to a world beside its compiled net, which is in the folder.
+    """Write the files of a world to a folder that has its compiled net already.
 
     Raises:
         ScenarioError: the vehicles do not fit the roads.
@@ -53,7 +53,7 @@ def write_traffic(world: World, folder: Path, story: str) -> Scenario:
 
 
 def without(world: World, scenario: Scenario, gone: Collection[int]) -> Scenario:
-    """Return the scenario of a world without some of its vehicles; its route file stands beside."""
+    """Return the scenario of a world without some vehicles, with a route file beside the other."""
     name = "-".join(["without", *map(str, sorted(gone))])
     target = scenario.folder / f"{name}.rou.xml"
     _save(_routes(world, gone), target)
@@ -80,7 +80,7 @@ def _routes(world: World, gone: Collection[int]) -> ET.Element:
     paint = Random(f"paint/{world.seed}")
     _add(root, EGO, world.ego, "white")
     for name, vehicle in world.others.items():
-        colour = paint.choice(COLOURS)  # drawn for each, so that those left keep theirs
+        colour = paint.choice(COLOURS)  # drawn for all, so that the remaining ones keep theirs
         if name not in gone:
             _add(root, str(name), vehicle, colour)
     return root
@@ -94,7 +94,7 @@ def _add(root: ET.Element, name: str, vehicle: Vehicle, colour: str) -> None:
     if vehicle.top is not None:
         kind["maxSpeed"] = f"{vehicle.top:.2f}"
     kind |= dict(vehicle.manners)
-    # A vehicle type stands before the vehicles: SUMO reads in order.
+    # A vehicle type must come before its vehicles, since SUMO reads in order.
     root.append(ET.Element("vType", kind))
     start = {"depart": "0", "departLane": f"{vehicle.lane}", "departPos": f"{vehicle.position:.2f}"}
     top = vehicle.speed if vehicle.top is None else min(vehicle.speed, vehicle.top)

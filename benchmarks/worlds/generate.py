@@ -1,4 +1,4 @@
-"""Worlds by number: roads, a story and bystanders follow from the seed alone."""
+"""Worlds by number: roads, story and bystanders are determined by the seed."""
 
 from collections.abc import Callable, Mapping
 from random import Random
@@ -19,12 +19,12 @@ STORIES: Mapping[Kind, Callable[[Random], Sketch]] = {
 
 
 def kind_of(seed: int) -> Kind:
-    """Tell the kind of a world: they take turns."""
+    """Return the kind of a world; kinds alternate with the seed."""
     return KINDS[seed % len(KINDS)]
 
 
 def draw(seed: int, attempt: int, family: Family = "straight") -> World:
-    """Draw a world that is not confirmed yet; the same numbers give the same world."""
+    """Draw a world whose kind is not confirmed yet; the same numbers give the same world."""
     kind = kind_of(seed)
     chance = Random(f"{kind}/{seed}/{attempt}")
     sketch = STORIES[kind](chance)

@@ -1,7 +1,7 @@
-"""Road networks by SUMO's netgenerate, with traffic at random: scenario folders by number.
+"""Road networks by SUMO's netgenerate, with random traffic: scenario folders by number.
 
-Kinds take turns. Where others go is drawn link by link, evenly among the roads that leave a
-junction, and so no kind of turn is commoner than the roads make it.
+Kinds alternate. The ways of others are drawn link by link, evenly among the roads that leave a
+junction, so that the frequency of turns depends on the roads alone.
 """
 
 import xml.etree.ElementTree as ET
@@ -19,23 +19,23 @@ Generated: TypeAlias = Literal["grid", "blocks", "spider", "random"]
 FAMILIES: tuple[Generated, ...] = ("grid", "blocks", "spider", "random")
 NAME, EGO = "generated", "ego"
 STEP, DURATION, VIEW = 0.1, 60.0, 100.0  # [s], [s], [m]
-OTHERS = (18, 30)  # least and most vehicles beside the ego
+OTHERS = (18, 30)  # least and greatest number of vehicles besides the ego
 SPACING = 18.0  # [m] between those that start on the same edge
-ROOM = 30.0  # [m] before the end of an edge that is left free at first
-LONGEST, MOST = 900.0, 12  # [m] of a route, and its edges at most
+ROOM = 30.0  # [m] before the end of an edge where no vehicle starts
+LONGEST, MOST = 900.0, 12  # greatest length [m] of a route, and greatest number of its edges
 LIMITS = (8.33, 11.11, 13.89)  # [m/s]
-#: vClass, length and width [m]; each vehicle is a car three times out of five.
+#: vClass, length and width [m]; three of five vehicles are cars.
 TYPES = {"car": ("passenger", 4.6, 1.8), "van": ("delivery", 6.5, 2.1), "bus": ("bus", 12.0, 2.5)}
 KINDS = ("car", "car", "car", "van", "bus")
 
 
 def family_of(number: int) -> Generated:
-    """Tell the kind of a network: they take turns."""
+    """Return the kind of a network; kinds alternate with the number."""
     return FAMILIES[number % len(FAMILIES)]
 
 
 def write(number: int, folder: Path) -> Scenario:
-    """Write the scenario folder of a number, which need not exist; the same number, the same one.
+    """Write the scenario folder of a number, which need not exist; it depends on the number alone.
 
     Raises:
         NetconvertError: netgenerate is not installed, or it fails.
@@ -53,7 +53,7 @@ def write(number: int, folder: Path) -> Scenario:
 
 
 def options(number: int, draw: Random) -> tuple[str, ...]:
-    """Return what netgenerate is asked for."""
+    """Return the arguments for netgenerate."""
     lanes, long = str(draw.choice((1, 2))), draw.uniform(75.0, 150.0)
     blur = f"norm(0,{0.06 * long:.2f})"
     bent = ("--perturb-x", blur, "--perturb-y", blur)
@@ -93,7 +93,7 @@ def routes(network: Network, draw: Random) -> list[tuple[tuple[str, ...], float]
 def walk(
     network: Network, follow: dict[str, tuple[str, ...]], start: str, draw: Random
 ) -> tuple[str, ...]:
-    """Draw a way from an edge on, without going back and at most once along each edge."""
+    """Draw a way from an edge on that takes no edge twice."""
     way, total = [start], _length(network, start)
     while len(way) < MOST and total < LONGEST:
         rest = [edge for edge in follow.get(way[-1], ()) if edge not in way]
@@ -105,7 +105,7 @@ def walk(
 
 
 def followers(network: Network) -> dict[str, tuple[str, ...]]:
-    """Return the edges that can be driven to from each edge, but for turning around."""
+    """Return the edges that follow each edge, except by turning around."""
     found: dict[str, set[str]] = {}
     for link in network.links:
         start, end = network.lanes[link.from_lane].edge, network.lanes[link.to_lane].edge

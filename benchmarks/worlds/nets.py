@@ -1,4 +1,4 @@
-"""Networks that nobody has seen, made by netgenerate, with traffic at random.
+"""New networks made by netgenerate, with random traffic.
 
 A world is a number in a family: the same number gives the same world, and families share none.
 """
@@ -18,14 +18,14 @@ from sim.setup.scenario import Scenario
 
 SHAPES: tuple[Shape, ...] = ("car", "car", "car", "van", "truck", "bus", "motorcycle")
 LIMITS = (8.33, 11.11, 13.89, 16.67)  # [m/s]
-LONG = (100.0, 220.0)  # [m] the ego's way, from the beginning of its first edge
-FEWEST, MOST = 2, 7  # others
-APART = 16.0  # [m] between the fronts of two that start in one lane
-CLEAR = 20.0  # [m] of an edge from which on somebody may start, and before its end
-LEAST = 60.0  # [m] an edge on which the ego's way may begin or end
-HALTS = 0.12  # of the others that stop on the way
+LONG = (100.0, 220.0)  # [m] length of the ego's way, from the beginning of its first edge
+FEWEST, MOST = 2, 7  # number of others
+APART = 16.0  # [m] least distance between the fronts of two that start in one lane
+CLEAR = 20.0  # [m] at both ends of an edge, where nobody starts
+LEAST = 60.0  # [m] least length of an edge on which the ego's way may begin or end
+HALTS = 0.12  # share of the others that stop on the way
 TRIES = 200
-DURATION = 60.0  # [s] a ride at most
+DURATION = 60.0  # [s] greatest duration of a ride
 
 
 class NoWay(Exception):
@@ -38,7 +38,7 @@ def write_net(family: str, number: int, folder: Path) -> Scenario:
     Raises:
         NetconvertError: netgenerate is not installed, or fails.
         ScenarioError: the vehicles do not fit the roads.
-        NoWay: in none of many networks is there a way that is long enough.
+        NoWay: none of many networks has a way that is long enough.
     """
     folder.mkdir(parents=True, exist_ok=True)
     draw = Random(f"{family}/{number}")
@@ -53,7 +53,7 @@ def write_net(family: str, number: int, folder: Path) -> Scenario:
 
 
 def _arguments(draw: Random) -> list[str]:
-    """Return what netgenerate is asked for."""
+    """Draw the arguments for netgenerate."""
     rest = ["--seed", str(draw.randrange(2**31)), "--default.speed", str(draw.choice(LIMITS))]
     rest += ["--default.lanenumber", str(draw.choice((1, 2, 2, 3)))]
     kind = draw.choice(("grid", "spider", "random", "random"))
@@ -72,7 +72,7 @@ def _arguments(draw: Random) -> list[str]:
 
 
 def _world(draw: Random, network: Network, number: int) -> World | None:
-    """Put an ego and others on a network; None where it has no way that is long enough."""
+    """Put an ego and others on a network; None if it has no way that is long enough."""
     after = followers(network)
     way = _way(draw, network, after)
     if way is None:
@@ -101,7 +101,7 @@ def _world(draw: Random, network: Network, number: int) -> World | None:
 def _way(
     draw: Random, network: Network, after: dict[str, tuple[str, ...]]
 ) -> tuple[str, ...] | None:
-    """Return a way for the ego that visits no edge twice, and its first and last edges are long."""
+    """Draw a way for the ego that takes no edge twice, and whose first and last edges are long."""
     starts = [e for e in sorted(after) if network.edge_lanes(e)[0].length >= LEAST]
     wanted = draw.uniform(*LONG)
     for _ in range(TRIES if starts else 0):
@@ -118,7 +118,7 @@ def _way(
 def _near(
     network: Network, way: Sequence[str], after: dict[str, tuple[str, ...]]
 ) -> tuple[str, ...]:
-    """Return the edges that lead to one of a way, or to where one of it begins or ends."""
+    """Return the edges that lead to an edge of a way, or to one that follows such an edge."""
     ends = {end for edge in way for end in (edge, *after.get(edge, ()))}
     return tuple(e for e in sorted(after) if ends & {*after[e]})
 
@@ -126,7 +126,7 @@ def _near(
 def _other(
     draw: Random, network: Network, after: dict[str, tuple[str, ...]], places: Sequence[str]
 ) -> Vehicle | None:
-    """Return a vehicle somewhere on some edges, with a way of its own."""
+    """Draw a vehicle on one of some edges, with a way of its own."""
     edge = draw.choice(places)
     lanes = network.edge_lanes(edge)
     length = lanes[0].length

@@ -1,4 +1,4 @@
-"""Stories of several vehicles: causes together, either of two, pre-emption, and none at all."""
+"""Stories of several vehicles: joint causes, either of two, pre-emption, and no cause."""
 
 from dataclasses import replace
 from random import Random
@@ -9,7 +9,7 @@ from benchmarks.worlds.values import Edge, Sketch, Vehicle
 
 
 def both(draw: Random) -> Sketch:
-    """Two lanes: one is slow ahead, and another as slow beside it; each alone can be passed."""
+    """Draw a story of two slow vehicles ahead, side by side; each alone could be passed."""
     roads = straight(draw, 2, (350.0, 500.0))
     main = roads.edges["main"]
     ego = starting(draw, ("main",), main, draw.uniform(10.0, 40.0))
@@ -23,7 +23,7 @@ def both(draw: Random) -> Sketch:
 
 
 def either(draw: Random) -> Sketch:
-    """Two come to the junction at about the same time, and the ego has to let both go first."""
+    """Draw a story of two vehicles at a junction at about the same time, who both go first."""
     turns = draw.random() < 0.4
     roads = crossing(draw, arms=("north",) if turns else ("south",))
     if turns:
@@ -39,7 +39,7 @@ def either(draw: Random) -> Sketch:
 
 
 def pre_empted(draw: Random) -> Sketch:
-    """One lane: somebody ahead is slow, and without it somebody as slow ahead of that would be."""
+    """Draw a story of a slow vehicle ahead in one lane, with an equally slow one ahead of it."""
     roads = straight(draw, 1, (320.0, 460.0))
     ego, ahead = _slow_ahead(draw, roads.edges["main"])
     assert ahead.top is not None
@@ -50,7 +50,7 @@ def pre_empted(draw: Random) -> Sketch:
 
 
 def distractor(draw: Random) -> Sketch:
-    """Somebody is in the ego's way only because another is in its own."""
+    """Draw a story of a vehicle in the ego's way only because another is in its own."""
     if draw.random() < 0.5:
         roads = straight(draw, 1, (320.0, 460.0))
         ego, slow = _slow_ahead(draw, roads.edges["main"])
@@ -68,7 +68,7 @@ def distractor(draw: Random) -> Sketch:
 
 
 def nobody(draw: Random) -> Sketch:
-    """Return the ego slows down for a turn as it would alone, with somebody ahead of it."""
+    """Draw a story in which the ego slows down for a turn as it would alone, behind a vehicle."""
     arm = draw.choice(("north", "south"))
     roads = crossing(draw, arms=(arm,))
     ego, _ = approaching(draw, roads.edges, "west", f"{arm}_out")
@@ -81,7 +81,7 @@ def nobody(draw: Random) -> Sketch:
 
 
 def _slow_ahead(draw: Random, main: Edge) -> tuple[Vehicle, Vehicle]:
-    """Return the ego, and somebody slow ahead of it."""
+    """Draw the ego, and a slow vehicle ahead of it."""
     ego = starting(draw, ("main",), main, draw.uniform(10.0, 40.0))
     place = ego.position + draw.uniform(28.0, 55.0)
     top = main.speed * draw.uniform(0.3, 0.5)
@@ -89,6 +89,6 @@ def _slow_ahead(draw: Random, main: Edge) -> tuple[Vehicle, Vehicle]:
 
 
 def _behind(draw: Random, first: Vehicle) -> Vehicle:
-    """Another one close behind a vehicle that crosses."""
+    """Draw another vehicle close behind one that crosses."""
     place = max(first.position - draw.uniform(16.0, 26.0), 3.0)
     return replace(first, shape="car", position=place)

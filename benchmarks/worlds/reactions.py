@@ -1,4 +1,4 @@
-"""Stories of drivers that react: one matters only by what it makes another do, or gives way."""
+"""Stories of drivers that react: a vehicle matters by what it makes another do, or gives way."""
 
 from dataclasses import replace
 from random import Random
@@ -11,24 +11,24 @@ _STAYS = ("lcSpeedGain", "0")
 
 
 def interactive(draw: Random) -> Sketch:
-    """What another driver does in answer to somebody, or to the ego, decides what the ego does."""
+    """Draw a story in which another driver's reaction decides what the ego does."""
     return draw.choice((_waits_to_turn, _waits_at_the_line, _pulls_out, _lets_in))(draw)
 
 
 def _waits_to_turn(draw: Random) -> Sketch:
-    """One ahead turns left and waits for one that comes towards it; the ego goes straight on."""
+    """Draw a vehicle ahead that turns left and waits for an oncoming one; the ego goes straight."""
     roads = crossing(draw, arms=("north",))
     return _waiting(draw, roads, ("west_in", "east_out"), "north_out")
 
 
 def _waits_at_the_line(draw: Random) -> Sketch:
-    """One ahead turns left and waits for one that the ego, which turns right, has not to let go."""
+    """Draw a vehicle ahead that waits to turn left for one to which the ego need not give way."""
     roads = crossing(draw, arms=("south",))
     return _waiting(draw, roads, ("south_in", "east_out"), "west_out")
 
 
 def _waiting(draw: Random, roads: Roads, route: tuple[str, str], end: str) -> Sketch:
-    """The ego behind one that goes to another end, and one from the east that comes before it."""
+    """Draw the ego behind a vehicle with another destination, which waits for one from the east."""
     edge = roads.edges[route[0]]
     room = edge.length - JUNCTION
     first = draw.uniform(20.0, min(room - 45.0, 45.0))  # [m] to the junction
@@ -42,7 +42,7 @@ def _waiting(draw: Random, roads: Roads, route: tuple[str, str], end: str) -> Sk
 
 
 def _pulls_out(draw: Random) -> Sketch:
-    """Return one in the lane beside pulls out before the ego to pass somebody slow."""
+    """Draw a vehicle in the next lane that pulls out before the ego to pass a slow one."""
     roads = straight(draw, 2, (350.0, 500.0))
     main = roads.edges["main"]
     ego = replace(starting(draw, ("main",), main, draw.uniform(10.0, 30.0)), lane=1)
@@ -59,7 +59,7 @@ def _pulls_out(draw: Random) -> Sketch:
 
 
 def _lets_in(draw: Random) -> Sketch:
-    """Somebody ahead is slow, and one behind in the lane beside brakes for the ego as it passes."""
+    """Draw a slow vehicle ahead, and one behind in the next lane that brakes to let the ego in."""
     roads = straight(draw, 2, (350.0, 500.0))
     main = roads.edges["main"]
     ego = starting(draw, ("main",), main, draw.uniform(40.0, 60.0))

@@ -1,4 +1,4 @@
-"""Road networks at random: a straight road, or one that a minor road joins or crosses."""
+"""Random road networks: a straight road, or one that a minor road joins or crosses."""
 
 import math
 from dataclasses import replace
@@ -9,9 +9,9 @@ from benchmarks.worlds.values import Edge, Node, Roads
 LIMITS = (8.33, 11.11, 13.89, 16.67)  # [m/s] of a main road
 MINOR_LIMITS = (8.33, 11.11)  # [m/s]
 MAIN, MINOR = 10, 3  # priorities
-SKEW = math.radians(25.0)  # by which an arm may lie beside its compass point
-BOW, POINTS = (0.4, 0.9), 16  # [rad] that an arc turns by, and the pieces it is made of
-ASIDE = (22.0, 40.0)  # [m] between the main road and one that meets it nowhere
+SKEW = math.radians(25.0)  # greatest deviation of an arm from its compass point
+BOW, POINTS = (0.4, 0.9), 16  # [rad] turn of an arc, and the number of its pieces
+ASIDE = (22.0, 40.0)  # [m] between the main road and one that does not meet it
 
 
 def straight(draw: Random, lanes: int, length: tuple[float, float]) -> Roads:
@@ -59,9 +59,9 @@ def crossing(draw: Random, lanes: int = 1, arms: tuple[str, ...] = ()) -> Roads:
 
 
 def bent(draw: Random, roads: Roads) -> Roads:
-    """Bend roads: one without a junction is an arc, and arms meet at angles that are not right.
+    """Bend roads: a road without a junction becomes an arc, and arms meet at oblique angles.
 
-    The road that meets none is moved away, so that it still does.
+    The separate road is moved farther away, so that it still meets no other.
     """
     nodes = {node.id: node for node in roads.nodes}
     if "J" in nodes:
@@ -82,13 +82,13 @@ def _about(node: Node, angle: float) -> Node:
 
 
 def _away(node: Node) -> Node:
-    """Return a node of the road beside, three times as far away."""
+    """Return a node, three times as far away if it is of the separate road."""
     far = 3.0 if node.id.startswith("aside") else 1.0
     return Node(node.id, far * node.x, far * node.y, node.end)
 
 
 def _arc(nodes: dict[str, Node], edge: Edge, bow: float) -> Edge:
-    """Return an edge along an arc that turns by an angle [rad] to the left of the way there."""
+    """Return an edge along an arc that turns left by an angle [rad], seen on the way there."""
     a, b = nodes[edge.start], nodes[edge.end]
     forth = edge.id in ("main", "aside_there")
     chord = math.dist((a.x, a.y), (b.x, b.y))
@@ -135,7 +135,7 @@ def _with_aside(
 
 
 def _turned(draw: Random, nodes: list[Node], edges: list[Edge]) -> Roads:
-    """Return the roads with the compass turned at random."""
+    """Return the roads turned by a random angle."""
     angle = draw.uniform(-math.pi, math.pi)
     cos, sin = math.cos(angle), math.sin(angle)
     turned = (

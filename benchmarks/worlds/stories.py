@@ -1,4 +1,4 @@
-"""Stories of one cause: the ego, the vehicle that is to matter to it, and their roads."""
+"""Stories with one cause: the ego, the vehicle that is to matter to it, and their roads."""
 
 from collections.abc import Mapping
 from random import Random
@@ -12,7 +12,7 @@ TALL: tuple[Shape, ...] = ("truck", "bus")
 
 
 def leader(draw: Random) -> Sketch:
-    """Return one lane: somebody ahead is slow, or stands for a while."""
+    """Draw a story of one lane, in which a vehicle ahead is slow or stands for a while."""
     roads = straight(draw, 1, (260.0, 420.0))
     main = roads.edges["main"]
     ego = starting(draw, ("main",), main, draw.uniform(10.0, 40.0))
@@ -28,7 +28,7 @@ def leader(draw: Random) -> Sketch:
 
 
 def leader_on_two_lanes(draw: Random) -> Sketch:
-    """Two lanes: somebody ahead in the ego's lane is slow, and can be overtaken."""
+    """Draw a story of two lanes, in which a slow vehicle ahead can be overtaken."""
     roads = straight(draw, 2, (350.0, 500.0))
     main = roads.edges["main"]
     ego = starting(draw, ("main",), main, draw.uniform(10.0, 40.0))
@@ -39,7 +39,7 @@ def leader_on_two_lanes(draw: Random) -> Sketch:
 
 
 def cross(draw: Random) -> Sketch:
-    """Return the ego comes to a give-way line as somebody on the main road does."""
+    """Draw a story of the ego at a give-way line while a vehicle comes on the main road."""
     roads = crossing(draw, arms=("south",))
     ends = ["west_out", "east_out"] + ["north_out"] * ("north_out" in roads.edges)
     end = draw.choice(ends)
@@ -50,19 +50,19 @@ def cross(draw: Random) -> Sketch:
 
 
 def merge(draw: Random) -> Sketch:
-    """Somebody comes into the ego's lane: from a side road, or from the lane beside it."""
+    """Draw a story of a vehicle that joins the ego's lane from a side road or the next lane."""
     return _joining(draw) if draw.random() < 0.5 else _cutting_in(draw)
 
 
 def oncoming(draw: Random) -> Sketch:
-    """Return the ego turns left, and somebody comes towards it."""
+    """Draw a story in which the ego turns left, and a vehicle comes towards it."""
     roads = crossing(draw, arms=("north",))
     ego, time = approaching(draw, roads.edges, "west", "north_out")
     return Sketch(roads, ego, (meeting(draw, roads.edges, "east", time),))
 
 
 def occluder(draw: Random) -> Sketch:
-    """Return a tall vehicle of no concern hides, for some time, the one that matters."""
+    """Draw a story in which a tall vehicle hides, for some time, the one that matters."""
     return draw.choice((_behind_a_standing_one, _behind_one_that_leaves, _behind_one_ahead))(draw)
 
 
@@ -70,12 +70,12 @@ ONE = (leader, leader_on_two_lanes, cross, merge, oncoming, occluder)
 
 
 def one(draw: Random) -> Sketch:
-    """Return one vehicle alone matters."""
+    """Draw a story in which a single vehicle matters."""
     return draw.choice(ONE)(draw)
 
 
 def _joining(draw: Random) -> Sketch:
-    """Return a slow vehicle turns from the side road into the ego's."""
+    """Draw a slow vehicle that turns from a side road into the ego's."""
     arm = draw.choice(("south", "north"))
     roads = crossing(draw, arms=(arm,))
     main = roads.edges["west_in"]
@@ -99,7 +99,7 @@ def _joining(draw: Random) -> Sketch:
 
 
 def _cutting_in(draw: Random) -> Sketch:
-    """Return a vehicle ahead in the left lane takes the ego's lane for its turn to the right."""
+    """Draw a vehicle ahead in the left lane that crosses the ego's lane to turn right."""
     roads = crossing(draw, lanes=2, arms=("south",))
     main = roads.edges["west_in"]
     ego = starting(draw, ("west_in", "east_out"), main, draw.uniform(15.0, 60.0))
@@ -119,7 +119,7 @@ def _cutting_in(draw: Random) -> Sketch:
 
 
 def _behind_a_standing_one(draw: Random) -> Sketch:
-    """Return a tall vehicle stands opposite the ego's lane before a give-way line."""
+    """Draw a tall vehicle that stands on the opposite lane near a give-way line."""
     roads = crossing(draw, arms=("south",))
     end = draw.choice(["west_out", "east_out"] + ["north_out"] * ("north_out" in roads.edges))
     ego, time = approaching(draw, roads.edges, "south", end)
@@ -131,7 +131,7 @@ def _behind_a_standing_one(draw: Random) -> Sketch:
 
 
 def _behind_one_ahead(draw: Random) -> Sketch:
-    """Return a tall vehicle goes straight on before the ego, which turns left."""
+    """Draw a tall vehicle ahead that goes straight on, while the ego turns left."""
     roads = crossing(draw, arms=("north",))
     ego, time = approaching(draw, roads.edges, "west", "north_out")
     planted = meeting(draw, roads.edges, "east", time)
@@ -142,7 +142,7 @@ def _behind_one_ahead(draw: Random) -> Sketch:
 
 
 def _behind_one_that_leaves(draw: Random) -> Sketch:
-    """Return a tall vehicle comes slowly along the road that the ego comes from."""
+    """Draw a tall vehicle that drives slowly along the road from which the ego comes."""
     sketch = _behind_a_standing_one(draw)
     top = draw.uniform(1.5, 5.0)
     place = draw.uniform(12.0, 20.0)
@@ -151,14 +151,14 @@ def _behind_one_that_leaves(draw: Random) -> Sketch:
 
 
 def starting(draw: Random, route: tuple[str, ...], edge: Edge, place: float) -> Vehicle:
-    """Put the ego on its way at some speed below the limit."""
+    """Draw the ego on its way at some speed below the limit."""
     return Vehicle("ego", "car", route, 0, place, edge.speed * draw.uniform(0.6, 0.95))
 
 
 def approaching(
     draw: Random, edges: Mapping[str, Edge], arm: str, end: str
 ) -> tuple[Vehicle, float]:
-    """Put the ego on its way to the junction; tell about when [s] it gets there."""
+    """Draw the ego on its way to the junction, with the time [s] at which it roughly arrives."""
     edge = edges[f"{arm}_in"]
     way = min(draw.uniform(45.0, 85.0), edge.length - JUNCTION - 15.0)
     ego = starting(draw, (edge.id, end), edge, edge.length - JUNCTION - way)
@@ -166,7 +166,7 @@ def approaching(
 
 
 def meeting(draw: Random, edges: Mapping[str, Edge], arm: str, time: float) -> Vehicle:
-    """Make a vehicle on the main road that comes to the junction at about a time [s]."""
+    """Draw a vehicle on the main road that comes to the junction at about a time [s]."""
     edge = edges[f"{arm}_in"]
     out = {"west": "east_out", "east": "west_out"}[arm]
     top = edge.speed * draw.uniform(0.6, 1.0)

@@ -1,4 +1,4 @@
-"""What a world is made of: roads, vehicles, and which of these matter to the ego."""
+"""The parts of a world: roads, vehicles, and the vehicles that matter to the ego."""
 
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
@@ -27,7 +27,7 @@ class Node:
     id: str
     x: float  # [m]
     y: float  # [m]
-    end: bool  # of a road
+    end: bool  # whether it is the end of a road
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +46,7 @@ class Edge:
 
 @dataclass(frozen=True, slots=True)
 class Roads:
-    """A network as it is drawn; edges by id."""
+    """A network, with its edges by id."""
 
     nodes: tuple[Node, ...]
     edges: dict[str, Edge]
@@ -54,18 +54,18 @@ class Roads:
 
 @dataclass(frozen=True, slots=True)
 class Halt:
-    """Where and how long a vehicle stands."""
+    """The place and duration of a vehicle's halt."""
 
     edge: str
     lane: int
     position: float  # [m] along the edge
     duration: float  # [s]
-    beside: bool  # parked beside the lane, and not on it
+    beside: bool  # whether it is parked beside the lane, not on it
 
 
 @dataclass(frozen=True, slots=True)
 class Vehicle:
-    """One vehicle: how it looks, where it starts, what it does."""
+    """One vehicle, with its look, start, route and behaviour."""
 
     role: str  # in the story, in a word
     shape: Shape
@@ -73,29 +73,29 @@ class Vehicle:
     lane: int
     position: float  # [m] front bumper along the first edge
     speed: float  # [m/s] at the start
-    top: float | None = None  # [m/s] it never drives faster; None: as fast as allowed
+    top: float | None = None  # [m/s] top speed; None: as fast as allowed
     halt: Halt | None = None
     manners: tuple[tuple[str, str], ...] = ()  # attributes of SUMO's driver
 
 
 @dataclass(frozen=True, slots=True)
 class Sketch:
-    """A story before anybody else is added."""
+    """A story without bystanders."""
 
     roads: Roads
     ego: Vehicle
-    planted: tuple[Vehicle, ...]  # what the ego does hangs on these
-    idle: tuple[Vehicle, ...] = ()  # in its way, or hiding others, and of no matter
+    planted: tuple[Vehicle, ...]  # vehicles on which the ego's action depends
+    idle: tuple[Vehicle, ...] = ()  # vehicles in its way or hiding others, which do not matter
 
     @property
     def cast(self) -> tuple[Vehicle, ...]:
-        """All who are in the story."""
+        """All vehicles in the story, except for the ego."""
         return self.planted + self.idle
 
 
 @dataclass(frozen=True, slots=True)
 class World:
-    """A story with everybody in it."""
+    """A story with its bystanders."""
 
     kind: Kind
     seed: int
