@@ -1,4 +1,4 @@
-"""Control: how to brake or speed up in the coming step, among what is seen and foreseen."""
+"""Control: the acceleration in the coming step, given what is seen and foreseen."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -35,18 +35,18 @@ from planner.record.trace import ON_FOOT
 from planner.roads.trajectory import Roads
 from sim.scene import EGO, Scene, VehicleState
 
-CAUTION = 0.08  # probability from which a motion of a slow vehicle must be given way to
-CERTAIN = 0.5  # the same for people once they have kept the ego for a while: else it never goes
-LIKELY = 0.3  # probability from which room is made for a vehicle that moves in
-SLOW = 4.0  # [m/s] who drives faster is given way to in every motion that is foreseen
-PATIENCE = 25  # samples at 5 Hz for which one of them stands before it is taken to wait
+CAUTION = 0.08  # probability from which the ego gives way to a motion of a slow vehicle
+CERTAIN = 0.5  # the same for people who have held the ego up for a while, so that it can go on
+LIKELY = 0.3  # probability from which the ego makes room for a vehicle that moves in
+SLOW = 4.0  # [m/s] the ego gives way to every foreseen motion of a faster vehicle
+PATIENCE = 25  # samples at 5 Hz after which a standing vehicle is assumed to wait
 STANDING = 0.1  # [m/s]
-SPARE = 3.0  # [m] to look beyond where the ego can stop
+SPARE = 3.0  # [m] to look ahead beyond the stopping distance of the ego
 
 
 @dataclass(frozen=True, slots=True)
 class Driving:
-    """What the ego drives, and where on it it is."""
+    """The plan that the ego drives, and its motion along the path."""
 
     plan: ActionPlan
     lane: Lane
@@ -55,15 +55,15 @@ class Driving:
 
 @dataclass(frozen=True, slots=True)
 class Outlook:
-    """What the last decision foresaw."""
+    """The beliefs of the last decision."""
 
-    time: float  # [s] of it
+    time: float  # [s] of the decision
     beliefs: Mapping[int, Sequence[Belief]]
 
 
 @dataclass(frozen=True)
 class Around:
-    """What is known of the others."""
+    """The information about the others."""
 
     roads: Roads
     memory: Memory
@@ -72,7 +72,7 @@ class Around:
 
     @cached_property
     def seen(self) -> dict[int, VehicleState]:
-        """Everybody in the scene."""
+        """All road users in the scene."""
         return everybody_in(self.scene)
 
 
@@ -104,7 +104,7 @@ def control(driving: Driving, around: Around, dt: float) -> tuple[float, Keeping
 
 
 def view_of(roads: Roads, memory: Memory, scene: Scene) -> View:
-    """Return what is seen now, and what is hidden."""
+    """Return the view: what is seen now, and what is hidden."""
 
     def rate(edge: str) -> float:
         return memory.counts.rate(edge, scene.time)
@@ -115,7 +115,7 @@ def view_of(roads: Roads, memory: Memory, scene: Scene) -> View:
 def _careful(
     driving: Driving, around: Around, chosen: tuple[float, Keeping], dt: float
 ) -> tuple[float, Keeping]:
-    """Come slowly to a line where somebody may come, with priority, from where one sees not."""
+    """Approach a line slowly if a vehicle with priority may come from a hidden area."""
     if not around.scene.unseen:
         return chosen
     motion = driving.motion
@@ -130,7 +130,7 @@ def _careful(
 def _at_the_end(
     driving: Driving, chosen: tuple[float, Keeping], dt: float
 ) -> tuple[float, Keeping]:
-    """Brake as hard as it takes where the road ends: who comes to it fast comes to rest."""
+    """Brake as hard as necessary to stop before the end of the road."""
     motion = driving.motion
     needed = motion.speed**2 / (2.0 * max(driving.lane.end - motion.arc, LEAST))
     if needed <= FOLLOWING:
@@ -143,7 +143,7 @@ def _at_the_end(
 def _beside(
     driving: Driving, around: Around, chosen: tuple[float, Keeping], dt: float
 ) -> tuple[float, Keeping]:
-    """Drive slowly past who waits beside at a crossing."""
+    """Drive slowly past a vehicle that waits at a crossing on the lane beside."""
     motion = driving.motion
     others = [s for v, s in around.scene.vehicles.items() if v != EGO]
     allowed = passing_speed(driving.plan, motion, others) if driving.plan.crossings else math.inf
@@ -156,9 +156,9 @@ def _beside(
 def _clear(
     driving: Driving, around: Around, chosen: tuple[float, Keeping], dt: float
 ) -> tuple[float, Keeping]:
-    """Stop before a vehicle that stands so near the path that turning would touch it.
+    """Stop before a vehicle that stands so near the path that the turning ego would touch it.
 
-    Inside a junction, do not even set off: between the two of them nobody could go on.
+    Do not even set off if the ego would then stop inside a junction and block it.
     """
     motion, now = driving.motion, around.memory.now
     standing = {v: s for v, s in now.items() if v != EGO and s.speed <= CRAWL}
@@ -179,7 +179,7 @@ def _clear(
 
 
 def _seen(around: Around) -> list[Obstacle]:
-    """Return the others where they are: who keeps behind them looks at nothing else."""
+    """Return the others at their present places, which is all that following them needs."""
     ego = around.scene.ego
     return [
         standing(around.roads, vehicle, state)
@@ -190,7 +190,7 @@ def _seen(around: Around) -> list[Obstacle]:
 
 
 def _predicted(driving: Driving, around: Around, likely: float) -> list[tuple[float, Obstacle]]:
-    """Return the motions that the last decision found likely enough, and how probable each is."""
+    """Return the motions that the last decision found likely enough, with probabilities."""
     found: list[tuple[float, Obstacle]] = []
     if around.outlook is None:
         return found
@@ -216,8 +216,8 @@ def _predicted(driving: Driving, around: Around, likely: float) -> list[tuple[fl
 def _waits_for_us(driving: Driving, around: Around, vehicle: int) -> bool:
     """Check whether a vehicle that may go first lets the ego go on.
 
-    Else the two would wait for one another forever: one that stands while the ego is past its
-    line; or that has stood as long as the ego has at its line, with no light that held them.
+    Otherwise the two could wait for each other forever. The other must have stood for a while.
+    Besides, the ego must be past its line, or have waited at its line for as long without a light.
     """
     if not _crossing(driving):
         arc = driving.motion.arc
@@ -234,24 +234,24 @@ def _stands(around: Around, vehicle: int) -> bool:
 
 
 def _kept(driving: Driving, around: Around) -> bool:
-    """Check whether the ego has hardly moved for a while, and not for a light."""
+    """Check whether the ego has hardly moved for a while, and not because of a light."""
     return _lingers(around) and not _just_green(driving, around)
 
 
 def _lingers(around: Around) -> bool:
-    """Check whether the ego has hardly moved for as long; setting off counts as that at first."""
+    """Check whether the ego moved less than SPARE in the last PATIENCE samples."""
     places = around.memory.track(EGO, around.scene.time).position[-PATIENCE:]
     return len(places) == PATIENCE and math.dist(places[0], places[-1]) < SPARE
 
 
 def _just_green(driving: Driving, around: Around) -> bool:
-    """Check whether a light that the ego stands at shows what it shows for a short while only."""
+    """Check whether a light ahead of the ego has changed within the last PATIENCE samples."""
     found = (around.scene.light(ahead.signal) for ahead in driving.plan.obey_lights)
     since = around.scene.time - PATIENCE * DT
     return any(light is not None and light.since > since for light in found)
 
 
 def _crossing(driving: Driving) -> list[GiveWay]:
-    """List the lines behind which the ego is in the way of those who may go first."""
+    """Return the lines that the ego has crossed without being clear of the junction."""
     arc = driving.motion.arc
     return [line for line in driving.plan.give_ways if line.stop + INSIDE < arc < line.clear]

@@ -1,6 +1,6 @@
-"""The driver: from scene to command, deciding anew at least once a second.
+"""The driver: from scene to command, with a new decision at least once a second.
 
-Pure: scenes in, commands, traces and events out. What it drives is what it planned.
+It has no input or output besides: scenes in, commands, traces and events out.
 """
 
 import math
@@ -29,19 +29,19 @@ from sim.roads.network import Location, Network
 from sim.scene import EGO, Command, Scene, Signal, VehicleState
 
 YIELDED = 5.0  # [m/s] below which a hindrance by right of way counts as giving way
-PAUSE = 0.3  # [s] between decisions at least
+PAUSE = 0.3  # [s] minimum time between decisions
 NEAR = 60.0  # [m] within which surprises count
 STANDING = 0.1  # [m/s]
 END_GAP = 1.0  # [m] before the end of the road at which to stop
 
 
 class DriverError(PlannerError):
-    """The car cannot be driven on from here."""
+    """An error: the car cannot drive on from here."""
 
 
 @dataclass(frozen=True, slots=True)
 class DriveStep:
-    """What comes of one step."""
+    """The result of one step."""
 
     command: Command
     trace: PlanTrace | None
@@ -54,7 +54,7 @@ class _Execution:
 
     plan: ActionPlan
     lane: Lane
-    edges: tuple[str, ...]  # that it leads along, and on to the goal
+    edges: tuple[str, ...]  # that the action leads along, and from there to the goal
     motion: Motion
     decision: int
     committed: bool = False
@@ -87,7 +87,7 @@ class Driver:
         self.finished = False
 
     def step(self, scene: Scene, dt: float) -> DriveStep:
-        """Drive on for one step; beyond the goal, without deciding anything any more.
+        """Drive on for one step; beyond the goal, without further decisions.
 
         Args:
             scene: what is seen now.
@@ -108,10 +108,10 @@ class Driver:
         return DriveStep(command, trace, tuple(events))
 
     def carry_out(self, action: Action, scene: Scene, dt: float) -> DriveStep:
-        """Drive another action than the one just decided on, to its end.
+        """Drive another action than the one just chosen, to its end.
 
         Args:
-            action: that applied at the decision.
+            action: one that applied at the decision.
             scene: of the step that has just decided; the command returned stands in for its own.
             dt: [s] length of the step.
 
@@ -155,21 +155,21 @@ class Driver:
         return decision.trace
 
     def _lookout(self, scene: Scene) -> tuple[LightPrediction, ...]:
-        """Return how the lights in view may go on."""
+        """Return the possible courses of the lights in view."""
         roads, goal, here = self._frame.roads, self._frame.goal, self._situation(scene)
         edges = way(roads, (here.location.lane,), goal)
         horizon, now = self._frame.settings.horizon, round(scene.time, 3)
         return lookout(roads, self._memory.watched, now, horizon, edges)
 
     def _imagined(self, scene: Scene) -> tuple[Phantom, ...]:
-        """Return who might come out of what is hidden, at the junction here or ahead."""
+        """Return phantoms that may come out of hidden areas at the junction here or ahead."""
         if not scene.unseen:
             return ()
         view = view_of(self._frame.roads, self._memory, scene)
         return around(view, self._situation(scene).location)
 
     def _adopt(self, decision: Decision, moment: Moment, events: list[Event]) -> None:
-        """Take up the first action of the plan, unless it is being driven already."""
+        """Begin the first action of the plan, unless it is being driven already."""
         plan, current = decision.trace.plan, self._current
         action: Action = plan[0].action if plan else "stop"
         if current is not None and current.plan.action == action:
@@ -196,17 +196,17 @@ class Driver:
         return _Execution(plan, lane, edges, motion, moment.number)
 
     def _end_of_the_road(self, plan: ActionPlan) -> float:
-        """The arc [m] before which to stop, since the road ends there and the goal is elsewhere."""
+        """Return the arc [m] of the road's end, before which to stop if the goal is elsewhere."""
         (last, begin), network = plan.path.lanes[-1], self._frame.roads.network
         if network.links_from(last) or plan.goal is not None:
             return math.inf
         return min(plan.path.length, begin + network.lanes[last].length) - END_GAP
 
     def _surprised(self, scene: Scene) -> bool:
-        """Check whether somebody near does what the last decision did not foresee.
+        """Check whether a near road user does something that the last decision did not foresee.
 
-        It matters where the ego has to give way: there it counts on what it foresaw. A light that
-        it comes to matters too.
+        It matters if the ego has to give way, since it then relies on what it foresaw. A change of
+        a light ahead matters too.
         """
         if self._last is None or self._current is None:
             return False
@@ -240,7 +240,7 @@ class Driver:
         )
 
     def _beyond(self, ego: VehicleState, time: float) -> Situation | None:
-        """Return where it is once it has come out beyond the end of the road, too fast to stop."""
+        """Return its situation if it could not stop and has driven beyond the end of the road."""
         if self._left is None:
             return None
         end = self._frame.roads.network.lanes[self._left].length
@@ -270,7 +270,7 @@ class Driver:
         return Command(position, heading, motion.speed, current.edges, shown)
 
     def _lights(self, current: _Execution, motion: Motion, acceleration: float) -> tuple[str, ...]:
-        """Return what the car shows the others in the coming step."""
+        """Return the vehicle lights that the car shows in the coming step."""
         plan = self._last.trace.plan if self._last is not None else ()
         actions = tuple(planned.action for planned in plan)
         later = actions[1:] if actions[:1] == (current.plan.action,) else ()
@@ -297,7 +297,7 @@ class Driver:
         current: _Execution,
         events: list[Event],
     ) -> None:
-        """Tell once that the ego gives way to a vehicle, and that it has stopped at a light."""
+        """Add an event once when the ego gives way to a vehicle, or has stopped at a light."""
         hindrance, light = keeping.hindrance, keeping.light
         if light is not None and motion.speed < STANDING and light != self._stopped_at:
             self._stopped_at = light

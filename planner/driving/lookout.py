@@ -1,4 +1,4 @@
-"""What is looked out for on a drive: lights, how they may go on, and others who surprise."""
+"""Lookout on a drive: lights with their possible courses, and others who surprise."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -15,22 +15,22 @@ from planner.traffic_lights.cycles import Watched, foresee
 from planner.traffic_lights.signals import MEANING, STEP, Lights
 from sim.scene import PersonState, Scene, Signal, VehicleState
 
-SURPRISE = 1.2  # [m/s] by which a speed must differ from what was foreseen
-STRAY = 2.0  # [m] by which a place on foot must, more than who sets off or stops explains
+SURPRISE = 1.2  # [m/s] difference from the foreseen speed that is a surprise
+STRAY = 2.0  # [m] the same for the place of a person; setting off or stopping explains less
 
 
 def lookout(
     roads: Roads, watched: Sequence[Watched], time: float, horizon: float, edges: Sequence[str]
 ) -> tuple[LightPrediction, ...]:
-    """Return how the lights in view may go on.
+    """Return the possible courses of the lights in view.
 
     Args:
         roads: the road network.
-        watched: what was seen of each controller in view.
+        watched: the observations of each controller in view.
         time: [s] now.
-        horizon: [s] for which that is needed.
-        edges: along which the ego drives; of the controller that it comes to next, several
-            courses are distinguished.
+        horizon: [s] for which courses are needed.
+        edges: those along which the ego drives; several courses are distinguished only for the
+            controller that it comes to next.
     """
     known = {one.controller for one in watched}
     coming = next((name for name in _along(roads, edges) if name in known), None)
@@ -51,7 +51,7 @@ def _along(roads: Roads, edges: Sequence[str]) -> Iterator[str]:
 
 
 def shown_now(scene: Scene) -> Lights:
-    """What the lights in view mean to who comes to them, as long as they stay as they are."""
+    """Return the lights in view, as if they stayed as they are."""
     return Lights(
         {
             light.signal: np.full(1, MEANING.get(light.state.value, OPEN), np.int8)
@@ -61,7 +61,7 @@ def shown_now(scene: Scene) -> Lights:
 
 
 def changed(plan: ActionPlan, scene: Scene, known: Sequence[LightPrediction]) -> bool:
-    """Whether a light that a plan comes to shows something else than when it was decided on."""
+    """Check whether a light on a plan's way shows something else than at the decision."""
     before = {one.controller: one for one in known}
     for ahead in plan.obey_lights:
         light, then = scene.light(ahead.signal), before.get(ahead.signal.controller)
@@ -73,7 +73,7 @@ def changed(plan: ActionPlan, scene: Scene, known: Sequence[LightPrediction]) ->
 
 
 def as_foreseen(state: VehicleState | PersonState, motion: Obstacle, step: int) -> bool:
-    """Check whether somebody moves as a motion says: as fast; on foot, about there."""
+    """Check whether a road user moves as foreseen: as fast or, on foot, near the place."""
     at = min(step, len(motion.speed) - 1)
     if isinstance(state, PersonState):
         x, y = motion.position[at].tolist()

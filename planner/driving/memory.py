@@ -1,6 +1,6 @@
-"""What the car has seen, and what it remembers of vehicles that are hidden for a while.
+"""The memory of the car: what it has seen, and vehicles that are hidden for a while.
 
-A vehicle that is lost from sight behind a tall one is taken to go on as it did. It is forgotten
+A vehicle that is lost from sight behind a tall one is assumed to go on as before. It is forgotten
 when it should be seen and is not, or after HIDDEN seconds.
 """
 
@@ -25,7 +25,7 @@ from sim.scene import EGO, Scene, VehicleState
 
 HISTORY = 10.0  # [s]
 HIDDEN = 5.0  # [s] for which a hidden vehicle is remembered
-CHANGES = 40  # of a traffic light that are remembered
+CHANGES = 40  # maximum number of changes of a controller that are remembered
 TALL = ("truck", "bus", "trailer")  # kinds that hide what is behind them
 
 
@@ -38,7 +38,7 @@ class Lost:
     going_on: Obstacle  # from then on
 
     def at(self, time: float) -> VehicleState | None:
-        """Return where it is taken to be; None where it would have left the network."""
+        """Return its assumed state; None if it would have left the network."""
         step = (time - self.since) / DT
         k = min(int(step), len(self.going_on.speed) - 2)
         share = min(step - k, 1.0)
@@ -61,10 +61,10 @@ class Memory:
         self._lost: dict[int, Lost] = {}
         self._watched: dict[str, Watched] = {}
         self._controllers: frozenset[str] = frozenset()  # in view
-        self.counts = Counts()  # of vehicles on the roads that lead out of what is hidden
+        self.counts = Counts()  # of vehicles on roads that lead out of hidden areas
 
     def observe(self, scene: Scene) -> None:
-        """Take down what is seen now."""
+        """Store what is seen now."""
         everybody = everybody_in(scene)
         for vehicle in [x for x in self._seen if x not in everybody]:
             self._recall(vehicle, scene)
@@ -75,17 +75,17 @@ class Memory:
 
     @property
     def watched(self) -> tuple[Watched, ...]:
-        """What is known of the traffic lights in view."""
+        """The observations of the traffic lights in view."""
         return tuple(self._watched[name] for name in sorted(self._controllers))
 
     @property
     def now(self) -> dict[int, VehicleState]:
-        """Where everybody is, hidden ones too, by name; as the trace records it."""
+        """The states of all, hidden ones included, by number, as the trace records them."""
         return {vehicle: self._seen[vehicle][-1][1] for vehicle in sorted(self._seen)}
 
     @property
     def unseen(self) -> dict[int, float]:
-        """When [s] the hidden ones were seen last, by name."""
+        """The times [s] when hidden road users were last seen, by number."""
         return {vehicle: self._lost[vehicle].since for vehicle in sorted(self._lost)}
 
     def track(self, vehicle: int, time: float) -> Track:
@@ -93,7 +93,7 @@ class Memory:
         return _resampled(self._seen[vehicle], time)
 
     def recorded(self, vehicle: int, time: float) -> Track:
-        """Return the same with its lights, as the trace records it."""
+        """Return the history with the vehicle's lights, as the trace records it."""
         track = self.track(vehicle, time)
         if self._seen[vehicle][-1][1].kind in ON_FOOT:
             return track
@@ -106,7 +106,7 @@ class Memory:
             seen.popleft()
 
     def _watch(self, scene: Scene) -> None:
-        """Take down what traffic lights show."""
+        """Store what traffic lights show."""
         shown: dict[str, dict[int, str]] = {}
         for light in scene.lights:
             shown.setdefault(light.signal.controller, {})[light.signal.index] = light.state.value
@@ -117,7 +117,7 @@ class Memory:
         self._controllers = frozenset(shown)
 
     def _recall(self, vehicle: int, scene: Scene) -> None:
-        """Go on with a vehicle that is not seen, or forget it."""
+        """Keep a vehicle that is not seen at its assumed place, or forget it."""
         lost = self._lost.get(vehicle) or self._lose(vehicle)
         state = lost.at(scene.time) if scene.time - lost.since <= HIDDEN else None
         if state is None or not hidden(state, scene):

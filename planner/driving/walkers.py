@@ -1,4 +1,4 @@
-"""People who walk on the road now, on crossings or not: to be let pass in the coming step."""
+"""People who walk on the road now, on crossings or not, and who must be let pass."""
 
 import math
 from collections.abc import Sequence
@@ -18,25 +18,25 @@ from planner.traffic_lights.signals import STEP
 from sim.scene import Signal, VehicleState
 
 AROUND = 60.0  # [m] within which people count
-AHEAD = 20  # steps for which they are taken to go on as they do
-PASSING = 2.5  # [m/s] at which to pass who waits beside at a crossing
-SLOW = 2.0  # [m/s] below which one waits
-BESIDE = (2.0, 5.0)  # [m] to the side that the next lane is
-QUEUE = 6.0  # [m] before a crossing within which one waits for people on it
-ALIKE = 0.8  # cosine of the angle between two who drive in one direction
-SPACE = 1.5  # [m] before somebody at which to wait
+AHEAD = 20  # steps for which they are assumed to go on as they do
+PASSING = 2.5  # [m/s] at which to pass a vehicle that waits at a crossing
+SLOW = 2.0  # [m/s] below which a vehicle waits
+BESIDE = (2.0, 5.0)  # [m] least and greatest distance sideways of a vehicle on the next lane
+QUEUE = 6.0  # [m] before a crossing within which a vehicle waits for people on it
+ALIKE = 0.8  # least cosine of the angle between vehicles that drive in one direction
+SPACE = 1.5  # [m] distance to a person at which to wait
 
 
 def with_walkers(
     plan: ActionPlan, roads: Roads, seen: Sequence[Obstacle], ego: VehicleState
 ) -> tuple[ActionPlan, list[Obstacle]]:
-    """Return a plan that lets those pass who are about to walk into its way, and how they go on.
+    """Return a plan that lets people pass who are about to walk into its way, and their motions.
 
     Args:
-        plan: to drive.
+        plan: the plan to drive.
         roads: the road network.
-        seen: everybody else, from now on.
-        ego: who drives.
+        seen: all others, from now on.
+        ego: the state of the ego.
     """
     walkers = [_going_on(one) for one in seen if one.on_foot and _on_a_road(roads, one)]
     if not walkers:
@@ -54,10 +54,10 @@ def with_walkers(
 
 
 def passing_speed(plan: ActionPlan, motion: Motion, others: Sequence[VehicleState]) -> float:
-    """Return the speed [m/s] at which to drive on, since somebody stands beside at a crossing.
+    """Return the speed [m/s] at which to pass a vehicle that waits at a crossing on another lane.
 
-    Vehicles are not overtaken there: whom they let cross they may hide. It is infinite where
-    nobody does, or a light controls the crossing.
+    It may hide people whom it lets cross. The speed is infinite if no vehicle waits there, or if a
+    light controls the crossing.
     """
     allowed = math.inf
     for line in plan.crossings:
@@ -91,7 +91,7 @@ def _on_a_road(roads: Roads, walker: Obstacle) -> bool:
 
 
 def _going_on(walker: Obstacle) -> Obstacle:
-    """Return the same walker for AHEAD steps."""
+    """Return the motion of a walker for AHEAD steps."""
     steps = STEP * np.arange(AHEAD + 1, dtype=np.float64) * float(walker.speed[0])
     heading = float(walker.heading[0])
     ahead = np.array([math.cos(heading), math.sin(heading)])

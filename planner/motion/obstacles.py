@@ -54,7 +54,7 @@ class Occupancy:
         return found
 
     def manner(self, who: Ints, step: Ints, how: Ints) -> Ints:
-        """Return the kinds of hold-ups, as indices into HOW; people walking across have right of way.
+        """Return the kinds of hold-ups, as indices into HOW; people who cross have right of way.
 
         Args:
             who, step, how: [H] the other's index, the step, and the kind if it is a vehicle.

@@ -1,4 +1,4 @@
-"""The inputs that predictions share: roads, possible courses of lights, other road users."""
+"""The inputs that predictions share: roads, courses of lights, and other road users."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
@@ -37,7 +37,7 @@ class Scenery:
         return found
 
     def lights_before(self, elapsed: int) -> Lights:
-        """Return the lights from `elapsed` steps ago on, with their likeliest course from now on."""
+        """Return the lights from `elapsed` steps ago on; from now on, in their likeliest course."""
         found = self._before.get(elapsed)
         if found is None:
             found = self.outlook.before(elapsed, self.steps + GAP_HORIZON)
@@ -45,7 +45,7 @@ class Scenery:
         return found
 
     def motions(self, make: Callable[[tuple[int, ...]], Obstacle]) -> Motions:
-        """Return the motions of a vehicle under each course of controllers that it comes to."""
+        """Return the motions of a vehicle under each course of controllers on its way."""
         usual = self.outlook.usual
         motion = make(usual)
         if len(self.outlook.joint) == 1:
