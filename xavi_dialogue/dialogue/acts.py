@@ -214,7 +214,7 @@ def _plain(result: Result) -> Result | None:
 
 
 def _repeat(now: Situation, last: Turn) -> Said:
-    """Say the same words once more; what was offered stays open.
+    """Repeat the reply of a turn in the same words; what was offered stays open.
 
     A repair that led to them loses its act, so that its wish for more or fewer words counts once.
     """

@@ -149,7 +149,7 @@ class Posed(Value, frozen=True):
 
 
 class Judged(Value, frozen=True):
-    """Whether the passenger's reply to a question of ours is right, and the solution."""
+    """The judgement of the passenger's reply to a question of ours, and the solution."""
 
     judgement: Literal["right", "wrong", "passed"]
     posed: Posed

@@ -98,7 +98,7 @@ class Staying(Value, frozen=True):
 
 
 class Activity(Value, frozen=True):
-    """What somebody is doing at a moment, and is expected to do."""
+    """The conduct of somebody at a moment, and what they are expected to do."""
 
     actor: Somebody
     time: float  # [s]
@@ -111,7 +111,7 @@ class Activity(Value, frozen=True):
 
 
 class PlanAhead(Value, frozen=True):
-    """What the ego is going to do."""
+    """The plan of the ego from now on."""
 
     steps: tuple[tuple[MacroAction, float], ...]  # each with its expected begin [s]
     measures: tuple[Measure, ...] = ()  # next junction, exit, time to go
@@ -223,7 +223,7 @@ class Unblocking(Value, frozen=True):
 
 
 class Comfort(Value, frozen=True):
-    """How comfortable the ride was over an interval."""
+    """The comfort of the ride over an interval."""
 
     peak: Measure  # deceleration
     jerk: Measure | None = None
@@ -232,7 +232,7 @@ class Comfort(Value, frozen=True):
 
 
 class Closeness(Value, frozen=True):
-    """How close a vehicle came, as the answer whether it was safe or dangerous."""
+    """The answer whether it was safe or dangerous: how close a vehicle came."""
 
     vehicle: int | None
     closest: Measure | None  # smallest distance
@@ -261,7 +261,7 @@ class Assurance(Value, frozen=True):
 
 
 class Slowing(Value, frozen=True):
-    """Whether we are expected to stop or slow down for somebody."""
+    """The answer whether we are expected to stop or slow down for somebody."""
 
     others: tuple[int, ...]  # the vehicles asked about, or those of them that hold us up
     stops: bool  # we come to a standstill
@@ -275,7 +275,7 @@ class Slowing(Value, frozen=True):
 
 
 class PullingUp(Value, frozen=True):
-    """Whether somebody stops in time: "will he manage to stop?", "can you stop in time?"."""
+    """The answer whether somebody stops in time: "will he manage to stop?", "can you?"."""
 
     vehicle: int  # the other one
     how: Literal["stands", "brakes", "owes", "goes-first", "able", "unable", "apart"]

@@ -17,7 +17,7 @@ class Hider(Value, frozen=True):
 
 
 class SightTold(Value, frozen=True):
-    """What we cannot see, and who might come from there; phantoms are not counted."""
+    """The answer what we cannot see, and who might come from there; phantoms are not counted."""
 
     #: The question: do we see past it; what do we not see; is somebody there, or how probably;
     #: did somebody come; how do we know that nobody comes; what if somebody came; who drives
@@ -29,7 +29,7 @@ class SightTold(Value, frozen=True):
 
 
 class SupposedSeeing(Value, frozen=True):
-    """What we would have done if we had seen past some hiders, and nobody had been there."""
+    """The answer what we would have done if we had seen past hiders, and nobody had been there."""
 
     hiders: tuple[Hider, ...]  # that are seen past; () nothing that matters was hidden
     decided: float  # [s] of the decision

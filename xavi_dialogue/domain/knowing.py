@@ -10,7 +10,7 @@ from xavi_dialogue.domain.vocabulary import ActionName
 
 
 class Grounds(Value, frozen=True):
-    """How a belief about another vehicle grew, and why."""
+    """The growth of a belief about another vehicle, and the reasons for it."""
 
     vehicle: int
     actions: tuple[ActionName, ...]  # what it is believed to do
@@ -28,7 +28,7 @@ class Grounds(Value, frozen=True):
 
 
 class Certainty(Value, frozen=True):
-    """How sure we are of a plan, or that a choice was better than its alternative.
+    """The certainty of a plan, or of a choice being better than its alternative.
 
     The verdict of the contrast states whether the choice was better on the whole.
     """
@@ -50,7 +50,7 @@ class Certainty(Value, frozen=True):
 
 
 class Method(Value, frozen=True):
-    """How the car decided, or decides."""
+    """The way in which the car made a decision, or makes decisions."""
 
     decided: float | None  # [s] None: in general
     options: tuple[OptionValue, ...] = ()
@@ -61,7 +61,7 @@ class Method(Value, frozen=True):
 
 
 class DecisiveFactor(Value, frozen=True):
-    """What a decision depends on: what would have changed it, or what mattered most."""
+    """The factor that a decision depends on: it would have changed it, or mattered most."""
 
     kind: Literal["conduct", "removal", "factor", "none"]
     contrast: Contrast | None
@@ -73,7 +73,7 @@ class DecisiveFactor(Value, frozen=True):
 
 
 class Avoidance(Value, frozen=True):
-    """Whether something could have been avoided, and by which of the known options."""
+    """The answer whether something could have been avoided, and by which known option."""
 
     mishap: ActionName
     possible: bool

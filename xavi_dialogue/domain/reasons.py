@@ -123,7 +123,7 @@ class CrossingVehicle(Value, frozen=True):
 
 
 class NobodyElse(Value, frozen=True):
-    """Whether others than the stated causes mattered for an action, by planning without them."""
+    """The answer whether others than the stated causes mattered, by planning without them."""
 
     named: tuple[int, ...]  # the causes
     others: tuple[int, ...]  # the others in view at that decision; those that matter, if known
@@ -153,7 +153,7 @@ Asking: TypeAlias = Literal[
 
 
 class Unslowed(Value, frozen=True):
-    """What can be said without simulation about a drive in which we had not slowed or waited."""
+    """The answer, without simulation, what if we had not slowed down or waited."""
 
     deed: Episode  # the slowing or waiting
     cause: MotionCause | None  # why we did
@@ -183,7 +183,7 @@ class OtherReason(Value, frozen=True):
 
 
 class SignalReason(Value, frozen=True):
-    """What the indicator of another vehicle announces, and what the vehicle did then."""
+    """The meaning of another vehicle's indicator, and what the vehicle did then."""
 
     vehicle: int
     deed: Episode  # the indicating
@@ -193,7 +193,7 @@ class SignalReason(Value, frozen=True):
 
 
 class OwnSignal(Value, frozen=True):
-    """What our own indicator announces, and whether we did so."""
+    """The meaning of our own indicator, and whether we did what it announced."""
 
     shown: Episode  # the indicating
     aim: MacroAction | None  # what it announced; None: the record does not show it
@@ -202,7 +202,7 @@ class OwnSignal(Value, frozen=True):
 
 
 class PlaceReason(Value, frozen=True):
-    """How another vehicle came to be where it is, relative to us."""
+    """The explanation how another vehicle came to be where it is, relative to us."""
 
     vehicle: int
     relation: Relation
@@ -210,7 +210,7 @@ class PlaceReason(Value, frozen=True):
 
 
 class SupposedOfUs(Value, frozen=True):
-    """What would have followed from another action of the ego."""
+    """The consequences of another action of the ego."""
 
     contrast: Contrast
     done: Performed | None = None  # it is exactly what was done, or is planned
@@ -227,7 +227,7 @@ class SupposedOfUs(Value, frozen=True):
 
 
 class SupposedOfOther(Value, frozen=True):
-    """What the ego would have done if another vehicle had acted otherwise, or had been absent."""
+    """The consequences for the ego if another vehicle had acted otherwise, or had been absent."""
 
     vehicle: int
     supposed: Event | None  # None: the vehicle is absent
@@ -252,7 +252,7 @@ class SupposedOfOther(Value, frozen=True):
 
 
 class Reaction(Value, frozen=True):
-    """How we could react to a sudden action of another vehicle, by stopping distances."""
+    """Our possible reaction to a sudden action of another vehicle, by stopping distances."""
 
     vehicle: int | None  # None: somebody who is not there
     kind: Literal[

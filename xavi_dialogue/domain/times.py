@@ -67,4 +67,4 @@ class WholeRide(Value, frozen=True):
 
 
 class Next(Value, frozen=True):
-    """What comes next: "next", "from now on", "later"."""
+    """The future after now: "next", "from now on", "later"."""

@@ -47,7 +47,7 @@ def _nearest(looks: Mapping[tuple[int, float], Look], vehicle: int, at: float) -
 
 @dataclass(frozen=True, slots=True)
 class Utterance:
-    """What the car says."""
+    """The words of the car, with what they name and offer."""
 
     text: str
     mentioned: tuple[int, ...] = ()  # vehicles named in it, in order of first mention

@@ -29,7 +29,7 @@ class EventRecorded:
 
 @dataclass(frozen=True, slots=True)
 class SceneSeen:
-    """What is in view at a moment, also between decisions."""
+    """The scene in view at a moment, also between decisions."""
 
     scene: Scene
 

@@ -21,7 +21,7 @@ _WISHES: dict[str, Detail] = {"longer": "more", "shorter": "less", "simpler": "s
 
 @dataclass(frozen=True, slots=True)
 class Memory:
-    """What later turns need to know about a conversation."""
+    """The parts of a conversation that later turns depend on."""
 
     turns: tuple[Turn, ...]  # about this ride, oldest first
     discourse: Discourse

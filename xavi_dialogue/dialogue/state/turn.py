@@ -34,7 +34,7 @@ class Quiz(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Offer(msgspec.Struct, frozen=True, kw_only=True):
-    """What a clarification offered: readings or vehicles, in the order of their numbers."""
+    """The readings or vehicles that a clarification offered, in the order of their numbers."""
 
     acts: tuple[Act, ...] = ()  # one for each choice that is a whole act
     things: tuple[Thing, ...] = ()  # the vehicles to choose from

@@ -18,7 +18,7 @@ from xavi_dialogue.nlg.content.clauses.measures import STANDING
 from xavi_dialogue.nlg.content.clauses.propositions import PLACES, eventful
 from xavi_dialogue.nlg.context import SpeechContext
 
-#: The begin of the bearing that goes with a relation to us.
+#: First part of the bearing that goes with a relation to us.
 _BEARINGS = {"ahead-of": "ahead", "behind": "behind", "beside": "beside", "oncoming-to": "oncoming",
              "left-of": "left", "right-of": "right"}  # fmt: skip
 TELLING = frozenset(("brake", "slow-down", "speed-up"))

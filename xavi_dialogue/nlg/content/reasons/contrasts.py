@@ -175,7 +175,7 @@ def tells_risk(contrast: Contrast) -> bool:
 
 
 def told_cause(contrast: Contrast) -> Cause | None:
-    """Return the cause that goes with the reason: who makes the foil worse, or our choice good."""
+    """Return the cause that belongs to the reason: who makes the foil worse, or decides a tie."""
     kind = kind_of(contrast)
     told = {s.term for s in contrast.told if s.cost > 0.0}
     decides = contrast.verdict == "close" and any(c.decision_changes for c in contrast.causes)
