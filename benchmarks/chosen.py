@@ -1,4 +1,4 @@
-"""What benchmarks run on: scenarios and processes, as named or all that there are."""
+"""The scenarios and the number of processes for benchmarks, as chosen or by default."""
 
 import os
 from collections.abc import Callable
@@ -18,7 +18,7 @@ def there(names: list[str]) -> list[str]:
 
 
 def ours(note: Callable[[str], None]) -> tuple[list[str], tuple[str, ...]]:
-    """Return our scenarios, and those among them that cannot be driven for want of netconvert."""
+    """Return the package's scenarios, and those that cannot be driven without netconvert."""
     from sim.setup.scenario import NeedsMaps, available, load
 
     found, left_out = [], []
@@ -34,5 +34,5 @@ def ours(note: Callable[[str], None]) -> tuple[list[str], tuple[str, ...]]:
 
 
 def processes(asked: int | None) -> int:
-    """Return how many processes work side by side: one per processor, where not told."""
+    """Return the number of parallel processes; None stands for one per processor."""
     return asked or os.cpu_count() or 1

@@ -1,4 +1,4 @@
-"""What can be wrong with what is given to a benchmark, or found by it."""
+"""Errors of benchmarks, in their input or found by them."""
 
 from xavi_dialogue.process.exit_status import RunFault, UsageFault
 

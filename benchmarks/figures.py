@@ -1,4 +1,4 @@
-"""Figures: what benchmarks find, as one JSON object or as a table."""
+"""Figures: the results of benchmarks, as one JSON object or as a table."""
 
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -20,11 +20,11 @@ class Report(Protocol):
 
 
 class Target(msgspec.Struct, frozen=True):
-    """A figure to be reached."""
+    """A figure with a bound that it is to reach."""
 
     name: str
     unit: str
-    value: float | None  # None: nothing was measured, which reaches nothing
+    value: float | None  # None: nothing was measured, so the target is not met
     bound: float
     sense: Literal["at most", "at least"]
     met: bool
@@ -34,15 +34,15 @@ class Aimed(msgspec.Struct, frozen=True, kw_only=True):
     """What a report of a benchmark with targets has beside its figures."""
 
     targets: tuple[Target, ...] = ()
-    met: bool = True  # whether all of them are reached
+    met: bool = True  # whether all targets are met
 
 
 class Figure(msgspec.Struct, frozen=True):
-    """One thing measured."""
+    """One quantity that was measured."""
 
     name: str
     unit: str
-    n: int  # cases behind it
+    n: int  # number of cases
     p50: float
     p99: float
     most: float
@@ -60,7 +60,7 @@ class Figures(msgspec.Struct, frozen=True):
 
 
 class Watch:
-    """Collects durations [s] by name."""
+    """A collection of durations [s] by name."""
 
     def __init__(self, clock: Callable[[], float] = time.perf_counter) -> None:
         self.taken: dict[str, list[float]] = {}
@@ -68,7 +68,7 @@ class Watch:
 
     @contextmanager
     def time(self, name: str) -> Iterator[None]:
-        """Take the time of what happens within."""
+        """Measure the duration of the context."""
         began = self._clock()
         yield
         self.taken.setdefault(name, []).append(self._clock() - began)
@@ -97,7 +97,7 @@ def aimed(report: T, *targets: Target) -> T:
 
 
 def targets_table(targets: Sequence[Target]) -> str:
-    """Targets for people."""
+    """Return targets as a table for people."""
     rows = [("targets", "unit", "found", "bound", "")]
     rows += [
         (
@@ -113,7 +113,7 @@ def targets_table(targets: Sequence[Target]) -> str:
 
 
 def figures_table(figures: Sequence[Figure]) -> str:
-    """Figures for people."""
+    """Return figures as a table for people."""
     rows = [("", "unit", "n", "p50", "p99", "most")]
     rows += [
         (f.name, f.unit, str(f.n), f"{f.p50:.2f}", f"{f.p99:.2f}", f"{f.most:.2f}") for f in figures
@@ -130,19 +130,19 @@ def figure(name: str, unit: str, values: Sequence[float]) -> Figure:
 
 
 def quantile(values: Sequence[float], percent: int) -> float:
-    """Return a percentile of some values, at least one; between two of them it is interpolated."""
+    """Return a percentile of some values, at least one, by interpolation."""
     if len(values) == 1:
         return values[0]
     return quantiles(values, n=100, method="inclusive")[percent - 1]
 
 
 def mean(values: Sequence[float]) -> float | None:
-    """Return the mean; None of nothing."""
+    """Return the mean; None if there are no values."""
     return sum(values) / len(values) if values else None
 
 
 def in_columns(rows: Sequence[Sequence[str]]) -> str:
-    """Rows of the same length as a table: the first column to the left, the others right."""
+    """Return rows of the same length as a table: first column left-aligned, others right."""
     widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
     lines = (
         "  ".join(

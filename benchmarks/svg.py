@@ -1,4 +1,4 @@
-"""Line charts as plain SVG: side by side, one panel for each thing that grows."""
+"""Line charts as plain SVG, in panels side by side."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ WIDE, HIGH = 240.0, 170.0  # [px] plotting area of a panel
 LEFT, TOP, BELOW = 52.0, 34.0, 42.0  # [px] around it
 COLOURS = ("#1b6ca8", "#d1495b", "#66a182", "#7d5ba6")
 TICKS = 4
-USED = 0.92  # of the plotting area
+USED = 0.92  # share of the plotting area that curves use
 
 
 @dataclass(frozen=True, slots=True)

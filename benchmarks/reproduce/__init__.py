@@ -1,1 +1,1 @@
-"""The paper's Tables 1 to 3, beside what we say of the same stories."""
+"""The paper's Tables 1 to 3, compared with our answers about the same stories."""

@@ -1,4 +1,4 @@
-"""Claims: what a sentence in the paper's style says, apart from how probable it is said to be."""
+"""Claims: the content of a sentence in the paper's style, without its probabilities."""
 
 from typing import Literal, TypeAlias
 
@@ -10,8 +10,8 @@ from xavi_dialogue.nlg.content.clauses.manoeuvres import plain
 
 Ending: TypeAlias = Literal["done", "collision", "not-reached"]
 Lean: TypeAlias = Literal["more", "less", "equal"]
-#: "first action": the causes are the same, but for a first action that ours lack: one that is
-#: done by the time of the decision is not foreseen any more.
+#: "first action": the causes are the same, except for a first action that ours lack, because an
+#: action that is over at the time of the decision is no longer predicted.
 Part: TypeAlias = Literal["outcome", "effects", "causes", "first action"]
 
 
@@ -30,7 +30,7 @@ class Doing(msgspec.Struct, frozen=True):
 
 
 class Claim(msgspec.Struct, frozen=True):
-    """What is claimed of a foil."""
+    """A claim about a foil."""
 
     outcome: Ending
     collided_with: int | None = None
@@ -39,7 +39,7 @@ class Claim(msgspec.Struct, frozen=True):
 
 
 def claim_of(found: Contrast, effects: int, causes: int) -> Claim:
-    """Return what the sentence of a contrast claims: its largest effects, where the foil arrives.
+    """Return the claim of a contrast's sentence: its largest effects, if the foil arrives.
 
     Args:
         found: has a foil and its outcome.
@@ -58,12 +58,12 @@ def claim_of(found: Contrast, effects: int, causes: int) -> Claim:
 
 
 def ending(outcome: Outcome) -> Ending:
-    """The outcome as the paper's grammar tells it: all that is neither done nor a collision."""
+    """Return the outcome by the paper's grammar, which merges those besides done and collision."""
     return outcome if outcome in ("done", "collision") else "not-reached"
 
 
 def differing(ours: Claim, theirs: Claim) -> tuple[Part, ...]:
-    """In what two claims differ."""
+    """Return the parts in which two claims differ."""
     parts: list[Part] = []
     if (ours.outcome, ours.collided_with) != (theirs.outcome, theirs.collided_with):
         parts.append("outcome")
@@ -75,7 +75,7 @@ def differing(ours: Claim, theirs: Claim) -> tuple[Part, ...]:
 
 
 def _later(ours: tuple[Doing, ...], theirs: tuple[Doing, ...]) -> bool:
-    """Check whether our causes are those of the other claim but for first actions."""
+    """Check whether our causes are those of the other claim, except for first actions."""
     return len(ours) == len(theirs) and all(
         one.vehicle == other.vehicle and one.actions in (other.actions, other.actions[1:])
         for one, other in zip(ours, theirs, strict=True)

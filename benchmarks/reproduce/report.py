@@ -1,4 +1,4 @@
-"""The report: Tables 1 to 3 for people, and as one JSON object."""
+"""The report, with Tables 1 to 3 for people and as one JSON object."""
 
 from collections.abc import Callable, Iterator, Sequence
 
@@ -17,11 +17,11 @@ TITLES = {
 
 
 class Reproduction(msgspec.Struct, frozen=True):
-    """The paper's tables, beside ours."""
+    """The paper's tables, compared with ours."""
 
     seeds: int
     answered: int  # counterfactuals with a complete sentence, of Tables 1 and 2
-    declined: int  # with a refusal and its reason
+    declined: int  # counterfactuals with a refusal and its reason
     asked: int
     foils: tuple[FoilFound, ...]
 
@@ -45,8 +45,8 @@ def measure(seeds: int, jobs: int, note: Callable[[str], None]) -> Reproduction:
 
     Args:
         seeds: of each story, from 0 on.
-        jobs: processes side by side.
-        note: takes notes on progress.
+        jobs: number of parallel processes.
+        note: is called with notes on progress.
     """
     scenarios = dict.fromkeys(foil.scenario for foil in FOILS)
     tasks = [(name, seed) for name in scenarios for seed in range(seeds)]
@@ -58,7 +58,7 @@ def measure(seeds: int, jobs: int, note: Callable[[str], None]) -> Reproduction:
 
 
 def reproduction(told: Sequence[Told], seeds: int) -> Reproduction:
-    """Return our answers beside the rows of the paper."""
+    """Return our answers compared with the rows of the paper."""
     foils = compare(told)
     once = [found for found in foils if found.table < 3]
     return Reproduction(
@@ -105,7 +105,7 @@ def _row(row: RowFound, found: FoilFound) -> Iterator[str]:
 
 
 def _against(row: RowFound, grounds: Grounds | None) -> Iterator[str]:
-    """Yield the figures behind a row that is not borne out, or by few seeds."""
+    """Yield the figures behind a row that no seed, or only few seeds, bear out."""
     if grounds is None:
         return
     if row.claim.outcome == "collision":
@@ -153,7 +153,7 @@ def _said(one: Sentence) -> str:
 
 
 def _chance(p: float | None) -> str:
-    """Return a probability: 0 only where it is nothing at all."""
+    """Return a probability as text; "0" only if it is exactly 0."""
     if p is None:
         return "unknown"
     return "0" if p == 0.0 else f"{p:.3f}"

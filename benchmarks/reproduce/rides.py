@@ -1,4 +1,4 @@
-"""One ride of a story: what is said of its foils, what speaks for it, and what SUMO makes of it."""
+"""One ride of a story: the answers about its foils, their evidence, and what happens in SUMO."""
 
 from collections.abc import Sequence
 from contextlib import suppress
@@ -27,7 +27,7 @@ from xavi_dialogue.vehicle.episode import network_of, settings_of, start
 
 
 class Wording(msgspec.Struct, frozen=True):
-    """A sentence with at most so many effects and causes."""
+    """A sentence with limited numbers of effects and causes."""
 
     effects: int
     causes: int
@@ -36,21 +36,21 @@ class Wording(msgspec.Struct, frozen=True):
 
 
 class Told(msgspec.Struct, frozen=True):
-    """What came of asking about one foil."""
+    """The result of asking about one foil."""
 
     foil: Foil
     seed: int
-    answer: str = ""  # or the refusal in words
+    answer: str = ""  # text of the answer or refusal
     declined: Reason | None = None
     decided: float | None = None  # [s] when the decision explained was taken
     wordings: tuple[Wording, ...] = ()  # one for each size that a row of the foil has
     weighed: Weighed | None = None
     happened: Happened | None = None  # in SUMO; None: could not be driven
-    error: str | None = None  # of a ride that broke off
+    error: str | None = None  # of a ride that failed
 
 
 def tell(task: tuple[str, int]) -> tuple[Told, ...]:
-    """Drive a scenario with a seed, and ask about its foils; errors are in the result."""
+    """Drive a scenario with a seed, and ask about its foils; errors are part of the result."""
     name, seed = task
     foils = tuple(foil for foil in FOILS if foil.scenario == name)
     try:
@@ -96,13 +96,13 @@ def _ask(conversation: Conversation, foil: Foil, seed: int, at: float, network: 
 
 
 def _contrastive(reply: Reply) -> Answer | Refusal | None:
-    """Return the first answer of a reply that the paper has a sentence for; None: there is none."""
+    """Return the first answer of a reply for which the paper has a sentence; None if none."""
     answers = msgspec.convert(reply.answers, tuple[Answer | Refusal, ...])
     return next((one for one in answers if contrast_of(one) is not None), None)
 
 
 def _wordings(answer: Answer | Refusal, contrast: Contrast, foil: Foil) -> tuple[Wording, ...]:
-    """Return the answer put into words in each size that the rows of its foil have."""
+    """Return the wordings of the answer in each size that the rows of its foil have."""
     found = []
     for effects, causes in dict.fromkeys((row.effects, row.causes) for row in rows_of(foil)):
         context = SpeechContext(style="paper", max_effects=effects, max_causes=causes)
@@ -126,7 +126,7 @@ def _weighed(
 def _drive(
     scenario: Scenario, seed: int, network: Network, told: Sequence[Told]
 ) -> dict[Action, Happened]:
-    """Return what SUMO makes of the foils from the very decisions that were explained.
+    """Return what happens in SUMO after the foils, from the decisions that were explained.
 
     One that cannot be driven is left out.
     """

@@ -1,4 +1,4 @@
-"""The rows of the paper's Tables 1 to 3, with which ours are compared; nothing is said from them.
+"""The rows of the paper's Tables 1 to 3, for comparison only; no answer is made from them.
 
 Source: Gyevnar, Tamborski, Wang, Lucas, Cohen and Albrecht, "A Human-Centric Method for Generating
 Causal Explanations in Natural Language for Autonomous Vehicle Motion Planning", 2022, section
@@ -13,11 +13,11 @@ from planner.record.trace import Action
 
 
 class Foil(msgspec.Struct, frozen=True):
-    """What the ego might have done instead of the manoeuvre of the story."""
+    """An action of the ego instead of the manoeuvre of the story."""
 
     scenario: str
     action: Action
-    question: str  # that a passenger asks about it
+    question: str  # a passenger's question about it
 
 
 class Row(msgspec.Struct, frozen=True):
@@ -27,7 +27,7 @@ class Row(msgspec.Struct, frozen=True):
     foil: Foil
     text: str
     claim: Claim
-    effects: int = 1  # how many of them were asked for
+    effects: int = 1  # number of effects that were requested
     causes: int = 1
 
 

@@ -1,4 +1,4 @@
-"""The paper's rows beside our sentences: matched by what they claim, never by their words."""
+"""The paper's rows and our sentences, matched by their claims, never by their words."""
 
 from collections.abc import Sequence
 from statistics import fmean
@@ -11,44 +11,44 @@ from benchmarks.reproduce.rows import ROWS, Foil, Row
 from benchmarks.reproduce.weighing import Bearing
 from planner.record.trace import OUTCOMES
 
-NOT_DRIVEN = "not driven"  # SUMO could not be run on with the foil
+NOT_DRIVEN = "not driven"  # SUMO could not continue with the foil
 
 
 class Sentence(msgspec.Struct, frozen=True):
-    """One of our sentences, and the seeds in which it was said."""
+    """One of our sentences, and the seeds in which it was the answer."""
 
     text: str
     seeds: tuple[int, ...]
-    differs: tuple[Part, ...] = ()  # from the row nearest to it
+    differs: tuple[Part, ...] = ()  # parts that differ from the most similar row
 
 
 class Blame(msgspec.Struct, frozen=True):
-    """How a vehicle that a row names bears on the foil, over the seeds in which it is there."""
+    """The effect on the foil of a vehicle that a row names, over the seeds in which it exists."""
 
     vehicle: int
     seeds: int
     does: float  # mean probability that it does what the row says
     influential: int  # seeds in which the choice depends on it by more than chance
     held_up: float  # [s] mean of the expected time that it holds the ego up under the foil
-    done_if: float | None  # mean p(done | do(foil)) where it does so ...
-    done_else: float | None  # ... and where it does not
-    time_if: float | None  # [s] mean E[time | do(foil)] where it does so ...
-    time_else: float | None  # [s] ... and where it does not
-    decides: int  # seeds in which without it another action is chosen
+    done_if: float | None  # mean p(done | do(foil)) if it does so ...
+    done_else: float | None  # ... and if it does not
+    time_if: float | None  # [s] mean E[time | do(foil)] if it does so ...
+    time_else: float | None  # [s] ... and if it does not
+    decides: int  # seeds in which another action is chosen without it
 
 
 class Grounds(msgspec.Struct, frozen=True):
-    """What stands behind a foil, over the seeds in which it was explained."""
+    """The evidence on a foil, over the seeds in which it was explained."""
 
     seeds: int
     outcomes: dict[str, float]  # mean p(O | do(foil))
     collision: float  # the largest p(collision | do(foil)) at the decision, in any seed
     collision_before: float  # the largest at any decision up to then
-    decisions: int  # that this was looked for in
+    decisions: int  # number of decisions searched for this
     paper_done: float  # mean p(done | foil) as the paper factorises it, from the same rollouts
     later: float | None  # [s] mean by which the foil arrives later
     printed: float | None  # [s] mean difference of Equation 8 as it is printed
-    driven: dict[str, int]  # what SUMO made of it, by outcome
+    driven: dict[str, int]  # counts of what happened in SUMO, by outcome
     blamed: tuple[Blame, ...]
 
 
@@ -60,18 +60,18 @@ class RowFound(msgspec.Struct, frozen=True):
     foil: str
     paper: str
     borne_out: int  # seeds whose sentence claims the same
-    verbatim: int  # of these, seeds whose sentence is the same word for word
+    verbatim: int  # those of them whose sentence is the same word for word
     ours: tuple[Sentence, ...]  # those sentences, the most frequent first
     claim: Claim
 
 
 class SizeFound(msgspec.Struct, frozen=True):
-    """The sentences with at most so many effects and causes."""
+    """The sentences with the same limits on effects and causes."""
 
     effects: int
     causes: int
     rows: tuple[RowFound, ...]
-    others: tuple[Sentence, ...]  # of ours that are in no row of the paper
+    others: tuple[Sentence, ...]  # our sentences that are in no row of the paper
 
 
 class FoilFound(msgspec.Struct, frozen=True):
@@ -81,8 +81,8 @@ class FoilFound(msgspec.Struct, frozen=True):
     scenario: str
     foil: str
     seeds: int
-    answered: int  # with a complete sentence
-    declined: int  # with a reason
+    answered: int  # seeds with a complete sentence
+    declined: int  # seeds with a refusal and its reason
     sizes: tuple[SizeFound, ...]
     refusals: tuple[Sentence, ...]
     grounds: Grounds | None
@@ -90,7 +90,7 @@ class FoilFound(msgspec.Struct, frozen=True):
 
 
 def compare(told: Sequence[Told]) -> tuple[FoilFound, ...]:
-    """Set what we say beside the rows of the paper, by table and foil."""
+    """Compare our answers with the rows of the paper, by table and foil."""
     tables = dict.fromkeys((row.table, row.foil.scenario, row.foil.action) for row in ROWS)
     found = []
     for table, scenario, action in tables:
@@ -123,7 +123,7 @@ def _size_of(one: Row | Wording) -> tuple[int, int]:
 
 
 def _size(rows: Sequence[Row], told: Sequence[Told]) -> SizeFound:
-    """Return the rows of one size beside our sentences of that size."""
+    """Compare the rows of one size with our sentences of that size."""
     effects, causes = size = _size_of(rows[0])
     said = [(w, one.seed) for one in told for w in one.wordings if _size_of(w) == size]
     apart = {w.text: _apart(w.claim, rows) for w, _ in said}
@@ -137,7 +137,7 @@ def _size(rows: Sequence[Row], told: Sequence[Told]) -> SizeFound:
 
 
 def _apart(ours: Claim, rows: Sequence[Row]) -> tuple[Part, ...]:
-    """Return what tells a claim from the row nearest to it; nothing where it is in a row."""
+    """Return the parts in which a claim differs from the most similar row; () if it equals one."""
     return min((differing(ours, row.claim) for row in rows), key=len)
 
 
@@ -156,7 +156,7 @@ def _row(row: Row, said: Sequence[tuple[Wording, int]]) -> RowFound:
 
 
 def _counted(said: Sequence[tuple[str, int]]) -> tuple[Sentence, ...]:
-    """Distinct sentences with their seeds, the most frequent first."""
+    """Return distinct sentences with their seeds, the most frequent first."""
     seeds: dict[str, list[int]] = {}
     for text, seed in said:
         seeds.setdefault(text, []).append(seed)
@@ -165,7 +165,7 @@ def _counted(said: Sequence[tuple[str, int]]) -> tuple[Sentence, ...]:
 
 
 def _complete(text: str) -> bool:
-    """Check whether nothing is missing: neither the end, nor a cause after its "because"."""
+    """Check whether a sentence is complete: it has an end, and a cause after "because"."""
     return text.startswith("If ego had ") and text.endswith(".") and "because ." not in text
 
 

@@ -1,4 +1,4 @@
-"""What our evidence of one decision says of a row of the paper, whether it bears it out or not."""
+"""Our evidence from one decision on a row of the paper, whether it bears the row out or not."""
 
 from collections.abc import Sequence
 
@@ -17,18 +17,18 @@ from xavi_dialogue.causal.paper import PaperNetwork
 
 
 class Bearing(msgspec.Struct, frozen=True):
-    """How a vehicle that a row blames bears on the foil."""
+    """The effect on the foil of a vehicle that a row blames."""
 
     vehicle: int
     does: float  # probability of the actions that the row gives it, or of the last of them
     bits: float  # mutual information of its behaviour with the choice between fact and foil
     significant: bool  # whether that is more than chance
     held_up: float  # [s] expected, that it holds the ego up under the foil
-    done_if: float | None  # p(done | do(foil), it does so); None where it never does
+    done_if: float | None  # p(done | do(foil), it does so); None if it never does
     done_else: float | None  # p(done | do(foil), it does otherwise)
-    time_if: float | None  # [s] E[time | do(foil), it does so]; None where that never arrives
-    time_else: float | None  # [s] likewise where it does otherwise
-    decides: bool | None  # whether, planned again without it, another action is chosen
+    time_if: float | None  # [s] E[time | do(foil), it does so]; None if that never arrives
+    time_else: float | None  # [s] likewise if it does otherwise
+    decides: bool | None  # whether another action is chosen when planned again without it
 
 
 class Weighed(msgspec.Struct, frozen=True):
@@ -36,7 +36,7 @@ class Weighed(msgspec.Struct, frozen=True):
 
     outcomes: dict[Outcome, float]  # p(O | do(foil))
     collision: float  # the largest p(collision | do(foil)) of this decision and those before it
-    decisions: int  # of which foil and rollouts are known
+    decisions: int  # number of decisions with known foil and rollouts
     paper_done: float  # p(done | foil) as the paper factorises it, from the same rollouts
     later: float | None  # [s] E[time | do(foil)] - E[time | do(fact)]
     printed: float | None  # [s] E[time | fact] - E[time | foil]: Equation 8 as it is printed
@@ -51,7 +51,7 @@ def weigh(
     rows: Sequence[Row],
     network: Network,
 ) -> Weighed | None:
-    """Return the evidence on a foil; None where no rollout begins with it.
+    """Return the evidence on a foil; None if no rollout begins with it.
 
     Args:
         trace: the decision.
@@ -112,7 +112,7 @@ def _bearing(
 
 
 def _goes(trace: PlanTrace, cause: Doing, choice: Choice) -> bool:
-    """Check whether a choice ends as the actions do; the first of them may be done already."""
+    """Check whether a choice ends with the actions; the first ones may be over already."""
     goals = next(p.goals for p in trace.predictions if p.vehicle == cause.vehicle)
     done = goals[choice[0]].trajectories[choice[1]].actions
     moves = tuple(action for action in done if action != "continue")
@@ -122,7 +122,7 @@ def _goes(trace: PlanTrace, cause: Doing, choice: Choice) -> bool:
 def _confined(
     trace: PlanTrace, there: Intervention, vehicle: int, choices: frozenset[Choice]
 ) -> Intervention | None:
-    """The same plan where the vehicle is confined to some choices; None where it never is."""
+    """Return a plan limited to some choices of a vehicle; None if it never makes them."""
     if not choices:
         return None
     return CausalModel(trace, {vehicle: choices}).intervene(there.plan)

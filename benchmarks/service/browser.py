@@ -13,16 +13,16 @@ if TYPE_CHECKING:
     from playwright.sync_api import CDPSession, Page
 
 SIZE = (1440, 900)  # [px] of the window
-PATIENCE = 60.0  # [s] for what a page comes to
+PATIENCE = 60.0  # [s] greatest wait for a result of the page
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 
 
 class NoBrowser(RunFault):
-    """There is no browser, or nothing to drive it with."""
+    """The browser, or the library that controls it, is missing."""
 
 
 def program() -> str:
-    """Return where the browser is.
+    """Return the path of the browser.
 
     Raises:
         NoBrowser: none is installed.
@@ -37,7 +37,7 @@ def program() -> str:
 
 
 def options() -> list[str]:
-    """Arguments that it needs here: root's browser has no sandbox."""
+    """Return the arguments for the browser; if run by root, it has no sandbox."""
     return ["--no-sandbox"] if os.geteuid() == 0 else []
 
 
@@ -53,11 +53,11 @@ class Window:
         self.page.goto(address)
 
     def run(self, program: str) -> Any:
-        """Return what an expression or program of the page comes to."""
+        """Return the value of an expression or function in the page."""
         return self.page.evaluate(program)
 
     def until(self, condition: str) -> None:
-        """Wait until a function of the page returns what is true.
+        """Wait until a function of the page returns a true value.
 
         It has to be a function: pages whose content security policy forbids `eval` know no other.
 
@@ -85,7 +85,7 @@ class Window:
 
 @contextmanager
 def opened() -> Iterator[Window]:
-    """Yield a page in a browser of its own, closed at the end.
+    """Yield a page in a new browser, which is closed at the end.
 
     Raises:
         NoBrowser: none is installed, or playwright is not.

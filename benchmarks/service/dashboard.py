@@ -31,15 +31,15 @@ VEHICLES = (3, 60, 300)
 CROWD = 60  # vehicles while memory is measured
 PERIOD = 0.1  # [s] between scenes
 DECISIONS = 10  # scenes from one decision to the next
-SETTLE = 3.0  # [s] that are not counted: roads come, programs are compiled
-SAMPLE = 20.0  # [s] between looks at memory
+SETTLE = 3.0  # [s] at the start that are not counted, while roads load and code is compiled
+SAMPLE = 20.0  # [s] between measurements of memory
 MEGABYTE = 1024.0 * 1024.0
 
 SHOWING = "() => window.xavi?.map?.frames().latest_scene?.drawn > 0"
 OVERVIEW = "window.xavi.map.follow(false); window.xavi.map.fit()"
 DROPPED = "window.xavi.store.status.dropped"
-#: Takes down how long after a scene was sent [ms] the first frame on the way to it was painted, and
-#: the one in which all vehicles have come to where it says; looks 50 times a second.
+#: Records how long [ms] after sending a scene the first frame towards it was painted, and the frame
+#: in which all vehicles have reached their places; checks 50 times a second.
 LISTEN = """
 window.latencies = { latest_scene: [], reached_scene: [] };
 const last = window.xavi.map.frames();
@@ -57,20 +57,20 @@ SIGHTS = {"latest_scene": "first frame", "reached_scene": "all there"}
 
 
 class Frames(msgspec.Struct, frozen=True):
-    """How smoothly so many vehicles move."""
+    """The smoothness of the display for a number of vehicles."""
 
     vehicles: int
-    seconds: float  # that it was looked at
-    scenes: int  # that were sent
-    painted: int  # of these
-    dropped: int  # of these, because the page was too slow
-    fps: float  # frames a second
-    draw_ms: float  # that the map takes to draw one
-    worst_ms: float  # and the longest one, since the page was loaded
+    seconds: float  # [s] duration of the measurement
+    scenes: int  # scenes that were sent
+    painted: int  # scenes that were painted
+    dropped: int  # scenes that were dropped because the page was too slow
+    fps: float  # frames per second
+    draw_ms: float  # [ms] to draw the map once
+    worst_ms: float  # [ms] longest time to draw the map since the page was loaded
 
 
 class Memory(msgspec.Struct, frozen=True):
-    """What is held after some minutes [MB]."""
+    """The memory [MB] after some minutes."""
 
     minutes: float
     server: float  # resident
@@ -78,11 +78,11 @@ class Memory(msgspec.Struct, frozen=True):
 
 
 class Report(msgspec.Struct, frozen=True):
-    """What was measured."""
+    """The results of the benchmark."""
 
     bench: str
-    scenario: str  # whose roads are shown
-    figures: tuple[Figure, ...]  # latency [ms], by the number of vehicles and what is waited for
+    scenario: str  # scenario whose roads are shown
+    figures: tuple[Figure, ...]  # latency [ms], by number of vehicles and awaited event
     frames: tuple[Frames, ...]
     vehicles: int  # while memory is measured
     memory: tuple[Memory, ...]
@@ -103,14 +103,14 @@ class Report(msgspec.Struct, frozen=True):
 
 @dataclass
 class _Ride:
-    """A made-up ride that goes on by the clock, on a thread of its own."""
+    """A synthetic ride in real time, on its own thread."""
 
     bus: Bus
     scenario: Scenario
     network: Network
-    decision: PlanTrace  # that is taken over and over
+    decision: PlanTrace  # reported again and again
     vehicles: int
-    sent: int = 0  # scenes
+    sent: int = 0  # scenes sent
     over: threading.Event = field(default_factory=threading.Event)
 
     def go(self) -> None:
@@ -135,9 +135,9 @@ def measure(seconds: float, minutes: float, note: Callable[[str], None]) -> Repo
     """Measure the dashboard.
 
     Args:
-        seconds: for each number of vehicles.
-        minutes: over which memory is measured.
-        note: takes notes on progress.
+        seconds: [s] of measurement for each number of vehicles.
+        minutes: [min] over which memory is measured.
+        note: is called with notes on progress.
 
     Raises:
         NoBrowser: none is installed, or playwright is not.
@@ -164,7 +164,7 @@ def measure(seconds: float, minutes: float, note: Callable[[str], None]) -> Repo
 
 @dataclass(frozen=True)
 class _Stage:
-    """A page that shows a made-up ride."""
+    """A page that shows a synthetic ride."""
 
     ride: _Ride
     server: Served
@@ -191,7 +191,7 @@ def _shown(
 
 
 def _smoothness(stage: _Stage, seconds: float) -> tuple[dict[str, list[float]], Frames]:
-    """Latencies [ms] by what is waited for, and frames, over some time [s]."""
+    """Return latencies [ms] by awaited event, and frames, over some time [s]."""
     ride, page = stage.ride, stage.page
     page.run(LISTEN)
     sent, dropped, began = ride.sent, page.run(DROPPED), time.perf_counter()
@@ -218,7 +218,7 @@ def _frames(page: Window) -> dict[str, Any]:
 
 
 def _memory(stage: _Stage, minutes: float) -> Iterator[Memory]:
-    """Look at memory from time to time."""
+    """Measure the memory from time to time."""
     began = time.monotonic()
     while True:
         passed = time.monotonic() - began

@@ -1,4 +1,4 @@
-"""`xavi bench dialogue`: how long answers take, of one passenger and of a thousand at once."""
+"""`xavi bench dialogue`: how long answers take, to one passenger and to a thousand at once."""
 
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -51,15 +51,15 @@ DEEPER = (
     "What will you do if vehicle 1 stops?",
     "What would you have done without vehicle 2?",
 )
-MOMENTS = tuple(round(2.0 + 0.1 * k, 1) for k in range(40))  # [s] at which it is asked
-RATES = (20, 50, 100, 200)  # questions a second, of all passengers together
+MOMENTS = tuple(round(2.0 + 0.1 * k, 1) for k in range(40))  # [s] times of questions
+RATES = (20, 50, 100, 200)  # questions per second, of all passengers together
 OVER_THE_BUS = "over the bus"
-TAILS = {"from the record": 15.0, "planned again": 150.0}  # [ms] at p99, over the bus
-LOADS = {"all at once": 2500.0, "200 a second": 50.0}  # [ms] at p99, of many passengers
+TAILS = {"from the record": 15.0, "planned again": 150.0}  # targets [ms] of p99, over the bus
+LOADS = {"all at once": 2500.0, "200 a second": 50.0}  # targets [ms] of p99, many passengers
 
 
 class Report(Aimed, frozen=True):
-    """What was measured; times in ms."""
+    """The results of the benchmark; times in ms."""
 
     bench: str
     figures: tuple[Figure, ...]  # one passenger, one question after the other
@@ -89,12 +89,12 @@ def _row(load: Load) -> tuple[str, ...]:
 
 
 def measure(sessions: int, seconds: float, note: Callable[[str], None]) -> Report:
-    """Answers within one process, over the bus, and to many passengers at once.
+    """Time answers within one process, over the bus, and to many passengers at once.
 
     Args:
-        sessions: how many passengers there are.
-        seconds: how long they ask at each rate.
-        note: takes notes on progress.
+        sessions: number of passengers.
+        seconds: [s] for which they ask at each rate.
+        note: is called with notes on progress.
     """
     watch = Watch()
     note("within one process")
@@ -123,7 +123,7 @@ def measure(sessions: int, seconds: float, note: Callable[[str], None]) -> Repor
 
 
 def _targets(figures: Sequence[Figure], loads: Sequence[Load]) -> Iterator[Target]:
-    """Yield what is to be reached, beside what was."""
+    """Yield the targets with the measured values."""
     taken = {one.name: one.p99 for one in figures}
     for kind, bound in TAILS.items():
         name = f"{OVER_THE_BUS} {kind}"
@@ -159,7 +159,7 @@ def _alone(watch: Watch, name: str) -> None:
 def _over_the_bus(
     watch: Watch, backend: LocalBackend, client: Client, at: float, questions: Sequence[str]
 ) -> None:
-    """From a passenger's process through the service's, about a moment [s]."""
+    """Time answers from a passenger's process through the service, about a time [s]."""
     for question in questions:
         before = _counters(backend)["what_ifs"]
         began = time.perf_counter()
@@ -173,7 +173,7 @@ def _over_the_bus(
 def _crowded(
     backend: LocalBackend, sessions: int, seconds: float, until: float, note: Callable[[str], None]
 ) -> tuple[tuple[Load, ...], tuple[float, float]]:
-    """Many passengers: all at once, then at given rates; and the memory that they take."""
+    """Measure many passengers, all at once and at given rates, and the memory that they take."""
     bus, keys, loads = backend.bus, Keys(), []
     moments = [moment for moment in MOMENTS if moment <= until]
 
@@ -195,6 +195,6 @@ def _crowded(
 
 
 def _counters(backend: LocalBackend) -> dict[str, float]:
-    """Return how the service fares."""
+    """Return the counters of the service."""
     payload = call(backend.bus, Keys().of("alive/service"), b"", 10.0)
     return unpack(payload, AliveReport).counters

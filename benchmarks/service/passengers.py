@@ -1,4 +1,4 @@
-"""Many passengers at once: questions sent at given times, and what came of them."""
+"""Many passengers at once: questions sent at given times, and their results."""
 
 import threading
 import time
@@ -14,31 +14,31 @@ from xavi_dialogue.bus.interface import Bus, Keys, NoAnswer, Outcome, Refused, T
 from xavi_dialogue.bus.messages import AskReply, AskRequest, Failure, pack, unpack
 
 DEADLINE = 10.0  # [s] for an answer
-GRACE = 0.5  # [s] that a reply may take on its way
+GRACE = 0.5  # [s] allowed for the transport of a reply
 
 
 @dataclass(frozen=True)
 class Question:
     """One question of one passenger."""
 
-    due: float  # [s] after the first
+    due: float  # [s] after the first question
     session: str
     text: str
     at: float  # [s] simulation time
 
 
 class Load(msgspec.Struct, frozen=True):
-    """What came of many questions."""
+    """The results of many questions."""
 
     name: str
     sessions: int
     asked: int
-    answered: int  # whatever the answer was, a clear refusal included
-    busy: int  # turned away for the number of questions
+    answered: int  # questions with any answer, including a clear refusal
+    busy: int  # questions rejected because there were too many
     timed_out: int
-    lost: int  # without a reply that can be read
+    lost: int  # questions without a readable reply
     offered_per_s: float
-    answered_per_s: float  # from the first question to the last reply
+    answered_per_s: float  # rate from the first question to the last reply
     p50_ms: float | None  # of those answered, from question to reply
     p99_ms: float | None
     late: int  # replies after their deadline
@@ -46,7 +46,7 @@ class Load(msgspec.Struct, frozen=True):
 
 @dataclass
 class _Tally:
-    """What came back so far; told on threads of the bus."""
+    """The results so far; updated on threads of the bus."""
 
     wanted: int
     taken: list[float] = field(default_factory=list)  # [s] of those answered
@@ -57,7 +57,7 @@ class _Tally:
     done: threading.Event = field(default_factory=threading.Event)
 
     def take(self, began: float, outcome: Outcome) -> None:
-        """Take down what came of a question sent at a time [s]."""
+        """Record the result of a question that was sent at a time [s]."""
         now, end = time.perf_counter(), _end(outcome)
         with self._lock:
             self.ends[end] += 1
@@ -70,7 +70,7 @@ class _Tally:
 
 
 def ask_all(bus: Bus, keys: Keys, name: str, questions: Iterable[Question]) -> Load:
-    """Send every question when it is due, wait for nobody meanwhile, and count what comes back."""
+    """Send every question when it is due, without waiting for replies, and count the results."""
     rows = sorted(questions, key=lambda one: one.due)
     tally = _Tally(len(rows))
     began = time.perf_counter()
@@ -114,7 +114,7 @@ def _load(name: str, rows: list[Question], tally: _Tally, began: float) -> Load:
 
 
 def _end(outcome: Outcome) -> str:
-    """Return what became of a question, in a word or two."""
+    """Return the result of a question in a word or two."""
     if isinstance(outcome, TooLate):
         return "timed out"
     try:

@@ -1,4 +1,4 @@
-"""The dashboard as its users start it, beside a bus of this process."""
+"""The dashboard as users start it, with a bus in this process."""
 
 import os
 import re
@@ -18,13 +18,13 @@ from xavi_dialogue.bus.zenoh_bus import host
 from xavi_dialogue.process.subprocesses import ChildFailed, last_words
 
 ADDRESS = re.compile(r"dashboard at (http://\S+)")
-POLL = 0.05  # [s] between looks at what it says
+POLL = 0.05  # [s] between checks of its output
 ENDING = 5.0  # [s] that it may take to end
 
 
 @dataclass(frozen=True)
 class Served:
-    """A dashboard that is up, and the bus that it hears."""
+    """A running dashboard, and the bus that it uses."""
 
     bus: Bus
     address: str
@@ -76,7 +76,7 @@ def _started(endpoint: str, folder: Path, said: Path) -> "subprocess.Popen[bytes
 
 
 def _address(process: "subprocess.Popen[bytes]", said: Path) -> str:
-    """Return where the dashboard is, by what it says."""
+    """Return the address of the dashboard, by its output."""
     while True:
         ended = process.poll() is not None
         text = said.read_text(encoding="utf-8", errors="replace")

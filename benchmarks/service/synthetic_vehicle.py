@@ -1,4 +1,4 @@
-"""A car that there is not: made-up traffic and reports on a bus, as a real car makes them."""
+"""A synthetic car: invented traffic and reports on a bus, like those of a real car."""
 
 import random
 import secrets
@@ -18,7 +18,7 @@ from xavi_dialogue.vehicle.map_server import serve_roads
 from xavi_dialogue.vehicle.telemetry import KEPT_EVENTS, KEPT_TRACES
 
 ROOM = 12.0  # [m] of a lane for each vehicle that begins on it
-PACES = (6.0, 14.0)  # [m/s]
+PACES = (6.0, 14.0)  # [m/s] least and greatest speed
 #: kind, length and width [m]; most are cars.
 MAKES = (
     *(("car", 4.5, 1.8),) * 7,
@@ -36,11 +36,11 @@ class _Mover:
     speed: float  # [m/s]
     make: tuple[str, float, float]
     colour: str | None
-    ahead: list[Lane] = field(default_factory=list)  # that it drives along next
+    ahead: list[Lane] = field(default_factory=list)  # lanes that follow on its way
 
 
 class Traffic:
-    """Vehicles that drive about on a network at steady speeds, heedless of one another."""
+    """Vehicles that drive on a network at steady speeds and ignore one another."""
 
     def __init__(self, network: Network, count: int, seed: int) -> None:
         """Put vehicles on the roads.
@@ -69,7 +69,7 @@ class Traffic:
         ]
 
     def go_on(self, seconds: float) -> None:
-        """Let time pass [s]."""
+        """Advance by a time [s]."""
         for mover in self._movers:
             mover.offset += mover.speed * seconds
             while mover.offset > mover.lane.length:
@@ -78,11 +78,11 @@ class Traffic:
 
     @property
     def vehicles(self) -> dict[int, VehicleState]:
-        """All of them, by name; the ego is 0."""
+        """Return all vehicles by name; the ego is 0."""
         return {name: _state(mover) for name, mover in enumerate(self._movers)}
 
     def _next(self, mover: _Mover) -> Lane:
-        """Return the lane after a vehicle's; at the end of the map, some other one."""
+        """Return the lane after a vehicle's, or some other one at the end of the map."""
         lanes = self._network.lanes
         if not mover.ahead:
             links = self._network.links_from(mover.lane.id)
@@ -103,7 +103,7 @@ def _state(mover: _Mover) -> VehicleState:
 
 
 class SyntheticVehicle:
-    """Reports scenes, traces and events as requested."""
+    """A car that reports scenes, traces and events as requested."""
 
     def __init__(self, bus: Bus, keys: Keys, roads: Path | None = None) -> None:
         """Begin a ride.
@@ -121,16 +121,16 @@ class SyntheticVehicle:
         self._trace = bus.publisher(keys.of("trace"), keep=KEPT_TRACES)
         self._event = bus.publisher(keys.of("event"), keep=KEPT_EVENTS)
         self.ride = secrets.token_hex(4)
-        self.scenario: str | None = None  # by whose name the ride goes
+        self.scenario: str | None = None  # name of the ride's scenario
         self.scenes = self.traces = self.events = 0
         self._first: str | None = None
 
     def appear(self) -> None:
-        """Be there."""
+        """Appear on the bus."""
         self._alive = HealthReporter("car").serve(self._bus, self._keys)
 
     def vanish(self) -> None:
-        """Be there no longer."""
+        """Disappear from the bus."""
         if self._alive is not None:
             self._alive.withdraw()
 
