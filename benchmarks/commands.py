@@ -43,7 +43,7 @@ def commands(show: Show) -> typer.Typer:
     """Return the group of commands.
 
     Args:
-        show: runs a measurement and prints what it found.
+        show: runs a measurement and prints its results.
     """
     group = typer.Typer(help="Measure.", no_args_is_help=True, rich_markup_mode=None)
 
@@ -90,7 +90,7 @@ def commands(show: Show) -> typer.Typer:
 
 
 def _of_answers(group: typer.Typer, show: Show) -> None:
-    """Add the commands that judge what is said."""
+    """Add the commands that judge answers."""
 
     @group.command("causes")
     def _causes(
@@ -129,7 +129,7 @@ def _of_answers(group: typer.Typer, show: Show) -> None:
 
 
 def _of_time(group: typer.Typer, show: Show) -> None:
-    """Add the commands that time what is said and shown."""
+    """Add the commands that time answers and the dashboard."""
 
     @group.command("explain")
     def _explain(
@@ -162,7 +162,7 @@ def _of_time(group: typer.Typer, show: Show) -> None:
 
 
 def _of_parsing(group: typer.Typer, show: Show) -> None:
-    """Add the commands that judge what is understood."""
+    """Add the commands that judge understanding."""
 
     @group.command("parse")
     def _parse(
@@ -222,7 +222,7 @@ def plan(hours: float, plot: Path | None) -> "Report":
 def drive(
     scenarios: list[str] | None, runs: int, jobs: int | None, note: Callable[[str], None]
 ) -> "Report":
-    """Measure driving in scenarios, or in all of ours."""
+    """Measure driving in scenarios, by default in all of the package."""
     from msgspec.structs import replace
 
     from benchmarks.drive.drive import measure
@@ -241,10 +241,10 @@ def recognise(
     """Measure recognition in scenarios where others have a choice, and in random networks.
 
     Args:
-        scenarios: names or folders; None: ours.
+        scenarios: names or folders; None: those of the package.
         counts: seeds of each, networks, number of the first, networks with constants changed.
-        jobs: processes side by side.
-        note: takes notes on progress.
+        jobs: number of parallel processes.
+        note: is called with notes on progress.
     """
     from benchmarks.prediction.recognise import SCENARIOS, measure, tasks
     from benchmarks.prediction.recognise_report import report
@@ -274,7 +274,7 @@ def sufficiency(
     jobs: int | None,
     note: Callable[[str], None],
 ) -> "SufficiencyReport":
-    """Judge the reasons told in scenarios, or in all of ours."""
+    """Judge the stated reasons in scenarios, by default in all of the package."""
     from benchmarks.sufficiency.sufficiency import measure
 
     chosen, left_out = (there(scenarios), ()) if scenarios else ours(note)
@@ -314,7 +314,7 @@ def parse(questions: Path, ride: Path, note: Callable[[str], None]) -> "Report":
 
 
 def intents(texts: Path, keep: Path | None, note: Callable[[str], None]) -> "Report":
-    """Tell intents of texts, and learn to."""
+    """Measure the recognition of intents, and learn it."""
     from benchmarks.language.intents import measure
 
     return measure(texts, keep, note)
@@ -337,7 +337,7 @@ def fuzz(
     jobs: int | None,
     note: Callable[[str], None],
 ) -> "Report":
-    """Try texts made at random."""
+    """Try random texts."""
     from benchmarks.language.fuzz import measure
 
     return measure(questions, ride, runs, seed, processes(jobs), note)
