@@ -45,7 +45,7 @@ __all__ = [
 
 __version__ = "0.1.0"
 
-# Matrices here are small: threads of the linear algebra only get in each other's way.
+# Matrices here are small: threads of the linear algebra would only slow each other down.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 if not TYPE_CHECKING:  # type checkers know the names, and find misspelt ones

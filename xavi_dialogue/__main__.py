@@ -21,7 +21,7 @@ from xavi_dialogue.process.kernel_cache import find_place
 
 
 class _Commands(TyperGroup):
-    """The commands; what is wrong with a value from the file of settings is told with its place."""
+    """The commands; an error in a value from the file of settings names its place there."""
 
     def invoke(self, context: Any) -> Any:
         try:
@@ -32,7 +32,7 @@ class _Commands(TyperGroup):
 
 
 def _place(context: Any, error: typer.BadParameter) -> None:
-    """Say where a value was set, if a file of settings did."""
+    """Add the place where a value was set to an error, if a file of settings set it."""
     from xavi_dialogue.process import config as settings
 
     command, parameter = error.ctx, error.param
@@ -88,11 +88,11 @@ def _options(
         except SettingsError as error:
             if context.invoked_subcommand != "doctor":
                 raise
-            context.obj = error  # it goes on, and tells this among its findings
+            context.obj = error  # it continues, and reports this among its findings
 
 
 def _settings(context: typer.Context, given: Path | None) -> dict[str, Any]:
-    """What the file of settings says, if there is one."""
+    """Return the options that the file of settings sets, if there is one."""
     from xavi_dialogue.process import config as settings
 
     path = settings.default_path() if given is None else given
@@ -103,7 +103,7 @@ def _settings(context: typer.Context, given: Path | None) -> dict[str, Any]:
 
 
 def _long_options(command: Any) -> dict[str, str]:
-    """The options of a command that a file may set: their names, with those of their parameters."""
+    """Return the options of a command that a file may set, by name, with their parameters."""
     return {
         option.removeprefix("--"): str(parameter.name)
         for parameter in command.params
@@ -114,7 +114,7 @@ def _long_options(command: Any) -> dict[str, str]:
 
 
 def _add_benchmarks() -> None:
-    """Add the commands that a checkout has besides those of an installation."""
+    """Add the commands that only a checkout has."""
     top = Path(__file__).parents[1]
     if not (top / "pyproject.toml").exists():
         return
@@ -137,7 +137,7 @@ _add_benchmarks()
 
 @contextlib.contextmanager
 def _errors() -> Iterator[None]:
-    """What goes wrong as one clear line and an exit status; our own faults as they are."""
+    """Report errors in one line and exit with a status; internal errors pass unchanged."""
     try:
         yield
     except Exception as error:
@@ -151,7 +151,7 @@ def _errors() -> Iterator[None]:
 
 
 def _lines() -> Iterator[str]:
-    """Lines of standard input, whatever bytes they hold."""
+    """Yield lines of standard input, even if they have invalid bytes."""
     sys.stdin.reconfigure(encoding="utf-8", errors="replace")  # type: ignore[union-attr]
     yield from iter(sys.stdin.readline, "")
 
@@ -168,7 +168,7 @@ def _note(text: str) -> None:
         from xavi_dialogue.terminal.slash_commands import wrapper
 
         line = wrapper(get_terminal_size().columns).fill(line)
-    print(f"{line}\n", end="", file=sys.stderr, flush=True)  # in one piece, whatever else writes
+    print(f"{line}\n", end="", file=sys.stderr, flush=True)  # one write, so that it stays whole
 
 
 SHELL = Streams(_errors, _write, _note, _lines)
@@ -177,7 +177,7 @@ for room in (chat, dashboard, serve, record, looking, sessions, keys, doctor):
 
 
 def main() -> NoReturn:
-    """Run the command line; SIGTERM ends it like an exception, so that all is cleaned up."""
+    """Run the command line; SIGTERM ends it like an exception, so that resources are released."""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(ExitStatus.TERMINATED))
     find_place()
     app()

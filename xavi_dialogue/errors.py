@@ -2,4 +2,4 @@
 
 
 class XaviError(Exception):
-    """A part of XAVI Dialogue cannot do what it was asked for."""
+    """A part of XAVI Dialogue cannot fulfil a request."""

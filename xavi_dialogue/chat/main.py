@@ -60,7 +60,7 @@ def through_pipe(
         ride: the ride and the session.
         lines: questions; "@ 8.0s" moves time, "/quit" ends, "/help" lists the other commands.
         write: takes answers.
-        note: takes notes.
+        note: is called with notes.
         speed: simulated seconds per second; 0 is as fast as possible.
         as_json: write replies as JSON.
 
@@ -92,7 +92,7 @@ def at_terminal(ride: ChatOptions, history: Path, note: Write, *, speed: float) 
     Args:
         ride: the ride and the session.
         history: file of typed lines.
-        note: takes notes before the conversation begins.
+        note: is called with notes before the conversation begins.
         speed: simulated seconds per second; 0 is as fast as possible.
 
     Raises:

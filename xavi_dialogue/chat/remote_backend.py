@@ -200,7 +200,7 @@ def through_pipe(
         passenger: whose session it is.
         lines: questions and commands.
         write: takes answers.
-        note: takes notes.
+        note: is called with notes.
         as_json: write replies as JSON.
 
     Raises:
@@ -230,7 +230,7 @@ def at_terminal(
         there: the car.
         passenger: whose session it is.
         typed: whether and how long typed lines are stored.
-        note: takes notes before the conversation begins.
+        note: is called with notes before the conversation begins.
 
     Raises:
         TransportError: see `meet`.

@@ -81,7 +81,7 @@ def parse_lines(
     Args:
         lines: the question lines, with the earlier turns in `context` if there are any.
         vehicles: names of the vehicles; a question about another is noted.
-        note: takes notes.
+        note: is called with notes.
 
     Raises:
         UsageFault: at the end, if some lines were invalid.

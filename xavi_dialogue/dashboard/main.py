@@ -71,7 +71,7 @@ class BusThread:
 
         Args:
             task: what to join.
-            note: takes notes.
+            note: is called with notes.
             joined: gets the bus, on this thread.
             failed: called on this thread when it cannot go on, for `failure`.
         """
@@ -161,7 +161,7 @@ def run(task: DashboardOptions, note: Note) -> None:
 
     Args:
         task: what to show, and where.
-        note: takes notes.
+        note: is called with notes.
 
     Raises:
         ListenError: the address cannot be used.

@@ -80,7 +80,7 @@ class Recorder:
             bus: of the car.
             keys: of the car, or of every car.
             file: gets the messages.
-            note: takes notes on problems.
+            note: is called with notes on problems.
         """
         self.alive = HealthReporter("recorder", COUNTERS)
         self._bus, self._keys, self._file, self._note = bus, keys, file, note
@@ -216,7 +216,7 @@ def record(task: RecordOptions, note: Note) -> None:
 
     Args:
         task: what and where.
-        note: takes notes.
+        note: is called with notes.
 
     Raises:
         HubUnreachable: there is no hub at the endpoint.

@@ -118,7 +118,7 @@ def _drive(
     share: bool,
     recording: _RecordingOptions | None,
 ) -> None:
-    """Talk in a car of one's own."""
+    """Talk in a car that this command starts."""
     from xavi_dialogue.chat.main import ChatOptions, at_terminal, through_pipe
     from xavi_dialogue.storage import resume
 
@@ -150,7 +150,7 @@ def _ride_along(
     keeping: "Retention | None",
     share: bool,
 ) -> None:
-    """Talk in a car that others drive."""
+    """Talk in a car that others started."""
     from xavi_dialogue.chat import remote_backend
     from xavi_dialogue.chat.interactive import InputHistoryOptions
     from xavi_dialogue.storage import resume

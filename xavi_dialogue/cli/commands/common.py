@@ -21,9 +21,9 @@ class Streams:
     """The process's streams."""
 
     errors: Callable[[], AbstractContextManager[None]]  # reports errors in one line
-    write: Callable[[str], None]  # to standard output
-    note: Callable[[str], None]  # to standard error
-    lines: Callable[[], Iterator[str]]  # of standard input, whatever bytes they hold
+    write: Callable[[str], None]  # writes to standard output
+    note: Callable[[str], None]  # writes to standard error
+    lines: Callable[[], Iterator[str]]  # lines of standard input, even with invalid bytes
 
     def load(self, name: str, *, told: bool = False) -> "Scenario":
         """Load a scenario, and print its warnings unless the parent process did."""

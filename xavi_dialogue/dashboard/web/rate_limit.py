@@ -8,12 +8,12 @@ from dataclasses import dataclass
 class Rate:
     """A rate and a burst."""
 
-    every_second: float  # in the long run
-    burst: int  # at once
+    every_second: float  # rate in the long run
+    burst: int  # greatest number at once
 
 
 class Bucket:
-    """Holds tokens: `burst` of them at first, and `every_second` more each second, up to that."""
+    """A bucket that starts with `burst` tokens, and is refilled by `every_second` per second."""
 
     def __init__(self, rate: Rate, now: float) -> None:
         self._rate, self._tokens, self._filled = rate, float(rate.burst), now
@@ -31,7 +31,7 @@ class Bucket:
         return True
 
     def full(self, now: float) -> bool:
-        """Check whether it is full."""
+        """Check whether the bucket is full."""
         grown = self._tokens + max(now - self._filled, 0.0) * self._rate.every_second
         return grown >= self._rate.burst
 

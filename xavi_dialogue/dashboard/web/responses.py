@@ -45,11 +45,11 @@ class Body:
     data: bytes
     type: str
     etag: str
-    packed: bytes | None = None  # the same, by gzip; None: not worth it
+    packed: bytes | None = None  # compressed by gzip; None: not worthwhile
 
 
 def body(data: bytes, kind: str) -> Body:
-    """A response's body, of a content type; large ones take some milliseconds for each MB."""
+    """Make a response's body with a content type; packing takes some milliseconds for each MB."""
     etag = f'W/"{hashlib.sha256(data).hexdigest()[:32]}"'  # weak: the same packed or not
     packed = None
     if len(data) >= WORTH_PACKING and not kind.startswith("image/png"):
@@ -84,7 +84,7 @@ def no_token_page(words: str) -> bytes:
 
 
 def onward_page() -> bytes:
-    """Sends a browser on to /."""
+    """Return the page that redirects a browser to /."""
     go_on = '<meta http-equiv="refresh" content="0;url=/">\n'
     text = '<a href="/">Go on to the dashboard</a>'
     return _PAGE.format(head=go_on, title="Welcome", text=text).encode()

@@ -40,7 +40,7 @@ from xavi_dialogue.dashboard.web.websocket_messages import Ask, Cancel, Outgoing
 MAX_BROWSERS = 32
 EVIDENCE_WAIT = 30.0  # [s]
 CLOSING = 1.0  # [s] to tell a browser why it is disconnected
-ASIDE = 64 * 1024  # bytes, from which on a body is packed on another thread
+ASIDE = 64 * 1024  # bytes from which on a body is packed on another thread
 
 FULL = "There are too many browsers already. Close one of them, then try again."
 TEXT_ALONE = "Only text is read here."
@@ -67,7 +67,7 @@ class WebApplication:
         guard: RequestGuard,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """An application.
+        """Make an application.
 
         Args:
             source: the contents of the dashboard.
@@ -98,11 +98,11 @@ class WebApplication:
 
     @property
     def browsers(self) -> int:
-        """How many are connected."""
+        """The number of connected browsers."""
         return len(self._viewers)
 
     def tell(self, message: Outgoing) -> None:
-        """Tell all browsers."""
+        """Send a message to all browsers."""
         packed: EncodedMessage | None = None
         for viewer in list(self._viewers.values()):
             packed = packed or pack(message)
@@ -200,7 +200,7 @@ class WebApplication:
             text = viewer.take(self._clock())
             if text is not None:
                 await socket.send_text(text)
-                await asyncio.sleep(0)  # a long row must not hold up the others
+                await asyncio.sleep(0)  # many messages must not block the other browsers
             else:
                 with suppress(TimeoutError):
                     async with asyncio.timeout(viewer.due(self._clock())):
@@ -253,7 +253,7 @@ async def _health(_: Request) -> Response:
 
 
 def _named(request: Request, form: re.Pattern[str], words: str, part: str = "name") -> str:
-    """Return a parameter of the path; one that is not like a name is unknown."""
+    """Return a parameter of the path; raise HTTPException (404) if it is not of the form."""
     name: str = request.path_params[part]
     if not form.fullmatch(name):
         raise HTTPException(404, words)

@@ -1,4 +1,4 @@
-"""The dashboard's web server: uvicorn around the web application of `site`. HTTP/1.1, no TLS.
+"""The dashboard's web server: uvicorn with the web application of `routes`. HTTP/1.1, no TLS.
 
 A client that says nothing, reads nothing or does not end its request is cut off in time, so that
 it takes up a connection for a while and no more.
@@ -48,7 +48,7 @@ PATIENCE = 15.0  # [s] to receive a whole request
 LAST = 60.0  # [s] to send a response after everything else was sent
 PARTING = 5.0  # [s] for a browser to confirm the closing of a WebSocket
 PING = 15.0  # [s] between pings, and for a reply to one
-FRAMES = Rate(100.0, 400)  # parts of messages, and signs of life
+FRAMES = Rate(100.0, 400)  # of fragments of messages, and pings
 ENDING = 1.0  # [s] for browsers to leave, and then for requests to end
 STATUS = {400: "Bad Request", 503: "Service Unavailable"}
 
@@ -56,7 +56,7 @@ _LOG = logging.getLogger(__name__)
 
 
 class Server:
-    """Serves a dashboard to browsers."""
+    """A server of a dashboard for browsers."""
 
     def __init__(self, source: DashboardSource, listen: ListenOptions) -> None:
         """Bind the address; browsers that connect wait until `serve`.
@@ -81,11 +81,11 @@ class Server:
 
     @property
     def browsers(self) -> int:
-        """How many there are."""
+        """The number of connected browsers."""
         return self._application.browsers
 
     def tell(self, message: Outgoing) -> None:
-        """Tell all browsers; on the event loop only."""
+        """Send a message to all browsers; on the event loop only."""
         self._application.tell(message)
 
     def soon(self, function: Callable[..., None], *arguments: Any) -> None:
@@ -119,10 +119,10 @@ class Server:
             await serving
             for connection in list(server.server_state.connections):
                 connection.transport.abort()  # of clients that read nothing
-            await asyncio.sleep(0)  # they are lost in the loop's next round
+            await asyncio.sleep(0)  # the loop closes them in its next round
 
     def close(self) -> None:
-        """Give the place up; harmless after `serve`."""
+        """Release the address; has no effect after `serve`."""
         self._socket.close()
 
     def _config(self) -> uvicorn.Config:
@@ -133,7 +133,7 @@ class Server:
             loop="asyncio",
             lifespan="off",
             log_config=None,
-            log_level="critical",  # else it logs errors of strangers
+            log_level="critical",  # other levels would log the errors of strangers
             access_log=False,
             server_header=False,
             proxy_headers=False,  # forwarded addresses cannot be trusted
@@ -187,12 +187,12 @@ def _call(function: Callable[..., None], arguments: tuple[Any, ...]) -> None:
 class _Uvicorn(uvicorn.Server):
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
-        """Leave signals to the process, which has more to end than this server."""
+        """Leave signals to the process, which has more to stop than this server."""
         yield
 
 
 class _Http(H11Protocol):
-    """Disconnects slow clients, and adds headers to all responses."""
+    """A protocol that disconnects slow clients, and adds headers to all responses."""
 
     _late: asyncio.TimerHandle | None = None
     _cut: asyncio.TimerHandle | None = None
@@ -223,7 +223,7 @@ class _Http(H11Protocol):
         self._send_off(400, "This is no request that can be understood.")
 
     def _wait(self) -> None:
-        """Wait for the next request, for a while."""
+        """Wait for the next request for a limited time."""
         self._wait_no_longer()
         self._late = self.loop.call_later(PATIENCE, self._give_up, self.cycle)
 
@@ -259,7 +259,7 @@ class _Handshake(ServerProtocol):
 
 
 class _WebSocket(WebSocketsSansIOProtocol):
-    """Disconnects clients that do not read, or that send endless fragments or pings."""
+    """A protocol that disconnects clients that do not read, or send too many fragments or pings."""
 
     _cut: asyncio.TimerHandle | None = None
 
@@ -271,7 +271,7 @@ class _WebSocket(WebSocketsSansIOProtocol):
 
     async def run_asgi(self) -> None:
         await super().run_asgi()
-        # Unread input would keep a connection open that is closed otherwise.
+        # Unread input would keep an otherwise closed connection open.
         if self in self.connections:
             self._cut = self.loop.call_later(PARTING, self.transport.abort)
 
@@ -288,7 +288,7 @@ class _WebSocket(WebSocketsSansIOProtocol):
         if self._bears() and self.writable.is_set():
             super().handle_ping()
         else:
-            self.conn.data_to_send()  # the answers, which would pile up unread
+            self.conn.data_to_send()  # drops the answers, which would accumulate unread
 
     def handle_pong(self, event: Frame) -> None:
         if self._bears():
