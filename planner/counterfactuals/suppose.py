@@ -1,8 +1,7 @@
-"""Supposing of another vehicle that it has a certain goal, or that it does certain things.
+"""Suppositions that another vehicle has a certain goal, or takes certain actions.
 
-What is supposed becomes certain: one belief of probability 1 takes the place of all that
-recognition holds possible. The others are predicted as before; who predicts reckons with a
-vehicle that coasts, whatever it is then found to do.
+A supposition is certain: one belief of probability 1 replaces the beliefs of recognition. The
+others are predicted as before, since each prediction assumes that the other vehicles coast.
 """
 
 from collections.abc import Sequence
@@ -29,11 +28,11 @@ STRAIGHT = ("continue", "exit-straight")  # one word to people
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Prospect:
-    """What one vehicle has before it."""
+    """The situation of one vehicle: its task, its possible places, and the others."""
 
     task: Task  # without a goal
     observed: Observed
-    starts: tuple[Situation, ...]  # where it may be, one for each lane that fits
+    starts: tuple[Situation, ...]  # possible ones, one for each lane that fits
     others: Others  # coasting
 
 
@@ -45,19 +44,19 @@ def suppose(
     goal: str | None,
     actions: Sequence[Action],
 ) -> Belief | Refusal:
-    """Return the one thing that a vehicle is then taken to be up to.
+    """Return the one belief about a vehicle that a supposition leads to.
 
-    With a goal alone, its ways there keep their relative probabilities; where recognition gave
-    the goal up, they are planned afresh, and its likelihood is 0. With actions, it drives these
-    and then follows the road; a stop that comes last is for good.
+    With a goal alone, its ways there keep their relative probabilities. If recognition dropped
+    the goal, they are planned anew, and its likelihood is 0. With actions, the vehicle drives
+    these and then follows the road; if the last one is a stop, it stays there.
 
     Args:
         frame: of the decision.
         moment: of the decision.
-        known: what recognition holds possible of the vehicle.
-        vehicle: its name; it is in the scene.
+        known: the beliefs of recognition about the vehicle.
+        vehicle: its number; it is in the scene.
         goal: the kind of a goal, or its edge where several are of one kind; None leaves it open.
-        actions: what it does first, in order; () leaves it open.
+        actions: its first actions, in order; () leaves them open.
     """
     if moment.scene[vehicle].kind in ON_FOOT:
         return _on_foot(frame, moment, known, vehicle, goal, actions)
@@ -86,7 +85,7 @@ def _on_foot(
     goal: str | None,
     actions: Sequence[Action],
 ) -> Belief | Refusal:
-    """Return the same of somebody on foot, whose goals are what he may do."""
+    """Return the belief about a person on foot, whose possible actions are the goals."""
     named = {*actions, *(() if goal is None else (goal,))}
     if len(named) != 1:
         return Refusal("people on foot are supposed to do one thing: cross, continue or stop")
@@ -125,7 +124,7 @@ def _prospect(frame: Frame, moment: Moment, vehicle: int) -> _Prospect:
 
 
 def _goals(prospect: _Prospect, known: Sequence[Belief]) -> tuple[Goal, ...]:
-    """Return all goals that the vehicle may have, probable or not."""
+    """Return all goals that the vehicle may have, however improbable."""
     if not prospect.starts:
         return tuple(belief.goal for belief in known)
     return goals_in_view(prospect.task.roads, prospect.starts, prospect.task.view)
@@ -151,7 +150,7 @@ def _belief_in(known: Sequence[Belief], goal: Goal) -> Belief | None:
 
 
 def edge_of(goal: Goal) -> str | None:
-    """Name the edge of a goal; None for stopping."""
+    """Return the edge of a goal; None for stopping."""
     return None if goal.target is None else goal.target.edge
 
 
@@ -162,7 +161,7 @@ def _acting(
     wanted: Goal | None,
     actions: Sequence[Action],
 ) -> Belief | Refusal:
-    """Return the belief that a vehicle does certain things, whichever goal that leads to."""
+    """Return the belief that a vehicle takes certain actions, whichever goal they lead to."""
     legs = _driven_freely(prospect, actions, prospect.others.usual)
     if isinstance(legs, Refusal):
         return legs
@@ -181,7 +180,7 @@ def _acting(
 def _moving(
     prospect: _Prospect, actions: Sequence[Action], usual: list[Leg], courses: tuple[int, ...]
 ) -> Obstacle:
-    """Return how a vehicle does certain things where lights take certain courses."""
+    """Return the motion of a vehicle with certain actions if lights take certain courses."""
     traffic, legs = prospect.others.under(courses), usual
     if courses != prospect.others.scenery.outlook.usual:
         driven = _driven_freely(prospect, actions, traffic)
@@ -193,7 +192,7 @@ def _moving(
 def _driven_freely(
     prospect: _Prospect, actions: Sequence[Action], others: Traffic
 ) -> list[Leg] | Refusal:
-    """Return the actions in turn; should others coast into the vehicle, without these."""
+    """Return the legs of actions in turn; without the others if these coast into the vehicle."""
     legs = _driven(prospect, actions, others)
     if not isinstance(legs, Refusal) and legs[-1].outcome == "collision":
         return _driven(prospect, actions, replace(NOBODY, lights=others.lights))
@@ -201,7 +200,7 @@ def _driven_freely(
 
 
 def _driven(prospect: _Prospect, actions: Sequence[Action], others: Traffic) -> list[Leg] | Refusal:
-    """Return the actions in turn, from the first lane on which all of them apply."""
+    """Return the legs of actions in turn, from the first lane on which all of them apply."""
     tried = [_legs(prospect.task, start, actions, others) for start in prospect.starts]
     driven = (legs for legs in tried if not isinstance(legs, Refusal))
     return next(driven, tried[0] if tried else Refusal("it is on no lane"))
@@ -210,7 +209,7 @@ def _driven(prospect: _Prospect, actions: Sequence[Action], others: Traffic) -> 
 def _legs(
     task: Task, here: Situation, actions: Sequence[Action], others: Traffic
 ) -> list[Leg] | Refusal:
-    """Return the actions in turn, as far as the horizon or a collision lets them."""
+    """Return the legs of actions in turn, up to the horizon or a collision."""
     legs: list[Leg] = []
     first = 0
     for action in actions:
@@ -230,7 +229,7 @@ def _legs(
 def _reached(prospect: _Prospect, goals: Sequence[Goal], legs: Sequence[Leg]) -> tuple[Goal, ...]:
     """Return the goals driven to, last the one that stands for the whole; at least one.
 
-    Where none of the goals in view was reached, it is the road taken.
+    If no goal in view was reached, return the road taken.
     """
     lanes, last = prospect.task.roads.network.lanes, legs[-1]
     edges = [lanes[lane].edge for leg in legs for lane in leg.lanes]
@@ -245,7 +244,7 @@ def _reached(prospect: _Prospect, goals: Sequence[Goal], legs: Sequence[Leg]) ->
 
 
 def _standing(motion: Obstacle, last: Leg) -> Obstacle:
-    """Return the motion that stays for good where a leg ended."""
+    """Return the motion with a final stop where a leg ended."""
     end = last.first + len(last.speed) - 1
     position, heading, speed = motion.position.copy(), motion.heading.copy(), motion.speed.copy()
     position[end:], heading[end:], speed[end:] = last.position[-1], last.heading[-1], 0.0

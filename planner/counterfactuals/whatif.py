@@ -1,18 +1,17 @@
-"""Planning again from a recorded decision with something changed.
+"""Replanning of a recorded decision with a change.
 
-The ego may have to do something first, vehicles may be taken away, another may be supposed to
-have a goal, to do certain things or to drive faster, and lights to show something else. Everything
-that is needed stands in the trace, so a replayed ride can be asked as well as a live one. The same
-request gives the same trace.
+A request may force actions of the ego, remove vehicles, suppose that a vehicle has a goal, takes
+actions or drives faster, and suppose other states of lights. The trace contains everything needed,
+so this works for replayed rides as well as for live ones. The same request gives the same trace.
 
-What is inferred of those who stay is inferred from the world as it was, with everybody in it, and
-only then is the world changed (abduction, action, prediction: Pearl 2009, Causality, 7.1). So
-they keep the probabilities of their goals; and who drove slowly behind one that is taken away is
-not held to want to drive so.
+Beliefs about the remaining vehicles are inferred from the world as it was, with all vehicles in
+it. Only then is the world changed (abduction, action, prediction: Pearl 2009, Causality, 7.1). So
+the goals keep their probabilities, and a vehicle that was slow behind a removed one is not assumed
+to want to drive slowly.
 
     WhatIfError        the question cannot be planned from this trace
     ├── NotInView      the vehicle, or the light, is not in the trace's scene
-    └── Inapplicable   what is supposed of it cannot be
+    └── Inapplicable   the supposition is impossible
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -49,28 +48,28 @@ from sim.scene import EGO, LightState, VehicleState
 
 __all__ = ["Inapplicable", "NotInView", "WhatIf", "WhatIfError", "decide_again", "replan"]
 
-HEADWAY, GAP = 1.5, 5.0  # [s], [m] to the one ahead up to which a vehicle is held up by it
-RECOGNISED = 0.5  # probability of the goals that must still be possible to keep what was inferred
+HEADWAY, GAP = 1.5, 5.0  # [s], [m] greatest distance to a vehicle ahead that holds one up
+RECOGNISED = 0.5  # minimum recorded probability of goals still possible, to keep beliefs
 
 
 class WhatIfError(PlannerError):
-    """The question cannot be planned from this trace."""
+    """An error: the request cannot be planned from this trace."""
 
 
 class NotInView(WhatIfError):
-    """The vehicle is not in the trace's scene."""
+    """An error: the vehicle, or the light, is not in the trace's scene."""
 
 
 class Inapplicable(WhatIfError):
-    """What is supposed of a vehicle cannot be."""
+    """An error: the supposition is impossible."""
 
 
 def replan(trace: PlanTrace, network: Network, request: WhatIf) -> PlanTrace:
-    """Plan again from the scene of a trace; `what_if` of the result says what was changed.
+    """Plan again from the scene of a trace; `what_if` of the result records the change.
 
     With forced actions alone, the result is the trace with more rollouts, marked as forced; where
-    an action does not apply, it has none more and says why. With a vehicle removed or its conduct
-    supposed, it is the decision that would then have been taken, with the budget of the trace's
+    an action does not apply, none is added, and the reason is recorded. With a vehicle removed
+    or supposed to act differently, it is the decision in that world, with the budget of the trace's
     settings, before any forced actions are added. A manoeuvre that was under way is finished
     first, forced or not; see planner.counterfactuals.resume for how exactly.
 
@@ -78,7 +77,7 @@ def replan(trace: PlanTrace, network: Network, request: WhatIf) -> PlanTrace:
         WhatIfError: the request contradicts itself, the trace is of another network or of a
             what-if itself, or the ego's place is not clear from it.
         NotInView: a vehicle is not in the trace.
-        Inapplicable: a vehicle cannot have that goal or do those things.
+        Inapplicable: a vehicle cannot have that goal or take those actions.
     """
     _check(trace, network, request)
     frame, moment = _restore(trace, Roads(network), request)
@@ -128,7 +127,7 @@ def _with_more(
 
 
 def _check(trace: PlanTrace, network: Network, request: WhatIf) -> None:
-    """Whether the request makes sense, and is about this trace."""
+    """Check that the request makes sense, and is about this trace."""
     if network.hash != trace.network:
         raise WhatIfError(f"the trace is of network {trace.network}, not of {network.hash}")
     if trace.what_if is not None:
@@ -163,13 +162,13 @@ def _check(trace: PlanTrace, network: Network, request: WhatIf) -> None:
 
 
 def changes_world(request: WhatIf) -> bool:
-    """Check whether what was inferred of the others is kept, though the world is another."""
+    """Check whether a request changes the world, but keeps the beliefs about the others."""
     hastened = isinstance(request.faster, float)
     return bool(request.gone or hastened or supposed_lights(request) or seen_past(request))
 
 
 def supposed_lights(request: WhatIf) -> tuple[LightSupposed, ...]:
-    """Return what lights are supposed to show."""
+    """Return the supposed states of lights."""
     return request.lights if isinstance(request.lights, tuple) else ()
 
 
@@ -204,12 +203,12 @@ def _restore(trace: PlanTrace, roads: Roads, request: WhatIf) -> tuple[Frame, Mo
 
 
 def seen_past(request: WhatIf) -> frozenset[int]:
-    """Return the indices of the imagined road users that are not there."""
+    """Return the indices of the phantoms that a request removes."""
     return frozenset(request.seen_past if isinstance(request.seen_past, tuple) else ())
 
 
 def _imagined(trace: PlanTrace, request: WhatIf) -> tuple[Phantom, ...]:
-    """Who may come out of what is hidden: not out of what one sees past, or sees without some."""
+    """Return the phantoms that remain: not those removed, nor in areas that become visible."""
     away, gone = seen_past(request), request.gone
     return tuple(
         one for k, one in enumerate(trace.phantoms) if k not in away and not one.seen_without(gone)
@@ -217,7 +216,7 @@ def _imagined(trace: PlanTrace, request: WhatIf) -> tuple[Phantom, ...]:
 
 
 def _lit(roads: Roads, trace: PlanTrace, request: WhatIf) -> tuple[LightPrediction, ...]:
-    """Return how the lights may go on, with what is supposed of some."""
+    """Return the possible courses of the lights, with supposed states of some."""
     found = {known.controller: known for known in trace.lights}
     for light in supposed_lights(request):
         known = found[light.controller]
@@ -227,7 +226,7 @@ def _lit(roads: Roads, trace: PlanTrace, request: WhatIf) -> tuple[LightPredicti
 
 
 def _hastened(state: VehicleState, track: Track, faster: float) -> tuple[VehicleState, Track]:
-    """Return a vehicle that is where it is, but drives faster by so much [m/s], and did."""
+    """Return a vehicle at its place that drives, and has driven, faster by some speed [m/s]."""
     speeds = tuple(max(speed + faster, 0.0) for speed in track.speed)
     return (
         replace(state, speed=max(state.speed + faster, 0.0)),
@@ -236,7 +235,7 @@ def _hastened(state: VehicleState, track: Track, faster: float) -> tuple[Vehicle
 
 
 def _followers(trace: PlanTrace, gone: frozenset[int]) -> Iterator[int]:
-    """Those whose speed was that of one who is taken away: who follow it, and who follow these."""
+    """Yield vehicles whose speed a removed one limited: its followers, and theirs in turn."""
     if not gone:
         return
     tracks = {v: observed(v, trace.history[v], state) for v, state in trace.scene.items()}
@@ -250,7 +249,7 @@ def _followers(trace: PlanTrace, gone: frozenset[int]) -> Iterator[int]:
 
 
 def _follows(track: Observed, other: Observed) -> bool:
-    """Whether a vehicle drives behind another, no farther than one does who cannot go faster."""
+    """Check whether a vehicle follows another so closely that it is held up."""
     dx, dy = other.position[-1] - track.position[-1]
     gap = float((dx * dx + dy * dy) ** 0.5) - other.length
     return leads(track, other) and gap <= HEADWAY * float(track.speed[-1]) + GAP
@@ -259,7 +258,7 @@ def _follows(track: Observed, other: Observed) -> bool:
 def _beliefs(
     frame: Frame, moment: Moment, request: WhatIf, recorded: Sequence[VehiclePrediction]
 ) -> dict[int, Sequence[Belief]]:
-    """Return what the others may be up to, with what is supposed of one of them."""
+    """Return the beliefs about the others, with suppositions about one of them."""
     beliefs: dict[int, Sequence[Belief]] = dict(predict(frame, moment))
     if changes_world(request):
         known_goals = {known.vehicle: known for known in recorded}
@@ -278,7 +277,7 @@ def _beliefs(
 
 
 def _as_inferred(found: Sequence[Belief], recorded: VehiclePrediction) -> Sequence[Belief]:
-    """Beliefs with the goals' probabilities as they were recorded, where most of these remain."""
+    """Return beliefs with the recorded probabilities of goals, if most of the goals remain."""
     chances = {(goal.kind, goal.edge): goal.probability for goal in recorded.goals}
     known = [chances.get((b.goal.kind, edge_of(b.goal)), 0.0) for b in found]
     mass = sum(known)

@@ -1,4 +1,4 @@
-"""Caution: coming slowly to where somebody with priority may come out of a hidden road."""
+"""Caution: a slow approach to places where vehicles with priority may come from hidden roads."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -18,19 +18,19 @@ from planner.record.trace import HeldUp
 from planner.roads.routes import onward
 from planner.roads.trajectory import Array, Roads
 
-CAUTION = 0.08  # probability that somebody comes from which on it is worth slowing down
-CREEPING = 1.5  # [m/s] at which one goes on where one does not see
-SLOWER = 0.5  # [m/s] below what the road allows from which caution holds one up
-GRACE = 3  # steps by which two stretches of one slowing may lie apart
-SIZE = (4.8, 1.8)  # [m] length and width of who is imagined: a car
+CAUTION = 0.08  # minimum probability of a vehicle for which the ego slows down
+CREEPING = 1.5  # [m/s] at which the ego goes on without a view
+SLOWER = 0.5  # [m/s] minimum reduction of speed that counts as a hold-up by caution
+GRACE = 3  # maximum difference of steps within one stretch
+SIZE = (4.8, 1.8)  # [m] length and width of a phantom, a car
 
-Careful: TypeAlias = tuple[tuple[tuple[str, int], int], ...]  # links come slowly to, and steps
+Careful: TypeAlias = tuple[tuple[tuple[str, int], int], ...]  # links approached slowly, and steps
 
 
 def cautious(phantoms: Sequence[Phantom]) -> dict[tuple[str, int], float]:
-    """The links, as (junction, index), to come slowly to, and where [m] behind the line to be slow.
+    """Return links (junction, index) to approach slowly, with the place [m] behind the line.
 
-    That is where the way of somebody who may come begins.
+    This is the place at which the way of a vehicle that may come begins.
     """
     nobody: dict[tuple[str, int], float] = {}
     first: dict[tuple[str, int], float] = {}
@@ -42,14 +42,14 @@ def cautious(phantoms: Sequence[Phantom]) -> dict[tuple[str, int], float]:
 
 
 def caution(plan: ActionPlan, slow: Mapping[tuple[str, int], float], count: int) -> Array:
-    """Return the highest speed [m/s] at each of so many metres along a plan's path.
+    """Return the highest speed [m/s] at each metre along a plan's path, for `count` metres.
 
-    Nobody knows when the view will open. It is taken to do so in time for READY.
+    It is not known when the view will open. It is assumed to do so in time for READY.
 
     Args:
-        plan: that is driven.
-        slow: the links to which one comes slowly, and where [m] behind their lines to be slow.
-        count: of metres.
+        plan: the plan that is driven.
+        slow: links to approach slowly, with the place [m] behind the line.
+        count: number of metres.
     """
     caps = np.full(count, math.inf)
     arcs = np.arange(count, dtype=np.float64)
@@ -62,11 +62,11 @@ def caution(plan: ActionPlan, slow: Mapping[tuple[str, int], float], count: int)
 
 
 def allowed_speed(view: View, plan: ActionPlan, arc: float) -> float:
-    """The speed [m/s] at which to come to the next line now; infinite where nothing is hidden.
+    """Return the allowed speed [m/s] towards the next line; infinite if there is no such risk.
 
     Args:
-        view: what is seen, and what is not.
-        plan: that is driven.
+        view: what is seen, and what is hidden.
+        plan: the plan that is driven.
         arc: [m] where on its path the ego's front is.
     """
     lines = [x for x in plan.give_ways if x.clear > arc] if view.unseen else []
@@ -86,13 +86,13 @@ def key_of(line: GiveWay) -> tuple[str, int]:
 
 
 def coming(roads: Roads, one: Phantom, name: int, steps: int) -> Obstacle:
-    """Return how somebody who is imagined would drive, as bends allow, from now on.
+    """Return the motion of a phantom from now on, as fast as bends allow.
 
     Args:
         roads: the road network.
-        one: who is imagined.
-        name: by which it is known among the others.
-        steps: how many.
+        one: the phantom.
+        name: its number among the others.
+        steps: number of steps.
     """
     reach = one.speed * steps * DT + 20.0
     ahead = sum(roads.network.lanes[lane].length for lane in one.lanes)
@@ -115,20 +115,20 @@ def coming(roads: Roads, one: Phantom, name: int, steps: int) -> Obstacle:
 
 
 def name_of(phantom: int) -> int:
-    """By what somebody who is imagined is known among the others, whose names are positive."""
+    """Return the number of a phantom among the others: negative, as theirs are positive."""
     return -1 - phantom
 
 
 def careful_steps(
     plan: ActionPlan, slow: Mapping[tuple[str, int], float], driven: Drive, count: int
 ) -> Careful:
-    """Return the steps of a drive that were slower since somebody might come out of what is hidden.
+    """Return the steps of a drive in which caution before hidden areas made the ego slower.
 
     Args:
-        plan: that was driven.
-        slow: the links to which one comes slowly, and where.
-        driven: what came of it.
-        count: steps of it that count.
+        plan: the plan that was driven.
+        slow: links to approach slowly, with the place [m] behind the line.
+        driven: the drive.
+        count: number of its steps that count.
     """
     keys = [key_of(line) for line in plan.give_ways if key_of(line) in slow]
     if not keys:
@@ -144,13 +144,13 @@ def careful_steps(
 def held_by_hidden(
     phantoms: Sequence[Phantom], hindered: Sequence[HeldUp], careful: Careful, start: float
 ) -> tuple[HeldByHidden, ...]:
-    """Tell from when to when hidden parts of the road made a rollout slower, in order.
+    """Return the stretches in which hidden parts of the road made a rollout slower, in order.
 
     Args:
-        phantoms: who is imagined.
-        hindered: who held it up, those who are imagined among them.
-        careful: the steps in which it came slowly to a link.
-        start: [s] of step 0.
+        phantoms: the phantoms of the decision.
+        hindered: stretches in which others, phantoms included, held the ego up.
+        careful: steps in which the ego approached a link slowly.
+        start: [s] time of step 0.
     """
     found = [
         HeldByHidden(-1 - stretch.vehicle, True, stretch.since, stretch.until)

@@ -1,14 +1,14 @@
-"""Imagined road users: who might come, with priority, out of a part of the road that is hidden.
+"""Phantoms: imagined road users that may come, with priority, out of a hidden part of the road.
 
 As in goal-oriented planning with factors of occlusion (GOFI: Hanna et al. 2021, Interpretable
-Goal Recognition in the Presence of Occluded Factors for Autonomous Vehicles), what is hidden is
-believed in with a probability, sampled in rollouts, and recorded.
+Goal Recognition in the Presence of Occluded Factors for Autonomous Vehicles), a phantom has a
+probability, is sampled in rollouts, and is recorded.
 
-A hidden stretch matters where somebody at its near end could arrive before the ego, from where
-it can just still stop, is across. Then the ego comes to the line at READY at most, as with a
-restricted view of a junction (AASHTO 2018, A Policy on Geometric Design of Highways and Streets,
-9.5, case C: approach sight triangles). There it sees more, or else it creeps on until it does
-(see `planner.hidden_areas.caution`); it stops only for those that it sees.
+A hidden stretch matters if a vehicle at its near end could arrive before the ego is across, from
+the place where the ego can only just stop. Then the ego drives to the line at no more than READY,
+as with a restricted view of a junction (AASHTO 2018, A Policy on Geometric Design of Highways and
+Streets, 9.5, case C: approach sight triangles). There it sees more, or it creeps on until it does
+(see `planner.hidden_areas.caution`). It stops only for vehicles that it sees.
 """
 
 import math
@@ -34,22 +34,22 @@ from planner.traffic_lights.signals import NO_LIGHTS, Lights
 from sim.roads.network import Lane, Link, Location, Network, point_at, project
 from sim.scene import EGO, Point, Signal, Unseen, VehicleState
 
-#: [1/s] of vehicles on a lane before anything is seen of it: 300 an hour, a road in a town by day.
+#: [1/s] prior rate of vehicles on a lane: 300 an hour, as on a road in a town by day.
 PRIOR_RATE = 1.0 / 12.0
-LEAST = 0.03  # probability of one below which it is left out
-MOST = 4  # that are imagined at once
-STANDING = 2.0  # [m/s] below which who is seen ahead lets nobody behind it come
-LOOKED_AT = 5.0  # [m] between the places of a lane that are found to be in view or not
-SPACING = 0.5  # [m] between the places of a way that are looked at
+LEAST = 0.03  # minimum probability of a phantom
+MOST = 4  # maximum number of phantoms
+STANDING = 2.0  # [m/s] below which a visible vehicle blocks those behind it
+LOOKED_AT = 5.0  # [m] between places of a lane that are tested for being in view
+SPACING = 0.5  # [m] between places of a way that are tested
 ASIDE = 2.8  # [m] between the middles of two cars with a metre between them
-FASTEST = 20.0  # [m/s] limit above which nobody slows down where ways join: one merges at speed
-NOTICE = 3.0  # [s] before the braking for a line in which it begins to matter
-LOW = ("car", "motorcycle", "bicycle")  # kinds over which the ego sees
+FASTEST = 20.0  # [m/s] speed limit above which vehicles merge at speed, without caution
+NOTICE = 3.0  # [s] before braking for a line, from which on hidden areas matter
+LOW = ("car", "motorcycle", "bicycle")  # kinds over which the ego can see
 
 
 @dataclass
 class Counts:
-    """How many vehicles were seen on the roads that were asked about, and since when."""
+    """The numbers of vehicles seen on the edges asked for, and since when these are watched."""
 
     _since: dict[str, float] = field(default_factory=dict)  # [s] by edge
     _seen: dict[str, set[int]] = field(default_factory=dict)
@@ -63,7 +63,7 @@ class Counts:
         return (1.0 + len(self._seen.get(edge, ()))) / (1.0 / PRIOR_RATE + time - since)
 
     def note(self, places: Mapping[int, str]) -> None:
-        """Take down who is seen, by name, on which edge."""
+        """Count the vehicles that are seen, given their edges by number."""
         for vehicle, edge in places.items():
             if edge in self._since:
                 self._seen.setdefault(edge, set()).add(vehicle)
@@ -71,13 +71,13 @@ class Counts:
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """What is seen, and what is not."""
+    """What is seen, and what is hidden."""
 
     roads: Roads
-    seen: Mapping[int, VehicleState]  # the ego among them
+    seen: Mapping[int, VehicleState]  # the ego included
     unseen: tuple[Unseen, ...]
     rate: Callable[[str], float]  # [1/s] of vehicles, by edge
-    lights: Lights = NO_LIGHTS  # what they show now
+    lights: Lights = NO_LIGHTS  # as they are now
 
     @property
     def ego(self) -> VehicleState:
@@ -96,7 +96,7 @@ class _Nearest:
 
 
 def around(view: View, here: Location) -> tuple[Phantom, ...]:
-    """Who might come at the junction where the ego is, or else at the one that it comes to."""
+    """Return phantoms at the junction where the ego is or, if there are none, at the next one."""
     network = view.roads.network
     inside = network.link_via(here.lane)
     if inside is not None:
@@ -109,9 +109,9 @@ def around(view: View, here: Location) -> tuple[Phantom, ...]:
 
 
 def ways_ahead(roads: Roads, here: Location, speed: float) -> tuple[Link, ...]:
-    """Return the links of the junction that somebody comes to who drives at a speed [m/s].
+    """Return the links of the junction that a vehicle at a speed [m/s] is approaching.
 
-    Who stands before a line comes to it as soon as it sets off, at READY.
+    The speed counts as at least READY, since a vehicle that stands before a line may set off.
     """
     network, reach = roads.network, reach_of(max(speed, READY))
     found: dict[tuple[str, int], Link] = {}
@@ -125,16 +125,16 @@ def ways_ahead(roads: Roads, here: Location, speed: float) -> tuple[Link, ...]:
 
 
 def reach_of(speed: float) -> float:
-    """Return how far [m] before a line it begins to matter what is hidden."""
+    """Return the distance [m] before a line within which hidden areas matter."""
     return speed * (NOTICE + REACTION) + speed * speed / (2.0 * COMFORT)
 
 
 def imagined(view: View, links: Iterable[Link]) -> tuple[Phantom, ...]:
-    """Return who might come out of what is hidden, and would go first.
+    """Return phantoms that may come out of hidden areas and would go first.
 
     Args:
-        view: what is seen, and what is not.
-        links: of one junction, by which the ego may cross it.
+        view: what is seen, and what is hidden.
+        links: links of one junction by which the ego may cross it.
     """
     if not view.unseen:
         return ()
@@ -156,7 +156,7 @@ def imagined(view: View, links: Iterable[Link]) -> tuple[Phantom, ...]:
 
 
 def time_across(network: Network, link: Link, ego: VehicleState) -> float:
-    """The time [s] from where the ego can just still stop before a line until it is across."""
+    """Return the time [s] that the ego takes across, from where it can only just stop."""
     way = sum(network.lanes[lane].length for lane in link.via) + ego.length
     pace = max(ego.speed, READY)
     crossing = (math.sqrt(pace * pace + 2.0 * ACCELERATION * way) - pace) / ACCELERATION
@@ -164,7 +164,7 @@ def time_across(network: Network, link: Link, ego: VehicleState) -> float:
 
 
 def meeting(roads: Roads, mine: Link, theirs: Link) -> float:
-    """Return how far [m] behind its line a link comes to the way of another of its junction."""
+    """Return the distance [m] behind its line at which a link meets another of its junction."""
     key = (mine.junction, mine.index, theirs.index)
     found = roads.meetings.get(key)
     if found is None:
@@ -184,7 +184,7 @@ def meeting(roads: Roads, mine: Link, theirs: Link) -> float:
 
 
 def _beside(line: tuple[Point, ...], place: Point) -> bool:
-    """Check whether a car on a line would be less than a metre from one at a place."""
+    """Check whether a car on a line would come within a metre of one at a place."""
     offset, _, _ = project(line, place)
     nearest, _ = point_at(line, offset)
     return math.dist(nearest, place) < ASIDE
@@ -193,7 +193,7 @@ def _beside(line: tuple[Point, ...], place: Point) -> bool:
 def _meetings(
     network: Network, links: Iterable[Link], lights: Lights
 ) -> Iterator[tuple[Link, list[Link]]]:
-    """Of each lane from which others go first: their way, and those of the ego that it crosses."""
+    """Yield, for each lane from which others go first, their link and the ego's yielding links."""
     by_lane: dict[str, dict[int, list[Link]]] = {}
     junction = ""
     for mine in links:
@@ -216,7 +216,7 @@ def _is_straight(network: Network, junction: str, index: int) -> bool:
 
 
 def _open(link: Link, lights: Lights) -> bool:
-    """Check whether the ego has to look out for others at a link, as its light shows."""
+    """Check whether the ego must watch for others at a link, given its light."""
     return not isinstance(link.control, Signal) or _shown(link.control, lights) in (OPEN, HALT)
 
 
@@ -254,7 +254,7 @@ def _nearest(
 def _hidden_up(
     network: Network, hidden: Mapping[str, Sequence[Unseen]], lane: str, ahead: float, reach: float
 ) -> float:
-    """How much [m] is hidden from a lane upwards, of what is at most `reach` [m] from the line."""
+    """Return the length [m] hidden from a lane upstream, within `reach` [m] of the line."""
     total, passed = 0.0, {lane}
     while True:
         length = network.lanes[lane].length
@@ -270,7 +270,7 @@ def _hidden_up(
 
 
 def _before(network: Network, lane: str) -> tuple[str, ...]:
-    """Return the lanes that lead onto a lane, those of junctions among them."""
+    """Return the lanes that lead onto a lane, lanes in junctions included."""
     inside = network.link_via(lane)
     if inside is not None:
         at = inside.via.index(lane)
@@ -282,7 +282,7 @@ def _before(network: Network, lane: str) -> tuple[str, ...]:
 def _phantom(
     view: View, theirs: Link, ours: Sequence[Link], nearest: _Nearest, reach: float
 ) -> Phantom | None:
-    """Return who is imagined at the near end of a hidden stretch; None where nobody would come."""
+    """Return the phantom at the near end of a hidden stretch; None if none would come."""
     network, lane = view.roads.network, view.roads.network.lanes[nearest.lanes[0]]
     pace = min(lane.speed_limit, _held_by(view, nearest))
     hidden = min(nearest.hidden, max(reach - nearest.distance, 0.0))
@@ -317,13 +317,13 @@ def _phantom(
 
 
 def _looked_at(lane: Lane, stretch: Unseen) -> Point:
-    """The last place of a hidden stretch that was looked at; it ends half a spacing behind."""
+    """Return the last tested place of a hidden stretch, half a spacing before its end."""
     count = max(1, round(lane.length / LOOKED_AT))
     return point_at(lane.centreline, stretch.end - lane.length / count / 2.0)[0]
 
 
 def _held_by(view: View, nearest: _Nearest) -> float:
-    """Return the speed [m/s] of the slowest who is seen between a hidden stretch and the line."""
+    """Return the speed [m/s] of the slowest vehicle seen between a hidden stretch and the line."""
     slowest = math.inf
     for name, state in view.seen.items():
         if name == EGO:

@@ -76,7 +76,7 @@ class Moment:
     history: Mapping[int, Track]
     root: Root
     unseen: Mapping[int, float] = field(default_factory=dict)  # [s] when last seen
-    unpaced: frozenset[int] = frozenset()  # whose pace somebody no longer there set
+    unpaced: frozenset[int] = frozenset()  # whose speed a removed vehicle limited
     lights: tuple[LightPrediction, ...] = ()
     phantoms: tuple[Phantom, ...] = ()
 

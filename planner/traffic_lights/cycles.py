@@ -1,9 +1,9 @@
-"""How a traffic light may go on: from what was seen of its cycle, else from a stated prior.
+"""Possible courses of a traffic light, from its cycle as seen, or otherwise from a prior.
 
 `planner.traffic_lights.greens` has the prior of how long a green lasts. Amber lasts as by the
 formula of the Institute of Transportation Engineers in the Traffic Signal Timing Manual (FHWA 2008,
-FHWA-HOP-08-024, Chapter 5): a second to react, and braking at 3.05 m/s2. Arms that face one another
-are taken to be green together, and who has been held longest to come next.
+FHWA-HOP-08-024, Chapter 5): a second to react, and braking at 3.05 m/s2. Arms that face each other
+are assumed to be green together, and the arm that has been held longest to be next.
 """
 
 import math
@@ -16,15 +16,15 @@ from planner.traffic_lights.greens import residual
 from sim.roads.network import Link, angle_between, point_at
 from sim.scene import LightState, Signal
 
-REACTION, BRAKING = 1.0, 3.05  # [s], [m/s2] of who sees amber
+REACTION, BRAKING = 1.0, 3.05  # [s], [m/s2] of drivers who see amber
 CLEARANCE = 1.0  # [s] for which all are red
 RED_AMBER = 1.0  # [s] of red and amber
-LEAST = 0.2  # [s] that anything lasts
-#: Quantiles of what a green has left, and how probable each of them is taken to be.
+LEAST = 0.2  # [s] minimum duration of a state
+#: Quantiles of the time that a green has left, with their assumed probabilities.
 SPREAD: tuple[tuple[float, float], ...] = ((0.15, 0.3), (0.5, 0.4), (0.85, 0.3))
 MIDDLE = ((0.5, 1.0),)
 AGAIN = 0.8  # probability that a light goes on as it was seen to do before
-PARALLEL = math.pi / 4  # [rad] by which arms that are green together may differ in direction
+PARALLEL = math.pi / 4  # [rad] greatest angle between arms that are green together
 
 RED, AMBER = LightState.RED.value, LightState.AMBER.value
 ABOUT_TO_GO = LightState.RED_AMBER.value
@@ -33,7 +33,7 @@ DEAD = (LightState.OFF.value, LightState.FLASHING.value, UNSEEN)
 
 @dataclass(frozen=True, slots=True)
 class Watched:
-    """What was seen of one controller: every change, the last one being what it shows now."""
+    """The observations of one controller: every change, the last one being its present state."""
 
     controller: str
     places: tuple[int, ...]
@@ -43,14 +43,14 @@ class Watched:
 def foresee(
     roads: Roads, watched: Watched, time: float, horizon: float, *, closely: bool
 ) -> LightPrediction:
-    """Return how a controller may go on.
+    """Return the possible courses of a controller.
 
     Args:
         roads: the road network.
-        watched: what was seen of it.
+        watched: the observations of it.
         time: [s] now.
-        horizon: [s] for which that is needed.
-        closely: whether to tell several ways apart; else the middle one is taken.
+        horizon: [s] for which courses are needed.
+        closely: whether to distinguish several courses of the prior; otherwise the middle one.
     """
     cycle = _Cycle(roads, watched, time, time + horizon)
     spread = SPREAD if closely else MIDDLE
@@ -76,9 +76,9 @@ def foresee(
 def supposed(
     roads: Roads, known: LightPrediction, place: int, state: str, time: float
 ) -> LightPrediction:
-    """Return a controller of which one place is supposed to show a state for good.
+    """Return a controller with one place that is supposed to show a state permanently.
 
-    Where that is green, those whose ways cross its own are red; who was held goes on being held.
+    If the state is green, the lights of conflicting ways are red. All others stay as they are.
     """
     at = known.places.index(place)
     letters = list(known.courses[known.likeliest].showings[0].states)
@@ -94,7 +94,7 @@ def supposed(
 
 
 class _Cycle:
-    """One controller, and how it is worked."""
+    """One controller, and the courses that it may take."""
 
     def __init__(self, roads: Roads, watched: Watched, time: float, until: float) -> None:
         self._roads, self._watched = roads, watched
@@ -115,9 +115,9 @@ class _Cycle:
         }
 
     def again(self) -> tuple[Showing, ...] | None:
-        """As it went on the last time that it showed what it shows now; None if it never did.
+        """Return its course after the last time that it showed its present state, if it did.
 
-        Nor if it took less time then to change than has gone by now.
+        Return None also if it then changed sooner than it has now.
         """
         seen, last = self._phases, len(self._phases) - 1
         for j in range(last - 2, 0, -1):
@@ -136,7 +136,7 @@ class _Cycle:
         return tuple(found)
 
     def reckoned(self, quantile: float) -> tuple[Showing, ...]:
-        """As the prior has it, where greens last as long as a quantile of theirs."""
+        """Return its course by the prior, if greens last as long as a quantile of their time."""
         found = [self.here]
         held = self._held_since()
         at, letters = self._time, self.here.states
@@ -152,7 +152,7 @@ class _Cycle:
         return tuple(found)
 
     def _held_since(self) -> dict[int, float]:
-        """Since when [s] each place has been red, by its position."""
+        """Return since when [s] each place has been red, by its position."""
         found: dict[int, float] = {}
         for showing in self._watched.seen:
             for k, letter in enumerate(showing.states):
@@ -170,14 +170,14 @@ class _Cycle:
         spent: float,
         begun: bool,
     ) -> tuple[float, str]:
-        """Return how long [s] a state lasts on, and what comes after it.
+        """Return how long [s] a state still lasts, and the state after it.
 
         Args:
             letters: the state.
             held: since when [s] each place has been red.
-            quantile: of what a green has left.
-            spent: [s] for which it has been so.
-            begun: whether it was seen to begin.
+            quantile: of the time that a green has left.
+            spent: [s] for which the state has lasted.
+            begun: whether the state was seen to begin.
         """
         if AMBER in letters or ABOUT_TO_GO in letters:
             lasting = self._amber(letters) if AMBER in letters else RED_AMBER
@@ -188,7 +188,7 @@ class _Cycle:
             left = residual(quantile, spent, begun=begun)
             return left, "".join(AMBER if letter in GREENS else letter for letter in letters)
         left = CLEARANCE - spent
-        if not begun:  # somebody out of view goes
+        if not begun:  # an arm out of view has green
             left = residual(quantile, spent, begun=False) + REACTION + CLEARANCE
         return left, self._with_green(letters, self._stage(letters, held))
 
@@ -204,11 +204,11 @@ class _Cycle:
         return REACTION + max(limits, default=self._roads.fastest) / (2.0 * BRAKING)
 
     def _stage(self, letters: str, held: Mapping[int, float]) -> set[int]:
-        """Return who goes next: who has been held longest, and the arms beside and opposite.
+        """Return the next arms with green: the one held longest, and those beside and opposite.
 
-        Of these, those that were held last only go with it where it was held no longer. Where a
-        crossing has been held longer than any arm, an arm goes with which it can be green; where
-        there is none, nobody goes but the people.
+        The arms held last are green with it only if it was held no longer. If a crossing has been
+        held longer than any arm, an arm is next with which it can be green. If there is none, only
+        people on foot have green.
         """
         waiting = [k for k, links in enumerate(self._links) if links and letters[k] not in DEAD]
         order = sorted(waiting, key=lambda k: (round(held[k], 1), k))
@@ -221,7 +221,7 @@ class _Cycle:
         return self._with(order[0], waiting, held) if order else set()
 
     def _with(self, first: int, waiting: Sequence[int], held: Mapping[int, float]) -> set[int]:
-        """Return an arm that goes, and those beside and opposite that go with it."""
+        """Return an arm that has green, and those beside and opposite that have it too."""
         latest = max(held[k] for k in waiting)
         own = self._links[first][0]
         return {
@@ -232,7 +232,7 @@ class _Cycle:
         }
 
     def _with_green(self, letters: str, going: set[int]) -> str:
-        """Return a state in which some go, giving way to one another as the junction says."""
+        """Return a state in which some places are green, with the junction's rules between them."""
         ours = [link for k in sorted(going) for link in self._links[k]]
         keys = {(link.junction, link.index) for link in ours}
 
@@ -244,7 +244,7 @@ class _Cycle:
         return self._with_people(now, ours)
 
     def _with_people(self, letters: str, going: Sequence[Link]) -> str:
-        """Return the same with crossings green, where all that go over them turn and give way."""
+        """Return the state with crossings green if all green links over them turn and give way."""
         found = list(letters)
         for k, crossing in self._crossings.items():
             met = [x for x in going if x.junction == crossing.junction]
@@ -257,7 +257,7 @@ class _Cycle:
 
 
 def _phases(seen: Sequence[Showing]) -> tuple[Showing, ...]:
-    """Return the changes since the controller came into view last, but for places that did then."""
+    """Return the changes since the controller came into view, except for places coming in view."""
     found: list[Showing] = []
     for showing in seen:
         if all(letter == UNSEEN for letter in showing.states):
@@ -268,7 +268,7 @@ def _phases(seen: Sequence[Showing]) -> tuple[Showing, ...]:
 
 
 def _alike(one: str, other: str) -> bool:
-    """Check whether two states agree wherever both were seen, and that is somewhere."""
+    """Check whether two states agree at all places seen in both, and at least one was."""
     pairs = [(a, b) for a, b in zip(one, other, strict=True) if UNSEEN not in (a, b)]
     return bool(pairs) and all(a == b for a, b in pairs)
 
@@ -290,14 +290,14 @@ def _parallel(roads: Roads, one: Link, other: Link) -> bool:
 def watch(
     before: Watched | None, controller: str, shown: Mapping[int, str], time: float, most: int
 ) -> Watched:
-    """Return what is known of a controller once it has been looked at again.
+    """Return the observations of a controller, with a new one.
 
     Args:
-        before: what was known.
+        before: earlier observations.
         controller: its name.
         shown: the letters of the places that are in view.
-        time: [s] of the look.
-        most: changes that are remembered at most.
+        time: [s] of the new observation.
+        most: maximum number of changes that are kept.
     """
     known: Sequence[int] = () if before is None else before.places
     places = tuple(sorted({*known, *shown}))

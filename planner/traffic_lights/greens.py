@@ -1,12 +1,12 @@
-"""How long a green lasts on: a prior, given how long it has been seen.
+"""The remaining time of a green: a prior, given how long it has been seen.
 
 The prior is a lognormal. Its 5 % and 95 % points are SHORT and LONG, about the least and the
 greatest greens that the Traffic Signal Timing Manual names as usual (FHWA 2008, FHWA-HOP-08-024,
 Chapter 5).
 
-How long a green has lasted is reckoned with: if it was seen to begin, as is; else it is a moment
-picked at random within greens, which meets long ones more often (the residual time of a renewal
-process; Feller 1971, An Introduction to Probability Theory II, XI.4).
+The time that a green has lasted is taken into account. If it was not seen to begin, its first
+sight is a random moment within greens, which meets long ones more often (the residual time of a
+renewal process; Feller 1971, An Introduction to Probability Theory II, XI.4).
 """
 
 import math
@@ -18,7 +18,7 @@ SIGMA = math.log(LONG / SHORT) / (2.0 * 1.645)
 
 
 def residual(quantile: float, spent: float, *, begun: bool) -> float:
-    """Return how long [s] a green lasts on, by a quantile.
+    """Return a quantile of the remaining time [s] of a green.
 
     Args:
         quantile: in (0, 1).
@@ -42,7 +42,7 @@ def _survival(time: float) -> float:
 
 
 def _excess(time: float) -> float:
-    """The probability that a green picked at a random moment lasts longer [s] from then on."""
+    """Return the probability that a green lasts longer than a time [s] from a random moment on."""
     if time <= 0.0:
         return 1.0
     mean = MEDIAN * math.exp(0.5 * SIGMA**2)

@@ -1,4 +1,4 @@
-"""What traffic lights mean over time to those who come to their lines, in tables for kernels."""
+"""The meaning of traffic lights over time to vehicles at their lines, in tables for kernels."""
 
 import itertools
 from collections.abc import Collection, Iterable, Mapping, Sequence
@@ -13,8 +13,8 @@ from planner.record.light_record import LightPrediction, LightSample, Showing
 from sim.scene import LightState, Signal
 
 STEP = 0.2  # [s] of the common time base
-#: What a state means to who comes to the line. At all others, one that is not seen among them,
-#: the junction's rules hold.
+#: The meaning of a state to a vehicle that comes to the line. In all other states, including a
+#: state that is not seen, the junction's rules hold.
 MEANING: dict[str, int] = {
     LightState.GREEN.value: FIRST,
     LightState.RED.value: SHUT,
@@ -26,20 +26,20 @@ MEANING: dict[str, int] = {
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lights:
-    """What lights show in one course of events, sampled from step 0 on."""
+    """The meanings of lights in one course of events, sampled from step 0 on."""
 
-    meaning: Mapping[Signal, Codes]  # [T] to who comes to the line; the last one stays
+    meaning: Mapping[Signal, Codes]  # [T] at the line; the last one stays
     _tables: dict[tuple[Signal, ...], Codes] = field(default_factory=dict)
 
     def shows(self, signal: Signal, steps: int) -> Codes:
-        """Return what a light means at each of so many steps, or more [T]."""
+        """Return the meaning of a light at each step [T >= steps]."""
         codes = self.meaning.get(signal, _DARK)
         if len(codes) >= steps:
             return codes
         return np.concatenate((codes, np.full(steps - len(codes), codes[-1])))
 
     def table(self, signals: tuple[Signal, ...]) -> Codes:
-        """Return what some lights mean at each step [S, T], kept."""
+        """Return the meanings of some lights at each step [S, T]; results are cached."""
         if not signals or not self.meaning:
             return np.full((len(signals), 1), OPEN, np.int8)
         found = self._tables.get(signals)
@@ -50,7 +50,7 @@ class Lights:
         return found
 
     def since(self, step: int) -> "Lights":
-        """Return the same, with a later step as step 0."""
+        """Return the lights with a later step as step 0."""
         return Lights(
             {signal: codes[min(step, len(codes) - 1) :] for signal, codes in self.meaning.items()}
         )
@@ -62,18 +62,18 @@ NO_LIGHTS = Lights({})
 
 @dataclass(frozen=True)
 class Outlook:
-    """How all controllers in view may go on from a moment."""
+    """The possible courses of all controllers in view from a moment on."""
 
     time: float  # [s] of step 0
     known: tuple[LightPrediction, ...] = ()
 
     @cached_property
     def varying(self) -> tuple[LightPrediction, ...]:
-        """The controllers that may go on in several ways."""
+        """The controllers with several possible courses."""
         return tuple(one for one in self.known if len(one.courses) > 1)
 
     def courses(self, drawn: Iterable[LightSample]) -> tuple[int, ...]:
-        """Return the course of every controller; of those that were not drawn, the only one."""
+        """Return the course of every controller: the one drawn, or otherwise its only one."""
         found = {sample.controller: sample.course for sample in drawn}
         return tuple(found.get(one.controller, 0) for one in self.known)
 
@@ -83,7 +83,7 @@ class Outlook:
         return tuple(itertools.product(*(range(len(one.courses)) for one in self.known)))
 
     def with_usual(self, courses: Sequence[int], among: Collection[str]) -> tuple[int, ...]:
-        """Courses, where the controllers that are not among some take their likeliest."""
+        """Return courses in which controllers outside a group take their likeliest ones."""
         ways = zip(self.known, courses, self.usual, strict=True)
         return tuple(k if one.controller in among else usual for one, k, usual in ways)
 
@@ -93,12 +93,12 @@ class Outlook:
         return tuple(one.likeliest for one in self.known)
 
     def lights(self, courses: Sequence[int], steps: int) -> Lights:
-        """Return what the lights show from now on, where controllers take certain courses."""
+        """Return the lights from now on if controllers take certain courses."""
         ways = zip(self.known, courses, strict=True)
         return self._sampled([one.courses[k].showings for one, k in ways], self.time, steps)
 
     def before(self, elapsed: int, steps: int) -> Lights:
-        """Return the same from `elapsed` steps ago on: what was seen, and the likeliest course."""
+        """Return the lights from `elapsed` steps ago on: as seen, then in likeliest courses."""
         showings = [(*one.seen, *one.courses[one.likeliest].showings) for one in self.known]
         return self._sampled(showings, self.time - elapsed * STEP, steps + elapsed)
 
