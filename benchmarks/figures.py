@@ -13,7 +13,7 @@ T = TypeVar("T", bound="Aimed")
 
 
 class Report(Protocol):
-    """What a benchmark found: a struct that can be written as JSON."""
+    """The results of a benchmark: a struct that can be written as JSON."""
 
     def table(self) -> str:
         """Return the report for people."""
@@ -31,7 +31,7 @@ class Target(msgspec.Struct, frozen=True):
 
 
 class Aimed(msgspec.Struct, frozen=True, kw_only=True):
-    """What a report of a benchmark with targets has beside its figures."""
+    """The fields of a benchmark's report that has targets besides its figures."""
 
     targets: tuple[Target, ...] = ()
     met: bool = True  # whether all targets are met
@@ -49,7 +49,7 @@ class Figure(msgspec.Struct, frozen=True):
 
 
 class Figures(msgspec.Struct, frozen=True):
-    """What a benchmark found."""
+    """The results of a benchmark."""
 
     bench: str
     figures: tuple[Figure, ...]

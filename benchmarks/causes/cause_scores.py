@@ -62,7 +62,7 @@ class Case(msgspec.Struct, frozen=True):
 
 
 class Score(msgspec.Struct, frozen=True):
-    """How well vehicles are named, with counts summed over worlds."""
+    """The scores of the vehicles that are named, with counts summed over worlds."""
 
     precision: float
     recall: float

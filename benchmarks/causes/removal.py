@@ -1,4 +1,4 @@
-"""Whether an action vanishes in SUMO when our planner drives the same world without vehicles.
+"""The test of whether an action vanishes when our planner drives a world without vehicles.
 
 Driving slowly is compared place by place with driving alone. The question is about some place; the
 action vanishes if only a small share of the speed lost there is still lost, and stays if most of

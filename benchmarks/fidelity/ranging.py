@@ -16,7 +16,7 @@ Ends: TypeAlias = tuple[float, float]
 
 
 class Coverage(msgspec.Struct, frozen=True):
-    """How often ranges held, and how wide [s] they are."""
+    """The share of cases in which ranges held, and the widths [s] of the ranges."""
 
     cases: str  # a scenario, a family of networks, a kind of foil, or all
     n: int  # foils that are foreseen to arrive, on rides that arrive

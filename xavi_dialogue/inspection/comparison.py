@@ -1,4 +1,4 @@
-"""What a decision compared: first actions by the weights of samples, and as answers tell them.
+"""The first actions that a decision compared, by the weights of samples and as answers state them.
 
 The decision weighs the rollouts that carry a weight alone. Answers rest on all rollouts of the same
 plan, so their estimates differ where not all samples could be tried; docs/causal.md says how.

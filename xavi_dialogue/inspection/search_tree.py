@@ -20,7 +20,7 @@ class TreeError(UsageFault):
 
 @dataclass(frozen=True, slots=True)
 class Hindrance:
-    """How often one vehicle held the ego up in one way."""
+    """The frequency and duration of hold-ups by one vehicle in one way."""
 
     vehicle: int
     how: HoldUp

@@ -55,7 +55,7 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class Coverage:
-    """How often each item was exercised."""
+    """The counts of how often each item was exercised."""
 
     counts: dict[Item, int]
 

@@ -67,7 +67,7 @@ class Browsers(Protocol):
 
     @property
     def browsers(self) -> int:
-        """How many there are."""
+        """The number of connected browsers."""
 
     def tell(self, message: Outgoing) -> None:
         """Send a message to all of them, encoded once. On the event loop only."""
