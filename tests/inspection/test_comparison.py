@@ -27,10 +27,10 @@ def recorded():
 def test_rewards_are_those_by_which_the_decision_chose():
     trace = recorded()
     rows = comparison(trace)
-    assert {row.action: row.reward for row in rows} == pytest.approx(compared(trace))
+    assert {row.action: row.value for row in rows} == pytest.approx(compared(trace))
     assert rows[0].chosen
     assert rows[0].action == trace.plan[0].action
-    assert all(sum(row.outcomes.values()) == pytest.approx(1.0, abs=1e-5) for row in rows)
+    assert all(sum(row.chances.values()) == pytest.approx(1.0, abs=1e-5) for row in rows)
 
 
 def test_outcomes_weigh_as_their_samples_do():
@@ -43,7 +43,7 @@ def test_outcomes_weigh_as_their_samples_do():
     crash = replace(hit, outcome="collision", collided_with=1)
     worse = replace(trace, rollouts=(*trace.rollouts[:k], crash, *trace.rollouts[k + 1 :]))
     row = next(r for r in comparison(worse) if r.action == hit.actions[0].action)
-    assert row.outcomes["collision"] == pytest.approx(hit.weight)
+    assert row.chances["collision"] == pytest.approx(hit.weight)
     assert f"collision {hit.weight:.1%}" in show(worse, Extent())
 
 

@@ -13,12 +13,12 @@ from xavi_dialogue.explain.causes.plans.chances import chances
 
 
 @dataclass(frozen=True, slots=True)
-class Compared:
-    """One first action."""
+class Option:
+    """A first action that a decision weighed."""
 
     action: Action
-    reward: float  # [s] mean by the weights
-    outcomes: Mapping[Outcome, float]  # their probabilities, by the weights
+    value: float  # [s] mean reward by the weights; higher is better
+    chances: Mapping[Outcome, float]  # of each outcome that occurred, by the weights
     time: float | None  # [s] mean to the goal of what reaches it, by the weights
     samples: int
     told: float | None  # [s] the mean reward that answers rest on; None if they have none
@@ -26,7 +26,7 @@ class Compared:
     chosen: bool
 
 
-def comparison(trace: PlanTrace) -> tuple[Compared, ...]:
+def comparison(trace: PlanTrace) -> tuple[Option, ...]:
     """Return the first actions that a decision compared, best first; none for older traces."""
     model = CausalModel(trace)
     weighed: dict[Action, list[tuple[Rollout, float]]] = {}
@@ -35,20 +35,20 @@ def comparison(trace: PlanTrace) -> tuple[Compared, ...]:
             weighed.setdefault(one.actions[0].action, []).append((one, one.weight))
     chosen = trace.plan[0].action if trace.plan else None
     found = [_compared(model, action, rows, chosen) for action, rows in weighed.items()]
-    return tuple(sorted(found, key=lambda one: (-one.reward, ACTIONS.index(one.action))))
+    return tuple(sorted(found, key=lambda one: (-one.value, ACTIONS.index(one.action))))
 
 
 def _compared(
     model: CausalModel, action: Action, rows: list[tuple[Rollout, float]], chosen: Action | None
-) -> Compared:
+) -> Option:
     timed = [(time, w) for one, w in rows if (time := one.components.get("time")) is not None]
     mass = sum(weight for _, weight in timed)
     known = _told(model, action)
     shares = {o: sum(w for one, w in rows if one.outcome == o) for o in OUTCOMES}
-    return Compared(
+    return Option(
         action=action,
-        reward=sum(weight * one.reward for one, weight in rows),
-        outcomes={outcome: share for outcome, share in shares.items() if share > 0.0},
+        value=sum(weight * one.reward for one, weight in rows),
+        chances={outcome: share for outcome, share in shares.items() if share > 0.0},
         time=sum(time * weight for time, weight in timed) / mass if mass > 0.0 else None,
         samples=len({(one.samples, one.lights, one.phantoms) for one, _ in rows}),
         told=None if known is None else known.value,

@@ -10,7 +10,7 @@ from typing import TypeAlias
 from planner.record.trace import PlanTrace, VehiclePrediction
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.bus.sanitize import one_line
-from xavi_dialogue.inspection.comparison import Compared, comparison
+from xavi_dialogue.inspection.comparison import Option, comparison
 from xavi_dialogue.inspection.search_tree import Branch, Hindrance, grow
 
 KMH = 3.6
@@ -196,15 +196,15 @@ def _hindrances(held_up: Sequence[Hindrance]) -> str:
     return " · ".join(told) + (" · …" if len(held_up) > FOREMOST else "")
 
 
-def _compared(rows: Sequence[Compared]) -> Iterator[str]:
+def _compared(rows: Sequence[Option]) -> Iterator[str]:
     """Yield rows of the first actions, by the weights of the samples tried with all of them."""
     yield f"What was compared: {rows[0].samples} joint samples by their weights"
     table = [
         (
             f"{one.action}{' ◀' if one.chosen else ''}",
-            _number(one.reward),
+            _number(one.value),
             _number(one.time),
-            ", ".join(f"{outcome} {share:.1%}" for outcome, share in one.outcomes.items()),
+            ", ".join(f"{outcome} {share:.1%}" for outcome, share in one.chances.items()),
             _number(one.told),
             "" if one.collision is None else f"{one.collision:.1%}",
         )

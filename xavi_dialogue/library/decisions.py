@@ -4,21 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from planner.record.trace import Action, Outcome, PlanTrace
-from xavi_dialogue.inspection.comparison import comparison
+from planner.record.trace import Action, PlanTrace
+from xavi_dialogue.inspection.comparison import Option, comparison
 from xavi_dialogue.library.html import element, table
-
-
-@dataclass(frozen=True, slots=True)
-class Option:
-    """A first action that a decision weighed."""
-
-    action: Action
-    value: float  # [s] expected reward, by which the decision chose; higher is better
-    chances: Mapping[Outcome, float]  # of each outcome that occurred among the rollouts
-    time: float | None  # [s] to the goal, of the rollouts that reach it
-    collision: float | None  # its probability as answers tell it; None: too little evidence
-    chosen: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,10 +48,7 @@ class Decision:
     @cached_property
     def options(self) -> tuple[Option, ...]:
         """The first actions that were compared, best first; none of older records."""
-        return tuple(
-            Option(one.action, one.reward, one.outcomes, one.time, one.collision, one.chosen)
-            for one in comparison(self.trace)
-        )
+        return comparison(self.trace)
 
     @property
     def ruled_out(self) -> Mapping[Action, str]:
