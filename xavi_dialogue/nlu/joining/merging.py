@@ -53,6 +53,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.verbs.trends import believed
+from xavi_dialogue.nlu.compose.wh_questions.wh import answer_to
 from xavi_dialogue.nlu.joining.blaming import HELD, asked_with, is_clear
 from xavi_dialogue.nlu.joining.recalling import recalled
 
@@ -103,11 +104,9 @@ def _of_evidence(before: Act, later: Act) -> Act | None:
     """Ask how what follows is known: "how can you tell when the light changes?"."""
     match before, later:
         case Ask(question=HowKnow(of=None)), Ask(
-            question=Whether(that=of, tag=True) | When(of=Happens() as of)
+            question=Whether(tag=True) | When(of=Happens()) | Where(of=Event()) as embedded
         ):
-            return Ask(HowKnow(of))
-        case Ask(question=HowKnow(of=None)), Ask(question=Where(of=Event() as event)):
-            return Ask(HowKnow(Happens(event)))
+            return Ask(HowKnow(answer_to(embedded)))
     return None
 
 

@@ -1,4 +1,4 @@
-"""Risks: of which deed of ours a risk is told, and how it is asked for."""
+"""Risks: questions about the risk of something that the ego may do."""
 
 from typing import Any, Final, cast
 
@@ -11,7 +11,7 @@ from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem
 
 _SIDES: Final = ("left", "right")
-#: What we may choose to do, so that it has a risk of its own.
+#: Actions that the ego may choose, each with a risk of its own.
 _CHOSEN: Final = frozenset[ActionName](
     ("change-left", "change-right", "change-lane", "exit-left", "exit-right", "exit-straight",
      "turn", "stop", "continue", "continue-next-exit", "overtake", "pass", "merge", "keep-lane")
@@ -19,9 +19,9 @@ _CHOSEN: Final = frozenset[ActionName](
 
 
 def risk_of(key: str, of: Sem | None, event: Event | None, side: str | None) -> Measure | None:
-    """Read "the risk of stopping", "the risk on the left": of something that we may choose to do.
+    """Read "the risk of stopping", "the risk on the left" as the risk of an action of the ego.
 
-    A chance is a risk where it is that of a crash beside us.
+    A chance is a risk if it is that of a crash beside the ego. None if it is no such risk.
     """
     crash = event is not None and event.action == "collide" and event.object is None
     if key not in ("risk", "probability") or (key != "risk" and not crash):
@@ -33,7 +33,7 @@ def risk_of(key: str, of: Sem | None, event: Event | None, side: str | None) -> 
 
 
 def risk_asked(measured: Measured, tense: Tense) -> Question | None:
-    """Ask how risky something is, where its risk is named; None where it is no risk of a deed."""
+    """Return the question how risky an action is; None if a measure is not the risk of one."""
     match measured.about:
         case Is(state="dangerous", event=Event() as deed):
             return _risk(replace(deed, tense=tense))
@@ -41,7 +41,7 @@ def risk_asked(measured: Measured, tense: Tense) -> Question | None:
 
 
 def moving_in(clause: Clause, thing: Thing | None) -> Event | None:
-    """Give the change of lanes that is called risky: "the left lane is", "it is on the left"."""
+    """Return the change of lanes that is called risky: "the left lane is", "it is on the left"."""
     if thing is not None and not isinstance(thing, Lane) and thing != Pronoun("it"):
         return None
     lanes = [part.sem for part in clause.complements if isinstance(part.sem, Lane)]
@@ -51,14 +51,14 @@ def moving_in(clause: Clause, thing: Thing | None) -> Event | None:
 
 
 def crash_beside(clause: Clause, deed: Event) -> Question | None:
-    """Ask how risky a change of lanes is: "how likely is a crash on the left?"."""
+    """Return the question how risky a change of lanes is: "how likely is a crash on the left?"."""
     crash = deed.action == "collide" and deed.object is None
     change = moving_in(clause, None) if crash else None
     return None if change is None else _risk(change)
 
 
 def risk_beside(clause: Clause, sem: Sem | None) -> Question | None:
-    """Ask how risky a change of lanes is: "what is the risk on the left?"."""
+    """Return the question how risky a change of lanes is: "what is the risk on the left?"."""
     chance = isinstance(sem, Measure) and sem.of.attribute == "probability"
     crash = sem.of.event if chance and isinstance(sem, Measure) else None
     return None if crash is None else crash_beside(clause, crash)
@@ -69,6 +69,6 @@ def _risk(deed: Event) -> Question:
 
 
 def _moving(where: Sem | None, side: str | None) -> Event | None:
-    """Give the change of lanes that is meant by the lane beside us, or a side of us."""
+    """Return the change of lanes that the lane beside the ego, or a side, stands for."""
     beside = where.which if isinstance(where, Lane) else side
     return Event(cast(Any, f"change-{beside}"), tense="present") if beside in _SIDES else None

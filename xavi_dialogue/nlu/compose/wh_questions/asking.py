@@ -8,7 +8,6 @@ from xavi_dialogue.domain.meaning import (
     HowAvoid,
     HowDecide,
     HowKnow,
-    HowLong,
     HowMuch,
     HowSure,
     Listing,
@@ -17,7 +16,6 @@ from xavi_dialogue.domain.meaning import (
     WhatWouldChange,
     When,
     Where,
-    Whether,
     Whither,
     Why,
 )
@@ -52,6 +50,7 @@ from xavi_dialogue.nlu.compose.wh_questions.lasting import measured, since
 from xavi_dialogue.nlu.compose.wh_questions.wh import (
     NEXT,
     Wh,
+    answer_to,
     content_of,
     deed_of,
     fact,
@@ -68,19 +67,10 @@ _MOVING = frozenset({"go", "pull-out", "head", "move", "turn", "leave", "take-tu
 _PASSING = frozenset({"go", "move", "cross", "enter", "pass", "come", "pull-out", "merge"})
 
 
-def _answered(clause: Clause) -> Proposition | None:
-    """Find what is known of who knows an answer: "how do you know what he will do?"."""
+def _embedded(clause: Clause) -> Proposition | None:
+    """Return what answers a clause's embedded question, as it was read first; None if none."""
     readings = () if clause.question is None else clause.question[1]
-    match next(iter(readings), None):
-        case Whether(that=that):
-            return that
-        case When(of=of) | HowLong(of=of):
-            return propose(of) if isinstance(of, Event) else of
-        case Doing(actor=actor, tense=tense) if actor is not None:
-            return Happens(Event("do", actor=actor, tense=tense))
-        case Whither(actor=actor):
-            return Happens(Event("go", actor=actor, tense="future"))
-    return None
+    return next((answer_to(question) for question in readings[:1]), None)
 
 
 class Asking(What, WhichOne):
@@ -235,7 +225,7 @@ class Asking(What, WhichOne):
                 content = value.content
                 if content is None and value.object is not None and value.name == "see":
                     return HowKnow(fact(value))
-                return HowKnow(_answered(clause) if content is None else content)
+                return HowKnow(_embedded(clause) if content is None else content)
             case "decide" | "choose" | "plan" | "consider":
                 return HowDecide(value.content or propose(value.object))
             case "prevent" | "improve":

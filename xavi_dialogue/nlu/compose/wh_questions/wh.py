@@ -3,6 +3,15 @@
 from dataclasses import dataclass
 from typing import Any, cast
 
+from xavi_dialogue.domain.meaning import (
+    Doing,
+    HowLong,
+    Question,
+    When,
+    Where,
+    Whether,
+    Whither,
+)
 from xavi_dialogue.domain.terms import (
     Believed,
     Described,
@@ -24,7 +33,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.nominal import done_by, event_in
+from xavi_dialogue.nlu.compose.clauses.nominal import done_by, event_in, propose
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, as_thing
 from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
 
@@ -71,6 +80,21 @@ def content_of(clause: Clause, value: Any) -> Proposition | None:
             foreseen = "future" if tense == "present" else tense
             return Happens(with_fields(event, tense=foreseen))
     return value if isinstance(value, (Happens, Not, Related, Is, Exists)) else None
+
+
+def answer_to(question: Question) -> Proposition | None:
+    """Return what is known by somebody who knows the answer: "how do you know where he goes?".
+
+    None if it cannot be put as a proposition.
+    """
+    match question:
+        case Whether(that=of) | When(of=of) | HowLong(of=of) | Where(of=Event() as of):
+            return propose(of) if isinstance(of, Event) else of
+        case Doing(actor=actor, tense=tense) if actor is not None:
+            return Happens(Event("do", actor=actor, tense=tense))
+        case Whither(actor=actor):
+            return Happens(Event("go", actor=actor, tense="future"))
+    return None
 
 
 def held_then(clause: Clause, content: Proposition | None) -> Proposition | None:
