@@ -56,7 +56,7 @@ def with_walkers(
 def passing_speed(plan: ActionPlan, motion: Motion, others: Sequence[VehicleState]) -> float:
     """Return the speed [m/s] at which to pass a vehicle that waits at a crossing on another lane.
 
-    It may hide people whom it lets cross. The speed is infinite if no vehicle waits there, or if a
+    It may hide people that it lets cross. The speed is infinite if no vehicle waits there, or if a
     light controls the crossing.
     """
     allowed = math.inf

@@ -290,7 +290,7 @@ def _was_cause(question: Whether, scene: Asked) -> Answer:
 
 
 def _who_caused(question: Which, scene: Asked) -> Answer:
-    """Return the reason of an event, for a question because of whom it came about."""
+    """Return the reason of an event, for a question about the vehicle that caused it."""
     of, _ = unwrapped(question.such)
     assert isinstance(of, Caused)
     found = reasons.why(Why(of), scene)

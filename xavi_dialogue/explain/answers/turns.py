@@ -74,7 +74,7 @@ def who(question: Which, asked: Asked) -> Answer:
 
 
 def how_much(question: HowMuch, asked: Asked) -> Answer:
-    """Return a measure; of the rule that holds here, for whom it holds, and its basis.
+    """Return a measure; of the rule that holds here, the road user that it binds, and its basis.
 
     Raises:
         Unanswered: the record does not hold it.

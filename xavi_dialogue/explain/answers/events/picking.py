@@ -52,7 +52,7 @@ def lately_lost(asked: Asked, look: Look) -> bool:
 
 
 def owed_by_other(such: Proposition) -> Happens | None:
-    """Read "who has right of way over vehicle 2" as to whom it gives way; None for all else."""
+    """Read "who has right of way over vehicle 2" as "who does it give way to"; else None."""
     match such:
         case Related("has-priority-over", Wanted() | Described(), Vehicle() as by):
             pass

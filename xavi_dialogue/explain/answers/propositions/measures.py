@@ -57,7 +57,7 @@ PAIRS = 3  # maximum of pairs of vehicles whose distance is stated
 UNSEEN = ("out-of-view", "hidden")
 #: Attributes between two things; by default the other one is the ego.
 MUTUAL: frozenset[Attribute] = frozenset(("gap", "headway", "distance", "time-to-collision"))
-#: Actions after which a question without a name is about whoever was close.
+#: Actions after which a question without a name is about the vehicle that was close.
 PASSING: frozenset[ActionName] = frozenset(("pass", "overtake", "cross", "come", "approach"))
 #: Attributes whose extreme is over all vehicles if none is named.
 ANYBODY: frozenset[Attribute] = frozenset(("distance", "time-to-collision"))

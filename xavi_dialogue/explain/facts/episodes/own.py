@@ -22,7 +22,7 @@ SAME_JUNCTION = 6.0  # [m] maximum difference of the distances to one junction a
 
 
 def told(states: States) -> Iterator[Episode]:
-    """Yield when the ego arrived, and when and with whom it collided, by its events."""
+    """Yield the arrival of the ego and its collisions, by its events."""
     for event in states.ride.events:
         time = event.sim_time
         if event.kind == "arrived":
