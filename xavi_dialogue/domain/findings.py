@@ -170,6 +170,7 @@ class Options(Value, frozen=True):
     drives: int = 0  # number of rollouts of it
     earlier: bool = False  # of a decision before the latest one
     rival: Weighing | None = None  # only the next best; how the chosen one compares with it
+    named: bool = False  # the rival is the one asked about instead of the next best
 
 
 class Compared(Value, frozen=True):

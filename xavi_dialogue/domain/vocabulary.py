@@ -179,6 +179,7 @@ FeelingKind: TypeAlias = Literal[
 #: What several things or actions are compared by.
 Merit: TypeAlias = Literal[
     "best", "time", "safety", "comfort", "speed", "distance", "probability", "size", "place",
+    "margin",  # by how much the one was chosen before the other
 ]  # fmt: skip
 
 MACRO_ACTIONS: tuple[MacroAction, ...] = get_args(MacroAction)

@@ -61,6 +61,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
 )
 from xavi_dialogue.explain.answers.ride.delays import held_up, let_past
 from xavi_dialogue.explain.answers.suppositions import deciding, possible, risks
+from xavi_dialogue.explain.answers.suppositions.listing import listed
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
@@ -125,7 +126,7 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
         case Compare(options) if options and all(_is_option(option) for option in options):
             return deciding.compared
         case Listing(of) if of in LISTED:
-            return deciding.listed
+            return listed
         case Listing(of) if of in REASONS:
             return _reasons
     return QUESTIONS.get(type(question))

@@ -20,7 +20,6 @@ from xavi_dialogue.nlu.compose.alternatives.options import WEAK, Options, altern
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement, wanted_pronoun
 from xavi_dialogue.nlu.compose.clauses.followers import place_subject
 from xavi_dialogue.nlu.compose.clauses.nominal import deed_of, event_in, propose
-from xavi_dialogue.nlu.compose.clauses.peaks import nearest_of, peak_of
 from xavi_dialogue.nlu.compose.clauses.sem import (
     Measure,
     Moment,
@@ -35,7 +34,8 @@ from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, node_of
 from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
 from xavi_dialogue.nlu.compose.verbs.trends import believed
 from xavi_dialogue.nlu.compose.wh_questions.asking import Asking
-from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, held_then, is_that
+from xavi_dialogue.nlu.compose.wh_questions.pointing import pointed
+from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, held_then
 from xavi_dialogue.nlu.compose.wh_questions.what import going_on, purpose
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
@@ -43,7 +43,6 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf
 _NOMINAL = ("np", "group", "accusative", "accusative_group")
 EMPHATIC = 0.6  # cost of "who did stop"
 #: What may ask for a moment or a thing that stands out.
-_POINTING = frozenset({"where", "when", "what", "who", "which", "count"})
 
 
 class Questions(Options):
@@ -164,8 +163,8 @@ class Questions(Options):
         wh, clause = cleft(wh, clause)
         if wh.kind in ("where", "grade"):
             place_subject(clause)
-        if (pointed := _pointed(wh, clause)) is not None:
-            return [(pointed, 0.0)]
+        if (most := pointed(wh, clause)) is not None:
+            return [(most, 0.0)]
         if wh.kind == "what" and clause.verb is not None and clause.verb.key == "do":
             # "what is he doing, braking like that?"
             clause.objects = [o for o in clause.objects if not isinstance(o[0], Event)]
@@ -220,7 +219,8 @@ class Questions(Options):
     def _graded(self, wh: Wh, clause: Clause) -> Question | None:
         """Ask how much something hangs on another, or how much better or worse it is."""
         judged = wh.key == "worse" or (wh.key == "faster" and clause.than is not None)
-        return self.needing(clause) or (self.weighed(wh, clause) if judged else None)
+        weighed = self.margin(wh, clause) or self.needing(clause)
+        return weighed or (self.weighed(wh, clause) if judged else None)
 
     def _nominal(self, wh: Wh, clause: Clause) -> Question | None:
         """Ask "what are the chances that he stops", "whose fault is it"."""
@@ -334,16 +334,3 @@ def cleft(wh: Wh, clause: Clause) -> tuple[Wh, Clause]:
 
 
 _CLEFT = frozenset({"when", "where", "why", "how"})
-
-
-def _pointed(wh: Wh, clause: Clause) -> Question | None:
-    """Ask for what stands out, "where did you brake hardest?"; or "who was that for?"."""
-    if wh.kind == "when" and (nearest := nearest_of(clause)) is not None:
-        return nearest
-    most = peak_of(clause)
-    named = isinstance(clause.subject, Noun)  # "how hard was the hardest braking"
-    if most is not None and (named or wh.kind in _POINTING):
-        return most
-    whom = any(phrase.key == "for" and phrase.sem is None for phrase in clause.complements)
-    ours = wh.kind == "who" and whom and clause.verb is None and is_that(clause.subject)
-    return Why(That()) if ours else None

@@ -25,7 +25,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import Compare, Listing, WhatWouldChange, Whether
-from xavi_dialogue.domain.terms import Event, Happens, Is, Not, Vehicle
+from xavi_dialogue.domain.terms import At, Event, Happens, Is, Not, Vehicle
 from xavi_dialogue.explain.answers.reasons import choices
 from xavi_dialogue.explain.answers.reasons import motions as driving
 from xavi_dialogue.explain.answers.reference.asked import Unanswered
@@ -142,6 +142,23 @@ def test_options_are_listed_of_the_decision_that_was_free() -> None:
     assert during.decided == 6.0
     then = told(listed, Listing("options"), Span(2.0, 3.0, said=True))
     assert then.decided == 2.0
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "decided", "pair"),
+    [
+        (Event("stop"), Event("go"), 12.0, ("continue", "stop")),  # going on is what was chosen
+        (Event("keep-lane"), Event("change-left"), 12.0, ("continue", "change-left")),
+        (Event("change-left"), Event("stop"), 6.0, ("change-left", "stop")),
+        (Event("continue", time=At(2.0)), Event("stop", time=At(2.0)), 2.0, ("continue", "stop")),
+    ],
+)
+def test_how_close_two_options_were_is_of_the_last_decision_between_them(
+    one: Event, other: Event, decided: float, pair: tuple[str, str]
+) -> None:
+    found = told(compared, Compare((Happens(one), Happens(other)), "margin"))
+    assert (found.decided, found.named) == (decided, True)
+    assert tuple(o.action for o in found.options) == pair
 
 
 # --- what was needed ----------------------------------------------------------------------------

@@ -16,7 +16,6 @@ from xavi_dialogue.domain.answers import (
     DidNotHappen,
     MotionCause,
     MotionReason,
-    Options,
 )
 from xavi_dialogue.domain.meaning import Compare, HowAvoid, Listing, WhatWouldChange, Whether
 from xavi_dialogue.domain.reasons import Asking
@@ -31,10 +30,11 @@ from xavi_dialogue.explain.answers.reference.reading import (
     subject,
     unwrapped,
 )
+from xavi_dialogue.explain.answers.suppositions.listing import listed, margin
 from xavi_dialogue.explain.answers.suppositions.own_suppositions import of_us
 from xavi_dialogue.explain.causes.plans import avoidance, decisive_factor, options
 from xavi_dialogue.explain.causes.plans.contrast import contrast
-from xavi_dialogue.explain.causes.plans.premise import Premise, Subject, about_foil, premise
+from xavi_dialogue.explain.causes.plans.premise import Premise, about_foil, premise
 from xavi_dialogue.explain.causes.vehicles.actions import (
     DRIVING,
     STRAIGHT,
@@ -90,30 +90,6 @@ def _moved(event: Event, scene: Asked) -> Answer:
         return motions.motion(event, dataclasses.replace(scene, span=None))
 
 
-def listed(question: Listing, scene: Asked) -> Answer:
-    """List what could have been done, best first; or what was closest to what was done.
-
-    Raises:
-        Unanswered: the record lacks it, or has too little evidence.
-    """
-    ride, said = scene.ride, scene.past
-    moment = None
-    if said is not None and said.said and said.begin == said.end:
-        moment = ride.at(said.begin)
-    if question.event is not None:
-        found = options.with_choice(ride, premise(ride, subject(scene, question.event)))
-    elif moment is None:  # the time of the action discussed before, if no time is named
-        found = options.with_choice(ride, premise(ride, Subject(None, (), False, scene.span)))
-    else:
-        found = options.with_choice(ride, Premise(moment, None))
-    rows, rival = options.weighed(ride, found), None
-    if question.of == "rivals":
-        rows, rival = options.with_rival(ride, found)
-    decided = found.trace.sim_time
-    earlier = decided < ride.latest.sim_time
-    return Options(rows, decided, options.situations(found), earlier=earlier, rival=rival)
-
-
 def compared(question: Compare, scene: Asked) -> Answer:
     """Compare two options of ours by a measure, or what was done with what was not.
 
@@ -132,6 +108,8 @@ def compared(question: Compare, scene: Asked) -> Answer:
         if question.least:
             form = LEAST.get(question.by, "slower")
         return of_us(replace(events[0], tense="past"), scene, form)
+    if question.by == "margin" and (apart := margin(scene, events)) is not None:
+        return apart
     found, fact, foil = _sides(scene, events)
     ride = scene.ride
     against = contrast(ride, found.trace, foil, found.node)

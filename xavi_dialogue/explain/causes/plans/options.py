@@ -1,20 +1,27 @@
 """Options: what a decision could choose from, and what was expected of each option."""
 
+from collections.abc import Sequence
+
 from msgspec.structs import replace
 
 from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.causal.effects import effects
-from xavi_dialogue.causal.model import CausalModel, Intervention, plan_of
+from xavi_dialogue.causal.model import Actions, CausalModel, Intervention, plan_of
 from xavi_dialogue.domain.answers import Evidence, Weighing
 from xavi_dialogue.domain.facts import OptionValue
+from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.plans.contrast import alternatives, factual
 from xavi_dialogue.explain.causes.plans.lateness import exceeds
 from xavi_dialogue.explain.causes.plans.premise import Premise
 from xavi_dialogue.explain.causes.plans.terms import differences
+from xavi_dialogue.explain.causes.vehicles.actions import same
 from xavi_dialogue.explain.facts.plans import last_choice
 from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import Ride, Unanswered, enough, planned
+
+#: Going on, without saying which way.
+GOING = frozenset[ActionName](("continue", "go", "move", "keep-lane", "speed-up"))
 
 
 def free(ride: Ride, found: Premise) -> Premise:
@@ -113,15 +120,43 @@ def weighed(ride: Ride, found: Premise) -> tuple[OptionValue, ...]:
     return tuple(sorted(rows, key=lambda row: (-(row.value or 0.0), not row.chosen)))
 
 
-def with_rival(ride: Ride, found: Premise) -> tuple[tuple[OptionValue, ...], Weighing]:
-    """Return what a decision chose and the best of the rest, and how they compare.
+def chosen_over(
+    ride: Ride, one: Sequence[ActionName], other: Sequence[ActionName], until: float
+) -> tuple[Premise, Actions] | None:
+    """Find the last decision up to a time [s] for one of two options and against the other.
+
+    Going on stands for whatever else there was to choose. None if there was no such decision.
+    """
+    for trace in reversed(ride.traces):
+        step = planned(trace)[:1]
+        if trace.under_way is not None or trace.sim_time > until or not step:
+            continue
+        rest = [foil for foil, _ in alternatives(ride.model(trace), step[0])]
+        for fact, foil in ((one, other), (other, one)):
+            open_to = [way for way in rest if _is_meant(foil, fact, way[0])]
+            if open_to and _is_meant(fact, foil, step[0]):
+                return Premise(trace, None), open_to[0]
+    return None
+
+
+def _is_meant(names: Sequence[ActionName], beside: Sequence[ActionName], action: Action) -> bool:
+    """Check whether a name stands for an option, beside another name."""
+    if any(same(name, action) for name in names):
+        return True
+    return bool(set(names) <= GOING) and not any(same(name, action) for name in beside)
+
+
+def with_rival(
+    ride: Ride, found: Premise, named: Actions = ()
+) -> tuple[tuple[OptionValue, ...], Weighing]:
+    """Return what a decision chose, the best of the rest or the one named, and how they compare.
 
     Raises:
         Unanswered: there is too little evidence of what was chosen.
     """
     rows = weighed(ride, found)
     chosen = [row for row in rows if row.chosen]
-    others = [row for row in rows if not row.chosen]
+    others = [row for row in rows if not row.chosen and row.action in (named or (row.action,))]
     if not chosen or not others:
         return rows, "alone"
     model = ride.model(found.trace)

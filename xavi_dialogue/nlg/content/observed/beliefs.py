@@ -188,6 +188,7 @@ def _rival(
         verb=verb,
         chosen=own_verbs((chosen.action,), (rival.action,)),
         verdict=answer.rival,
+        named=answer.named,
         fatal=fatal,
         near=apart is not None and apart < NARROW,
         apart=None if apart is None or fatal else Quantity(apart, "s"),

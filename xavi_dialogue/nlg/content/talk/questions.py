@@ -23,7 +23,7 @@ from xavi_dialogue.nlg.surface.values import Clause, Moment, Owned, Tense, Who
 THINGS = get_args(Thing)
 BETTER = {"best": "better", "time": "quicker", "safety": "safer", "comfort": "smoother",
           "speed": "faster", "distance": "closer", "probability": "likelier",
-          "size": "bigger", "place": "ahead"}  # fmt: skip
+          "size": "bigger", "place": "ahead", "margin": "better"}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

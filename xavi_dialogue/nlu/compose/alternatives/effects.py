@@ -3,6 +3,7 @@
 from typing import Any, cast
 
 from xavi_dialogue.domain.meaning import (
+    Compare,
     Doing,
     HowMuch,
     HowSure,
@@ -13,6 +14,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import Ego, Event, Happens, Measured, Pronoun, Proposition
+from xavi_dialogue.nlu.compose.alternatives.nearness import between_deeds
 from xavi_dialogue.nlu.compose.alternatives.polar import Polar
 from xavi_dialogue.nlu.compose.clauses.adoption import as_of, timed
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -50,6 +52,11 @@ class Effects(Polar):
                 self.notes.taken.add(id(one))
                 found.append(Happens(deed))
         return tuple(found) if len(found) > 1 else ()
+
+    def margin(self, wh: Wh, clause: Clause) -> Question | None:
+        """Ask "how close was it, staying or changing lanes", "... between stopping and going"."""
+        deeds = self.deeds(clause) if wh.key == "close" else ()
+        return Compare(deeds, "margin") if deeds else between_deeds(clause)
 
     def effect(self, wh: Wh, clause: Clause) -> Question | None:
         """Ask "what would braking have done", "what was that stop for", "what is with it"."""

@@ -1,9 +1,9 @@
 """Nearness of options: "was it a close decision", "how close were the two options"."""
 
-from xavi_dialogue.domain.meaning import Listing
-from xavi_dialogue.domain.terms import Ego, Event
+from xavi_dialogue.domain.meaning import Compare, Listing
+from xavi_dialogue.domain.terms import Ego, Event, Happens
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.sem import Noun, Sem
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Noun, Sem
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 
 _NEAR = frozenset({"close", "narrow", "tight", "near", "hard", "difficult", "tough"})
@@ -12,16 +12,26 @@ _NEAR = frozenset({"close", "narrow", "tight", "near", "hard", "difficult", "tou
 def is_choice(sem: Sem | None) -> bool:
     """Say whether a noun phrase is of a decision of ours, or of what it could choose from."""
     if isinstance(sem, Noun):
-        return sem.key in ("option", "rival", "decision")
+        called = sem.key == "prediction" and sem.word == "call"  # "how close was that call"
+        return called or sem.key in ("option", "rival", "decision")
     return isinstance(sem, Event) and sem.action == "do" and isinstance(sem.actor, Ego)
 
 
-def how_near(clause: Clause) -> Listing | None:
-    """Ask which option came nearest to what was chosen, where it is asked how near one came."""
-    return rivals(clause) if is_choice(clause.subject) else None
+def how_near(clause: Clause) -> Listing | Compare | None:
+    """Ask which option came nearest to what was chosen, or how near the two named were."""
+    return between_deeds(clause) or (rivals(clause) if is_choice(clause.subject) else None)
 
 
-def nearly_even(clause: Clause) -> Listing | None:
+def between_deeds(clause: Clause) -> Compare | None:
+    """Ask of two deeds how near they were: "was it close between stopping and going"."""
+    for phrase in clause.complements:
+        deeds = phrase.sem.members if isinstance(phrase.sem, Group) else ()
+        if phrase.key == "between" and deeds and all(isinstance(one, Event) for one in deeds):
+            return Compare(tuple(Happens(one) for one in deeds if isinstance(one, Event)), "margin")
+    return None
+
+
+def nearly_even(clause: Clause) -> Listing | Compare | None:
     """Ask the same where it is asked whether a decision was close; None: of something else."""
     if any(key == "close" for key, _ in clause.adjectives) or "close" in clause.manner:
         return how_near(clause)

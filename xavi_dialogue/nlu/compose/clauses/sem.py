@@ -180,7 +180,7 @@ def between(sem: "Sem | None") -> tuple[Thing, Thing] | None:
     """Give the two sides of what is between others: "the bus and the van", "the two trucks"."""
     if not isinstance(sem, Group):
         return each_other(as_thing(sem))
-    things = [as_thing(member) for member in sem.members]
+    things = [None if isinstance(one, Event) else as_thing(one) for one in sem.members]
     one, other = things[0], things[-1]
     if len(things) != ALTERNATIVES or not (_is_other(one) and _is_other(other)):
         return None

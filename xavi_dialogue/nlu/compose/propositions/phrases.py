@@ -23,7 +23,7 @@ from xavi_dialogue.nlu.compose.clauses.clause import (
     is_share,
     takes_name,
 )
-from xavi_dialogue.nlu.compose.clauses.sem import Notes, Sem, SideOf
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, Sem, SideOf
 from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, node_of, number_of, words_of
 from xavi_dialogue.nlu.compose.propositions.adjuncts import CLAUSES, Adjuncts
 from xavi_dialogue.nlu.compose.propositions.tally import frequency
@@ -218,6 +218,10 @@ class Phrases(Adjuncts):
         clause.complements.append(
             Complement("between", self.nouns.read(cast(Node, node.parts[1])), node)
         )
+
+    def _on_between_deeds(self, node: Node, clause: Clause) -> None:
+        deeds = tuple(self.inner(part) for part in node.parts if isinstance(part, Node))
+        clause.complements.append(Complement("between", Group(deeds), node))
 
     def _on_stranded(self, node: Node, clause: Clause) -> None:
         leaf = cast(Leaf, node.parts[0])

@@ -4,7 +4,7 @@ from typing import Any, Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.discourse import Discourse, Span
 from xavi_dialogue.domain.meaning import (
     Compare,
     HowDecide,
@@ -28,6 +28,7 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Proposition,
     That,
+    Vehicle,
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
@@ -38,7 +39,8 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 from xavi_dialogue.nlu.grounding.context import Grounder
 
 TURNS: Final = ("turn", "exit-left", "exit-right", "exit-straight", "leave")
-_MOVES: Final = (*TURNS, "change-lane", "change-left", "change-right", "overtake")
+_CHANGING: Final = ("change-lane", "change-left", "change-right", "overtake")
+_MOVES: Final = (*TURNS, *_CHANGING)
 _STAYING: Final = ("wait", "keep-lane", "stand")
 _MISHAPS: Final = ("collide", "nearly-collide")
 _SPOKEN_OF: Final = ("it", "that", "them-all")
@@ -56,9 +58,11 @@ def followed(spoken: Question, g: Grounder) -> Question:
         case (
             Whether(that=Is(state="close", thing=Pronoun(form=form), event=None))
             | HowMuch(of=Measured(attribute="distance", thing=Pronoun(form=form), to=None))
-        ) if form in _SPOKEN_OF and _weighs(asked, pair=form == "them-all"):
+        ) if form in _SPOKEN_OF and _weighs(g.context.discourse, pair=form == "them-all"):
             g.notes.leaned = True
-            return Listing("rivals")
+            if discourse.option is None or discourse.decided is None:
+                return Listing("rivals")
+            return Compare((Happens(discourse.decided), Happens(discourse.option)), "margin")
         case Whether(that=Is(state="close", thing=Pronoun(form="them-all")) as near):
             return replace(spoken, that=replace(near, thing=Pronoun("it")))
         case HowMuch(of=Measured(attribute="delay", event=Event(action="do")) as of):
@@ -86,11 +90,14 @@ def _saved(of: Measured, g: Grounder) -> Question:
     return Listing("rivals", event=known) if chosen else HowMuch(replace(of, event=known))
 
 
-def _weighs(asked: Question | None, *, pair: bool) -> bool:
-    """Tell whether a question is about what a decision of ours weighed.
+def _weighs(discourse: Discourse, *, pair: bool) -> bool:
+    """Tell whether what was asked last is about what a decision of ours weighed.
 
-    "Between the two" is about that after a reason for it and after a supposition, too.
+    "Between the two" is about that after a reason for it and after a supposition, too; "it" after
+    the reason for what we did not do, where no vehicle was named.
     """
+    asked, last = discourse.question, discourse.turn - 1
+    named = any(m.turn == last and isinstance(m.thing, Vehicle) for m in discourse.mentions)
     match asked:
         case Listing(of="options" | "rivals" | "decisions") | HowDecide() | WhatWouldChange():
             return True
@@ -101,8 +108,9 @@ def _weighs(asked: Question | None, *, pair: bool) -> bool:
             return event is not None and event.actor == Ego() and event.action not in _MISHAPS
         case Why(of=of):
             event = first(of, Event)
-            undone = isinstance(of, Not) and event is not None and event.action in _MOVES
-            return (pair or undone) and event is not None and event.actor == Ego()
+            if event is None or event.actor != Ego():
+                return False
+            return pair or (isinstance(of, Not) and (event.action in _MOVES or not named))
     return pair and isinstance(asked, WhatIf)
 
 
@@ -117,6 +125,9 @@ def compared(spoken: Compare, options: tuple[Any, ...], g: Grounder) -> Compare:
     """Compare what was decided with the option that was told of, where only it is named."""
     _of_decision(spoken, g)
     options = tuple(_option(one, g) for one in options)
+    named = [event.action for one in options if (event := first(one, Event)) is not None]
+    if {*named} & {*_CHANGING, "change-plan"}:
+        options = tuple(_kept(one) for one in options)
     told = g.context.discourse
     if told.option is not None and told.decided is not None and options == (Happens(told.decided),):
         options = (*options, Happens(told.option))
@@ -135,6 +146,16 @@ def _option(option: Any, g: Grounder) -> Any:
         return option
     g.notes.leaned = True
     return affirmed(known)
+
+
+def _kept(option: Any) -> Any:
+    """Take "staying" beside "changing" for staying in the lane."""
+    match option:
+        case Happens(event=Event(action="wait" | "stand", actor=Ego(), object=None) as event):
+            return Happens(replace(event, action="keep-lane"))
+        case Happens(event=Event(action="change-plan") as event):  # "changing"
+            return Happens(replace(event, action="change-lane"))
+    return option
 
 
 def _decided(option: Any, g: Grounder) -> Any:

@@ -1,0 +1,64 @@
+"""Listing: the options of a decision, and by how much one was chosen before another."""
+
+from collections.abc import Sequence
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Options, Weighing
+from xavi_dialogue.domain.facts import OptionValue
+from xavi_dialogue.domain.meaning import Listing
+from xavi_dialogue.domain.terms import At, Event
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.reading import subject
+from xavi_dialogue.explain.causes.plans import options
+from xavi_dialogue.explain.causes.plans.premise import Premise, Subject, premise
+from xavi_dialogue.explain.causes.vehicles.actions import names_of
+
+
+def listed(question: Listing, scene: Asked) -> Options:
+    """List what could have been done, best first; or what was closest to what was done.
+
+    Raises:
+        Unanswered: the record lacks it, or has too little evidence.
+    """
+    ride, said = scene.ride, scene.past
+    moment = None
+    if said is not None and said.said and said.begin == said.end:
+        moment = ride.at(said.begin)
+    if question.event is not None:
+        found = options.with_choice(ride, premise(ride, subject(scene, question.event)))
+    elif moment is None:  # the time of the action discussed before, if no time is named
+        found = options.with_choice(ride, premise(ride, Subject(None, (), False, scene.span)))
+    else:
+        found = options.with_choice(ride, Premise(moment, None))
+    if question.of == "rivals":
+        return _told(scene, found, *options.with_rival(ride, found))
+    return _told(scene, found, options.weighed(ride, found))
+
+
+def margin(scene: Asked, events: Sequence[Event]) -> Options | None:
+    """Return by how much one of two options was chosen before the other; None if it never was.
+
+    Raises:
+        Unanswered: there is too little evidence of what was chosen.
+    """
+    said = scene.past is not None and scene.past.said
+    until = scene.past.end if said and scene.past is not None else scene.now
+    until = min((e.time.at for e in events if isinstance(e.time, At)), default=until)
+    one, other = names_of(events[0]), names_of(events[-1])
+    decided = options.chosen_over(scene.ride, one, other, until)
+    if decided is None:
+        return None
+    found, foil = decided
+    return replace(_told(scene, found, *options.with_rival(scene.ride, found, foil)), named=True)
+
+
+def _told(
+    scene: Asked,
+    found: Premise,
+    rows: tuple[OptionValue, ...],
+    rival: Weighing | None = None,
+) -> Options:
+    decided = found.trace.sim_time
+    earlier = decided < scene.ride.latest.sim_time
+    return Options(rows, decided, options.situations(found), earlier=earlier, rival=rival)
