@@ -42,7 +42,7 @@ def missing(unit: Node, acts: tuple[Act, ...]) -> tuple[Leaf, ...]:
     """List the telling words of a unit of which nothing is found in its acts."""
     if not acts or any(isinstance(act, _TALK) for act in acts):
         return ()
-    found = set(_atoms(acts))
+    found = set(atoms(acts))
     if Request in found:
         found.add(Quantity)  # what pace is wished for tells nothing of why it is not granted
     return tuple(leaf for leaf in _telling(unit) if not _is_in(leaf, found))
@@ -74,15 +74,15 @@ def _is_in(leaf: Leaf, found: set[Any]) -> bool:
     return leaf.key in _VAGUE or leaf.key in found
 
 
-def _atoms(value: Any) -> Iterator[Any]:
+def atoms(value: Any) -> Iterator[Any]:
     """Yield the words and numbers in a term, and the types of its parts."""
     if isinstance(value, tuple):
         for part in value:
-            yield from _atoms(part)
+            yield from atoms(part)
     elif isinstance(value, msgspec.Struct):
         yield type(value)
         for name in value.__struct_fields__:
-            yield from _atoms(getattr(value, name))
+            yield from atoms(getattr(value, name))
     elif isinstance(value, str):
         yield value
         yield from value.split()

@@ -28,7 +28,7 @@ from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
 from xavi_dialogue.nlu.honesty import is_dear, well_typed
-from xavi_dialogue.nlu.ignored import PASSED_OVER, asks_nothing, ignored
+from xavi_dialogue.nlu.ignored import PASSED_OVER, asks_nothing, idle, ignored
 from xavi_dialogue.nlu.joining.alternatives import chosen_between
 from xavi_dialogue.nlu.joining.meanwhile import at_same_time, in_its_world
 from xavi_dialogue.nlu.joining.outcomes import struck_by
@@ -72,6 +72,7 @@ EASY_ALONE = 0.62  # the same of an act that is the only one
 _ALTERNATIVES = 3
 WORD = 0.15  # cost of each word more than SHORT in a unit of which nothing is made
 SHORT = 5
+IDLE = 0.1  # cost of a word that makes no difference to the acts
 GAIN = 0.3  # what a reading by ear must be cheaper by than one that leaves words unread ...
 GAIN_OF_WHOLE = 0.8  # ... and than one that leaves none
 ENOUGH = 2  # readings, with which those that cost much more are not looked for
@@ -321,9 +322,11 @@ def _composed(
         notes = composer.notes
         lost = DROPPED * sum(id(c) not in notes.taken for c in notes.chained)
         lost += sum(max(0.0, cost) for cost in notes.inner.values())
+        inert = idle(unit, [acts for acts, _ in read], mark)
         rows = [(acts, cost + lost + sum(map(oddity, acts)), missing(unit, acts))
                 for acts, cost in read]  # fmt: skip
-        rows = [(acts, cost + LOST * len(leaves), leaves) for acts, cost, leaves in rows]
+        rows = [(acts, cost + LOST * len(leaves) + IDLE * len(idle_), (*leaves, *idle_))
+                for (acts, cost, leaves), idle_ in zip(rows, inert, strict=True)]  # fmt: skip
         rows.sort(key=lambda entry: entry[1])
         found = [_row(unit, *row, mark) for row in rows[:_ALTERNATIVES]]
         found.sort(key=lambda entry: entry[1])
