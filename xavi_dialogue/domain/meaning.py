@@ -316,7 +316,7 @@ class TokenShare(Value, frozen=True):
 
     text: str  # as typed
     read: str  # as read, spelling corrected
-    share: Literal["meaning", "grammar", "politeness", "hedge", "address", "unknown"]
+    share: Literal["meaning", "grammar", "politeness", "hedge", "address", "idle", "unknown"]
     part: str = ""  # what it stands for, for developers
     act: int | None = None  # index of the act that it belongs to; None: not known
     strange: bool = False  # it is in no vocabulary

@@ -78,7 +78,8 @@ GAIN_OF_WHOLE = 0.8  # ... and than one that leaves none
 ENOUGH = 2  # readings, with which those that cost much more are not looked for
 NEAR = 0.5
 
-Row = tuple[tuple[Act, ...], float, tuple[Leaf, ...], tuple[Node, ...]]
+#: Acts, their cost, words without a part in them, words that make no difference, clauses.
+Row = tuple[tuple[Act, ...], float, tuple[Leaf, ...], tuple[Leaf, ...], tuple[Node, ...]]
 Composed = tuple[list[Row], list[Leaf]]
 
 
@@ -269,11 +270,12 @@ class _Draft:
     units: tuple[Node, ...]
     owners: tuple[int | None, ...]
     unknown: tuple[Leaf, ...]
+    idle: tuple[Leaf, ...]
     ignored: tuple[Node, ...]
 
     def reading(self, lattice: Lattice) -> Reading:
         """Account for the words."""
-        shares = shares_of(self.units, list(self.owners), list(self.unknown), lattice)
+        shares = shares_of(self.units, list(self.owners), self.unknown, lattice, self.idle)
         unread = unread_of(self.units, list(self.owners), shares)
         cost = max(0.0, self.cost - lattice.misspelling)
         passed = tuple(words_in(clause, lattice) for clause in self.ignored)
@@ -295,7 +297,8 @@ def _along(
         owners: list[int | None] = []
         acts: list[Act] = []
         pairs = [(acts, extra) for acts, extra, *_ in combination]
-        without = [*unknown, *(leaf for _, _, leaves, _ in combination for leaf in leaves)]
+        without = [*unknown, *(leaf for _, _, leaves, *_ in combination for leaf in leaves)]
+        idle_ = tuple(leaf for *_, leaves, _ in combination for leaf in leaves)
         passed = tuple(clause for *_, clauses in combination for clause in clauses)
         rows = at_same_time(path.units, chosen_between(path.units, pairs))
         for row in in_its_world(path.units, rows):
@@ -307,7 +310,8 @@ def _along(
         loose = max(loose + len(acts), 0) if named else 0  # named first, and not taken up
         cost = path.cost + sum(extra for _, extra in pairs) + LOOSE * loose
         cost += PASSED * bool(unknown)
-        found.append(_Draft(tuple(acts), cost, path.units, tuple(owners), tuple(without), passed))
+        read = (path.units, tuple(owners), tuple(without), idle_, passed)
+        found.append(_Draft(tuple(acts), cost, *read))
     return found
 
 
@@ -323,31 +327,36 @@ def _composed(
         lost = DROPPED * sum(id(c) not in notes.taken for c in notes.chained)
         lost += sum(max(0.0, cost) for cost in notes.inner.values())
         inert = idle(unit, [acts for acts, _ in read], mark)
-        rows = [(acts, cost + lost + sum(map(oddity, acts)), missing(unit, acts))
-                for acts, cost in read]  # fmt: skip
-        rows = [(acts, cost + LOST * len(leaves) + IDLE * len(idle_), (*leaves, *idle_))
-                for (acts, cost, leaves), idle_ in zip(rows, inert, strict=True)]  # fmt: skip
+        rows = [(acts, cost + lost + sum(map(oddity, acts)), missing(unit, acts), leaves)
+                for (acts, cost), leaves in zip(read, inert, strict=True)]  # fmt: skip
+        rows = [(acts, cost + LOST * len(leaves) + IDLE * len(idle_), leaves, idle_)
+                for acts, cost, leaves, idle_ in rows]  # fmt: skip
         rows.sort(key=lambda entry: entry[1])
         found = [_row(unit, *row, mark) for row in rows[:_ALTERNATIVES]]
         found.sort(key=lambda entry: entry[1])
         if not found or is_unknown(unit, composer.notes.unknown):
-            found = [((), _unread(unit), (), ())]
+            found = [((), _unread(unit), (), (), ())]
         composed[key] = (found, composer.notes.unknown)
     return composed[key]
 
 
 def _row(
-    unit: Node, acts: tuple[Act, ...], cost: float, leaves: tuple[Leaf, ...], mark: str
-) -> Row:
+    unit: Node, acts: tuple[Act, ...], cost: float, leaves: tuple[Leaf, ...],
+    idle_: tuple[Leaf, ...], mark: str,
+) -> Row:  # fmt: skip
     """Leave out acts that cost too much or have no sense; list the clauses passed over."""
     row = () if is_dear(unit, cost) else well_typed(acts)
     acts, cost = row, cost if row or not acts else max(cost, _unread(unit))
     if (clauses := ignored(unit, acts, mark)) and asks_nothing(acts):
-        return (), _unread(unit), leaves, ()
-    return acts, cost + PASSED_OVER * len(clauses), leaves, clauses
+        return (), _unread(unit), leaves, (), ()
+    return acts, cost + PASSED_OVER * len(clauses), leaves, idle_, clauses
 
 
 def _unread(unit: Node) -> float:
     """Say what a unit costs of which nothing is made: the more, the longer it is."""
-    count = len({token for leaf in leaves_of(unit) for token in leaf.tokens})
+    return unread_cost(len({token for leaf in leaves_of(unit) for token in leaf.tokens}))
+
+
+def unread_cost(count: int) -> float:
+    """Say what so many words cost of which nothing is made."""
     return NOTHING + WORD * max(0, count - SHORT)

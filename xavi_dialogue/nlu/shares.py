@@ -1,5 +1,6 @@
 """Shares: what each word of a text contributes to a reading."""
 
+from collections.abc import Sequence
 from typing import Literal
 
 from xavi_dialogue.domain.meaning import TokenShare, Unread
@@ -8,7 +9,7 @@ from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, lexicon
 from xavi_dialogue.nlu.text.lattice import Lattice, is_strange
 
-Share = Literal["meaning", "grammar", "politeness", "hedge", "address", "unknown"]
+Share = Literal["meaning", "grammar", "politeness", "hedge", "address", "idle", "unknown"]
 
 _GRAMMAR = frozenset(
     [
@@ -52,7 +53,7 @@ _SHARES: dict[str, Share] = {
     "SKIP": "unknown", "UNK": "unknown",
 }  # fmt: skip
 _ASKING = ("ask", "polar", "about", "supposed")  # how the names of units that ask begin
-_RANK = {"unknown": 5, "meaning": 4, "politeness": 3, "address": 2, "hedge": 1, "grammar": 0}
+_RANK = {"unknown": 6, "idle": 5, "meaning": 4, "politeness": 3, "address": 2, "hedge": 1, "grammar": 0}
 
 
 def _share(leaf: Leaf) -> Share:
@@ -62,9 +63,11 @@ def _share(leaf: Leaf) -> Share:
 
 
 def shares_of(
-    units: tuple[Node, ...], owners: list[int | None], unknown: list[Leaf], lattice: Lattice
-) -> tuple[TokenShare, ...]:
+    units: tuple[Node, ...], owners: list[int | None], unknown: Sequence[Leaf], lattice: Lattice,
+    idle: Sequence[Leaf] = (),
+) -> tuple[TokenShare, ...]:  # fmt: skip
     """Account for every token; `owners` gives the first act of each unit."""
+    inert = {id(leaf) for leaf in idle}
     lost = {id(leaf) for leaf in unknown}
     found: dict[int, TokenShare] = {}
     for unit, owner in zip(units, owners, strict=True):
@@ -73,6 +76,8 @@ def shares_of(
             understood = owner is not None or share not in ("meaning",)
             if (id(leaf) in lost and share == "meaning") or not understood:
                 share = "unknown"
+            elif id(leaf) in inert:
+                share = "idle"
             for token in leaf.tokens:
                 _merge(found, token, leaf, share, owner, lattice)
     return tuple(found.get(i) or _missing(i, lattice) for i in range(len(lattice.tokens)))

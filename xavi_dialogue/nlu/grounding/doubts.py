@@ -1,7 +1,8 @@
 """Doubts: what words without a sense do to the acts of a reading.
 
 Decided by what such a word could have been: an adverb, an adjective before a noun or the noun of a
-place leaves a doubt; with any other word, nothing is left to answer.
+place leaves a doubt; with any other word, nothing is left to answer. A word that has a sense, but
+makes no difference, leaves a doubt.
 """
 
 from collections.abc import Sequence
@@ -64,7 +65,9 @@ def judge(reading: Reading) -> Doubts:
         left[len(reading.acts) - 1] = strange
     for share in kept:
         small = not share.strange and share.read in SMALL
-        if share.share == "unknown" and share.act is not None and not small:
+        if share.share == "idle":
+            left[share.act] = (*left.get(share.act, ()), share.text)
+        elif share.share == "unknown" and share.act is not None and not small:
             clause = [s for s in kept if s.act in (None, share.act)]
             index = next(i for i, other in enumerate(clause) if other is share)
             found = fatal if _is_main(clause, index) else left

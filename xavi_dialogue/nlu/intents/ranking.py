@@ -17,11 +17,13 @@ from xavi_dialogue.domain.meaning import (
     TokenShare,
 )
 from xavi_dialogue.domain.terms import Both
+from xavi_dialogue.nlu.grounding.doubts import SMALL
 from xavi_dialogue.nlu.intents.classifier import Intent, judge
 from xavi_dialogue.nlu.intents.features import asking, features
 from xavi_dialogue.nlu.intents.frames import Plain, is_of, plain
 from xavi_dialogue.nlu.intents.mentions import at_time_of, mentioned
 from xavi_dialogue.nlu.intents.signature import asking_acts
+from xavi_dialogue.nlu.parse import unread_cost
 
 CLEAR: Final = 0.75  # cost of each act up to which the grammar is trusted
 OFFERED: Final = 3  # intents of which the plain question is offered, at most
@@ -33,9 +35,10 @@ SURE: Final = 0.5  # probability from which on it need not be said how a text wa
 def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
     """Give the readings of a text and the plain questions that it may come to, likeliest first."""
     best = readings[0]
-    incomplete = bool(best.unknown or best.unread)
-    clear = not incomplete and (best.cost <= CLEAR * len(best.acts) or _of_several(best))
-    if clear or any(share.strange for share in asking(text, best.shares)):
+    asked = asking(text, best.shares)
+    incomplete = _is_incomplete(best, asked)
+    clear = not incomplete and _cost(best) <= CLEAR * len(best.acts)
+    if clear or _of_several(best) or any(share.strange for share in asked):
         return tuple(readings)
     thing = mentioned(best)
     offered = [
@@ -44,13 +47,25 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
         if intent.probability >= (LIKELY if incomplete else CERTAIN)
         and _leaves_open(best, intent, incomplete)
         and (question := plain(intent, thing)) is not None
-        and (incomplete or not (question.vague or _is_less(best.acts, question.acts)))
+        and (incomplete or not question.vague)
+        and not _is_less(best.acts, question.acts)
         and _counts(best.acts) <= _counts(question.acts)
     ]
     found = [_reading(best, [pair]) for pair in offered]
     if len(offered) > 1:
         found.append(_reading(best, offered[:2]))
     return tuple(sorted([*readings, *found], key=lambda reading: reading.cost))
+
+
+def _is_incomplete(best: Reading, asked: Sequence[TokenShare]) -> bool:
+    """Tell whether words of what is asked are unread, whatever is told beside it."""
+    lost = any(share.share == "unknown" and share.read not in SMALL for share in asked)
+    return lost or any(unread.asks for unread in best.unread) or not best.acts
+
+
+def _cost(best: Reading) -> float:
+    """Give what a reading costs without what is told beside and was not read."""
+    return best.cost - sum(unread_cost(len(one.words)) for one in best.unread if not one.asks)
 
 
 def _of_several(best: Reading) -> bool:
