@@ -2,8 +2,9 @@
 
 import pytest
 
-from xavi_dialogue.domain.meaning import Ask, HowSure, Reading, Whether
-from xavi_dialogue.domain.terms import Both, Compares, Happens
+from xavi_dialogue.domain.meaning import Ask, HowMuch, HowSure, Reading, Whether
+from xavi_dialogue.domain.terms import Both, Compares, Happens, Measured, Pronoun
+from xavi_dialogue.nlu.grounding.doubts import judge
 from xavi_dialogue.nlu.interpret import interpret
 from xavi_dialogue.nlu.parse import Parser
 
@@ -90,3 +91,37 @@ def test_staying_behind_is_behind_whom_is_overtaken() -> None:
     of = asked.question.that
     assert isinstance(of, Both)
     assert all(isinstance(one, Happens) and one.event.object is not None for one in of.contents)
+
+
+@pytest.mark.parametrize(
+    ("text", "idle"),
+    [
+        ("How long till we are in the village?", "village"),
+        ("Which vehicle came closest to us on this stretch?", "stretch"),
+    ],
+)
+def test_a_word_that_makes_no_difference_is_owned_up_to(text: str, idle: str) -> None:
+    reading = _best(text)
+    assert [share.text for share in reading.shares if share.share == "idle"] == [idle]
+    assert judge(reading).leaves(0) == (idle,)
+
+
+def test_one_of_several_names_without_a_part_is_unknown() -> None:
+    assert "van" in _best("And was that down to the light or the van?").unknown
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "why did we swap sides",
+        "did you bring the speed down?",
+        "why did you bail out of the overtake?",
+    ],
+)
+def test_a_word_that_chooses_the_sense_of_a_verb_has_a_part(text: str) -> None:
+    assert not [s for s in _best(text).shares if s.share in ("idle", "unknown")]
+
+
+def test_a_question_that_is_read_is_not_given_up_for_what_is_told_beside_it() -> None:
+    asked = interpret("Told you. Now we're stuck behind it. How fast is it even going?")[0].acts[-1]
+    assert asked == Ask(HowMuch(Measured("speed", Pronoun("it"))))

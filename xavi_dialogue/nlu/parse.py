@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import islice, product
 
-from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading, Unread
+from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading
 from xavi_dialogue.nlu.compose.acts import NOTHING, Composer
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.evidence import LOST, missing
@@ -28,7 +28,8 @@ from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
 from xavi_dialogue.nlu.honesty import is_dear, well_typed
-from xavi_dialogue.nlu.ignored import PASSED_OVER, asks_nothing, idle, ignored
+from xavi_dialogue.nlu.idle import idle
+from xavi_dialogue.nlu.ignored import PASSED_OVER, asks_nothing, ignored
 from xavi_dialogue.nlu.joining.alternatives import chosen_between
 from xavi_dialogue.nlu.joining.meanwhile import at_same_time, in_its_world
 from xavi_dialogue.nlu.joining.outcomes import struck_by
@@ -48,6 +49,7 @@ from xavi_dialogue.nlu.shares import is_unknown, shares_of, unknown_shares, unre
 from xavi_dialogue.nlu.text.languages import is_foreign
 from xavi_dialogue.nlu.text.lattice import HEARD, Lattice, build
 from xavi_dialogue.nlu.text.tokens import Typed, tokenise
+from xavi_dialogue.nlu.unread import OPENERS, unread_cost, unreadable
 
 MAX_STEPS = 6_500  # of a sentence
 MOST_STEPS = 9_000  # of a text
@@ -64,15 +66,10 @@ FOREIGN = 0.5  # cost of taking a text for another language
 LOOSE = 1.5  # cost of a topic that no clause takes up
 PASSED = 0.25  # cost of words that are passed over
 STORY = 1.0  # cost of a story before the question
-_OPENERS = frozenset(
-    ["so", "but", "why", "what", "how", "can", "could", "would", "tell", "explain", "when"]
-)
 EASY = 0.42  # cost of an act up to which a reading is taken as it is
 EASY_ALONE = 0.62  # the same of an act that is the only one
 _ALTERNATIVES = 3
-WORD = 0.15  # cost of each word more than SHORT in a unit of which nothing is made
-SHORT = 5
-IDLE = 0.1  # cost of a word that makes no difference to the acts
+IDLE = 0.03  # cost of a word that makes no difference to the acts
 GAIN = 0.3  # what a reading by ear must be cheaper by than one that leaves words unread ...
 GAIN_OF_WHOLE = 0.8  # ... and than one that leaves none
 ENOUGH = 2  # readings, with which those that cost much more are not looked for
@@ -201,19 +198,12 @@ def _asks(readings: list[Reading]) -> bool:
     return cheap and len(best.unknown) <= FEW * len(best.shares)
 
 
-def unreadable(typed: Typed) -> Reading:
-    """Give the reading of a stretch of which nothing can be made."""
-    words = tuple(token.text for token in typed.tokens)
-    asks = typed.end == "?" or words[0] in _OPENERS
-    return Reading((), unknown_shares(words), NOTHING, (Unread(words, asks),))
-
-
 def _ending(typed: Typed, budget: Budget) -> list[Reading]:
     """Read the end of a long story by itself; what leads up to it is not understood."""
     tokens = typed.tokens
     starts = [
         index for index, token in enumerate(tokens)
-        if index and index >= len(tokens) - REACH and (token.mark or token.text in _OPENERS)
+        if index and index >= len(tokens) - REACH and (token.mark or token.text in OPENERS)
     ]  # fmt: skip
     known = lexicon()
     for start in starts[:TRIES]:
@@ -327,8 +317,9 @@ def _composed(
         lost = DROPPED * sum(id(c) not in notes.taken for c in notes.chained)
         lost += sum(max(0.0, cost) for cost in notes.inner.values())
         inert = idle(unit, [acts for acts, _ in read], mark)
-        rows = [(acts, cost + lost + sum(map(oddity, acts)), missing(unit, acts), leaves)
-                for (acts, cost), leaves in zip(read, inert, strict=True)]  # fmt: skip
+        rows = [(acts, cost + lost + sum(map(oddity, acts)),
+                 tuple(dict.fromkeys((*missing(unit, acts), *core))), beside)
+                for (acts, cost), (core, beside) in zip(read, inert, strict=True)]  # fmt: skip
         rows = [(acts, cost + LOST * len(leaves) + IDLE * len(idle_), leaves, idle_)
                 for acts, cost, leaves, idle_ in rows]  # fmt: skip
         rows.sort(key=lambda entry: entry[1])
@@ -349,14 +340,10 @@ def _row(
     acts, cost = row, cost if row or not acts else max(cost, _unread(unit))
     if (clauses := ignored(unit, acts, mark)) and asks_nothing(acts):
         return (), _unread(unit), leaves, (), ()
+    idle_ = tuple(leaf for leaf in idle_ if not any(leaf in c.leaves for c in clauses))
     return acts, cost + PASSED_OVER * len(clauses), leaves, idle_, clauses
 
 
 def _unread(unit: Node) -> float:
     """Say what a unit costs of which nothing is made: the more, the longer it is."""
     return unread_cost(len({token for leaf in leaves_of(unit) for token in leaf.tokens}))
-
-
-def unread_cost(count: int) -> float:
-    """Say what so many words cost of which nothing is made."""
-    return NOTHING + WORD * max(0, count - SHORT)

@@ -53,7 +53,15 @@ _SHARES: dict[str, Share] = {
     "SKIP": "unknown", "UNK": "unknown",
 }  # fmt: skip
 _ASKING = ("ask", "polar", "about", "supposed")  # how the names of units that ask begin
-_RANK = {"unknown": 6, "idle": 5, "meaning": 4, "politeness": 3, "address": 2, "hedge": 1, "grammar": 0}
+_RANK = {
+    "unknown": 6,
+    "idle": 5,
+    "meaning": 4,
+    "politeness": 3,
+    "address": 2,
+    "hedge": 1,
+    "grammar": 0,
+}
 
 
 def _share(leaf: Leaf) -> Share:

@@ -23,7 +23,7 @@ from xavi_dialogue.nlu.intents.features import asking, features
 from xavi_dialogue.nlu.intents.frames import Plain, is_of, plain
 from xavi_dialogue.nlu.intents.mentions import at_time_of, mentioned
 from xavi_dialogue.nlu.intents.signature import asking_acts
-from xavi_dialogue.nlu.parse import unread_cost
+from xavi_dialogue.nlu.unread import unread_cost
 
 CLEAR: Final = 0.75  # cost of each act up to which the grammar is trusted
 OFFERED: Final = 3  # intents of which the plain question is offered, at most
