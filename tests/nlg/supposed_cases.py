@@ -147,4 +147,7 @@ CASES: tuple[Answer, ...] = (
     SupposedOfOther(2, STOPS, None, LATER.fact, LATER.fact, True, left_out=(1,)),
     SupposedOfOther(2, STOPS, None, LATER.fact, LATER.fact, True, within=LATER),
     SupposedOfOther(2, None, None, LATER.fact, LATER.fact, True, within=LATER, past=False),
+    SupposedOfUs(RISKIER, form="dangerous", past=False),
+    SupposedOfUs(replace(RISKY, collision=0.9), form="dangerous", past=False),
+    SupposedOfUs(LATER, form="dangerous", past=False),
 )

@@ -144,9 +144,9 @@ def test_going_faster_or_earlier_is_asked_of_what_held_us_up(setting: Setting) -
 def test_going_on_instead_of_a_stop_is_the_best_alternative_to_it(setting: Setting) -> None:
     stops = (plan(NOW, "stop", "continue"),)
     begun = (Recorded("action-started", 19.0, "stop", 19),)
-    found = of_us(Event("go", tense="present"), traces=stops, events=begun)
+    found = of_us(Event("go", tense="perfect"), traces=stops, events=begun)
     assert isinstance(found, SupposedOfUs)
-    assert setting.events == [Event("stop", tense="present")]
+    assert setting.events == [Event("stop", tense="perfect")]
     fast = of_us(Event("go", manner=("fast",)), traces=stops)
     assert fast.by == "hastened"
     for side in (Event("go", side="left"), Event("go", object=ONE)):
@@ -155,6 +155,36 @@ def test_going_on_instead_of_a_stop_is_the_best_alternative_to_it(setting: Setti
     later = (plan(NOW, "continue", "stop"),)
     assert of_us(Event("go"), traces=later).by == "hastened"
     assert of_us(Event("go"), traces=()).by == "hastened"
+
+
+def test_going_on_now_is_told_by_the_decision_in_force(
+    setting: Setting, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(
+        own, "natural", lambda ride, trace, *node: replace(NOTHING, decided=trace.sim_time)
+    )
+    stops = (plan(NOW - 1.0, "stop", "continue"), plan(NOW, "stop", "continue"))
+    begun = (Recorded("action-started", 19.0, "stop", 19),)
+    for tense in ("present", "past"):  # "if we go on now", "if we went on"
+        for span in (None, Span(NOW, NOW, said=True)):
+            found = of_us(Event("go", tense=tense), span, traces=stops, events=begun)  # type: ignore[arg-type]
+            assert (found.contrast.decided, found.past) == (NOW, False)
+    assert setting.events == []
+    of_us(
+        Event("go", tense="past"), Span(NOW - 1.0, NOW - 1.0, said=True), traces=stops, events=begun
+    )
+    assert setting.events == [Event("stop", tense="past")]
+
+
+def test_what_we_do_once_we_may_go_is_asked_of_going_now(setting: Setting) -> None:
+    setting.against = Did(TURN, PLANNED, Premise(plan(9.0), None))
+    stands = (deed("stand", 15.0, None),)
+    for form in ("what-if", "chance", "dangerous"):
+        found = of_us(TURN, form=form, deeds=stands)
+        assert (found.by, found.args[0]) == ("hastened", Event("go", tense="present"))
+        assert found.args[2:] == (form, 1)
+    for event in (Event("stop", tense="present"), replace(TURN, tense="perfect")):
+        assert isinstance(of_us(event, deeds=stands), SupposedOfUs)
 
 
 def test_a_collision_that_is_supposed_is_told_by_how_close_it_is(setting: Setting) -> None:

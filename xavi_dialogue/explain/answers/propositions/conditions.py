@@ -1,12 +1,11 @@
 """Conditions: whether a thing or an event is safe, free, over, fast, close, possible, ..."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 
 from msgspec.structs import replace as with_fields
 
 from xavi_dialogue.domain.answers import Answer, Measures, NotApplicable
-from xavi_dialogue.domain.facts import Episode, Fact, Gap
+from xavi_dialogue.domain.facts import Fact, Gap
 from xavi_dialogue.domain.meaning import Fault, HowSure, Question, Why
 from xavi_dialogue.domain.meaning import Whether as WhetherQuestion
 from xavi_dialogue.domain.reasons import Asking
@@ -21,7 +20,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     Wanted,
 )
-from xavi_dialogue.domain.vocabulary import ActionName, State
+from xavi_dialogue.domain.vocabulary import State
 from xavi_dialogue.explain.answers import causal
 from xavi_dialogue.explain.answers.events.stages import actor, late, over, still, stuck
 from xavi_dialogue.explain.answers.expectations.foreseen import macros
@@ -30,7 +29,6 @@ from xavi_dialogue.explain.answers.measuring.limits import fast, within_limit
 from xavi_dialogue.explain.answers.propositions.duties import blamed
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
-from xavi_dialogue.explain.answers.reference.foils import MANOEUVRES
 from xavi_dialogue.explain.answers.reference.moments import (
     RECENT,
     Window,
@@ -52,9 +50,9 @@ from xavi_dialogue.explain.answers.ride.places import to_go
 from xavi_dialogue.explain.answers.ride.priority import lawful, owed, right_of_way, where_rule_holds
 from xavi_dialogue.explain.answers.sight.room import free
 from xavi_dialogue.explain.answers.sight.sight import busy, minded
-from xavi_dialogue.explain.answers.suppositions.own_suppositions import GOING, of_us
+from xavi_dialogue.explain.answers.suppositions.own_suppositions import of_us
+from xavi_dialogue.explain.answers.suppositions.undone import HINDERED, held, is_undone, of_now
 from xavi_dialogue.explain.causes.plans.options import options_at
-from xavi_dialogue.explain.causes.vehicles.actions import names_of
 from xavi_dialogue.explain.history.thresholds import STANDING
 
 NEAR_GAP = 2.0  # [s] headway below which a vehicle is close
@@ -63,9 +61,6 @@ HUGGING = 1.0  # [m] distance below which one that we stand behind is too close
 BIG = 7.0  # [m] minimum length of a big vehicle
 #: Actions that never stop: a question how they feel is about the ride.
 GOING_ON = ("follow", "keep-lane", "continue", "move", "stand", "wait")
-#: Actions of ours because of a hindrance, in the order in which people notice them.
-HINDERED: tuple[ActionName, ...] = ("stand", "stop", "brake", "slow-down", "wait", "give-way")
-JUST = 0.3  # [s] for which an action still counts as going on after its end
 LATELY = 6.0  # [s] for which an action can still be what "that" refers to
 RIGHT_OF_WAY = (
     "enter",
@@ -109,14 +104,14 @@ def _safe(of: Is, asked: Asked) -> Finding:
     if of.state == "roomy" and isinstance(of.thing, Lane):
         return free(of, asked)
     if of.event is not None and of.tense == "present" and is_us(of.event.actor):
-        asked = _as_asked(of.event, asked)
+        asked = of_now(of.event, asked)
     how: How = "room" if of.state == "roomy" else "safe" if of.state == "safe" else "dangerous"
     past = is_past(asked, of.time, of.tense) and not is_ahead(asked, of.time, of.tense)
     if of.event is not None and past:
         if not isinstance(of.event.object, Wanted | Vehicles) and not occasions(asked, of.event):
             raise did_not_happen(asked, of.event)
-    elif of.event is not None and _is_option(of.event, asked):
-        form: Asking = "safe" if of.state == "safe" else "crash"
+    elif of.event is not None and is_undone(of.event, asked):
+        form: Asking = "safe" if of.state == "safe" else "dangerous"
         return Finding(None, answer=of_us(of.event, asked, form))
     other = number(of.thing)
     if other is None and of.event is not None:
@@ -125,27 +120,6 @@ def _safe(of: Is, asked: Asked) -> Finding:
     if past and other is None and of.event is None and not about.said:
         about = with_somebody(asked, about)
     return Finding(None, answer=closeness(asked, other, about, how, past=past))
-
-
-def _is_option(event: Event, asked: Asked) -> bool:
-    """Check whether we could do something now that we are not doing."""
-    if not is_us(event.actor):
-        return False
-    if event.action in GOING:
-        return any(e.action in ("stand", "wait", "stop") for e in _held(asked))
-    return bool(set(names_of(event)) & MANOEUVRES) and occasion(asked, event) is None
-
-
-def _as_asked(event: Event, asked: Asked) -> Asked:
-    """Return the setting with the present as its time, for what we might do now."""
-    now = event.tense in ("present", "future") and not _is_told(asked)
-    return replace(asked, span=None) if now else asked
-
-
-def _held(asked: Asked) -> list[Episode]:
-    """List what hinders us now."""
-    found = asked.world.episodes(actor=Ego(), actions=HINDERED, begin=asked.now - JUST)
-    return [e for e in found if e.end is None or e.end >= asked.now - JUST]
 
 
 def _comfortable(of: Is, asked: Asked) -> Finding:
@@ -205,7 +179,7 @@ def _amiss(of: Is, asked: Asked) -> Finding:
     """Return what hinders us now, or that nothing does, if the question is whether all is well."""
     if of.thing is not None or of.event is not None:
         return wrong(of, asked)
-    plainest = min((e.action for e in _held(asked)), key=HINDERED.index, default=None)
+    plainest = min((e.action for e in held(asked)), key=HINDERED.index, default=None)
     why = None if plainest is None else Why(Happens(Event(plainest, tense="present")))
     answer = None if why is None else handed(why, asked)
     if answer is None:

@@ -48,10 +48,15 @@ from xavi_dialogue.explain.answers.reference.reading import (
 )
 from xavi_dialogue.explain.answers.suppositions import reacting
 from xavi_dialogue.explain.answers.suppositions.hastening import hastened, past_red
+from xavi_dialogue.explain.answers.suppositions.undone import (
+    GOING,
+    is_halted,
+    is_present,
+)
 from xavi_dialogue.explain.causes.driving.blocking import blocking
 from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.plans.contrast import alone, factual
-from xavi_dialogue.explain.causes.plans.natural import STAYING, natural
+from xavi_dialogue.explain.causes.plans.natural import DIRECTIONS, STAYING, natural
 from xavi_dialogue.explain.causes.plans.premise import happened, manoeuvre
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, DRIVING, names_of
 from xavi_dialogue.explain.history.nearing import speed_at
@@ -63,7 +68,6 @@ ABOUT = 1.5  # maximum factor between a time and what the question says about it
 LATELY = 12.0  # [s] maximum age of a braking that may be meant
 PAST = frozenset[ActionName](("overtake", "pass", "avoid"))
 SQUEEZING = frozenset[ActionName](("cut-in", "merge", "pull-out", "pass"))
-GOING = frozenset[ActionName](("go", "move", "enter", "cross", "speed-up", "continue"))
 
 
 def form_of(then: Question | None) -> Asking:
@@ -217,7 +221,9 @@ def of_us(
     try:
         tried = against(event, scene)
     except Did as did:
-        if form == "crash":
+        if set(names_of(event)) & set(DIRECTIONS) and is_present(event, scene) and is_halted(scene):
+            return hastened(Event("go", tense="present"), scene, form, struck)  # not waiting
+        if form in ("crash", "dangerous"):
             return closeness(scene, struck, Window(scene.now, scene.now), "hit", past=False)
         if form == "chance":
             collide = Event("collide", object=None if struck is None else Vehicle(struck))
@@ -319,12 +325,14 @@ def undone(event: Event, scene: Asked, form: Asking, struck: int | None) -> Answ
     names = names_of(event)
     if form == "what-if" and (red := past_red(event, scene)) is not None:
         return red
-    if happened(scene.ride, names, scene.span) is None and set(names) & DRIVING:
-        trace = scene.ride.at(scene.moment)
-        if event.action == "stop" and trace is not None and _stopped(scene):  # chosen, not begun
-            found = natural(scene.ride, trace, ())
-            over = scene.past is not None
-            return SupposedOfUs(found, past=over, form=form, arrival=arrival(scene, found))
+    present = is_present(event, scene)
+    trace = scene.ride.at(scene.now if present else scene.moment)
+    begun = happened(scene.ride, names, scene.span) is not None or not set(names) & DRIVING
+    chosen = event.action == "stop" and trace is not None and "stop" in planned(trace)[:1]
+    if chosen and trace is not None and (present or not begun):
+        found = natural(scene.ride, trace, ())
+        return SupposedOfUs(found, past=not present, form=form, arrival=arrival(scene, found))
+    if not begun:
         return hastened(event, scene, form, struck)  # it was not a choice of its own
     try:
         reason = choices.why(event, scene)

@@ -13,6 +13,7 @@ from xavi_dialogue.explain.answers.measuring.closeness import closeness
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import Window
 from xavi_dialogue.explain.answers.suppositions import supposing
+from xavi_dialogue.explain.answers.suppositions.undone import is_present
 from xavi_dialogue.explain.causes.plans.options import of_trace, situations
 from xavi_dialogue.explain.causes.plans.premise import Premise
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
@@ -55,7 +56,7 @@ def _struck_by(question: WhatIf, asked: Asked) -> Options | None:
             pass
         case _:
             return None
-    trace = asked.ride.at(asked.moment)
+    trace = asked.ride.at(asked.now if is_present(event, asked) else asked.moment)
     if trace is None:
         return None
     names = set(names_of(event)) | (ONWARD if event.action in ONWARD else set())

@@ -22,7 +22,7 @@ from xavi_dialogue.explain.answers.measuring.durations import halted
 from xavi_dialogue.explain.answers.reasons import choices, motions
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import event_of, subject
-from xavi_dialogue.explain.answers.suppositions.own_suppositions import GOING
+from xavi_dialogue.explain.answers.suppositions.undone import GOING
 from xavi_dialogue.explain.causes.driving.driving import reasons_for
 from xavi_dialogue.explain.causes.driving.suppositions import (
     Supposed,

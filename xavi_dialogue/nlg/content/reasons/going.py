@@ -85,6 +85,7 @@ def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
     ahead = None
     if answer.ours is not None and answer.theirs is not None:
         ahead = answer.theirs - answer.ours
+    form = "crash" if answer.form == "dangerous" else answer.form
     slots: dict[str, object] = {
         "who": None if not vehicle else Who(Vehicle(vehicle), time),
         "kind": None if cause is None else cause.kind,
@@ -98,7 +99,7 @@ def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
         "past": answer.past,
         "right": answer.right,
         "through": answer.through,
-        "form": "what-if" if answer.red and answer.form == "crash" else answer.form,
+        "form": "what-if" if answer.red and form == "crash" else form,
     }
     timed = answer.form in ("arrival", "quicker")
     if timed and answer.saved is not None and answer.arrival is not None:

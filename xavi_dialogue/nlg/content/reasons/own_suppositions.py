@@ -30,7 +30,7 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Moment, Who
 
 #: Questions that are about risks themselves.
-OF_RISKS = frozenset[Asking](("crash", "chance", "safe", "safer", "riskier"))
+OF_RISKS = frozenset[Asking](("crash", "chance", "safe", "safer", "riskier", "dangerous"))
 TIMED = frozenset[Asking](("arrival", "could", "quicker", "slower"))  # those that are about times
 SAFER = 0.01  # minimum difference in the probability of a collision that makes something safer
 ALIKE = 0.1  # maximum difference of probabilities of two outcomes that are stated as one

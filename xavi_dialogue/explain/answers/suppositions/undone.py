@@ -1,0 +1,58 @@
+"""Undone: what we could do now, but do not, and by which decision it is judged."""
+
+from dataclasses import replace
+
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Ego, Event
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.foils import MANOEUVRES
+from xavi_dialogue.explain.answers.reference.naming import is_us
+from xavi_dialogue.explain.answers.reference.occasions import occasion
+from xavi_dialogue.explain.causes.vehicles.actions import names_of
+from xavi_dialogue.explain.causes.vehicles.when import ROUNDING
+from xavi_dialogue.explain.history.ride import planned
+
+GOING = frozenset[ActionName](("go", "move", "enter", "cross", "speed-up", "continue"))
+#: Actions of ours because of a hindrance, in the order in which people notice them.
+HINDERED: tuple[ActionName, ...] = ("stand", "stop", "brake", "slow-down", "wait", "give-way")
+HALTED = frozenset[ActionName](("stand", "wait", "stop"))
+JUST = 0.3  # [s] for which an action still counts as going on after its end
+
+
+def is_undone(event: Event, asked: Asked) -> bool:
+    """Check whether we could do something now that we are not doing."""
+    if not is_us(event.actor):
+        return False
+    if event.action in GOING:
+        return is_halted(asked) or stops(asked)
+    return bool(set(names_of(event)) & MANOEUVRES) and occasion(asked, event) is None
+
+
+def of_now(event: Event, asked: Asked) -> Asked:
+    """Return the setting with the present as its time, for what we might do now."""
+    told = asked.past is not None and asked.past.said
+    now = event.tense in ("present", "future") and not told
+    return replace(asked, span=None) if now else asked
+
+
+def is_present(event: Event, asked: Asked) -> bool:
+    """Check whether what is supposed of us is of now: "if you drove on", "if we go now"."""
+    past = asked.past
+    return event.tense != "perfect" and (past is None or past.begin >= asked.now - ROUNDING)
+
+
+def stops(asked: Asked) -> bool:
+    """Check whether the decision in force is to stop."""
+    return bool(asked.ride.traces) and "stop" in planned(asked.ride.latest)[:1]
+
+
+def is_halted(asked: Asked) -> bool:
+    """Check whether we stand or wait now."""
+    return any(e.action in HALTED for e in held(asked))
+
+
+def held(asked: Asked) -> list[Episode]:
+    """List what hinders us now."""
+    found = asked.world.episodes(actor=Ego(), actions=HINDERED, begin=asked.now - JUST)
+    return [e for e in found if e.end is None or e.end >= asked.now - JUST]
