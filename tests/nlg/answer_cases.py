@@ -117,6 +117,23 @@ CASES: tuple[Answer, ...] = (
         believed=(EXPECTED,),
         mistaken=True,
     ),
+    Verdict(
+        Is("wrong", E, tense="perfect"),
+        True,
+        (Episode(V, "continue", 10.0, 12.0), Episode(W, "exit-left", 14.0, 15.0)),
+        believed=(EXPECTED, Belief(2, 13.0, (Expectation(("exit-right",), 0.6),))),
+        mistaken=True,
+    ),
+    Verdict(
+        Is("wrong", E, tense="perfect"),
+        True,
+        (Episode(V, "continue", 4.0), *(Episode(W, "exit-left", t, t + 1.0) for t in (9.0, 14.0))),
+        believed=(
+            EXPECTED,
+            *(Belief(2, t, (Expectation(("exit-right",), 0.6),)) for t in (8.0, 13.0)),
+        ),
+        mistaken=True,
+    ),
     Verdict(TURN, True, (Episode(V, "turn", 10.0, 12.0, side="right"),), claim=True),
     Verdict(TURN, False, (Episode(V, "continue", 10.0, 12.0),), claim=True),
     Verdict(TURN, None, gap="out-of-view", claim=True),

@@ -85,11 +85,37 @@ def test_another_road_is_no_lane_of_ours_and_no_road_tells_nothing() -> None:
     lane = Is("free", Lane("own"))
     asked = Given(looks={1: look(1)}, road=RoadFacts(places)).asked()
     assert free(lane, asked).holds is True
-    assert free(Is("free"), asked).holds is True
     assert free(lane, Given(looks={2: look(2)}, road=RoadFacts(places)).asked()).holds is True
     for road in (None, RoadFacts({1: place()})):
         found = free(lane, Given(looks={1: look(1)}, road=road).asked())
         assert (found.holds, found.gap) == (None, "not-recorded")
+
+
+@pytest.mark.parametrize(
+    ("seen", "clear"),
+    [
+        ({}, False),
+        ({"distance": 30.0}, False),
+        ({"distance": 30.1}, True),
+        ({"oncoming": True}, True),
+        ({"bearing": "behind"}, True),
+        ({"bearing": "ahead-left"}, True),
+        ({"bearing": "crossing-left"}, False),
+        ({"bearing": "crossing-right", "speed": 0.0}, True),
+        ({"bearing": "crossing-right", "ahead": -1.0}, True),
+    ],
+)
+def test_our_road_is_clear_of_those_close_ahead_of_us_or_crossing(seen: Any, clear: bool) -> None:
+    known = RoadFacts({0: place(lane=None)})
+    found = free(Is("free"), Given(looks={1: look(1, **seen)}, road=known).asked())
+    assert (found.holds, len(found.facts)) == (clear, not clear)
+
+
+def test_our_road_is_not_clear_of_who_holds_us_up() -> None:
+    held = {("in-the-way-of", Vehicle(1), Ego()): True}
+    seen = {1: look(1, bearing="left", distance=40.0)}
+    given = Given(looks=seen, road=RoadFacts({0: place()}), relations=held)
+    assert [f.vehicle for f in free(Is("free"), given.asked()).facts] == [1]
 
 
 def test_room_is_told_of_the_time_asked_about() -> None:

@@ -62,6 +62,8 @@ def test_behind_a_slower_leader_less_is_left() -> None:
         (straight(-30.0, 3.5, 10.0), "behind"),
         (straight(30.0, 3.5, 10.0), "apart"),
         (straight(2.0, 3.5, 10.0), "apart"),
+        (straight(60.0, 3.5, 10.0, heading=math.pi), "apart"),
+        (straight(60.0, 0.5, 10.0, heading=math.pi), "apart"),
     ],
 )
 def test_who_is_behind_or_keeps_to_another_lane_is_not_in_our_way(other: Path_, kind: str) -> None:

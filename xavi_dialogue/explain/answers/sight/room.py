@@ -2,7 +2,8 @@
 
 from planner.record.places import RoadPlace
 from sim.scene import EGO
-from xavi_dialogue.domain.terms import Ego, Is, Lane
+from xavi_dialogue.domain.facts import Look
+from xavi_dialogue.domain.terms import Ego, Is, Lane, Vehicle
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.reference.moments import instant
@@ -12,9 +13,11 @@ FREE = (15.0, 30.0)  # [m] behind and ahead of us, where nobody is in a free lan
 
 
 def free(of: Is, asked: Asked) -> Finding:
-    """Weigh that there is room in a lane beside us, or nobody ahead in ours."""
+    """Weigh that there is room in a lane beside us, or that our road ahead is clear."""
     at = instant(asked, of.time, of.tense)
-    lane = of.thing.which if isinstance(of.thing, Lane) else "own"
+    if not isinstance(of.thing, Lane):
+        return _clear(asked, at)
+    lane = of.thing.which
     road = asked.world.road(at)
     seen = looks(asked, asked.world.in_view(at), at)
     if road is None or EGO not in road.places:
@@ -33,6 +36,26 @@ def free(of: Is, asked: Asked) -> Finding:
     ]
     nearest = sorted(there, key=lambda look: look.distance)
     return Finding(not there, tuple(nearest))
+
+
+def _clear(asked: Asked, at: float) -> Finding:
+    """Weigh that nobody is close ahead of us on our way, and nobody holds us up."""
+    if asked.world.road(at) is None:
+        return unknown("not-recorded")
+    there = [
+        look
+        for look in looks(asked, asked.world.in_view(at), at)
+        if (_on_our_way(look) and look.distance <= FREE[1])
+        or asked.world.relation("in-the-way-of", Vehicle(look.vehicle), Ego(), at)
+    ]
+    return Finding(not there, tuple(sorted(there, key=lambda look: look.distance)))
+
+
+def _on_our_way(look: Look) -> bool:
+    """Check whether somebody drives ahead of us, or is about to cross our way."""
+    return (look.bearing == "ahead" and not look.oncoming) or (
+        look.bearing.startswith("crossing") and look.ahead > 0.0 and look.speed > 0.0
+    )
 
 
 def _lane(own: RoadPlace, which: str) -> int | None:

@@ -54,7 +54,8 @@ def stopping(states: States, vehicle: int, time: float, *, in_lane: bool) -> Sto
     line = following(states, EGO, vehicle, time)
     if line is not None and line.behind == EGO:
         return _behind(speed, other.speed, line.gap)
-    if in_lane and seen.same_way and abs(seen.left) > SAME_LANE:
+    aside = seen.same_way and abs(seen.left) > SAME_LANE
+    if in_lane and (aside or seen.opposite):
         return Stopping("apart", speed)
     if abs(seen.ahead) <= seen.clear and seen.same_way:
         return Stopping("beside", speed)

@@ -36,6 +36,7 @@ from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.propositions import PLACES, clause_of, eventful, two_times
 from xavi_dialogue.nlg.content.clauses.tenses import PRESENT
 from xavi_dialogue.nlg.content.observed.borne_out import bare, telling, tells_it, within_limit
+from xavi_dialogue.nlg.content.observed.people import times
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.quantities import number
@@ -47,6 +48,7 @@ CERTAIN = 0.95  # minimum probability of a plan that is stated as certain
 LIKELY = 0.5  # minimum probability of an event whose time is stated
 AT_ONCE = 1.0  # [s] maximum time of what comes at once
 IN_ONE = 2  # maximum of facts in the sentence of the verdict
+ADMITTED = 2  # maximum number of errors of which it is told what happened
 
 
 def plan_verdict(answer: Verdict, context: SpeechContext) -> Plan:
@@ -244,6 +246,9 @@ def denied(clause: Clause) -> Clause:
 
 def _mistaken(answer: Verdict, context: SpeechContext) -> Plan:
     """Plan how the car admits an error: what it expected, and what happened."""
+    pairs = tuple(zip(answer.believed, answer.facts, strict=False))
+    if len(pairs) > 1 and len(answer.believed) == len(answer.facts):
+        return _often_mistaken(answer, context)
     went = next((f for f in answer.facts if isinstance(f, Episode)), None)
     belief = answer.believed[0] if answer.believed else None
     slots: dict[str, object] = {"claim": answer.claim or answer.challenge, "yes": answer.holds}
@@ -253,6 +258,25 @@ def _mistaken(answer: Verdict, context: SpeechContext) -> Plan:
         slots["went"] = episode_message(went, context, tense="past")
     others = tuple(fact_message(f, context) for f in answer.facts if f is not went)
     return Plan((message("MISTAKEN", **slots),), others)
+
+
+def _often_mistaken(answer: Verdict, context: SpeechContext) -> Plan:
+    """Plan how the car admits several errors: the latest ones, each with what happened."""
+    latest = tuple(zip(answer.believed, answer.facts, strict=True))[-ADMITTED:]
+    claim = answer.claim or answer.challenge
+    often = times(len(answer.believed))
+    lead = message("MISTAKEN_OFTEN", claim=claim, yes=answer.holds, times=often,
+                   more=len(answer.believed) > ADMITTED)  # fmt: skip
+    told = tuple(
+        message(
+            "MISJUDGED",
+            went=episode_message(fact, context, tense="past"),
+            **_expected(belief, answer.that),
+        )
+        for belief, fact in latest
+        if isinstance(fact, Episode) and belief.expectations
+    )
+    return Plan((lead,), told)
 
 
 def _expected(belief: Belief, that: Proposition) -> dict[str, object]:

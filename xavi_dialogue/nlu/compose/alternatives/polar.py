@@ -156,7 +156,7 @@ class Polar(Comparing):
             return [(Whether(there, tag), 0.0)]
         foreseen = _foreseen(clause)
         if foreseen is not None:
-            return [(Whether(foreseen, tag), 0.0)]
+            return [(judged_so(clause, foreseen, tag=tag) or Whether(foreseen, tag), 0.0)]
         cleft = cleft_cause(clause)
         if cleft is not None:
             cause, told = cleft

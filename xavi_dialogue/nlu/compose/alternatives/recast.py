@@ -4,12 +4,13 @@ from typing import cast
 
 from msgspec import structs
 
-from xavi_dialogue.domain.meaning import Compare, Fault, Question, Whether, Why
+from xavi_dialogue.domain.meaning import Compare, Fault, Listing, Question, Whether, Why
 from xavi_dialogue.domain.terms import (
     Caused,
     Described,
     Ego,
     Event,
+    Exists,
     Exit,
     Happens,
     Is,
@@ -22,6 +23,8 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, wanted_pronoun
 from xavi_dialogue.nlu.compose.clauses.sem import as_thing, is_thing
+
+_ANYTHING = Described(definite=False)
 
 
 def about_whom(clause: Clause) -> Thing | None:
@@ -39,6 +42,10 @@ def judged_so(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
             clause.modal == "would"
         ):
             return Compare((That(),), "safety")  # "would that have been risky?"
+        case Is(state="wrong", thing=Ego() | Described() as thing) if _of_any(clause, thing, about):
+            return Listing("wrong-predictions", time=clause.time)
+        case Exists(thing=Described(kind="vehicle", such=Is("wrong", Wanted()))) if clause.verb:
+            return Listing("wrong-predictions", time=clause.time)  # "did you get anything wrong?"
         case Is(state="wrong" | "right", thing=Ego()) if about is not None:
             return Whether(structs.replace(of, thing=about), tag)
         case Happens(
@@ -58,6 +65,13 @@ def judged_so(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
         ):
             return Fault(That(), done.actor, legal=True)
     return None
+
+
+def _of_any(clause: Clause, thing: Thing, about: Thing | None) -> bool:
+    """Check whether any mistake is meant: "did you make one", "were you wrong about anyone"."""
+    if isinstance(thing, Described):
+        return thing == _ANYTHING and (clause.verb is not None or about == thing)
+    return about == _ANYTHING or (clause.verb is not None and about is None)
 
 
 def caused_by(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:

@@ -59,6 +59,7 @@ from xavi_dialogue.nlu.compose.verbs.deeds import (
     had_wrong,
     happen,
     made,
+    mistaken,
     tense_of,
     time_of,
 )
@@ -66,11 +67,12 @@ from xavi_dialogue.nlu.compose.verbs.others import is_other
 from xavi_dialogue.nlu.compose.verbs.sheltering import beside, emerge, lurk
 from xavi_dialogue.nlu.compose.verbs.trends import SINCE
 
-_BELIEF = frozenset({"know", "believe", "conclude", "say", "assign", "mistake", "lie", "hear",
+_BELIEF = frozenset({"know", "believe", "conclude", "say", "assign", "lie", "hear",
                      "report", "understand", "wish", "fear", "trust", "ask"})  # fmt: skip
 _JUDGING = frozenset({"opinion", "rude", "kind", "dangerous"})
 _FEARING = frozenset({"feel:nervous", "feel:afraid"})
 _LIKING = frozenset({"like", "dislike", "mind"})
+_ERRING = frozenset({"decide", "do", "mistake"})
 _DECISION = frozenset({"decide", "plan", "choose", "consider", "want"})
 
 
@@ -81,7 +83,9 @@ def proposition_of(special: Special) -> Proposition:
 
 
 def _positive(special: Special) -> Proposition:
-    name = special.name
+    name, sem = special.name, special.object
+    if name in _ERRING and isinstance(sem, Noun) and sem.key == "wrong-prediction":
+        return mistaken(special)
     if name == "assign":
         return rated(special, special.content or _about(special))
     thought = special.clause.that
@@ -316,7 +320,7 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "see": _see, "look": _see, "have": had, "make-do": _make_do, "cause": _cause,
     "influence": _cause, "matter": _cause, "cost": _cost, "delay": _cost, "take-time": _cost,
     "last": _cost, "save": _cost, "deed": deed_named, "happen": happen, "do": do,
-    "had-wrong": had_wrong, "happen-wrong": _is("wrong"),
+    "had-wrong": had_wrong, "mistake": mistaken, "happen-wrong": _is("wrong"),
     "exist": lambda s: Exists(s.subject, time_of(s), tense_of(s)),
     "break": _is("faulty"), "late": _is("late"), "obey": _is("allowed"),
     "violate": _is("allowed", positive=False), "exceed": exceed,

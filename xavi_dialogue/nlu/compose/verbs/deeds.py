@@ -15,12 +15,13 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Quantity,
     Thing,
+    Unknown,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import exceeding, with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.sem import Measure, as_speed, as_thing
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_speed, as_thing
 from xavi_dialogue.nlu.compose.verbs.events import when
 from xavi_dialogue.nlu.compose.verbs.trends import trend
 
@@ -146,3 +147,10 @@ def had_wrong(special: Special) -> Proposition:
     who = as_thing(special.object)
     whom = Pronoun("he") if who is None or isinstance(who, Pronoun) else who
     return Is("wrong", whom, time=time_of(special), tense="past")
+
+
+def mistaken(special: Special) -> Proposition:
+    """Read "you misjudged the van", "you made a mistake": wrong about somebody, or at all."""
+    whom = None if isinstance(special.object, Noun) else as_thing(special.object)
+    thing = special.subject if whom is None or isinstance(whom, Unknown) else whom
+    return Is("wrong", thing, time=time_of(special), tense=tense_of(special))
