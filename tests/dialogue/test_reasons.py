@@ -81,4 +81,5 @@ def test_what_it_would_save_is_of_the_next_best_option_where_none_was_spoken_of(
 def test_how_close_it_was_after_why_not_is_of_the_decision(text: str) -> None:
     talk = Talk("motorway-0", 8.0)
     talk.hear("Why don't you move to the left lane?")
-    assert talk.hear(text).startswith("I chose staying in my lane rather than moving to the left lane")
+    answer = talk.hear(text)
+    assert answer.startswith("I chose staying in my lane rather than moving to the left lane")
