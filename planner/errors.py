@@ -2,7 +2,7 @@
 
 
 class PlannerError(Exception):
-    """The planner, or its record, cannot be used as asked."""
+    """An error of the planner: it, or its record, cannot be used as requested."""
 
 
 class TraceError(PlannerError, ValueError):

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 SAFE_CUT_IN = 1.5  # [s] to collision with a follower, below which a lane change hits it
-BERTH = 1.0  # [m] free before and behind who changes lanes: nobody drives quite as predicted
+BERTH = 1.0  # [m] kept free before and behind a lane change, as predictions are inexact
 
 _jit = njit(cache=True, error_model="numpy")
 
@@ -19,7 +19,7 @@ _jit = njit(cache=True, error_model="numpy")
 def overlap(
     ax: float, ay: float, a: float, a_size: Any, bx: float, by: float, b: float, b_size: Any
 ) -> bool:
-    """Whether two boxes overlap (separating axes): front bumper [m], heading [rad], size [m]."""
+    """Check whether boxes overlap (separating axes): front bumper [m], heading [rad], size [m]."""
     a_cos, a_sin, b_cos, b_sin = math.cos(a), math.sin(a), math.cos(b), math.sin(b)
     dx = (bx - 0.5 * b_size[0] * b_cos) - (ax - 0.5 * a_size[0] * a_cos)
     dy = (by - 0.5 * b_size[0] * b_sin) - (ay - 0.5 * a_size[0] * a_sin)
@@ -44,7 +44,7 @@ def first_hit(
     careless: bool,
     braking: float,
 ) -> tuple[int, int]:
-    """The first collision along a driven line, or (-1, -1).
+    """Return the first collision along a driven line, or (-1, -1).
 
     A follower that would have braked does not count. Who is careless changes lanes without
     regard for those behind: then they do, and so does one that is right behind at the end, and
@@ -80,7 +80,7 @@ def first_hit(
 
 @_jit
 def _meets(own: Floats, size: Any, other: Floats, other_size: Any, berth: float) -> bool:
-    """Whether another body comes within `berth` [m] before or behind ours, or touches it."""
+    """Check whether another body is within `berth` [m] before or behind ours, or touches it."""
     dx, dy = other[0] - own[0], other[1] - own[1]
     near = size[0] + other_size[0] + size[1] + other_size[1] + 2.0 * berth
     if dx * dx + dy * dy >= near * near:
@@ -92,14 +92,14 @@ def _meets(own: Floats, size: Any, other: Floats, other_size: Any, berth: float)
 
 @_jit
 def _in_front(own: Floats, other: Floats) -> float:
-    """How far [m] another front is ahead of ours, in our direction."""
+    """Return how far [m] another front is ahead of ours, in our direction."""
     ahead = (other[0] - own[0]) * math.cos(own[2]) + (other[1] - own[1]) * math.sin(own[2])
     return float(ahead)
 
 
 @_jit
 def _cut_off(own: Floats, length: float, other: Floats, braking: float) -> bool:
-    """Whether a faster follower is right behind."""
+    """Check whether a faster follower is right behind."""
     gap = -_in_front(own, other) - length
     aside = (other[1] - own[1]) * math.cos(own[2]) - (other[0] - own[0]) * math.sin(own[2])
     closing = other[3] - own[3]

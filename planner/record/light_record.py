@@ -1,6 +1,6 @@
-"""What is recorded of traffic lights: what was seen, expected, supposed and drawn.
+"""The record of traffic lights: states seen, expected, supposed and drawn.
 
-A controller is what works the lights of a junction. Its states are written as one letter for
+A controller operates the lights of a junction. Its states are written as one letter for
 each of its places (see `sim.scene.LightState`), UNSEEN where that is out of view.
 """
 
@@ -13,30 +13,30 @@ GREENS = (LightState.GREEN.value, LightState.GREEN_YIELD.value)
 
 
 class Showing(msgspec.Struct, frozen=True):
-    """What a controller shows from a moment on."""
+    """The state of a controller from a moment on."""
 
     time: float  # [s] simulation time
     states: str  # a letter for each of the controller's `places`
 
 
 class LightCourse(msgspec.Struct, frozen=True):
-    """One way in which a controller may go on."""
+    """One possible course of a controller."""
 
     probability: float
     showings: tuple[Showing, ...]  # from now on, in order; the last one stays
 
 
 class LightPrediction(msgspec.Struct, frozen=True):
-    """What was seen of a controller, and how it may go on; probabilities sum to 1."""
+    """The observations of a controller, and its possible courses; probabilities sum to 1."""
 
     controller: str
     places: tuple[int, ...]  # those in view now or before, by index
-    seen: tuple[Showing, ...]  # every change so far, the last one being what it shows now
+    seen: tuple[Showing, ...]  # every change so far, the last one being its present state
     courses: tuple[LightCourse, ...]
 
     @property
     def now(self) -> str:
-        """What it shows, a letter for each place."""
+        """Its present state, a letter for each place."""
         return self.seen[-1].states
 
     @property
@@ -46,7 +46,7 @@ class LightPrediction(msgspec.Struct, frozen=True):
 
     @property
     def fault(self) -> str | None:
-        """What in it does not fit together, if anything."""
+        """The inconsistency in it, if any."""
         if not self.courses or not self.seen:
             return f"the light {self.controller!r} has no course, or was never seen"
         ways = (self.seen, *(course.showings for course in self.courses))
@@ -59,7 +59,7 @@ class LightPrediction(msgspec.Struct, frozen=True):
         return self.now[self.places.index(place)] if place in self.places else UNSEEN
 
     def since(self, place: int) -> tuple[float, bool]:
-        """Since when [s] a place shows what it shows, and whether it was seen to change to it."""
+        """Return since when [s] a place shows its state, and whether the change was seen."""
         at = self.places.index(place)
         k = len(self.seen) - 1
         while k > 0 and self.seen[k - 1].states[at] == self.seen[-1].states[at]:
@@ -68,7 +68,7 @@ class LightPrediction(msgspec.Struct, frozen=True):
 
 
 class LightSupposed(msgspec.Struct, frozen=True):
-    """What a traffic light is supposed to show, for good."""
+    """A state that a traffic light is supposed to show permanently."""
 
     controller: str
     place: int
@@ -83,7 +83,7 @@ class LightSample(msgspec.Struct, frozen=True):
 
 
 class HeldByLight(msgspec.Struct, frozen=True):
-    """A stretch of a drive in which a light held one up, at its line or in a queue before it."""
+    """A stretch of a drive in which a light held the driver up, at its line or in a queue."""
 
     controller: str
     place: int

@@ -1,4 +1,4 @@
-"""What a trace records of the road: where everybody is on it, and what the ego comes to.
+"""The record of the road: the places of all road users, and the way ahead of the ego.
 
 SI units. All of it follows from the network, the scene and the ego's plan;
 `planner.search.road_facts` works it out.
@@ -22,14 +22,14 @@ class LightChange(msgspec.Struct, frozen=True):
 
 
 class RoadPlace(msgspec.Struct, frozen=True):
-    """Where a vehicle is on the road; inside a junction, on the road that it leads to."""
+    """The place of a vehicle on the road; inside a junction, on the road that it leads to."""
 
     edge: str
     lane: int | None  # from the right, 0 the rightmost for cars; None inside a junction
     lanes: int  # that cars may use in this direction
     limit: float  # [m/s] speed limit
-    in_junction: bool  # inside one that passengers would call so
-    roundabout: bool  # on the ring of a roundabout, its junctions among it
+    in_junction: bool  # inside a junction in the sense of passengers
+    roundabout: bool  # on the ring of a roundabout, including its junctions
 
 
 class RouteStep(msgspec.Struct, frozen=True):
@@ -38,14 +38,14 @@ class RouteStep(msgspec.Struct, frozen=True):
     distance: float  # [m] from the front bumper to its entry; from within a ring, to the exit
     kind: JunctionKind
     turn: Turn  # of a roundabout, how the road after it leads on from the one before
-    exit: int | None  # of a roundabout: which exit is taken, 1 the first that is come to
+    exit: int | None  # of a roundabout: number of the exit taken, 1 for the first one
     exits: int | None  # of a roundabout: how many there are once round
-    arms: int  # roads that lead away, the one back among them
+    arms: int  # roads that lead away, including the one back
     rule: Rule  # the ego goes first; has to give way to some; right before left
 
 
 class PriorityFact(msgspec.Struct, frozen=True):
-    """Who goes first where the ways of the ego and of another vehicle may cross or merge."""
+    """The right of way where the ways of the ego and of another may cross or merge."""
 
     vehicle: int
     who: First  # depends: on where that vehicle goes, or on who comes first

@@ -20,7 +20,7 @@ from sim.scene import Point, VehicleState
 
 SCHEMA = "xavi.plan_trace/2"
 READABLE = ("xavi.plan_trace/1", SCHEMA)  # the older ones lack what was added since
-LARGEST = 1e6  # of a component, in its unit; nothing that a car does is beyond it
+LARGEST = 1e6  # maximum of a component, in its unit; no real drive exceeds it
 MAX_BYTES = 256 * 1024
 SAMPLE_PERIOD = 0.2  # [s] of histories, predictions and rollouts (5 Hz)
 
@@ -43,9 +43,8 @@ Component = Literal[
     "curvature",  # [1/m] mean absolute value
 ]
 HoldUp = Literal["leader", "right-of-way", "cut-in", "blocked"]
-#: What the reward of a rollout is made of. A collision and leaving the way to the goal (dead) cost
-#: what they cost, and nothing else; out of time costs a penalty (late), and the rest of the way
-#: (left).
+#: The terms of the reward of a rollout. A collision, or losing the way to the goal (dead), is then
+#: the only term. Running out of time costs a penalty (late), and the rest of the way (left).
 RewardTerm = Literal[Component, "effort", "late", "left", "collision", "dead"]
 
 ACTIONS: tuple[Action, ...] = (
@@ -78,7 +77,7 @@ class Costs(msgspec.Struct, frozen=True):
     effort: dict[Action, float]  # [s] of the actions that cost something by themselves
 
 
-#: By which traces were reckoned that do not hold their costs.
+#: The costs of traces that do not record them.
 FORMER = Costs(
     {"time": 1.0, "jerk": 0.05, "angular-acceleration": 4.0, "curvature": 20.0},
     {"collision": 200.0, "dead": 150.0, "termination": 10.0},
@@ -87,11 +86,11 @@ FORMER = Costs(
 
 
 class Settings(msgspec.Struct, frozen=True):
-    """What the planner was told to do; all budgets are counts."""
+    """The settings of the planner; all budgets are counts."""
 
     rollouts: int = 100  # drawn by the search
     min_rollouts: int = 12  # for every applicable first action; the missing ones are forced
-    comparisons: int = 24  # joint samples enumerated at most to compare the first actions in
+    comparisons: int = 24  # maximum number of joint samples to compare first actions
     depth: int = 4  # macro actions in a row
     horizon: float = 30.0  # [s] a rollout that lasts longer terminates
     period: float = 1.0  # [s] between decisions
@@ -103,7 +102,7 @@ class Settings(msgspec.Struct, frozen=True):
 
 
 class EgoGoal(msgspec.Struct, frozen=True):
-    """Where the passenger wants to go."""
+    """The destination of the ride, or a place on the way there."""
 
     edge: str
     position: float  # [m] along the edge
@@ -138,7 +137,7 @@ class TrajectoryPrediction(msgspec.Struct, frozen=True, omit_defaults=True):
     actions: tuple[Action, ...]
     path: tuple[Point, ...]  # [m] [N]
     speed: tuple[float, ...]  # [m/s] [N]
-    held_up: tuple[HeldUp, ...] = ()  # by whom, the ego among them; left out where by nobody
+    held_up: tuple[HeldUp, ...] = ()  # by others or the ego; left out if by nobody
     held_by_lights: tuple[HeldByLight, ...] = ()  # in their likeliest courses
 
 
@@ -152,11 +151,11 @@ class GoalPrediction(msgspec.Struct, frozen=True):
     likelihood: float  # of the observed track, relative to the most rational one
     probability: float
     trajectories: tuple[TrajectoryPrediction, ...]
-    indicators: float = 1.0  # how probable those shown are for it; a factor of the likelihood
+    indicators: float = 1.0  # p(indicators shown | goal), a factor of the likelihood
 
 
 class VehiclePrediction(msgspec.Struct, frozen=True):
-    """What one vehicle may do; goal probabilities sum to 1."""
+    """The possible goals of one road user; their probabilities sum to 1."""
 
     vehicle: int
     goals: tuple[GoalPrediction, ...]
@@ -198,11 +197,11 @@ class Rollout(msgspec.Struct, frozen=True, omit_defaults=True):
     collided_with: int | None
     held_up: tuple[HeldUp, ...]
     terms: dict[RewardTerm, float] = {}  # [s] that are not 0; empty in traces without costs
-    weight: float | None = None  # in the comparison of the first actions; left out of none
-    braking: tuple[int, ...] = ()  # who brakes for the ego, or for one that does
-    lights: tuple[LightSample, ...] = ()  # how the traffic lights were drawn to go on
+    weight: float | None = None  # in the comparison of first actions, if it is part of it
+    braking: tuple[int, ...] = ()  # those that brake for the ego, or for one that does
+    lights: tuple[LightSample, ...] = ()  # courses drawn for the traffic lights
     held_by_lights: tuple[HeldByLight, ...] = ()
-    phantoms: tuple[PhantomSample, ...] = ()  # who was drawn to come out of what is hidden
+    phantoms: tuple[PhantomSample, ...] = ()  # draws of whether each phantom comes
     held_by_hidden: tuple[HeldByHidden, ...] = ()
 
 
@@ -223,13 +222,13 @@ class PlannedAction(msgspec.Struct, frozen=True):
 
 
 class WhatIf(msgspec.Struct, frozen=True):
-    """What is changed when a decision is planned again; see planner.counterfactuals.whatif."""
+    """The changes of a decision that is planned again; see planner.counterfactuals.whatif."""
 
     actions: tuple[Action, ...] = ()  # that the ego takes first
     removed: int | tuple[int, ...] | None = None  # a vehicle that is not there, or several
     vehicle: int | None = None  # another vehicle that acts as supposed:
-    goal: str | None = None  # where it goes: the kind of a goal, or its edge
-    vehicle_actions: tuple[Action, ...] = ()  # what it does first
+    goal: str | None = None  # its goal: a kind, or an edge
+    vehicle_actions: tuple[Action, ...] = ()  # its first actions
     rollouts: int = 40  # drawn with the ego's forced actions
     faster: float | msgspec.UnsetType = msgspec.UNSET  # [m/s] by which it drives faster
     lights: tuple[LightSupposed, ...] | msgspec.UnsetType = msgspec.UNSET
@@ -237,7 +236,7 @@ class WhatIf(msgspec.Struct, frozen=True):
 
     @property
     def gone(self) -> frozenset[int]:
-        """The vehicles that are not there."""
+        """The vehicles that are removed."""
         if self.removed is None:
             return frozenset()
         return frozenset((self.removed,) if isinstance(self.removed, int) else self.removed)
@@ -262,17 +261,17 @@ class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True, dict=True):
     not_applicable: tuple[NotApplicable, ...]
     plan: tuple[PlannedAction, ...]
     unseen: dict[int, float] = {}  # hidden vehicles in the scene, and when [s] they were seen last
-    waypoint: EgoGoal | None = None  # what rollouts aim for where the goal is too far for them
-    road: RoadFacts | None = None  # where everybody is on it, and what the ego comes to
-    what_if: WhatIf | None = None  # of a decision planned again; left out where it was taken
-    costs: Costs | None = None  # None in older traces, which were reckoned by FORMER
+    waypoint: EgoGoal | None = None  # the aim of rollouts if the goal is too far
+    road: RoadFacts | None = None  # places of all on it, and the way ahead
+    what_if: WhatIf | None = None  # only if planned again
+    costs: Costs | None = None  # None in older traces, with costs FORMER
     lights: tuple[LightPrediction, ...] = ()  # the traffic lights in view, by controller
-    phantoms: tuple[Phantom, ...] = ()  # who might come out of hidden parts of the road
-    driving: Action | None = None  # what is being driven and can be taken back; kept if as good
+    phantoms: tuple[Phantom, ...] = ()  # possible ones, in hidden parts of the road
+    driving: Action | None = None  # being driven, can be abandoned; kept if as good
 
     @property
     def reckoned(self) -> Costs:
-        """By what its rewards were reckoned."""
+        """The costs that its rewards were computed with."""
         return self.costs or FORMER
 
     @cached_property
@@ -284,7 +283,7 @@ class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True, dict=True):
 def encode(trace: PlanTrace) -> bytes:
     """Return the canonical JSON of a trace: the same trace gives the same bytes.
 
-    Vehicles stand in increasing order of their names, as in `Scene`.
+    Vehicles are in increasing order of their numbers, as in `Scene`.
     """
     return msgspec.json.encode(trace)
 
@@ -311,7 +310,7 @@ def decode(data: bytes) -> PlanTrace:
 
 
 def fault_of(trace: PlanTrace) -> str | None:
-    """Return what in a trace does not fit together, if anything."""
+    """Return the inconsistency in a trace, if any."""
     for one in trace.rollouts:
         parts = (value for value in one.components.values() if value is not None)
         if not all(abs(value) <= LARGEST for value in (*parts, *one.terms.values(), one.reward)):

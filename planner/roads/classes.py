@@ -18,7 +18,7 @@ CLASSES: dict[str, tuple[str, ...]] = {
 
 
 def roads_of(roads: Roads, kind: str) -> Roads:
-    """The roads for a kind of vehicle; those for cars where they are the same, or it is unknown."""
+    """Return the roads for a kind of vehicle; those for cars if they are the same, or unknown."""
     found = roads.classes.get(kind)
     if found is None:
         found = _for(roads, CLASSES.get(kind, ()))
@@ -43,7 +43,7 @@ def _for(roads: Roads, classes: tuple[str, ...]) -> Roads:
 
 
 def _network(network: Network, kind: str) -> Network:
-    """Return what of a network vehicles of a class may use; the rest stays aside."""
+    """Return the part of a network that vehicles of a class may use; the rest is kept aside."""
     every = {**network.lanes, **network.other_lanes}
     lanes = {
         name: replace(lane, speed_limit=lane.limit_for(kind), limits=())

@@ -1,4 +1,4 @@
-"""How sharply a road that a map draws with corners is driven.
+"""Smooth bends and curvature for roads that a map draws with corners.
 
 Wide bends with few corners are drawn as the curves that they stand for.
 Between two corners a cubic leads from the direction of one to that of the other. At a corner the
@@ -67,7 +67,7 @@ def _slopes(long: Array, heading: Array) -> tuple[Array, Array]:
 
 
 def curvature_of(heading: Array, arc: Array) -> Array:
-    """Change of heading per metre of the smoothest line that stays within CUT of a polygon.
+    """Return the curvature [1/m] of the smoothest line that stays within CUT of a polygon.
 
     Curvature is averaged over the widest window in which turning evenly instead of at the
     corners moves a vehicle aside by no more than CUT: a small kink costs no speed, a bend does.

@@ -1,4 +1,4 @@
-"""Roads that pass above or below a path: who drives there is not in its way.
+"""Roads that pass above or below a path: vehicles on them are not in its way.
 
 Where roads cross at one level, a map has a junction. Lanes that cross and that no junction joins
 are on different levels, as they are to SUMO; maps need not tell heights, and those that do often
@@ -21,7 +21,7 @@ from sim.scene import Point
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-BODY = 25.0  # [m] that a body reaches back at most
+BODY = 25.0  # [m] maximum length of a body
 WIDE = 5.0  # [m] of the road that is crossed, to each side of its lane
 NEAR = 30.0  # [m] from a junction within which lanes that it joins may just overlap
 SAME = 8.0  # [m] from a crossing within which other lanes may be taken for the one that crosses
@@ -47,13 +47,13 @@ class Passing:
 def elsewhere(
     passings: Sequence[Passing], states: Array, sizes: Array, on_foot: Bools | None = None
 ) -> Bools:
-    """Tell who is above or below a path, and not on it [M, T].
+    """Return which others are above or below a path, and not on it [M, T].
 
     Args:
         passings: the lanes that cross the path.
         states: [M, T, 4] x, y [m], heading [rad], speed [m/s] of the others.
         sizes: [M, 2] length and width [m].
-        on_foot: [M] who walks.
+        on_foot: [M] whether each is on foot.
     """
     found: Bools = np.zeros(states.shape[:2], np.bool_)
     walks = np.zeros(len(states), np.bool_) if on_foot is None else on_foot
@@ -87,18 +87,18 @@ def _along(one: Passing, states: Array, lengths: Array) -> Bools:
 
 
 class Levels:
-    """Which lanes of a network pass above or below one another."""
+    """The lanes of a network that pass above or below others."""
 
     def __init__(self, network: Network) -> None:
         self._network = network
         self._found: dict[str, tuple[Passing, ...]] = {}
 
     def prepare(self) -> None:
-        """Reckon beforehand what every search needs."""
+        """Compute in advance what every search needs."""
         _ = (self._boxes, self._from, self._beside)
 
     def across(self, lanes: Iterable[str]) -> tuple[Passing, ...]:
-        """List the lanes that pass above or below some that are driven along in a row.
+        """Return the lanes that pass above or below some that are driven along in a row.
 
         Where they come round onto the road that crosses them, that one is left out.
         """
@@ -197,7 +197,7 @@ class Levels:
                     yield from self._passings(other, place, theirs, turn)
 
     def _mistaken(self, own: Lane, other: Lane, place: Point, heading: float) -> bool:
-        """Check whether who drives on our level might be taken to be on the lane that crosses."""
+        """Check whether a vehicle on our level may be mistaken for one on the lane that crosses."""
         x, y = place
         for lane in self._around((x - SAME, x + SAME), (y - SAME, y + SAME)):
             if lane.edge in (own.edge, other.edge) or not self._joined(own, lane):
@@ -215,7 +215,7 @@ class Levels:
         for line in self._onward(lane, at + wide + BODY - lane.length):
             first, rest = line[0], line[1:]
             points = [first, *(b for a, b in pairwise(line) if math.dist(a, b) > 1e-3)]
-            if at < wide:  # who comes from before the lane comes straight
+            if at < wide:  # a vehicle from before the lane comes straight
                 (ax, ay), (bx, by) = first, next(p for p in rest if math.dist(p, first) > 1e-3)
                 long = math.dist((ax, ay), (bx, by))
                 points[0] = (ax - (bx - ax) * wide / long, ay - (by - ay) * wide / long)
@@ -237,7 +237,7 @@ class Levels:
 
 
 def _distance(a: Point, b: Point, place: Point) -> float:
-    """Return how far [m] a place is from a stretch of road."""
+    """Return the distance [m] of a place from a stretch of road."""
     dx, dy = b[0] - a[0], b[1] - a[1]
     long = dx * dx + dy * dy
     share = ((place[0] - a[0]) * dx + (place[1] - a[1]) * dy) / long if long > 0.0 else 0.0

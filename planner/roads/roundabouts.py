@@ -3,7 +3,7 @@
 An exit is where a ring can be left; exits are counted from the vehicle on. To `exit-right` is to
 leave by the next one (where driving is on the left: `exit-left`), and to `continue-next-exit` is
 to go on past it. Before the ring, both begin by entering it. So the n-th exit is reached by n
-macro actions, from wherever one is.
+macro actions, from any place.
 """
 
 from dataclasses import dataclass

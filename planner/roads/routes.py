@@ -97,13 +97,13 @@ def toward(roads: Roads, lane: str, direction: Direction, goal: EgoGoal | None) 
 
 
 def _length_by(roads: Roads, lead: Lead, goal: EgoGoal | None) -> tuple[float, bool]:
-    """Length [m] of the way to a goal by a link; and whether it turns back, which counts extra."""
+    """Return the length [m] of the way to a goal by a link, with an extra if it turns back."""
     length = remaining(roads, roads.network.lanes[lead.link.to_lane].edge, goal)
     return length + TURNING_BACK * lead.turnaround, lead.turnaround
 
 
 def remaining(roads: Roads, edge: str, goal: EgoGoal | None) -> float:
-    """Length [m] of the way from the start of an edge to that of the goal's; 0 without a goal."""
+    """Return the way [m] from the start of an edge to that of the goal's edge; 0 without a goal."""
     if goal is None or edge == goal.edge:
         return 0.0
     beyond = roads.network.distance_to(goal.edge).get(edge, math.inf)
@@ -260,7 +260,7 @@ def _joint(
 
 
 def _main(network: Network, links: tuple[Link, ...]) -> tuple[str, float]:
-    """Edge and bearing [rad] of the road that people would call straight on."""
+    """Return edge and bearing [rad] of the road that people would call straight on."""
     ahead = [(bearing(network, x), x.to_lane) for x in links if x.direction == "straight"]
     if not ahead:
         return "", 0.0
@@ -271,7 +271,7 @@ def _main(network: Network, links: tuple[Link, ...]) -> tuple[str, float]:
 
 
 def bearing(network: Network, link: Link) -> float:
-    """By how much [rad] to the left a link leads, measured some way into its road."""
+    """Return the angle [rad] to the left at which a link leads, measured some way into its road."""
     before = network.lanes[link.from_lane]
     (x, y), heading = point_at(before.centreline, before.length)
     beyond = network.lanes[link.to_lane].centreline

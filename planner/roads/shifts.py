@@ -1,4 +1,4 @@
-"""Where a lane goes on to the side of where it came: the way over is driven gently.
+"""Lanes that go on to the side of where they came from: the way over is driven gently.
 
 Maps draw such a lane with a jog of a few metres, as where a lane for turning begins beside it.
 People lead over early, within the room that their lane leaves them.
@@ -17,12 +17,12 @@ ASIDE = (1.2, 3.6)  # [m] to the side, from a jog that is driven as it is drawn 
 ALIKE = 0.05  # [rad] by which the directions before and after may differ
 WITHIN = (4, 6, 8)  # path points to each side of its middle within which a jog lies
 LASTING = (32, 28, 24, 20, 16, 14, 12, 10)  # path points to each side in which to lead over
-MOVED = (0, 1, -1, 2, -2, 3, -3)  # path points by which its middle may lie elsewhere
+MOVED = (0, 1, -1, 2, -2, 3, -3)  # shifts of its middle that are tried, in path points
 ROOM = 0.7  # [m] by which a car may be off the middle of its lane
 
 
 def shifted(points: Array, joints: Array) -> Array:
-    """Lead over gently where a lane goes on to the side of where the one before it came.
+    """Smooth the line where a lane goes on to the side of where the one before it came from.
 
     Args:
         points: [m] [N, 2] of a line with even spacing.
@@ -66,7 +66,7 @@ def _middles(points: Array) -> Iterator[int]:
 
 
 def _over(points: Array, low: int, high: int) -> Array | None:
-    """The way over between two points, by a quintic; None where it leads too far off the line."""
+    """Return a quintic between two points; None if it leads too far off the line."""
     before, after = points[low + 1] - points[low], points[high + 1] - points[high]
     start, end = math.atan2(before[1], before[0]), math.atan2(after[1], after[0])
     turned = math.remainder(end - start, 2.0 * math.pi)

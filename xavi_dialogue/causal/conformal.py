@@ -1,9 +1,9 @@
 """Ranges that hold: split-conformal prediction (Vovk, Gammerman and Shafer 2005; Lei et al. 2018).
 
-What was foreseen is set beside what happened in cases like those to come; the quantiles of the
-errors, corrected for their finite number, bound the error of the next case. Cases of one ride are
-alike, so rides are what must be exchangeable: each has the same weight, however many cases it has
-(hierarchical conformal prediction, Lee, Barber and Willett 2023).
+Forecasts are compared with what happened, in cases like those to come. Quantiles of the errors,
+corrected for their finite number, bound the error of the next case. Cases of one ride are alike, so
+rides must be exchangeable: each has the same weight, however many cases it has (hierarchical
+conformal prediction, Lee, Barber and Willett 2023).
 """
 
 import math
@@ -13,18 +13,18 @@ COVERAGE = 0.9
 
 
 def reach(rides: Sequence[Sequence[float]], coverage: float = COVERAGE) -> float | None:
-    """Find what the size of an error of the next ride stays within with at least this probability.
+    """Return a bound on the size of an error in the next ride that holds with this probability.
 
     Each of n errors in k rides weighs 1 / ((k + 1) n), and what is left, 1 / (k + 1), lies beyond
     all of them; the quantile of their sizes at `coverage` is taken.
 
     Args:
-        rides: of each the errors, at least one: happened minus foreseen, infinite where what was
-            foreseen never came.
+        rides: the errors of each, at least one: happened minus foreseen, infinite if the foreseen
+            event never happened.
         coverage: between 0 and 1.
 
     Returns:
-        None where the rides are too few, or the errors too often infinite.
+        The bound; None if the rides are too few, or the errors too often infinite.
     """
     weighed = sorted(
         (abs(error), 1.0 / ((len(rides) + 1) * len(ride))) for ride in rides for error in ride

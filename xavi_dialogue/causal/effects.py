@@ -1,7 +1,7 @@
 """Effects: how the reward components would differ under a foil.
 
 Equation 8 of XAVI (Gyevnar et al. 2022) with the sign of its example: counterfactual minus
-factual, so that "lower" means lower had the foil been done.
+factual, so that "lower" means lower under the foil.
 """
 
 from dataclasses import dataclass
@@ -87,7 +87,7 @@ def _effect(name: Component, foil: Intervention, fact: Intervention) -> Componen
 def _differences(
     there: list[tuple[Joint, float, float]], here: list[tuple[Joint, float, float]]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Differences foil minus fact [K] and their weights [K]."""
+    """Return differences foil minus fact [K] and their weights [K]."""
     known = {joint: (weight, value) for joint, weight, value in here}
     pairs = [
         (value - known[joint][1], weight, known[joint][0])

@@ -2,8 +2,8 @@
 
 Per option o and choice c of vehicle i (its goal and trajectory), the action value Q(o, c) is the
 expected reward of o given c. The other vehicles are adjusted for by an additive model fitted to
-the rollouts of o, so that a chance coincidence of two vehicles' samples is not laid at the wrong
-door. Then p(o | c) is the softmax of Q(o, c), and the influence is the mutual information of
+the rollouts of o, so that a chance coincidence of two vehicles' samples is not attributed to the
+wrong one. Then p(o | c) is the softmax of Q(o, c), and the influence is the mutual information of
 option and choice, in bits.
 
 How much of it chance alone would produce is found by permutation: what a model of the other
@@ -15,7 +15,7 @@ of the plain means of what is left, each draw counting as one. Options share the
 they share their samples.
 
 Several vehicles are tested at once, so the probability that any of those without influence is
-told to have one is kept to 5 % by the step-down procedure of Holm (1979). Within a vehicle,
+stated to have one is kept to 5 % by the step-down procedure of Holm (1979). Within a vehicle,
 choices are ordered by the measure of XAVI (Gyevnar et al. 2022, Equation 9), smoothed.
 """
 
@@ -41,7 +41,7 @@ RANK = 1e-6  # singular values below this share of the largest count as zero
 
 @dataclass(frozen=True, slots=True)
 class ChoiceInfluence:
-    """What one choice of a vehicle makes of the options."""
+    """The probabilities of options under one choice of a vehicle."""
 
     choice: Choice
     probability: float  # of the choice
@@ -51,11 +51,11 @@ class ChoiceInfluence:
 
 @dataclass(frozen=True, slots=True)
 class Influence:
-    """How one vehicle bears on the choice among the options."""
+    """The influence of one vehicle on the choice among the options."""
 
     vehicle: int
     bits: float  # mutual information of option and the vehicle's choice
-    chance: float  # p-value: of so much by chance alone; 1 where it is none at all anyway
+    chance: float  # p-value of so much by chance alone; 1 if there is no influence at all
     options: tuple[float, ...]  # p(o), averaged over the vehicle's choices
     choices: tuple[ChoiceInfluence, ...]  # least divergent first; ties: the likelier first
     adjusted: float = 1.0  # the p-value by Holm, for all vehicles that were tested
@@ -73,7 +73,7 @@ def influence(
 
     Args:
         model: the network of the decision.
-        options: what there is to choose from; every first action by default, which gives
+        options: the options to choose from; every first action by default, which gives
             I(Omega_1; G_i, S_i).
     """
     if options is None:
@@ -103,14 +103,14 @@ def holm(chances: Sequence[float]) -> tuple[float, ...]:
 
 @dataclass(frozen=True, slots=True)
 class _Fit:
-    """What the choices of one vehicle add to the reward of one option."""
+    """The contribution of one vehicle's choices to the reward of one option."""
 
     mean: float  # expected reward
     slopes: Array  # [choices, K]
-    residual: Array  # [K] what the others leave of the reward
+    residual: Array  # [K] reward that the others do not explain
 
     def values(self, residuals: Array, prior: Array) -> Array:
-        """Q(o, c) for columns of residuals [K, M]: [M, choices]."""
+        """Return Q(o, c) for columns of residuals [K, M]: [M, choices]."""
         shifts = self.slopes @ residuals
         return np.asarray(self.mean + shifts.T - (prior @ shifts)[:, None], dtype=np.float64)
 
@@ -141,7 +141,7 @@ class _Draws:
 
     @cached_property
     def _sources(self) -> NDArray[np.int64]:
-        """Which sample [N, PERMUTATIONS] each draw's reward is taken from in each shuffle."""
+        """The sample [N, PERMUTATIONS] that each draw's reward is taken from in each shuffle."""
         draws = self._counts
         pairs = zip(self._joints, draws, strict=True)
         shuffled = np.argsort(np.vstack([self._keys(j, int(n)) for j, n in pairs]), axis=0)
@@ -150,7 +150,7 @@ class _Draws:
     def fit(self, vehicle: int) -> _Fit:
         """Return the additive model, with what one vehicle's choices add to the others'."""
         mean, wanted = float(np.sum(self.root**2 * self.rewards)), self.columns[vehicle]
-        if wanted.shape[1] == 1 or not np.ptp(self.rewards):  # it has no choice, or all is one
+        if wanted.shape[1] == 1 or not np.ptp(self.rewards):  # one choice, or all rewards equal
             return _Fit(mean, np.zeros(wanted.T.shape), np.zeros(len(wanted)))
         design, root = self._others(vehicle), self.root[:, None]
         targets = np.hstack([wanted, self.rewards[:, None]])
@@ -183,7 +183,7 @@ class _Draws:
         return _Fit(float(np.sum(self.root**2 * self.rewards)), means.T, rest)
 
     def permuted(self, residual: Array) -> Array:
-        """Residuals [K] shuffled among the draws, in the mean of each sample [K, P]."""
+        """Return residuals [K] shuffled among the draws, averaged over each sample [K, P]."""
         if not np.any(residual):
             return np.zeros((len(residual), PERMUTATIONS))
         drawn: Array = residual[self._sources]
@@ -222,7 +222,7 @@ def _measure(model: CausalModel, vehicle: int, draws: Sequence[_Draws]) -> Influ
 
 
 def _chance(vehicle: int, draws: Sequence[_Draws], prior: Array) -> float:
-    """The probability of so much information, or more, if the vehicle's choices were shuffled."""
+    """Return the probability of at least so much information if choices were shuffled."""
     plain = [option.plain(vehicle) for option in draws]
     pairs = list(zip(draws, plain, strict=True))
     shuffled = [fit.values(option.permuted(fit.residual), prior) for option, fit in pairs]
@@ -233,7 +233,7 @@ def _chance(vehicle: int, draws: Sequence[_Draws], prior: Array) -> float:
 
 
 def _keys(model: CausalModel, joint: Joint, draws: int) -> Array:
-    """Random numbers [draws, PERMUTATIONS] that belong to a sample, whatever the option."""
+    """Return random numbers [draws, PERMUTATIONS] that depend on the sample, not on the option."""
     flat = [number % 2**32 for choice in joint for number in choice]
     return np.random.default_rng((model.trace.seed, model.trace.decision, *flat)).random(
         (draws, PERMUTATIONS)

@@ -1,4 +1,4 @@
-"""Mixtures: p(R, O), the results of rollouts with their weights, and what can be read off them."""
+"""Mixtures: p(R, O), the results of rollouts with their weights, and statistics of them."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -7,13 +7,13 @@ from typing import NamedTuple, TypeAlias
 from planner.record.trace import OUTCOMES, Component, Outcome, Rollout
 
 #: The joint sample S: a choice for every predicted vehicle, as (vehicle, goal, trajectory), and
-#: for every traffic light that was drawn, as (-1 - index in the trace, course, 0). Who might come
-#: out of what is hidden follows on the lights, as (-1 - lights - index in the trace, comes, 0).
+#: for every traffic light that was drawn, as (-1 - index in the trace, course, 0). Phantoms follow
+#: the lights, as (-1 - lights - index in the trace, comes, 0).
 Joint: TypeAlias = tuple[tuple[int, int, int], ...]
 
 
 class Result(NamedTuple):
-    """What came of one action sequence under one joint sample."""
+    """The result of one action sequence under one joint sample."""
 
     joint: Joint
     rollout: Rollout  # the first one recorded

@@ -76,7 +76,7 @@ class CausalModel:
     """Answers causal queries about one decision; immutable, and indexed when first asked."""
 
     def __init__(self, trace: PlanTrace, given: Mapping[int, frozenset[Choice]] | None = None):
-        """The network of a decision.
+        """Build the network of a decision.
 
         Queries raise InconsistentTrace where a rollout samples what is not predicted.
 
@@ -108,7 +108,7 @@ class CausalModel:
 
     def options(self, node: Actions = ()) -> Actions:
         """Return the actions recorded at a node of the search, in order of first record."""
-        if not node and not self.given:  # the commonest question, of decisions that are many
+        if not node and not self.given:  # the most frequent query
             return tuple({r.actions[0].action: None for r in self.trace.rollouts if r.actions})
         reached = self._index.reached if self.given else self._plans
         depth = len(node)
@@ -123,17 +123,17 @@ class CausalModel:
         return found
 
     def recorded(self) -> Iterator[tuple[Actions, Result]]:
-        """Yield every distinct (actions, sample) with what came of it."""
+        """Yield every distinct (actions, sample) with its result."""
         for plan, ended in self._index.ended.items():
             for result in ended.values():
                 yield plan, result
 
     def intervene(self, do: Mapping[int, Action] | Actions) -> Intervention | None:
-        """p(R, O | do(w)), with the depths that w leaves open filled by the best continuation.
+        """Return p(R, O | do(w)); the best continuation fills depths that w leaves open.
 
-        They are filled as the decision did when it compared first actions. Where none of that
-        does so, the best is that of the highest expected reward among the continuations that
-        are known for at least SUPPORT of the prior mass of the best-known one.
+        The best continuation is the one by which the decision compared first actions. If there is
+        none, it is the one of highest expected reward among the continuations that are known for
+        at least SUPPORT of the prior mass of the best-known one.
 
         Args:
             do: depth -> action, the first action having depth 1; or the leading actions.
@@ -205,7 +205,7 @@ class CausalModel:
         return product
 
     def _of_no_vehicle(self, number: int, drawn: int) -> float:
-        """The probability of what was drawn of a light, or of whether somebody hidden comes."""
+        """Return the probability of what was drawn for a light or for a phantom."""
         lights = self.trace.lights
         if number < len(lights):
             return lights[number].courses[drawn].probability
@@ -213,7 +213,7 @@ class CausalModel:
         return coming if drawn else 1.0 - coming
 
     def _joint(self, rollout: Rollout) -> Joint:
-        """The joint sample of a rollout: of others, of lights, and of who might come unseen."""
+        """Return the joint sample of a rollout: of other road users, lights and phantoms."""
         drawn = [(s.vehicle, s.goal, s.trajectory) for s in rollout.samples]
         drawn += [(self._lights[s.controller], s.course, 0) for s in rollout.lights]
         hidden = -1 - len(self.trace.lights)
@@ -226,7 +226,7 @@ class CausalModel:
         return self._followed[plan]
 
     def _follow(self, plan: Actions) -> Intervention | None:
-        """The results under a complete plan; None where the record stops in the middle of it."""
+        """Return the results under a complete plan; None if the record stops in its middle."""
         index = self._index
         if index.reached[plan].keys() - index.ended[plan].keys():
             return None
@@ -244,7 +244,7 @@ class CausalModel:
         return Intervention(tuple(results), tuple([w / total for w in weights]), plan, coverage)
 
     def _shares(self, node: Actions) -> dict[int, float]:
-        """The weights of the samples that reach a node of the search, of the mass that goes on."""
+        """Return the weights of samples that reach a node: shares of the mass that goes on."""
         if node not in self._shared:
             index, mass = self._index, 1.0
             if node:
@@ -272,7 +272,7 @@ def shared_out(priors: dict[Name, float], draws: int, mass: float = 1.0) -> dict
 
     Args:
         priors: of the samples drawn.
-        draws: how many there were, repeats included.
+        draws: number of draws, repeats included.
         mass: of the population.
     """
     missing = max(mass - sum(priors.values()), 0.0)
@@ -287,7 +287,7 @@ def shared_out(priors: dict[Name, float], draws: int, mass: float = 1.0) -> dict
 
 
 def _undrawn(prior: float, draws: int) -> float:
-    """Prior mass of undrawn samples for which one drawn sample of a given prior stands."""
+    """Return the prior mass of undrawn samples that one drawn sample of a prior represents."""
     missed = (1.0 - min(prior, 1.0)) ** draws
     return prior * missed / (1.0 - missed) if missed < 1.0 else 0.0
 

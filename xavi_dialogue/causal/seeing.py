@@ -21,7 +21,7 @@ Value = TypeVar("Value", bound=Hashable)
 
 @dataclass(frozen=True)
 class Evidence:
-    """What is observed; whatever is left out is not."""
+    """The observed actions and choices; anything left out is not observed."""
 
     actions: Mapping[int, Action | None] = field(default_factory=dict)  # by depth; None: none
     choices: Mapping[int, frozenset[Choice]] = field(default_factory=dict)  # by vehicle
