@@ -1,1 +1,1 @@
-"""Language understanding: text becomes readings, each a row of typed acts."""
+"""Language understanding: a text becomes readings, each a sequence of typed acts."""

@@ -1,8 +1,8 @@
-"""Evidence: whether what a word says is found in the acts that were made of it.
+"""Evidence: whether the acts that a clause became still contain what its words say.
 
 A rule of composition that passes over a part of its clause loses the words of that part without
-notice. So what a number, colour, kind, superlative, light or crossing says is looked for in the
-acts; where it is not found, the word has no part in them.
+notice. So numbers, colours, kinds, superlatives, lights and crossings are looked for in the acts; a
+word that is not found there contributes nothing to them.
 """
 
 from collections.abc import Iterator
@@ -26,30 +26,30 @@ from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 LOST: Final = 0.9  # cost of a word that left nothing in the acts
-_TALK: Final = (AskHelp, Beyond, Quizzing, Social)  # of whatever was said with it
+_TALK: Final = (AskHelp, Beyond, Quizzing, Social)  # stand for the whole unit
 _EXTREMES: Final = frozenset(
     (Compare, Peak, "nearest", "farthest", "fastest", "slowest", "biggest", "highest", "lowest")
 )
 _NUMBERED: Final = frozenset(("numbered", "roll", "owner"))
 _BOTH: Final = 2.0
-_SCALES: Final = (1.0, 60.0, 3600.0)  # [s] of the units in which a time is said
-_PLACES: Final = frozenset(("light", "crossing"))  # that nothing but their name stands for
-_OF_VEHICLES: Final = frozenset(("signal", "indicator", "brake-lights"))  # lights
-_VAGUE: Final = frozenset(("vehicle", "car"))  # kinds that a vehicle or pronoun may stand for
+_SCALES: Final = (1.0, 60.0, 3600.0)  # [s] per unit in which a time may be given
+_PLACES: Final = frozenset(("light", "crossing"))  # words that nothing but themselves stands for
+_OF_VEHICLES: Final = frozenset(("signal", "indicator", "brake-lights"))  # their lights
+_VAGUE: Final = frozenset(("vehicle", "car"))  # kinds for which a vehicle or pronoun may stand
 
 
 def missing(unit: Node, acts: tuple[Act, ...]) -> tuple[Leaf, ...]:
-    """List the telling words of a unit of which nothing is found in its acts."""
+    """List the informative words of a unit that left nothing in its acts."""
     if not acts or any(isinstance(act, _TALK) for act in acts):
         return ()
     found = set(atoms(acts))
     if Request in found:
-        found.add(Quantity)  # what pace is wished for tells nothing of why it is not granted
+        found.add(Quantity)  # the speed in "can we go 50" is missing from "why not", rightly
     return tuple(leaf for leaf in _telling(unit) if not _is_in(leaf, found))
 
 
 def _telling(part: Part) -> Iterator[Leaf]:
-    """Yield the words to look for; of "truck 1", the number tells who it is."""
+    """Yield the words to look for; not the number in "truck 1", which names a vehicle."""
     if isinstance(part, Leaf):
         superlative = part.category == "FOCUS" and part.key == "superlative"
         place = part.category == "PLACEN" and part.key in _PLACES

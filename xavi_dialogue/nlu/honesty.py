@@ -1,11 +1,12 @@
-"""Honesty: from what cost on a unit counts as not understood.
+"""Honesty: the cost above which a unit counts as not understood.
 
-A unit costs what its rules, the words that are read past and its composition cost. Spelling does
-not count, nor do words without a sense, which are named as unknown anyway. What costs too much is
-made of leftovers: it yields no act, and its words are unknown.
+The cost of a unit is that of its rules, of the words that are skipped, and of its composition.
+Spelling does not count, nor do words without a sense, which are reported as unknown anyway. A unit
+that costs too much was put together from leftovers: it yields no act, and its words are unknown.
 
-The limits are fitted to 308 questions of two panels: they stop 3 of 35 readings that one reader
-took for wrong, and none of the others. Cost alone does not tell most wrong readings from right.
+The limits are fitted to 308 questions from two panels. They reject 3 of the 35 readings that one
+reader judged wrong, and none of the others. Cost alone cannot separate most wrong readings from
+right ones.
 """
 
 from xavi_dialogue.domain.meaning import Act, Claim, Elliptic, Feel
@@ -15,13 +16,13 @@ from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.grammar.chart import Node
 
 DEAR = 1.7  # cost of a unit
-DEAR_WORD = 0.3  # cost of a unit for each of its words
-FEWEST = 5  # words that a shorter unit counts as
+DEAR_WORD = 0.3  # cost for each word of a unit
+FEWEST = 5  # [words] a shorter unit is taken to have this many
 _READ_PAST = frozenset({"SKIP", "FILLER"})
 
 
 def well_typed(row: tuple[Act, ...]) -> tuple[Act, ...]:
-    """Leave out what is stated or named in words that have no sense here."""
+    """Drop claims and fragments with words that have no sense here; keep feelings without them."""
     return tuple(found for act in row if (found := _typed(act)) is not None)
 
 
@@ -35,12 +36,12 @@ def _typed(act: Act) -> Act | None:
 
 
 def is_well_typed(value: object) -> bool:
-    """Say whether nothing in a term lacks a sense."""
+    """Check whether every part of a term has a sense."""
     return first(value, Unknown) is None
 
 
 def is_dear(unit: Node, extra: float) -> bool:
-    """Say whether a unit costs too much to be answered; `extra` is what composing it cost."""
+    """Check whether a unit costs too much to be answered; `extra` is the cost of composing it."""
     leaves = list(leaves_of(unit))
     words = {token for leaf in leaves for token in leaf.tokens}
     spelling = sum(leaf.cost for leaf in leaves if leaf.category not in _READ_PAST)

@@ -1,7 +1,7 @@
 """Ignored: clauses of a unit that make no difference to its acts.
 
-A subordinate clause has a part in an act if the act would be another one without it. So each one is
-left out and the rest is composed again: where that gives the same acts, the clause was passed over.
+A subordinate clause matters if the act would be different without it. So each one is left out and
+the rest is composed again. If that gives the same acts, the clause was passed over.
 """
 
 from collections.abc import Iterator
@@ -35,9 +35,9 @@ _CONTENT: Final = frozenset(
     ("V", "VING", "GOING", "VED", "VPAST", "ADJ", "COMPAR", "SUPER", "KIND", "COLOUR", "SIZE",
      "NUM", "EVN", "ABS", "MEAS", "PLACEN", "RIDE", "BEARING", "NUMBERED"),
 )  # fmt: skip
-#: Phrases that are as well formed without a clause.
+#: Phrases that stay well formed when a clause is left out.
 _HOLDERS: Final = frozenset(("vp", "copular", "state", "np", *CLAUSES, *RARE))
-_TELLING: Final = 2  # words of content from which on a clause tells something
+_TELLING: Final = 2  # [words of content] minimum for a clause to be informative
 _SOONER: Final = frozenset(("when", "if_clause", "because", "contrast", "and_pred"))
 TALK: Final = (AskHelp, Beyond, Feel, Quizzing, Repair, Social)  # of whatever was said with it
 
@@ -61,7 +61,7 @@ def ignored(unit: Node, acts: tuple[Act, ...], end_mark: str) -> tuple[Node, ...
 
 
 def asks_nothing(acts: tuple[Act, ...]) -> bool:
-    """Say whether no more is asked than whether there is anything at all."""
+    """Check whether acts only ask if something of a bare kind exists at all."""
     match acts:
         case (Ask(question=Whether(that=Exists(thing=Described() as thing))),):
             return thing == Described(thing.kind, plural=thing.plural, definite=thing.definite)

@@ -1,4 +1,4 @@
-"""Interpret: a text to its readings, by the grammar and by what such texts usually ask."""
+"""Interpretation: a text becomes readings, by the grammar and by what such texts usually ask."""
 
 from functools import lru_cache
 from typing import Final
@@ -12,5 +12,5 @@ CACHED: Final = 512
 
 @lru_cache(maxsize=CACHED)
 def interpret(text: str) -> tuple[Reading, ...]:
-    """Give the readings of a text, likeliest first; at least one, whatever the text."""
+    """Return the readings of a text, likeliest first; never empty."""
     return ranked(text, Parser().read(text))

@@ -8,7 +8,7 @@ from xavi_dialogue.domain.terms import Unsaid
 
 
 def compact(value: object) -> str:
-    """Write a term as a call; what has its default is left out."""
+    """Write a term as a call; leave out fields that have their default."""
     if isinstance(value, Value):
         fields = msgspec.structs.fields(type(value))
         parts: list[str] = []
@@ -34,7 +34,7 @@ def compact(value: object) -> str:
 
 
 def acts_line(acts: tuple[Act, ...]) -> str:
-    """Write a row of acts in one line."""
+    """Write a sequence of acts in one line."""
     return "; ".join(compact(act) for act in acts) or "-"
 
 

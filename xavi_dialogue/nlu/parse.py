@@ -1,14 +1,14 @@
-"""Parse: a text becomes readings, each a row of acts in which every word is accounted for.
+"""Parsing: a text becomes readings, sequences of acts in which every word is accounted for.
 
     text -> sentences -> lattices of words -> leaves of the lexicon -> charts -> units -> acts
 
-Each sentence is read by itself; the readings of all of them are put together.
+Each sentence is read by itself; the readings of all sentences are combined.
 
-Conventions that others rely on:
+Conventions on which other modules rely:
 
-- A macro action holds its side ("exit-left" for a turn to the left, "change-right" for a lane
+- A macro action contains its side ("exit-left" for a turn to the left, "change-right" for a lane
   change), and `Event.side` is None then; other actions keep the side.
-- What a relative clause or a question leaves open is `Wanted` in the event or proposition:
+- `Wanted` stands in an event or proposition for what a relative clause or question leaves open:
   "the car that cut in" is doing `Event("cut-in", actor=Wanted())`.
 - "at the junction" is a time, `Relative("during", Junction())`; "behind the lorry" stands in
   `Event.where`.
@@ -51,20 +51,20 @@ from xavi_dialogue.nlu.text.lattice import HEARD, Lattice, build
 from xavi_dialogue.nlu.text.tokens import Typed, tokenise
 from xavi_dialogue.nlu.unread import OPENERS, unread_cost, unreadable
 
-MAX_STEPS = 6_500  # of a sentence
-MOST_STEPS = 9_000  # of a text
-SPARED = 600  # steps that are left for each sentence to come
+MAX_STEPS = 6_500  # for a sentence
+MOST_STEPS = 9_000  # for a text
+SPARED = 600  # steps that are reserved for each sentence that follows
 CACHED = 512
 LONGEST_TAG = 5  # [tokens]
-LONG = 18  # [tokens] from which on a text may be a story with a question at its end
-REACH = 24  # [tokens] how long that question may be
+LONG = 18  # [tokens] minimum length of a text that may be a story with a question at its end
+REACH = 24  # [tokens] maximum length of that question
 TRIES = 4
-FEW = 0.2  # share of unknown words with which a long text counts as understood
-DEAR = 1.5  # cost of an act from which on a long text does not count as understood
-DROPPED = 1.2  # cost of a clause behind "and" of which nothing was made
+FEW = 0.2  # greatest share of unknown words with which a long text counts as understood
+DEAR = 1.5  # greatest cost per act with which a long text counts as understood
+DROPPED = 1.2  # cost of a clause after "and" that no act was made from
 FOREIGN = 0.5  # cost of taking a text for another language
 LOOSE = 1.5  # cost of a topic that no clause takes up
-PASSED = 0.25  # cost of words that are passed over
+PASSED = 0.25  # cost of words that are unknown
 STORY = 1.0  # cost of a story before the question
 EASY = 0.42  # cost of an act up to which a reading is taken as it is
 EASY_ALONE = 0.62  # the same of an act that is the only one
@@ -88,7 +88,7 @@ class Parser:
         lexicon()
 
     def read(self, text: str) -> tuple[Reading, ...]:
-        """Give the readings of a text, likeliest first; at least one, whatever the text."""
+        """Return the readings of a text, likeliest first; never empty."""
         return _read(text)
 
 
@@ -120,7 +120,7 @@ def _read(text: str) -> tuple[Reading, ...]:
 
 
 def _is_tag(typed: Typed) -> bool:
-    """Say whether a sentence is a tag of the one before: "isn't it?", "right?"."""
+    """Check whether a sentence is a tag of the sentence before: "isn't it?", "right?"."""
     if len(typed.tokens) > LONGEST_TAG:
         return False
     known = lexicon()
@@ -133,7 +133,7 @@ def _is_tag(typed: Typed) -> bool:
 
 
 def _sentence(typed: Typed, budget: Budget) -> tuple[Reading, ...]:
-    """Give the readings of one sentence, likeliest first; at least one."""
+    """Return the readings of one sentence, likeliest first; never empty."""
     other = struck_by(typed) or on_screen(typed)
     if other is not None:
         return (other,)
@@ -150,7 +150,7 @@ def _sentence(typed: Typed, budget: Budget) -> tuple[Reading, ...]:
 
 
 def _understood(lattice: Lattice, budget: Budget) -> list[Reading]:
-    """Read a lattice: first strictly, then words are read past and rarer units are tried."""
+    """Read a lattice strictly; if that costs much, also skip words and try rarer units."""
     found = leaves(lattice)
     readings: list[Reading] = []
     nodes: Nodes = {}
@@ -170,13 +170,13 @@ def _understood(lattice: Lattice, budget: Budget) -> list[Reading]:
 
 
 def _by_ear(typed: Typed, lattice: Lattice, plain: list[Reading], budget: Budget) -> list[Reading]:
-    """Read a sentence as it sounds; what that gives has to be complete, and much cheaper.
+    """Read a sentence as it sounds; the result has to be complete, and much cheaper.
 
     Args:
         typed: the sentence.
-        lattice: the words that it may consist of as it was typed.
-        plain: how that was read.
-        budget: the steps that are left.
+        lattice: its words as they were typed.
+        plain: the readings of those words.
+        budget: the remaining steps.
     """
     limit = NOTHING
     if plain:
@@ -184,13 +184,13 @@ def _by_ear(typed: Typed, lattice: Lattice, plain: list[Reading], budget: Budget
     known = lexicon()
     heard = build(typed, known.vocabulary, known.nouns, by_ear=True)
     if limit <= HEARD or heard.edges == lattice.edges:
-        return []  # no reading with a word by ear is so cheap, or there is no such word
+        return []  # nothing by ear can be cheap enough, or no word sounds like another
     found = _understood(heard, budget)
     return [r for r in found[:1] if r.acts and not r.unknown and not r.unread and r.cost < limit]
 
 
 def _asks(readings: list[Reading]) -> bool:
-    """Say whether most of a text was understood."""
+    """Check whether most of a text was understood."""
     if not readings or not readings[0].acts:
         return False
     best = readings[0]
@@ -199,7 +199,7 @@ def _asks(readings: list[Reading]) -> bool:
 
 
 def _ending(typed: Typed, budget: Budget) -> list[Reading]:
-    """Read the end of a long story by itself; what leads up to it is not understood."""
+    """Read the end of a long story by itself; the text before it stays unread."""
     tokens = typed.tokens
     starts = [
         index for index, token in enumerate(tokens)
@@ -221,7 +221,7 @@ def _ending(typed: Typed, budget: Budget) -> list[Reading]:
 
 
 def _plain(reading: Reading) -> bool:
-    """Say whether a reading is so cheap that rarer kinds of units need not be tried."""
+    """Check whether a reading is so cheap that rarer kinds of units need not be tried."""
     count = len(reading.acts)
     limit = EASY_ALONE if count == 1 else EASY * count
     return bool(count) and not reading.unknown and reading.cost <= limit
@@ -275,7 +275,7 @@ class _Draft:
 def _along(
     path: Path, lattice: Lattice, composed: dict[int, Composed], budget: Budget
 ) -> list[_Draft]:
-    """Compose the units of a path, in each way that they can be read."""
+    """Compose the units of a path; return a draft for each combination of their readings."""
     choices: list[list[Row]] = []
     unknown: list[Leaf] = []
     for unit in path.units:
@@ -297,7 +297,7 @@ def _along(
         named = sum(unit.name == "topic" for unit in path.units)
         loose = named - len(acts) if named else 0
         acts, owners = fold(acts, owners)
-        loose = max(loose + len(acts), 0) if named else 0  # named first, and not taken up
+        loose = max(loose + len(acts), 0) if named else 0  # topics that no unit takes up
         cost = path.cost + sum(extra for _, extra in pairs) + LOOSE * loose
         cost += PASSED * bool(unknown)
         read = (path.units, tuple(owners), tuple(without), idle_, passed)

@@ -1,4 +1,4 @@
-"""Plausibility: what an act costs that says of a thing what cannot be said of its kind."""
+"""Plausibility: the cost of an act that says of a thing what cannot be said of its kind."""
 
 from functools import lru_cache
 from typing import Any
@@ -58,7 +58,7 @@ _PLACES = (Junction, Exit, Lane, Road, Feature, Destination, Record)
 _FIXED = (Junction, Exit, Road, Record)
 _ROAD_USERS = (Ego, Vehicle, Described, Pronoun)
 _OF_LIGHTS = frozenset({"indicator", "brake-lights", "size", "colour", "kind", "name"})
-#: What is not done to anybody: "who is that car coming" is no question for whom it comes to.
+#: Actions without an object: "who is that car coming" does not ask to whom it comes.
 _ALONE = frozenset({"come", "go", "do", "move", "stand", "turn", "continue"})
 _SIDELESS = frozenset({"wait", "brake", "let-go"})
 _APPROACHES = frozenset({"come", "approach", "appear", "happen", "go", "do", "head"})
@@ -66,12 +66,12 @@ _APPROACHES = frozenset({"come", "approach", "appear", "happen", "go", "do", "he
 
 @lru_cache(maxsize=4096)
 def oddity(act: Act) -> float:
-    """Say what an act costs for what it says, beside what its words cost."""
+    """Return the cost of what an act says, in addition to the cost of its words."""
     return _top(act) + _inside(act)
 
 
 def _top(act: Act) -> float:
-    """Judge what stands on its own."""
+    """Return the cost of an act as a whole."""
     match act:
         case Elliptic(time=Relative(anchor=Event(tense="future"))):
             return SLIGHT  # "when we will arrive?" asks when
@@ -87,7 +87,7 @@ def _top(act: Act) -> float:
             question=Why(of=Exists(thing=Feature()) | Caused(cause=Nobody()))
             | Why(of=Is(thing=Nobody()))
         ):
-            return ODD  # "why are we braking, there is room" rather tells that
+            return ODD  # "why are we braking, there is room" rather states that
         case Ask(question=Identify(thing=Pronoun(form="he" | "she"))):
             return DOUBTFUL  # "what is he up to now" rather asks what he does
         case Ask(
@@ -105,21 +105,21 @@ def _top(act: Act) -> float:
                 )
             )
         ):
-            return ODD  # "how many turns until we are there" counts turns
+            return ODD  # "how many turns until we are there" counts events, not things
         case Claim(that=Related(thing=Pronoun("who")) | Happens(event=Event(actor=Pronoun("who")))):
-            return 2.0 * ODD  # "who" asks, and tells of nobody
+            return 2.0 * ODD  # "who" asks, and states nothing
         case Ask(question=Which(such=Related(relation="same-as", to=Junction()))):
             return ODD  # who is a place?
         case Ask(question=Which(thing=Wanted(), such=such, among=())) if (
             such is not None and first(such, Wanted) is None
         ):
-            return ODD  # of nobody who is asked for
+            return ODD  # nothing in it is asked for
         case Ask(question=Summarise(about=Ego()) | Identify(thing=Ego())):
             return DOUBTFUL
         case Ask(question=Whether(that=Related(thing=Nobody()) | Is(thing=Nobody()), tag=False)):
-            return SLIGHT  # "there is nobody in front" rather tells that
+            return SLIGHT  # "there is nobody in front" rather states that
         case Claim(that=Not(content=Happens(event=Event("do", Passenger(), None)))):
-            return ODD  # "I do not", of which nothing is stated
+            return ODD  # "I do not", without anything that is stated
         case Request(event=Event(action="do", object=None) | Event(actor=Described())):
             return ODD
         case Elliptic(thing=Ego() | Passenger(), event=None, time=Unsaid(), form="same" | "why"):
@@ -128,7 +128,7 @@ def _top(act: Act) -> float:
 
 
 def _inside(value: Any) -> float:
-    """Add up what a term and the terms in it cost."""
+    """Add up the costs of a term and of all terms in it."""
     cost = _own(value)
     for name in getattr(value, "__struct_fields__", ()):
         inner = getattr(value, name)
@@ -161,7 +161,7 @@ def _own(value: Any) -> float:
         case Why(suspect=Pronoun(form="it" | "this")):
             return DOUBTFUL
         case WhatIf(supposed=Is(state="visible", thing=Ego())):
-            return ODD  # "had you seen", of which nothing is stated
+            return ODD  # "had you seen", without anything that is supposed
         case HowMany(of=Pronoun() | Unknown() | Feature(kind="space" | "way")):
             return ODD
         case HowDecide(of=Caused()):
@@ -205,7 +205,7 @@ def _related(value: Related) -> float:
 
 
 def _is_vague(thing: object) -> bool:
-    """Say whether a thing is a word that may stand for anything."""
+    """Check whether a thing is a pronoun that may stand for anything."""
     return isinstance(thing, Pronoun) and thing.form in ("it", "that", "this")
 
 

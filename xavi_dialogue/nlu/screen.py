@@ -1,10 +1,10 @@
-"""Screen: figures that engineers read off it.
+"""Screen: figures that engineers read off a screen.
 
-Such are "100 percent stop for v1?" and "continue -26.5 against change-left -26.9".
+Examples: "100 percent stop for v1?" and "continue -26.5 against change-left -26.9".
 
-A chance that is put forward is asked for its grounds; values set against each other become a claim
-on which "what tips it?" is asked. Every word has to be a figure, a vehicle, a way to go or one of
-the small words that stand between them; else nothing is read here.
+A stated probability becomes the question what it is based on. Two compared values become a claim,
+to which "what tips it?" can refer. Every word has to be a figure, a vehicle, an action or one of
+the small words between them; else nothing is read here.
 """
 
 from collections.abc import Iterator
@@ -25,7 +25,7 @@ _SMALL: Final = frozenset(
      "going", "turn", "full", "moving", "then", "ok", "wait", "hang", "hold", "as", "way", "branch",
      "hypothesis", "mass", "weight", "standstill", "halt")
 )  # fmt: skip
-_ENDS: Final = frozenset(("on", "in", "at", "while", "with"))  # of an aside behind a comma
+_ENDS: Final = frozenset(("on", "in", "at", "while", "with"))  # begin an aside after a comma
 _VEHICLES: Final = frozenset(("v", "vehicle", "veh", "number", "car", "no"))
 _PERCENT: Final = frozenset(("percent", "%", "per"))
 _AGAINST: Final = frozenset(("against", "versus", "vs", "over", "to", "and", "but"))
@@ -40,7 +40,7 @@ _ACTIONS: Final[dict[str, Any]] = {
 
 
 def on_screen(typed: Typed) -> Reading | None:
-    """Read a sentence that only names figures, whose they are and what for."""
+    """Read a sentence that only names figures, a vehicle and actions; None for any other."""
     tokens = tuple(_without_aside(typed.tokens))
     words = tuple(token.text for token in tokens)
     if len(typed.tokens) > LONGEST or not any(map(_is_number, words)):
@@ -61,7 +61,7 @@ def on_screen(typed: Typed) -> Reading | None:
 
 
 def _without_aside(tokens: tuple[Token, ...]) -> Iterator[Token]:
-    """Leave out an opening such as "hang on," and what is added: "..., on a motorway"."""
+    """Leave out an opening such as "hang on," and an aside such as "..., on a motorway"."""
     marked = [index for index, token in enumerate(tokens) if token.mark]
     begin = next((m for m in marked if all(t.text in _OPENING for t in tokens[:m])), 0)
     figures = [index for index, token in enumerate(tokens) if _is_number(token.text)]
@@ -79,7 +79,7 @@ def _is_number(word: str) -> bool:
 
 
 def _is_chance(words: tuple[str, ...]) -> bool:
-    """Say whether one of the numbers is a probability: in percent, or between 0 and 1."""
+    """Check whether one of the numbers is a probability: in percent, or between 0 and 1."""
     for word, behind in zip(words, (*words[1:], ""), strict=True):
         if _is_number(word) and (behind in _PERCENT or float(word.replace(",", ".")) < 1.0):
             return True
@@ -87,11 +87,11 @@ def _is_chance(words: tuple[str, ...]) -> bool:
 
 
 def _valued(words: tuple[str, ...], acts: list[Any]) -> Act | None:
-    """Read two ways to go with their values, the better first."""
+    """Read two actions with their values as a claim that the better one is better."""
     figures = [word for word in words if _is_number(word)]
     if len(acts) != 2 or len(figures) != 2 or _AGAINST.isdisjoint(words):
         return None
     done, other = (Event(action, tense="present") for action in acts)
-    if float(figures[0]) > float(figures[1]):  # they are costs, told without their sign
+    if float(figures[0]) > float(figures[1]):  # they are costs, given without their sign
         done, other = other, done
     return Claim(Compares(Measured("value", event=done), "more", Measured("value", event=other)))

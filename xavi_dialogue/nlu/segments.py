@@ -32,7 +32,7 @@ RARE = (
     "had_supposed",
 )
 UNIT = 0.25  # cost of a unit
-AT_STOP = 0.0  # cost of a border between units, by the mark there
+AT_STOP = 0.0  # cost of a border between units at a full stop or another strong mark
 AT_COMMA = 0.15
 JOINED = 0.3  # before "and", "but", "so"
 UNMARKED = 0.75
@@ -108,7 +108,7 @@ def segment(
         start, border = _border(node, lattice, leaves)
         if border is None:
             continue
-        opens = node == 0 or node in lattice.marks  # what is named first stands in front
+        opens = node == 0 or node in lattice.marks  # topics stand at the front
         for name in names:
             if name == "topic" and not opens:
                 continue
@@ -133,7 +133,7 @@ def _cost(row: _Row) -> float:
 
 
 def _best(rows: list[_Row], most: int, alike: int) -> list[_Row]:
-    """Keep the cheapest rows, and few of those whose last unit begins at the same node."""
+    """Keep the cheapest rows, and only a few whose last units begin at the same node."""
     kept: list[_Row] = []
     counts: dict[int, int] = {}
     for row in sorted(rows, key=_cost):
@@ -148,7 +148,7 @@ def _best(rows: list[_Row], most: int, alike: int) -> list[_Row]:
 def _border(
     node: int, lattice: Lattice, leaves: list[dict[str, list[Leaf]]]
 ) -> tuple[int, float | None]:
-    """Say where a unit may begin at a node, and what a border there costs."""
+    """Return where the next unit begins, and the cost of a border there; None: no border."""
     mark = lattice.marks.get(node)
     if mark is not None:
         return node + 1, AT_COMMA if mark == "," else AT_STOP

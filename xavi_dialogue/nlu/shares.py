@@ -92,7 +92,7 @@ def shares_of(
 
 
 def is_unknown(unit: Node, unknown: list[Leaf]) -> bool:
-    """Say whether no word of a unit is known."""
+    """Check whether a unit has unknown words and no known ones."""
     lost = {id(leaf) for leaf in unknown}
     shares = [_share(leaf) for leaf in leaves_of(unit) if id(leaf) not in lost]
     return "unknown" in (*shares, *("unknown" for _ in lost)) and not any(
@@ -135,7 +135,7 @@ def unknown_shares(tokens: tuple[str, ...]) -> tuple[TokenShare, ...]:
 def unread_of(
     units: tuple[Node, ...], owners: list[int | None], shares: tuple[TokenShare, ...]
 ) -> tuple[Unread, ...]:
-    """List the units that have words without a part, and no act."""
+    """List the units that have unknown words and no act."""
     found: list[Unread] = []
     for unit, owner in zip(units, owners, strict=True):
         tokens = _tokens_of(unit)
