@@ -44,7 +44,7 @@ def missing(unit: Node, acts: tuple[Act, ...]) -> tuple[Leaf, ...]:
         return ()
     found = set(atoms(acts))
     if Request in found:
-        found.add(Quantity)  # the speed in "can we go 50" is missing from "why not", rightly
+        found.add(Quantity)  # why a request is refused does not depend on its speed
     return tuple(leaf for leaf in _telling(unit) if not _is_in(leaf, found))
 
 

@@ -69,9 +69,9 @@ from xavi_dialogue.nlu.grammar.chart import Budget, Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 _TALKING = frozenset({"TALK", "REPAIR", "HELP", "QUIZ", "OFFTOPIC"})
-NOTHING = 2.5  # cost of a unit of which nothing can be made
-NAMED_FIRST = 0.4  # cost of things named by themselves, of which one is asked for next
-SHORT = 0.5  # of "if you had" before an order
+NOTHING = 2.5  # cost of a unit that cannot be read
+NAMED_FIRST = 0.4  # cost of alternatives that are named first, before the question which of them
+SHORT = 0.5  # cost of "if you had" before an order
 _COURTEOUS = frozenset({"PLEASE", "TAGWORD"})
 _PROPOSING = frozenset({("maybe",), ("perhaps",)})
 
@@ -92,7 +92,7 @@ class Composer(Statements):
         self.fragments = Fragments(self)
 
     def compose(self, unit: Node) -> Found:
-        """Read one unit as acts, in every way that it can be read; empty where in none."""
+        """Read one unit as acts, in every way that it can be read; empty if there is none."""
         if unit.name in _RULES:
             found = cast(Found, getattr(self, _RULES[unit.name])(unit))
         else:
@@ -119,7 +119,7 @@ class Composer(Statements):
     # --- questions ---------------------------------------------------
 
     def split(self, unit: Node) -> tuple[Node | None, list[Part]]:
-        """Take the question word out of the parts of a unit."""
+        """Take the question word out of a unit; return it and the other parts."""
         whs = [p for p in unit.parts if isinstance(p, Node) and p.name.startswith("wh_")
                and p.name not in ("wh_clause", "wh_np_clause")]  # fmt: skip
         wh = whs[0] if whs else None
@@ -166,7 +166,7 @@ class Composer(Statements):
         return [((Ask(question),), cost + extra) for question, cost in found]
 
     def _ask_both(self, unit: Node, wh: Node, also: Node) -> Found:
-        """Read "when and why did you brake" as two questions of one clause."""
+        """Read "when and why did you brake" as two questions about one clause."""
         second = cast(Node, also.parts[-1])
         rest = [part for part in unit.parts if part is not also]
         others = tuple(second if part is wh else part for part in rest)
@@ -240,7 +240,7 @@ class Composer(Statements):
         return [(self._asks_back(acts), cost) for acts, cost in found]
 
     def _asks_back(self, acts: Acts) -> Acts:
-        """Take "back again?", "sit behind him all day?" for the question whether we do so."""
+        """Read "back again?", "sit behind him all day?" as the question whether we will do so."""
         first = acts[0] if acts else None
         if not isinstance(first, Request) or first.event.action == "keep-distance":
             return acts
@@ -253,11 +253,11 @@ class Composer(Statements):
         return found
 
     def _topic(self, unit: Node) -> Found:
-        """Read what is named first and taken up by a pronoun of the next unit."""
+        """Read a thing that is named first, and to which a pronoun of the next unit refers."""
         things = ("np", "aliased", "group", "accusative", "accusative_group")
         named = [p for p in unit.parts if isinstance(p, Node) and p.name in things]
         if any(is_possessed(part) for part in named[0].parts):
-            return []  # "its green now" tells of a light
+            return []  # "its green now" says that a light is green
         sem = self.phrases.nouns.read(named[0])
         if leaf_of(unit, "TALLY"):
             counted = among(sem, named[0])
@@ -276,7 +276,7 @@ class Composer(Statements):
     def _ask_bare(self, unit: Node) -> Found:
         tails = (part for part in unit.parts if isinstance(part, Node) and part.name == "tail")
         if any(isinstance(p, Node) and p.name == "tag" for tail in tails for p in tail.parts):
-            return []  # "how close was it" is no "how close", with "was it?" behind it
+            return []  # not "how close" with the tag "was it?", but one question
         extra = RUN_ON * runs_on(unit)
         return [(acts, cost + extra) for acts, cost in self.fragments.bare_question(unit)]
 
@@ -324,18 +324,18 @@ def _lead_act(part: Part) -> Act | None:
 
 
 def _missed(clause: Clause) -> bool:
-    """Say whether it is asked what the passenger missed."""
+    """Check whether a clause asks what the passenger missed."""
     missed = clause.verb is not None and clause.verb.key == "miss"
     return missed and isinstance(clause.subject, Passenger)
 
 
 def _grounds(question: Question) -> Question:
-    """Take "why do you think he stops" for the question what shows it."""
+    """Turn "why do you think he stops" into the question what shows it."""
     return HowKnow(question.of) if isinstance(question, Why) else question
 
 
 def _refrains(unit: Node) -> bool:
-    """Say whether "could you please not brake" asks not to do it; "couldn't you" does not."""
+    """Check whether "could you please not brake" asks us not to; "couldn't you" does not."""
     words = [word for leaf in leaves_of(unit) for word in leaf.words]
     if "not" not in words:
         return False

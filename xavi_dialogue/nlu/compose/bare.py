@@ -1,4 +1,4 @@
-"""Bare questions: question words with little behind them: "why not?", "how fast?"."""
+"""Bare questions: question words with little after them: "why not?", "how fast?"."""
 
 from typing import Any
 
@@ -49,7 +49,7 @@ _ONWARD = frozenset({"now", "next", "then", "after-that"})
 
 
 class BareQuestions(Suppositions):
-    """Reads question words with little behind them."""
+    """Reads question words with little after them."""
 
     def bare_question(self, unit: Node) -> Found:
         """Read "why not?", "how fast?", "which one?", "why not the first one?"."""
@@ -162,7 +162,7 @@ class BareQuestions(Suppositions):
         return [((Elliptic(as_thing(sem) or thing, form="which", besides=wh.besides),), 0.0)]
 
     def _contents(self, clause: Clause) -> tuple[Thing | None, Event | None]:
-        """Find the thing or the event that a fragment names."""
+        """Find the thing or the event in a fragment; return (thing, event), one of them None."""
         if clause.verb is not None or clause.gerund is not None or clause.bare is not None:
             inner = clause if clause.verb is not None else clause.gerund or clause.bare
             if inner is not None:
@@ -180,18 +180,18 @@ class BareQuestions(Suppositions):
 
 
 def _still(wh: Wh, clause: Clause) -> bool:
-    """Say whether it is asked what is left: "how long still?", "how far yet?"."""
+    """Check whether a question is about what remains: "how long still?", "how far yet?"."""
     return clause.still or not _YET.isdisjoint((*clause.focus, *wh.words))
 
 
 def _onward(unit: Node, clause: Clause) -> bool:
-    """Say whether it is asked what comes: "what now?", "what next?", "and then what?"."""
+    """Check whether a question is about what comes next: "what now?", "and then what?"."""
     words = {word for part in unit.parts for leaf in leaves_of(part) for word in leaf.words}
     return clause.verb is None and bool(words & _ONWARD) and "how" not in words
 
 
 def _next(unit: Node) -> Act:
-    """Ask what comes next, or after what was spoken of."""
+    """Return the question what comes next, or what came after the event in question."""
     words = {word for part in unit.parts for leaf in leaves_of(part) for word in leaf.words}
     if "then" in words or "after" in words:
         return Elliptic(time=Back("after"))
@@ -199,13 +199,13 @@ def _next(unit: Node) -> Act:
 
 
 def _denied(parts: list[Part]) -> bool:
-    """Say whether an event is denied by its article: "why no left turn"."""
+    """Check whether an article negates an event: "why no left turn"."""
     leaves = [leaf for part in parts for leaf in leaves_of(part)]
     return any(leaf.category in ("DET", "NO") and leaf.key == "no" for leaf in leaves)
 
 
 def _empty(clause: Clause) -> bool:
-    """Say whether nothing stands behind a question word but a preposition: "how long for?"."""
+    """Check whether only a preposition follows a question word: "how long for?"."""
     said = (clause.subject, clause.objects, clause.bearings, clause.side, clause.verb,
             clause.infinitive, clause.condition)  # fmt: skip
     stranded = all(phrase.sem is None for phrase in clause.complements)
@@ -213,7 +213,7 @@ def _empty(clause: Clause) -> bool:
 
 
 def _still_to_come(question: Question, clause: Clause) -> Question:
-    """Ask "how many turns till we're there" of what is to come."""
+    """Put "how many turns till we're there" into the future."""
     match question, clause.time:
         case HowMany(of=Event() as event), Relative(relation="until" | "before"):
             return HowMany(with_fields(event, tense="future", time=Unsaid()))

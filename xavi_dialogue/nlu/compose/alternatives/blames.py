@@ -1,4 +1,4 @@
-"""Blames: "was it for the bus", "was that braking because of him or of the lorry"."""
+"""Blames: questions that suspect a cause, such as "was that braking because of the lorry"."""
 
 import re
 
@@ -25,7 +25,7 @@ from xavi_dialogue.nlu.compose.clauses.sem import Group, Sem, Specified, as_thin
 _TURNS = frozenset({"turn", "exit-left", "exit-right", "take-turn"})
 _HINDERING = frozenset({"bend", "light", "crossing", "queue", "obstacle"})
 _HELD = frozenset({"brake", "slow-down", "stop", "wait", "give-way", "let-go"})
-#: That nobody else is meant; "just" and "only just" may be of the time, and "not only" denies it.
+#: Words for "nobody else"; "just" and "only just" may refer to time, "not only" denies it.
 _ALONE = re.compile(
     r"(?<!not )\bonly\b(?! just)|\balone\b|\b(?:solely|purely|merely|exclusively)\b"
     r"|\bjust (?:because|due|for|down to|thanks to|the|that|this|vehicle|him|her|them)\b"
@@ -34,7 +34,7 @@ _ALONE = re.compile(
 
 
 def blamed(clause: Clause) -> Thing | None:
-    """Read "was it for the bus", "was that braking because of him": whom it was for."""
+    """Read the cause in "was it for the bus", "was that braking because of him"."""
     plain = clause.verb is None and not (clause.complements or clause.objects)
     if isinstance(clause.subject, Event) and plain and not isinstance(clause.because, Clause):
         return as_thing(clause.because)
@@ -49,7 +49,7 @@ def blamed(clause: Clause) -> Thing | None:
 
 
 def _cause(sem: Sem | None) -> Thing | None:
-    """Give what may hinder us: somebody, a junction or bend, or the turn that we take there."""
+    """Return what may hinder us: a road user, a junction or bend, or the junction of a turn."""
     if isinstance(sem, Event):
         return Junction() if sem.action in _TURNS else None
     thing = as_thing(sem)
@@ -64,7 +64,7 @@ def _cause(sem: Sem | None) -> Thing | None:
 
 
 def cleft_cause(clause: Clause) -> tuple[Thing, Proposition | Clause] | None:
-    """Read "was it because of the bus that you braked": the cause, and what it is of."""
+    """Read "was it because of the bus that you braked": the cause, and what it caused."""
     if clause.verb is not None or not wanted_pronoun(clause.subject):
         return None
     named = [c.sem for c in clause.complements if c.key == "for"]
@@ -97,13 +97,13 @@ def blamed_for(clause: Clause) -> Why | None:
 
 
 def _whole(event: Event) -> Proposition:
-    """Take a deed for one that was for the sake of nobody in particular."""
+    """Return the event without its object, so that it is not about anybody in particular."""
     action = "stop" if event.action == "block" else event.action  # "that you stopped"
     return Happens(replace(event, action=action, object=None))
 
 
 def of_one_alone(act: Act, words: str) -> Act:
-    """Mark "only because of him", "was it him alone?": whether nobody else is why is asked.
+    """Mark "only because of him", "was it him alone?": it asks whether he is the only cause.
 
     "Did you stop only for the bus?" asks the same.
     """
@@ -122,7 +122,7 @@ def of_one_alone(act: Act, words: str) -> Act:
 
 
 def rival(clause: Clause) -> Thing | None:
-    """Give the other of two who are named: "was it for the bus or for the lorry?"."""
+    """Return the second of two suspected causes: "was it for the bus or for the lorry?"."""
     sem = clause.complements[0].sem if clause.complements else clause.because
     members = sem.members[1:] if isinstance(sem, Group) and sem.join == "or" else ()
     return next((one for one in map(_cause, members) if one is not None), None)

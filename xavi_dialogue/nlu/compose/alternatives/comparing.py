@@ -1,4 +1,4 @@
-"""Comparing: whether one deed is or would have been better than another."""
+"""Comparing: whether one action is or would have been better than another."""
 
 from typing import Any, cast
 
@@ -33,15 +33,15 @@ BY = {
     "first": "time",
 }
 
-#: Words of what is said to do worse.
+#: Words for the worse of two options.
 _WORSE = frozenset({"worse", "slower", "riskier", "longer", "later", "less safe", "costlier"})
 
 
 class Comparing(Frames):
-    """Builds questions that compare deeds."""
+    """Builds questions that compare actions."""
 
     def comparison(self, clause: Clause) -> Question | None:
-        """Ask "would turning right have been quicker": deeds compared."""
+        """Read "would turning right have been quicker" as a question that compares actions."""
         if _sooner(clause):
             whose = clause.subject
             of = Happens(whose) if isinstance(whose, Event) else That()
@@ -82,7 +82,7 @@ class Comparing(Frames):
         return Compare(tuple(_at(option, clause.tense) for option in options), by, least)
 
     def weighed_deed(self, clause: Clause) -> Happens | None:
-        """Read the deed of "stopping would have been worse"; what was worse was not done."""
+        """Read the action in "stopping would have been worse"; if it was worse, it was not done."""
         compare = self.comparison(clause)
         if not isinstance(compare, Compare) or not isinstance(compare.options[0], Happens):
             return None
@@ -110,7 +110,7 @@ def _at(option: Any, tense: str) -> Any:
 
 
 def _sooner(clause: Clause) -> bool:
-    """Say whether it is asked if we would have got there sooner."""
+    """Check whether a clause asks if we would have arrived sooner."""
     key = clause.verb.key if clause.verb is not None else ""
     unreal = clause.modal in ("would", "could", "might") or clause.has("have-past")
     sooner = ("soon", "sooner") in clause.comparisons or "early" in clause.manner

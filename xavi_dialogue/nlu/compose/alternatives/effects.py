@@ -1,4 +1,4 @@
-"""Effects: questions of what a deed would do, what it was for, and what it hangs on."""
+"""Effects: questions about what an action would cause, its purpose, and its conditions."""
 
 from typing import Any, cast
 
@@ -22,24 +22,24 @@ from xavi_dialogue.nlu.compose.clauses.sem import Measure, Notes, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh
 
-#: Verbs of which a deed is the subject: "what would braking have done".
+#: Verbs with an action as their subject: "what would braking have done".
 _EFFECTS = frozenset(
     {"do", "mean", "lead", "have", "change", "bring", "cause", "come", "get", "cost", "result",
      "give", "make", "look", "end", "achieve", "gain", "save", "trigger"}
 )  # fmt: skip
-#: Verbs that ask what a deed is good for: "what did turning left gain us".
+#: Verbs that ask for the benefit of an action: "what did turning left gain us".
 _GAINS = frozenset({"gain", "achieve", "accomplish", "serve", "bring", "get", "buy"})
 _EFFECT_OF = frozenset({"of", "from", "with", "behind"})
 _UNREAL = frozenset({"would", "could", "might"})
 
 
 class Effects(Polar):
-    """Builds questions of deeds and what comes of them."""
+    """Builds questions about actions and their effects."""
 
     notes: Notes
 
     def deeds(self, clause: Clause) -> tuple[Any, ...]:
-        """Read "changing left or staying here" as deeds to choose between."""
+        """Read "changing left or staying here" as actions to choose between."""
         if clause.gerund is None:
             return ()
         later = [c for j, c in (*clause.gerund.chained, *clause.chained) if j == "or"]
@@ -59,7 +59,7 @@ class Effects(Polar):
         return Compare(deeds, "margin") if deeds else between_deeds(clause)
 
     def effect(self, wh: Wh, clause: Clause) -> Question | None:
-        """Ask "what would braking have done", "what was that stop for", "what is with it"."""
+        """Read "what would braking have done", "what was that stop for", "what is with it"."""
         if wh.kind not in ("what", "which"):
             return None
         if (chances := self._chances(clause)) is not None:
@@ -74,7 +74,7 @@ class Effects(Polar):
         return None if deed is None else _of_deed(clause, deed)
 
     def _chances(self, clause: Clause) -> Question | None:
-        """Ask "what is the probability of vehicle 1 turning right"."""
+        """Read "what is the probability of vehicle 1 turning right"."""
         of = clause.subject.of if isinstance(clause.subject, Measure) else None
         verbal = clause.verb is not None and clause.verb.form == "ing"
         if of is None or of.attribute != "probability" or not verbal:
@@ -83,7 +83,7 @@ class Effects(Polar):
         return HowSure(self.propositions.plain(clause), clause.time)
 
     def _hanging(self, clause: Clause) -> Question | None:
-        """Ask "what would it take for you to turn", "what would need to be different"."""
+        """Read "what would it take for you to turn", "what would need to be different"."""
         inner = clause.infinitive
         if inner is None:
             return None
@@ -94,21 +94,21 @@ class Effects(Polar):
         return None
 
     def weighed(self, wh: Wh, clause: Clause) -> Question | None:
-        """Ask "how much worse would stopping have been than going on"."""
+        """Read "how much worse would stopping have been than going on"."""
         if not isinstance(clause.subject, Event | Pronoun):
             return None
         clause.comparisons.append(("better" if wh.key == "worse" else "fast", " ".join(wh.words)))
         return self.comparison(clause)
 
     def needing(self, clause: Clause) -> Question | None:
-        """Ask "how far would it need to be for you to go", "how big a gap would you need to go"."""
+        """Read "how far would it need to be for you to go", "how big a gap would you need"."""
         needs = "semi-must" in clause.aux or (clause.verb is not None and clause.verb.key == "need")
         if clause.modal != "would" or not needs or clause.infinitive is None:
             return None
         return WhatWouldChange(self._pivot(clause, clause.infinitive))
 
     def _pivot(self, clause: Clause, governed: Clause) -> Proposition | None:
-        """Read "for you to turn left": what hangs on it."""
+        """Read what the condition decides: "for you to turn left"."""
         actors = (as_thing(p.sem) for p in clause.complements if p.key == "for")
         governed.subject = next((actor for actor in actors if actor is not None), Ego())
         if clause.modal == "would" and not governed.has("modal"):
@@ -137,7 +137,7 @@ def _of_deed(clause: Clause, deed: Event) -> Question | None:
 
 
 def _in_time(clause: Clause) -> bool:
-    """Say whether it is time that is asked for: "what did it buy us in time"."""
+    """Check whether a clause asks for time: "what did it buy us in time"."""
     named = (words_of(p.node).split()[-1:] for p in clause.complements if p.key == "in")
     spent = any(words in (["time"], ["seconds"], ["minutes"]) for words in named)
-    return spent or "early" in clause.manner  # as "in time" is read
+    return spent or "early" in clause.manner  # "in time" is read as "early"

@@ -1,4 +1,4 @@
-"""Nearness of options: "was it a close decision", "how close were the two options"."""
+"""Closeness of options: "was it a close decision", "how close were the two options"."""
 
 from xavi_dialogue.domain.meaning import Compare, Listing
 from xavi_dialogue.domain.terms import Ego, Event, Happens
@@ -10,7 +10,7 @@ _NEAR = frozenset({"close", "narrow", "tight", "near", "hard", "difficult", "tou
 
 
 def is_choice(sem: Sem | None) -> bool:
-    """Say whether a noun phrase is of a decision of ours, or of what it could choose from."""
+    """Check whether a noun phrase is a decision of ours, or the options of one."""
     if isinstance(sem, Noun):
         called = sem.key == "prediction" and sem.word == "call"  # "how close was that call"
         return called or sem.key in ("option", "rival", "decision")
@@ -41,6 +41,6 @@ def nearly_even(clause: Clause) -> Listing | Compare | None:
 
 
 def rivals(clause: Clause) -> Listing:
-    """Ask for the next best option, of a decision that would be taken where that is supposed."""
+    """Return the question for the next best options, supposed ones after "would"."""
     supposed = Event("do", modal="would") if clause.modal == "would" else None
     return Listing("rivals", time=clause.time, event=supposed)

@@ -1,4 +1,4 @@
-"""Options: questions which of several things or deeds it is, and which of them is better."""
+"""Options: questions which of several things or actions it is, and which of them is better."""
 
 from typing import Any, cast
 
@@ -26,19 +26,19 @@ from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Noun, Sem, as_thing, is_thing
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, fact
 
-WEAK = 1.0  # cost of a clause of which nothing is said
+WEAK = 1.0  # cost of a comparison of things by nothing in particular
 _YIELDS = frozenset({"give-way", "let-go", "wait"})
 _MATTERING = frozenset({"matter", "influence", "cause"})
 
-#: What tells nobody apart: "a man", "somebody".
+#: Things that are no alternatives, since they identify nobody: "a man", "somebody".
 _SORTS = (Described(definite=False), Described(kind="pedestrian", definite=False))
 
 
 class Options(Effects):
-    """Builds questions that choose between things or deeds."""
+    """Builds questions that choose between things or actions."""
 
     def one_of(self, wh: Wh, clause: Clause, options: tuple[Any, ...]) -> tuple[Question, float]:
-        """Ask which of some things or deeds it is, with what that reading costs."""
+        """Return the question which of some things or actions it is, and what it costs."""
         things = all(is_thing(option) for option in options)
         if things and (behind := in_line(clause)) is not None:
             return Compare(options, "place", behind), 0.1
@@ -54,7 +54,7 @@ class Options(Effects):
         return Compare(options, cast(Any, by), least), 0.1 + WEAK * (things and by == "best")
 
     def _first_of(self, wh: Wh, clause: Clause, options: tuple[Any, ...]) -> Question | None:
-        """Ask "who goes first, we or the bus": who of them has to let the other go."""
+        """Read "who goes first, we or the bus": the question who has to let the other go."""
         other = next((one for one in options if not isinstance(one, Ego)), None)
         bare = clause.verb is None and not (clause.comparisons or clause.adjectives)
         if isinstance(clause.time, Next) and bare:
@@ -81,7 +81,7 @@ class Options(Effects):
         return None
 
     def compared(self, wh: Wh, clause: Clause, value: Any) -> Question | None:
-        """Ask "which is faster, left or right"."""
+        """Read "which is faster, left or right"."""
         most = superlative_of(clause)
         if wh.kind not in ("which", "what", "who") or not (clause.comparisons or most):
             return None
@@ -101,7 +101,7 @@ class Options(Effects):
         return Compare((those,), cast(Any, by_of(clause)), least_of(clause))
 
     def mattering(self, wh: Wh, clause: Clause, options: tuple[Any, ...] | None) -> Question | None:
-        """Ask "which of the two mattered more", "who was the main reason, he or the bus"."""
+        """Read "which of the two mattered more", "who was the main reason, he or the bus"."""
         nouns = [sem for sem, _ in clause.objects if isinstance(sem, Noun)]
         reasons = any(sem.key in ("reason", "factor") for sem in nouns)
         verb = clause.verb is not None and clause.verb.key in _MATTERING
@@ -115,7 +115,7 @@ class Options(Effects):
 
 
 def _those(wh: Wh, clause: Clause) -> Thing | None:
-    """Give those of whom one is asked for, where the question word says that there are several."""
+    """Return the things to choose from, if the question names several; None otherwise."""
     among = [wh.of, wh.sem, *(c.sem for c in clause.complements if c.key == "of")]
     those = next((thing for sem in among if (thing := several_of(sem)) is not None), None)
     bare = wh.kind == "which" and wh.sem is None and wh.of is None and clause.gap is None
@@ -125,12 +125,12 @@ def _those(wh: Wh, clause: Clause) -> Thing | None:
 
 
 def rivals(options: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Give those of some options who are not us."""
+    """Return the options other than the ego."""
     return tuple(one for one in options if not isinstance(one, Ego))
 
 
 def several_of(sem: Sem | None) -> Thing | None:
-    """Give those of whom one is asked for: "which of them", "which of the two trucks"."""
+    """Return the things to choose from in "which of them", "which of the two trucks"."""
     if isinstance(sem, Pronoun) and sem.form in ("they", "them-all"):
         return Pronoun("them-all")
     many = isinstance(sem, Described) and sem.definite and sem.plural
@@ -138,12 +138,12 @@ def several_of(sem: Sem | None) -> Thing | None:
 
 
 def several(options: tuple[Any, ...]) -> bool:
-    """Say whether there are others than one among which it is asked who goes first."""
+    """Check whether there is more than one option besides the ego."""
     return len(rivals(options)) > 1
 
 
 def alternatives(clause: Clause) -> tuple[Any, ...] | None:
-    """Take "we or the blue one" out of a clause that asks which of them."""
+    """Take alternatives such as "we or the blue one" out of a clause; None: it has none."""
     named = _named(clause)
     if named is not None and all(option in _SORTS for option in named):
         return None  # "a man or a lady?"
@@ -168,7 +168,7 @@ def _named(clause: Clause) -> tuple[Any, ...] | None:
 
 
 def _is_option(other: Clause) -> bool:
-    """Say whether nothing stands behind "or" but a thing."""
+    """Check whether there is nothing but a thing after "or"."""
     more = (other.complements, other.adjectives, other.bearings, other.manner, other.particles)
     return len(other.objects) == 1 and is_thing(other.objects[0][0]) and not any(more)
 

@@ -1,4 +1,4 @@
-"""Polar questions: whether something is so, and which of two deeds is better."""
+"""Polar questions: whether something is so, and which of two actions is better."""
 
 from dataclasses import replace
 from typing import Any, cast
@@ -72,7 +72,7 @@ _OTHERS = (Described, Pronoun, Vehicle)
 
 
 def way_asked(of: Proposition) -> Question | None:
-    """Take "do we turn left or go straight on" for the question which way we go."""
+    """Turn "do we turn left or go straight on" into the question which way we go."""
     if not isinstance(of, Both) or of.join != "or":
         return None
     found = [one.event for one in of.contents if isinstance(one, Happens)]
@@ -91,13 +91,13 @@ def way_asked(of: Proposition) -> Question | None:
 
 
 def judged(clause: Clause) -> Thing | None:
-    """Tell who is said to be rude or unfair; nobody where it is what happened."""
+    """Return who is called rude or unfair; None if an event is."""
     thing = as_thing(clause.subject)
     return None if isinstance(thing, Pronoun) and thing.form in ("that", "this", "it") else thing
 
 
 def _foreseen(clause: Clause) -> Proposition | None:
-    """Read "was your prediction right": whether we were right about whom is spoken of."""
+    """Read "was your prediction right": whether we were right about the vehicle in question."""
     sem = clause.subject
     state = next((key for key, _ in clause.adjectives if key in ("right", "wrong")), clause.side)
     if clause.verb is not None or state not in ("right", "wrong"):
@@ -113,21 +113,21 @@ def _foreseen(clause: Clause) -> Proposition | None:
 
 
 def _is_all(clause: Clause) -> bool:
-    """Say whether it is asked whether "that is it": whether anything is still to come."""
+    """Check whether a clause is "that is it": it asks whether anything is still to come."""
     it = [sem for sem, _ in clause.objects] == [Pronoun("it")]
     plain = clause.verb is None and not clause.complements and not clause.adjectives
     return clause.subject == Pronoun("that") and it and plain
 
 
 def _is_option(clause: Clause) -> bool:
-    """Say whether options are spoken of, or anything else."""
+    """Check whether a clause is about options or alternatives."""
     named = [clause.subject] if clause.passive else [sem for sem, _ in clause.objects]
     options = any(isinstance(sem, Noun) and sem.key == "option" for sem in named)
     return options or any(isinstance(sem, Described) and sem.other for sem in named)
 
 
 def _our_sureness(thing: Thing | None) -> bool:
-    """Say whether it is we who are said to be sure, or "it" that is said to be."""
+    """Check whether the one who is sure is the ego, or the empty "it"."""
     return isinstance(thing, Ego) or (isinstance(thing, Pronoun) and thing.form in ("it", "that"))
 
 
@@ -177,7 +177,7 @@ class Polar(Comparing):
         return found
 
     def _existing(self, clause: Clause) -> Question | None:
-        """Ask "is there a reason you are waiting", "do we have another option"."""
+        """Read "is there a reason you are waiting", "do we have another option"."""
         if not clause.there or not clause.objects:
             return None
         way = self._way_round(clause)
@@ -195,7 +195,7 @@ class Polar(Comparing):
         return asked_of(sem, clause.time, clause.tense)
 
     def _chance(self, clause: Clause, sem: Measure) -> Question | None:
-        """Ask "is there a risk that he hits us", "is there any risk with the lorry"."""
+        """Read "is there a risk that he hits us", "is there any risk with the lorry"."""
         if clause.that is not None:
             return HowSure(self.propositions.plain(clause.that), clause.time)
         if (risk := risk_asked(sem.of, cast(Any, clause.tense))) is not None:
@@ -243,7 +243,7 @@ class Polar(Comparing):
         return Whether(of, tag)
 
     def _either_way(self, clause: Clause, of: Proposition) -> Question | None:
-        """Ask "do we come off at this one or the next": which way we go."""
+        """Read "do we come off at this one or the next" as the question which way we go."""
         sems = [*(phrase.sem for phrase in clause.complements), *(sem for sem, _ in clause.objects)]
         other = any(isinstance(sem, Group) and sem.join == "or" for sem in sems)
         if not other or not isinstance(of, Happens) or of.event.action != "leave":
@@ -251,7 +251,7 @@ class Polar(Comparing):
         return way_asked(Both((of, of), "or"))
 
     def _avoidable(self, clause: Clause, of: Proposition) -> Question | None:
-        """Ask "could the crash have been avoided", "was there anything you could have done"."""
+        """Read "could the crash have been avoided", "was there anything you could have done"."""
         inner = of.content if isinstance(of, Not) else of
         match inner:
             case Happens(event=Event(action="avoid", modal="could" | "would" | "should")):
@@ -268,7 +268,7 @@ class Polar(Comparing):
         return None
 
     def _way_round(self, clause: Clause) -> Question | None:
-        """Ask "was there any way to avoid the crash", "is there no way round it"."""
+        """Read "was there any way to avoid the crash", "is there no way round it"."""
         thing = as_thing(clause.objects[0][0])
         if not isinstance(thing, Feature) or thing.kind != "way":
             return None

@@ -28,14 +28,14 @@ _ANYTHING = Described(definite=False)
 
 
 def about_whom(clause: Clause) -> Thing | None:
-    """Find of whom a judgement is: "were you wrong about the blue one"."""
+    """Find whom a judgement is about: "were you wrong about the blue one"."""
     found = (as_thing(p.sem) for p in clause.complements if p.key in ("about", "with", "on"))
     vehicles = (Described, Vehicle, Pronoun)
     return next((thing for thing in found if isinstance(thing, vehicles)), None)
 
 
 def judged_so(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
-    """Read a judgement of a deed, or of anyone who did it; None for anything else."""
+    """Read a judgement of an action, or of whoever performed it; None for anything else."""
     about = about_whom(clause)
     match of:
         case Is(state="dangerous" | "safe", thing=Pronoun("that" | "it"), event=None) if (
@@ -75,7 +75,7 @@ def _of_any(clause: Clause, thing: Thing, about: Thing | None) -> bool:
 
 
 def caused_by(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
-    """Read who or what is said to be the one: "was it the bus that braked"; None for the rest."""
+    """Read a clause that picks out one thing: "was it the bus that braked"; None for the rest."""
     match of:
         case Caused(
             cause=Described(doing=Event(action="leave", actor=Ego()) as event, rank=rank)
@@ -100,6 +100,6 @@ def caused_by(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
 
 
 def _permits(clause: Clause, event: Event) -> bool:
-    """Say whether it is asked if somebody is allowed to do what he does: "may he do that?"."""
+    """Check whether a clause asks if others are allowed to do what they do: "may he do that?"."""
     allowed = "semi-allowed" in clause.aux or event.modal in ("might", "can")
     return allowed and not isinstance(event.actor, Ego)

@@ -55,7 +55,7 @@ _COMPARED = {"fast": ("speed", "more"), "slow": ("speed", "less"), "close": ("di
 
 
 def adopt(match: Match) -> None:
-    """Give phrases that the verb has no role for to its object."""
+    """Attach phrases that the verb has no role for to its object."""
     for phrase in list(match.left):
         if phrase.sem is None:
             continue
@@ -72,7 +72,7 @@ def adopt(match: Match) -> None:
 
 
 def _of_measure(phrase: Complement) -> bool:
-    """Say whether a phrase names units or times to answer in: "in metres", "with timestamps"."""
+    """Check whether a phrase asks for units or times: "in metres", "with timestamps"."""
     sems = phrase.sem.members if isinstance(phrase.sem, Group) else (phrase.sem,)
     return phrase.key in ("in", "with") and all(
         isinstance(s, Moment) or (isinstance(s, Noun) and s.key == "time") for s in sems
@@ -80,7 +80,7 @@ def _of_measure(phrase: Complement) -> bool:
 
 
 def adopted(sem: Sem | None, phrase: Complement) -> Sem | None:
-    """Add a phrase to a noun; None where it cannot be."""
+    """Attach a phrase to a noun; return None if they do not go together."""
     other = phrase.sem
     if isinstance(sem, Noun) and phrase.key in _OF and sem.about is None:
         inner = phrase.node.parts[-1] if isinstance(phrase.node, Node) else None
@@ -102,9 +102,9 @@ def adopted(sem: Sem | None, phrase: Complement) -> Sem | None:
 
 
 def placed_on(thing: Described, phrase: Complement, place: Thing) -> Described:
-    """Say of somebody where he is; who is on a crossing crosses our way.
+    """Describe a road user by a place: "on the crossing" means that the road user crosses our way.
 
-    Who is on a bicycle or in a van is described by that.
+    "On a bicycle" or "in a van" becomes part of the description itself.
     """
     if isinstance(place, Described) and thing.kind == "vehicle" and phrase.key in ("on", "in"):
         return structs.replace(thing, **ridden(thing, place))
@@ -114,7 +114,7 @@ def placed_on(thing: Described, phrase: Complement, place: Thing) -> Described:
 
 
 def ridden(rider: Described, vehicle: Described) -> dict[str, Any]:
-    """Give what a description takes over from the vehicle that somebody rides."""
+    """Return the fields that a rider's description takes over from the vehicle."""
     said = {name: getattr(vehicle, name) for name in _OF_RIDDEN if getattr(rider, name) is None}
     return {**said, "kind": vehicle.kind}
 
@@ -123,13 +123,13 @@ _OF_RIDDEN = ("colour", "size", "bearing", "origin", "of", "doing")
 
 
 def is_crossing(phrase: Complement, place: Thing) -> bool:
-    """Say whether a phrase is "on the crossing", where people walk over the road."""
+    """Check whether a phrase is "on the crossing", where people cross the road."""
     named = place in (Junction(), Feature("crossing")) and phrase.key == "on"
     return named and words_of(phrase.node).split()[-1] in _CROSSINGS
 
 
 def also_named(first: Sem, second: Sem) -> Sem:
-    """Give the one thing that is named twice: "v16, the red one", "the bus, a white one"."""
+    """Merge two names of one thing: "v16, the red one", "the bus, a white one"."""
     if not isinstance(first, Described) or not isinstance(second, Described):
         return second if isinstance(second, Vehicle) else first
     fields = {
@@ -169,7 +169,7 @@ def _measured(sem: Measure, key: str, other: Sem) -> Measure | None:
 
 
 def next_to_us(key: str, thing: Thing | None) -> Described | None:
-    """Give who is meant by "in front of us", "behind us", up to whom it is measured."""
+    """Return the road user meant by "in front of us", "behind us", as the end of a distance."""
     bearing: Any = key.removeprefix("bearing-")
     if bearing not in ("ahead", "behind") or not isinstance(thing, Ego | Passenger):
         return None
@@ -177,7 +177,7 @@ def next_to_us(key: str, thing: Thing | None) -> Described | None:
 
 
 def of_numbers(of: Measured) -> Measured:
-    """Take "the distance between 2 and 4" for that of two vehicles, not of two decisions."""
+    """Read "the distance between 2 and 4" as that of two vehicles, not of two decisions."""
     time = of.time
     if of.attribute not in ("distance", "gap") or not isinstance(time, AtDecision) or of.to:
         return of
@@ -211,7 +211,7 @@ def exceeding(clause: Clause, event: Event) -> Proposition | None:
 
 
 def _paced(clause: Clause, event: Event) -> Proposition | None:
-    """Read "we are going too fast" as a state: how fast it is, not what is done."""
+    """Read "we are going too fast" as a state, not as an action."""
     state = "fast" if "fast" in event.manner else "slow" if "slowly" in event.manner else None
     if state is None or clause.subject is None or clause.comparisons or event.modal is not None:
         return None
@@ -228,7 +228,7 @@ def _paced(clause: Clause, event: Event) -> Proposition | None:
 
 
 def _takes_place(event: Event) -> bool:
-    """Say whether somebody drives up to a place, or through it."""
+    """Check whether somebody drives up to a place or through it, or comes towards us."""
     placed = isinstance(event.object, Junction | Feature | Road | Exit | Destination)
     coming = event.action in ("approach", "come") and event.tense == "present"
     return (event.action in _REACHING and placed) or (coming and event.actor != Ego())
@@ -238,7 +238,7 @@ _REACHING = frozenset({"enter", "approach", "come", "head", "go", "move", "cross
 
 
 def _nears(event: Event) -> Proposition | None:
-    """Read "did he come close" as a state: how near it is, not what is done."""
+    """Read "did he come close" as a state, not as an action."""
     other = event.actor if not isinstance(event.actor, Ego) else event.object
     near = "close" in event.manner and event.action in ("come", "approach", "go")
     if not near or other is None or event.modal is not None or event.tense == "future":
@@ -246,7 +246,7 @@ def _nears(event: Event) -> Proposition | None:
     return Is("close", other, time=event.time, tense=event.tense)
 
 
-#: What "harder than two metres per second squared" is said of, by the deed.
+#: By action: the attribute that "harder than two metres per second squared" compares.
 _RATES: dict[str, Any] = {"brake": "deceleration", "slow-down": "deceleration",
                           "speed-up": "acceleration"}  # fmt: skip
 _HARDER: dict[str, Any] = {"hard": "more", "fast": "more", "gentle": "less"}
@@ -287,7 +287,7 @@ def compared(clause: Clause, event: Event) -> Proposition | None:
 
 
 def _is_allowed(than: Clause) -> bool:
-    """Say whether it is compared with what is allowed: "faster than you are allowed to"."""
+    """Check whether a comparison is with what is allowed: "faster than you are allowed to"."""
     allowed = any(key == "allowed" for key, _ in than.adjectives) or "semi-allowed" in than.aux
     return allowed or (than.verb is not None and than.verb.key in ("allow", "permit"))
 
@@ -301,7 +301,7 @@ def compared_times(clause: Clause, attribute: str, direction: str, thing: Thing)
 
 
 def timed(of: Proposition, time: Time) -> Proposition:
-    """Put a time into an event that has none of its own."""
+    """Put a time into an event that has none."""
     match of:
         case Happens(event=Event(time=Unsaid()) as event) if not isinstance(time, Unsaid):
             return Happens(with_fields(event, time=time))
@@ -311,7 +311,7 @@ def timed(of: Proposition, time: Time) -> Proposition:
 
 
 def as_of(of: Proposition, tense: str) -> Proposition:
-    """Give a clause without a tense that of the clause it belongs to: "made you stop"."""
+    """Give a tenseless clause the tense of the clause that governs it: "made you stop"."""
     past = tense in ("past", "perfect")
     match of:
         case Not(content=content):

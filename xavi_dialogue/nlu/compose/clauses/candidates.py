@@ -11,21 +11,21 @@ from xavi_dialogue.nlu.compose.clauses.senses import Match
 
 @dataclass(frozen=True, slots=True)
 class Special:
-    """A predicate that has a rule of its own: "know", "cost", "make do"."""
+    """A predicate with a rule of its own: "know", "cost", "make do"."""
 
     name: str
     clause: Clause
     match: Match
-    content: Proposition | None = None  # of the clause that it governs
+    content: Proposition | None = None  # the clause that it governs
 
     @property
     def subject(self) -> Thing:
-        """Give who or what it is said of."""
+        """Return the subject; the ego if there is none."""
         return as_thing(self.clause.subject) or Ego()
 
     @property
     def object(self) -> Sem | None:
-        """Give what stands as its object."""
+        """Return the object."""
         return self.match.object
 
 

@@ -1,4 +1,4 @@
-"""Clauses as slots: what a clause has of subject, verb, objects and adverbs, in any order."""
+"""Clauses as slots: the subject, verb, objects and adverbs of a clause, in any order."""
 
 from dataclasses import dataclass, field
 from typing import Any, cast
@@ -24,11 +24,11 @@ from xavi_dialogue.nlu.compose.clauses.sem import Sem, as_thing
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
-PASSED_OVER = 0.6  # cost of a clause within a clause that nothing is made of
-RELATIONS = frozenset(("before", "after", "since", "until", "during"))  # to an event
+PASSED_OVER = 0.6  # cost of an inner clause that contributes nothing
+RELATIONS = frozenset(("before", "after", "since", "until", "during"))  # relations to an event
 
 
-#: Verbs of which a share of chances is an argument: "you put it at 91 percent".
+#: Verbs that take a percentage as an argument: "you put it at 91 percent".
 RATING = frozenset(("rate", "put", "give", "have", "estimate", "assign", "set", "see", "score"))
 
 
@@ -36,7 +36,7 @@ RATING = frozenset(("rate", "put", "give", "have", "estimate", "assign", "set", 
 class Complement:
     """A phrase with a preposition; `sem` is None where the preposition stands alone."""
 
-    key: str  # key of the preposition, "bearing-ahead" and so on
+    key: str  # of the preposition, "bearing-ahead" and so on
     sem: Sem | None
     node: Part
 
@@ -46,7 +46,7 @@ class Clause:
     """The slots of a clause."""
 
     subject: Sem | None = None
-    the_car: bool = False  # the subject is "the car", of which nothing else is said
+    the_car: bool = False  # the subject is just "the car"
     there: bool = False
     aux: list[str] = field(default_factory=list)  # "be-past", "modal-would", "semi-must"
     negated: bool = False
@@ -66,38 +66,38 @@ class Clause:
     time: Time = field(default_factory=Unsaid)
     contrast: "Sem | Clause | str | None" = None
     condition: "Clause | None" = None
-    led: bool = False  # the condition stands first
+    led: bool = False  # the condition comes first
     because: "Sem | Clause | None" = None
     without: Sem | None = None
-    lacking: Event | None = None  # what is not done with it: "without stopping"
+    lacking: Event | None = None  # what does not happen at the same time: "without stopping"
     infinitive: "Clause | None" = None
     gerund: "Clause | None" = None
-    away: "Clause | None" = None  # a gerund behind "from": "keeps us from turning"
+    away: "Clause | None" = None  # a gerund after "from": "keeps us from turning"
     bare: "Clause | None" = None
     that: "Clause | None" = None
     question: Any = None  # an embedded question, composed
     also: list[Any] = field(default_factory=list)  # other questions of the same clause
     chained: list[tuple[str, "Clause"]] = field(default_factory=list)
-    gap: Sem | None = None  # what a question word or relative pronoun stands for
+    gap: Sem | None = None  # the thing for which a question word or relative pronoun stands
     instead: bool = False
     else_: bool = False
     still: bool = False
     focus: set[str] = field(default_factory=set)
     skipped: list[Leaf] = field(default_factory=list)
-    inner: Event | None = None  # what the infinitive or gerund is of
+    inner: Event | None = None  # the event of the infinitive or gerund
     times: int | None = None  # how often: "three times"
     share: Quantity | None = None  # how likely it was thought: "at 91 percent"
     topic: Sem | None = None  # named first: "as for the bus"
-    comma: int = -1  # where the words behind the last comma begin
-    pairs: list[Sem] = field(default_factory=list)  # between these
+    comma: int = -1  # index of the first word after the last comma
+    pairs: list[Sem] = field(default_factory=list)  # things after "between"
 
     def has(self, kind: str) -> bool:
-        """Say whether an auxiliary of a kind is there: "be", "modal-would"."""
+        """Check whether the clause has an auxiliary of a kind: "be", "modal-would"."""
         return any(a == kind or a.startswith(kind + "-") for a in self.aux)
 
     @property
     def modal(self) -> str | None:
-        """Name the modal of the clause, None for plain will."""
+        """Return the modal of the clause; None for plain "will"."""
         order = ("would", "could", "should", "must", "might", "can", "want")
         for name in order:
             if f"modal-{name}" in self.aux or f"semi-{name}" in self.aux:
@@ -106,7 +106,7 @@ class Clause:
 
     @property
     def tense(self) -> str:
-        """Tell the tense by auxiliaries and verb form."""
+        """Return the tense, by auxiliaries and verb form."""
         if ("semi-future" in self.aux and "be-past" not in self.aux) or "modal-will" in self.aux:
             return "future"
         modal = any(a.startswith("modal-") for a in self.aux)
@@ -128,7 +128,7 @@ class Clause:
 
     @property
     def passive(self) -> bool:
-        """Say whether the clause is passive: "was overtaken", "got overtaken by"."""
+        """Check whether the clause is passive: "was overtaken", "got overtaken by"."""
         ends = self.verb is not None and self.verb.form in ("part", "past")
         if self.verb is None or not ends or self.aux_last() != "be":
             return False
@@ -136,26 +136,26 @@ class Clause:
 
     @property
     def only_subject(self) -> bool:
-        """Say whether nothing but the subject is said: "than we are", "than he does"."""
+        """Check whether the clause has nothing but a subject: "than we are", "than he does"."""
         said = self.objects or self.complements or self.bearings or self.adjectives
         bare = self.verb is None or self.verb.key == "do"
         return bare and not said and self.subject is not None
 
     def judge(self) -> None:
-        """Take "right" in "was it right to stop" for what is judged; it is of no side."""
+        """Read "right" in "was it right to stop" as an adjective, not as a side."""
         if self.verb is None and self.side == "right" and self.has("be"):
             self.side = None
             self.adjectives.append(("right", ""))
 
     def aux_last(self) -> str:
-        """Name the last auxiliary before the verb."""
+        """Return the last auxiliary before the verb; empty if there is none."""
         plain = [a for a in self.aux if not a.startswith("semi")]
         return plain[-1].split("-")[0] if plain else ""
 
 
 _AUX = {"BE": "be", "GOT": "be", "DO": "do", "HAVE": "have", "HAD": "have", "MODAL": "modal",
         "SEMI": "semi"}  # fmt: skip
-#: First words of verbs before other verbs that are past: "had to", "wanted to", "decided to".
+#: First words of phrases before verbs that mark the past: "had to", "wanted to", "decided to".
 _PAST = frozenset(
     {"had", "needed", "wanted", "tried", "intended", "planned", "hoped", "decided", "chose",
      "opted", "elected", "happened", "bothered", "ended", "seemed", "appeared", "dared", "agreed",
@@ -166,9 +166,9 @@ _PAST = frozenset(
 _KEEP = {"again": "again", "already": "already", "still": "still", "ever": "", "first": "first"}
 
 
-#: Verbs that are written alike in the past, and say what is over in a moment: "you cut in".
+#: Verbs with the same form in the past, for what happens in a moment: "you cut in".
 _UNCHANGED = frozenset({"hit", "cut", "let", "set"})
-#: Verbs whose participle after "be" tells a state of the subject: "we are stuck, headed, stopped".
+#: Verbs whose participle after "be" describes a state: "we are stuck, headed, stopped".
 _RESULTING = frozenset(
     ("allow", "permit", "stick", "sit", "stand", "head", "park", "stop", "go", "finish", "come",
      "get", "turn", "end", "arrive")
@@ -176,7 +176,7 @@ _RESULTING = frozenset(
 
 
 def timed_by(clause: Clause) -> None:
-    """Take "after the stop", "since the light" for the time of a clause, where none is said."""
+    """Take "after the stop", "since the light" as the time of a clause that has none."""
     for phrase in clause.complements if isinstance(clause.time, Unsaid) else ():
         anchor = phrase.sem if isinstance(phrase.sem, Event) else as_thing(phrase.sem)
         if phrase.key in RELATIONS and isinstance(anchor, Event | Junction | Feature | Exit | Road):
@@ -186,7 +186,7 @@ def timed_by(clause: Clause) -> None:
 
 
 def _be_back(clause: Clause) -> None:
-    """Take "back" behind "be" for where one is: "we are back in our lane"."""
+    """Take "back" after "be" as a place, not as a verb: "we are back in our lane"."""
     verb = clause.verb
     if verb is not None and verb.words == ("back",) and clause.aux_last() == "be":
         clause.particles.append(verb)
@@ -194,7 +194,7 @@ def _be_back(clause: Clause) -> None:
 
 
 def _deed_made(clause: Clause) -> None:
-    """Put what stands behind a deed into it: "made us turn left", "made it overtake the bus"."""
+    """Complete the event after "make": "made us turn left", "made it overtake the bus"."""
     if clause.verb is None or clause.verb.key != "make" or len(clause.objects) < 2:
         return
     deed, part = clause.objects[1]
@@ -210,7 +210,7 @@ def _deed_made(clause: Clause) -> None:
 
 
 def _deed_placed(clause: Clause) -> None:
-    """Take "waiting" in "is the van at the roundabout waiting" for the verb of the clause."""
+    """Take "waiting" in "is the van at the roundabout waiting" as the verb of the clause."""
     inner = clause.gerund
     placed = bool(clause.complements or clause.bearings) and clause.subject is not None
     said = clause.objects or clause.adjectives or clause.comparisons or clause.feelings
@@ -234,7 +234,7 @@ class Slots:
         self.reader = reader
 
     def fill(self, parts: tuple[Part, ...], clause: Clause | None = None) -> Clause:
-        """Collect the parts of a clause, in whatever order they come."""
+        """Put the parts of a clause into its slots, in whatever order they come."""
         clause = clause if clause is not None else Clause()
         for part in parts:
             if isinstance(part, Leaf):
@@ -314,23 +314,23 @@ class Slots:
 
 
 def wanted_pronoun(sem: Sem | None) -> bool:
-    """Say whether a subject is a pronoun that may stand for nothing: "it is ..."."""
+    """Check whether a subject is a pronoun that may be empty: "it is ..."."""
     return isinstance(sem, Pronoun) and sem.form in ("it", "that", "this")
 
 
 def is_share(key: str, sem: Sem | None, clause: Clause) -> bool:
-    """Say whether a phrase tells how likely what a clause says was thought: "at 91 percent"."""
+    """Check whether a phrase is the probability of what a clause says: "at 91 percent"."""
     said = isinstance(sem, Quantity) and sem.unit == "%" and key in ("at", "with", "by")
     return said and clause.verb is not None and clause.verb.key not in RATING
 
 
 def is_named(sem: Sem) -> bool:
-    """Say whether a meaning is one vehicle that is pointed at: "the bus", "vehicle 7"."""
+    """Check whether a meaning is one specific vehicle: "the bus", "vehicle 7"."""
     one = isinstance(sem, Described) and sem.definite and not sem.plural
     return isinstance(sem, Vehicle) or one
 
 
 def takes_name(clause: Clause) -> bool:
-    """Say whether the subject is a pronoun that a name behind the clause explains."""
+    """Check whether the subject is a pronoun that a name after the clause may explain."""
     subject = clause.subject
     return isinstance(subject, Pronoun) and subject.form in ("it", "he", "she")

@@ -1,4 +1,4 @@
-"""Extents: "the fastest we went", "the most you may do here": superlatives with a clause."""
+"""Extents: superlatives with a clause, such as "the fastest we went"."""
 
 from typing import Any, cast
 
@@ -53,7 +53,7 @@ def extent_of(traits: Traits) -> Measure | None:
 
 
 def _may(event: Event, traits: Traits) -> bool:
-    """Say whether a relative clause tells what is allowed: "the most you may do"."""
+    """Check whether a relative clause says what is allowed: "the most you may do"."""
     able = event.modal in ("can", "could", "should", "might") and event.tense == "present"
     inner = () if traits.gerund is None else leaves_of(traits.gerund)
     return able or any((leaf.category, leaf.key) == ("SEMI", "allowed") for leaf in inner)

@@ -1,11 +1,11 @@
-"""Flags: what a sense of a verb asks of a clause beside objects and phrases."""
+"""Flags: what a sense of a verb demands of a clause besides objects and phrases."""
 
 from xavi_dialogue.domain.terms import WholeRide
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 
 
 def flag(kind: str, wanted: str, clause: Clause) -> bool:
-    """Say whether a clause has what a sense asks for beside objects and phrases."""
+    """Check whether a clause has what a sense demands besides objects and phrases."""
     match kind:
         case "inf":
             return clause.infinitive is not None

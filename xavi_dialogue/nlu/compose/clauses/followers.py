@@ -1,4 +1,4 @@
-"""Followers: what stands behind the head of a noun phrase, such as clauses, places and owners."""
+"""Followers: what comes after the head of a noun phrase, such as clauses, places and owners."""
 
 from typing import Any, cast
 
@@ -38,7 +38,7 @@ _RELATIONS = {
 
 
 class Followers:
-    """Notes what stands behind a head; clauses are read by `clauses`."""
+    """Notes what comes after a head; `clauses` reads the clauses."""
 
     def __init__(self, clauses: Any) -> None:
         self.clauses = clauses
@@ -48,11 +48,11 @@ class Followers:
         raise NotImplementedError
 
     def modify(self, part: Part, traits: Traits) -> None:
-        """Note what can also stand before the head."""
+        """Note a part that can also come before the head."""
         raise NotImplementedError
 
     def follow(self, part: Part, traits: Traits) -> None:
-        """Note what stands behind the head."""
+        """Note a part that comes after the head."""
         if isinstance(part, Leaf):
             self.modify(part, traits)
             return
@@ -100,7 +100,7 @@ class Followers:
                 traits.fields["such"] = found
 
     def _placed(self, event: Event, traits: Traits) -> Event:
-        """Take the place of "standing on the right" for the place of who stands there."""
+        """Turn "standing on the right" into the bearing of the road user."""
         where = event.where
         if where is None or where.thing != Wanted() or not isinstance(where.to, Ego):
             return event
@@ -112,19 +112,19 @@ class Followers:
 
 
 def doing(thing: Thing, event: Event | None) -> Sem:
-    """Read "vehicle 1 entering our lane" as the event."""
+    """Read "vehicle 1 entering our lane" as an event."""
     if event is None:
         return thing
     return structs.replace(event, actor=thing) if isinstance(event.actor, Wanted) else event
 
 
 def relation_of(bearing: str) -> str:
-    """Name the relation that a bearing is one side of."""
+    """Return the relation for a bearing: "ahead-of" for "ahead"."""
     return _RELATIONS.get(bearing.split("-")[0], "near")
 
 
 def place_subject(clause: Clause) -> None:
-    """Take "behind us" in "how fast is the car behind us" for a part of the subject."""
+    """Make "behind us" in "how fast is the car behind us" a part of the subject."""
     subject = clause.subject
     if not isinstance(subject, Described) or subject.bearing is not None:
         return

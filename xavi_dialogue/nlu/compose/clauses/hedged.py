@@ -1,4 +1,4 @@
-"""Hedged: whether a clause with "if" or "when" supposes something, tells the time, or asks."""
+"""Hedged clauses: whether "if" or "when" supposes something, gives a time, or asks."""
 
 from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, When
 from xavi_dialogue.domain.terms import Event, Happens, Relative
@@ -8,7 +8,7 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 
 def supposing(unit: Node) -> bool:
-    """Say whether "if" stands before a clause where nothing leads up to a question."""
+    """Check whether "if" opens a clause, and no word introduces it as a question."""
     asked = node_of(unit, "asked_whether")
     word = None if asked is None else leaf_of(asked, "WHETHER")
     told = any(isinstance(p, Leaf) and p.category == "HEDGE" and _ASKING & {*p.words}
@@ -21,7 +21,7 @@ _ASKING = frozenset({"idea", "clue", "know", "question", "wonder", "wondered", "
 
 
 def as_when(act: Act) -> Act:
-    """Take "when you will stop?" for the question when."""
+    """Turn "when you will stop?" into the question when."""
     match act:
         case Elliptic(time=Relative(relation="during", anchor=Event(tense="future") as event)):
             return Ask(When(Happens(event)))

@@ -1,4 +1,4 @@
-"""Nominal questions: what a noun phrase asks for behind "what is", "list" or "tell me"."""
+"""Nominal questions: what a noun phrase asks for after "what is", "list" or "tell me"."""
 
 from typing import Any, cast
 
@@ -84,14 +84,14 @@ def event_in(sem: Sem | None) -> Event | None:
 
 
 def deed_of(sem: Sem | None) -> Event | None:
-    """Give the deed that is named, by nobody in particular: "the stop", "all that braking"."""
+    """Return the action that a phrase names, ours by default: "the stop", "all that braking"."""
     event = event_in(sem)
     alone = event is not None and event.actor in (Described(), Described(plural=True))
     return structs.replace(event, actor=Ego()) if alone and event is not None else event
 
 
 def done_by(event: Event, *named: Sem | None) -> Event:
-    """Give a deed to the vehicle that it is said of: "vehicle 1 at 90 percent for turning"."""
+    """Make a named vehicle the actor: "vehicle 1 at 90 percent for turning"."""
     things = (as_thing(sem) for sem in named)
     whom = next((t for t in things if isinstance(t, Vehicle | Described | Pronoun)), None)
     if whom is None or not isinstance(event.actor, Ego):
@@ -99,12 +99,12 @@ def done_by(event: Event, *named: Sem | None) -> Event:
     return structs.replace(event, actor=whom)
 
 
-#: What it is of which a measure is spoken: "the deceleration" is a slowing down.
+#: By measure: the action that it measures.
 _CHANGES: dict[str, Any] = {"deceleration": "slow-down", "acceleration": "speed-up"}
 
 
 def propose(sem: Sem | None) -> Proposition | None:
-    """Take a noun phrase for a fact: a deed happened, "that" was spoken of."""
+    """Turn a noun phrase into a proposition: an event happened, or `That` for "that"."""
     if isinstance(sem, Event):
         return Happens(sem)
     if isinstance(sem, Pronoun):
@@ -117,7 +117,7 @@ def propose(sem: Sem | None) -> Proposition | None:
 
 
 def asked_of(sem: Sem, time: Time, tense: str = "present") -> Question | None:
-    """Ask for what a noun phrase names; None for what names nothing to ask for."""
+    """Return the question for what a noun phrase names; None if there is nothing to ask."""
     match sem:
         case Measure():
             return _measure(sem, time, tense)
@@ -240,7 +240,7 @@ def _other_than_ego(thing: Thing | None) -> Thing | None:
 
 
 def counted(sem: Sem) -> Question | None:
-    """Ask how many there are of what a noun phrase names."""
+    """Return the question how many there are; None for what cannot be counted."""
     match sem:
         case Event():
             return HowMany(sem)

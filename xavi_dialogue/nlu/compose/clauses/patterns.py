@@ -1,4 +1,4 @@
-"""Patterns: what may stand with a verb in each of its senses, as nlu_verbs.toml lists it."""
+"""Patterns: what may occur with a verb in each of its senses, from nlu_verbs.toml."""
 
 from dataclasses import dataclass
 from functools import cache
@@ -37,7 +37,7 @@ _NO_WORDS = frozenset({"o", "o2", "s", "one", "side"})  # roles that neither kin
 
 @dataclass(frozen=True, slots=True)
 class Role:
-    """One thing that stands with a verb: its kind, the types it takes, whether it may miss."""
+    """One thing that occurs with a verb: its kind, its types, and whether it is optional."""
 
     kind: str  # "o", "o2", "s", "one", a preposition, "+up", "side", or a flag such as "inf"
     types: str = "*"
@@ -52,12 +52,12 @@ class Sense:
     roles: tuple[Role, ...] = ()
     manner: str | None = None
     cost: float = 0.0
-    calls: tuple[frozenset[str], ...] = ()  # for each, a clause must offer one of these words
+    calls: tuple[frozenset[str], ...] = ()  # a clause must contain a word of each set
 
 
 @cache
 def senses(lemma: str) -> tuple[Sense, ...]:
-    """Read the senses of a verb."""
+    """Return the senses of a verb."""
     return tuple(_sense(text) for text in load("nlu_verbs.toml")["senses"][lemma])
 
 
@@ -83,7 +83,7 @@ def _sense(text: str) -> Sense:
 
 
 def _called(role: Role) -> frozenset[str]:
-    """List the words of which a clause must offer one for a role; none where it need not."""
+    """List the words, one of which a role demands; none if it demands no word."""
     kind = role.kind
     if role.optional or kind in FLAGS or kind in _NO_WORDS or kind[1:] in WORDED:
         return frozenset()
