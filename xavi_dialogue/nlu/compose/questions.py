@@ -212,7 +212,8 @@ class Questions(Options):
         for value, cost in pairs:
             compared = self.compared(wh, clause, value)
             question = compared or _among(wh, self.asking.ask(wh, clause, value))
-            extra = emphatic + WEAK * _is_lost(wh, clause, value, question)
+            lost = compared is None and _is_lost(wh, clause, value, question)
+            extra = emphatic + WEAK * lost
             found.append((self.framed(question, clause, value), cost + extra))
         return found
 

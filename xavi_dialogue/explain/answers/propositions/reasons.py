@@ -45,6 +45,7 @@ from xavi_dialogue.explain.answers.reasons import (
 )
 from xavi_dialogue.explain.answers.reasons.suspects import with_suspect, with_suspects
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.foils import Did
 from xavi_dialogue.explain.answers.reference.moments import Window, window
 from xavi_dialogue.explain.answers.reference.reading import (
     check_able,
@@ -63,6 +64,7 @@ from xavi_dialogue.explain.answers.suppositions import deciding
 from xavi_dialogue.explain.causes.plans.terms import RISK
 
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "pass", "come", "approach"))
+ONWARD = frozenset[ActionName](("go", "move", "continue"))  # what a stop puts off
 #: Names for moving in between others: by a lane change, or by a turn into a road.
 JOINING = frozenset[ActionName](("cut-in", "pull-out", "merge", "enter"))
 CHANGING = frozenset[ActionName](("change-left", "change-right", "change-lane"))
@@ -187,6 +189,8 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
     if other is not None and event.action in CHANGING and other.action in KEEPING:
         instead = Happens(Event("keep-lane"))  # "rather than slow down behind him"
         other = event_of(instead)
+    if other is not None and other.action in ONWARD and event.action in ("stop", "wait"):
+        instead = other = None  # a stop is told by what it puts off anyway
     if other is not None and choices.is_kept_from(other, event, KEEPING):
         return choices.why_not(structs.replace(other, tense=event.tense), scene)
     if event.action == "signal":
@@ -295,6 +299,11 @@ def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
     if of.event is not None and of.state in ("necessary", "worth-it", "better", "right"):
         return choices.needed(of.event, scene)
     if of.event is not None and is_own(of.event.actor):
+        if of.state == "dangerous" and not negated and choices.is_choice(of.event):
+            try:
+                return own_not(of.event, scene, question)
+            except Did:
+                pass
         return own(of.event, scene, question)
     vehicle = vehicle_in(of.thing)
     still = (of.state == "moving") if negated else (of.state == "stationary")

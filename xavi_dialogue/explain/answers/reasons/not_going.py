@@ -4,6 +4,7 @@ import dataclasses
 
 from msgspec import structs
 
+from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.domain.answers import Answer, DidNotHappen, NotApplicable, Verdict
 from xavi_dialogue.domain.terms import Ego, Event, Exit, Is, Junction
 from xavi_dialogue.domain.vocabulary import ActionName
@@ -51,8 +52,10 @@ def not_going(event: Event, scene: Asked) -> Answer:
             if not isinstance(unanswered.result, DidNotHappen):
                 raise
     if event.action in ("go", "move"):
+        if not is_past(scene, event) and _first(scene) == ("stop",):
+            return motions.motion(Event("stop", tense="present"), scene)
         plain = event.tense == "present" and event.where is None and not event.manner
-        going_on = event.action == "move" or _plans_straight(scene)
+        going_on = event.action == "move" or _first(scene) == ("continue",)
         moving = moving_on(scene, event.object) if plain and going_on else None
         return motions.slow(scene) if moving is None else moving
     return choices.why_not(event, scene)
@@ -63,10 +66,10 @@ def tells_way(event: Event) -> bool:
     return isinstance(event.object, Junction | Exit) or bool(event.side or event.where)
 
 
-def _plans_straight(scene: Asked) -> bool:
-    """Check whether we plan to drive on, so that a question why we do not is about our speed."""
+def _first(scene: Asked) -> Actions:
+    """Return what the plan in force begins with: a stop, or driving on as a matter of speed."""
     trace = scene.ride.at(scene.now)
-    return trace is not None and planned(trace)[:1] == ("continue",)
+    return () if trace is None else planned(trace)[:1]
 
 
 def moving_on(scene: Asked, where: object = None) -> Answer | None:

@@ -2,9 +2,9 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.meaning import Compare, Question
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Pronoun, That
-from xavi_dialogue.nlu.compose.clauses.adoption import as_of, with_fields
+from xavi_dialogue.domain.meaning import Compare, Question, Why
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Not, Pronoun, That
+from xavi_dialogue.nlu.compose.clauses.adoption import as_of, timed, with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Sem, as_thing
 from xavi_dialogue.nlu.compose.wh_questions.frames import Frames
@@ -34,7 +34,10 @@ BY = {
 }
 
 #: Words for the worse of two options.
-_WORSE = frozenset({"worse", "slower", "riskier", "longer", "later", "less safe", "costlier"})
+_WORSE = frozenset({
+    "worse", "slower", "riskier", "longer", "later", "less", "lower", "costlier",
+    "less safe",
+})  # fmt: skip
 
 
 class Comparing(Frames):
@@ -90,12 +93,26 @@ class Comparing(Frames):
         worse = any(word in _WORSE for _, word in clause.comparisons)
         return Happens(with_fields(deed.event, modal="would")) if worse else deed
 
+    def outdone(self, clause: Clause) -> Why | None:
+        """Read "why is stopping better than driving on": why one deed, and not the other."""
+        compare = self.comparison(clause)
+        if not isinstance(compare, Compare):
+            return None
+        told = (_spoken(option, clause) for option in compare.options)
+        first, *others = (timed(cast(Any, deed), clause.time) for deed in told)
+        if not all(isinstance(deed, Happens) for deed in (first, *others)):
+            return None
+        least = any(not _WORSE.isdisjoint(word.split()) for _, word in clause.comparisons)
+        if not others:  # "why would moving left be worse?"
+            return Why(Not(first) if least else first)
+        return Why(others[0], first) if least else Why(first, others[0])
+
     def _other(self, clause: Clause) -> tuple[Any, ...]:
         clauses = [c for c in (clause, clause.infinitive, clause.gerund) if c is not None]
         spoken = [o for c in clauses for o in (c.than, c.contrast) if o is not None]
         than = spoken[0] if spoken else None
         if isinstance(than, Clause):
-            if than.subject is None or isinstance(than.subject, Event):
+            if than.subject is None or isinstance(than.subject, Event | Pronoun):
                 than.subject = Ego()
             found = self.propositions.plain(than)
             return (found,) if found is not None else ()
@@ -107,6 +124,13 @@ class Comparing(Frames):
 
 def _at(option: Any, tense: str) -> Any:
     return as_of(option, tense) if isinstance(option, Happens) else option
+
+
+def _spoken(option: Any, clause: Clause) -> Any:
+    """Take "it is worse" as doing what was spoken of."""
+    if not isinstance(option, That) or not isinstance(clause.subject, Pronoun):
+        return option
+    return Happens(Event("do", object=clause.subject, tense=cast(Any, clause.tense)))
 
 
 def _sooner(clause: Clause) -> bool:

@@ -82,6 +82,8 @@ class Options(Effects):
 
     def compared(self, wh: Wh, clause: Clause, value: Any) -> Question | None:
         """Read "which is faster, left or right"."""
+        if wh.kind == "why":
+            return self.outdone(clause)
         most = superlative_of(clause)
         if wh.kind not in ("which", "what", "who") or not (clause.comparisons or most):
             return None

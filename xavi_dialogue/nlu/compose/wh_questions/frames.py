@@ -28,7 +28,7 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Unsaid,
 )
-from xavi_dialogue.nlu.compose.clauses.adoption import as_of, timed, with_fields
+from xavi_dialogue.nlu.compose.clauses.adoption import timed, with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import (
     NONE_OF_THEM,
@@ -58,7 +58,7 @@ class Frames:
         if clause.contrast is None and inner is not None and inner.contrast is not None:
             clause = inner
         if isinstance(question, Why):
-            question = preferred(question) or _outdone(clause) or _lacking(question, clause)
+            question = preferred(question) or _lacking(question, clause)
         if isinstance(question, Why) and clause.contrast is not None:
             instead = self.contrast(clause, question.of)
             if instead is not None:
@@ -203,19 +203,6 @@ def preferred(question: Why) -> Why | None:
             done = That() if first is None else timed(Happens(first), time)
             return Why(done, Happens(second), question.suspect)
     return None
-
-
-def _outdone(clause: Clause) -> Why | None:
-    """Read "why did stopping score higher than going on", "why was it worse than ..."."""
-    other = clause.than
-    if not (isinstance(clause.subject, Event) and isinstance(other, Event) and clause.comparisons):
-        return None
-    less = not _LESS.isdisjoint(clause.comparisons[0][1].split())
-    one, two = (other, clause.subject) if less else (clause.subject, other)
-    return Why(timed(as_of(Happens(one), clause.tense), clause.time), Happens(two))
-
-
-_LESS = frozenset({"worse", "lower", "less"})
 
 
 def _of_difference(question: Question) -> bool:
