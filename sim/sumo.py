@@ -233,7 +233,7 @@ class Simulation:
         return THIN if aside + width / 2.0 > half - BESIDE else width
 
     def _release(self) -> None:
-        """Give the ego back to SUMO after commands."""
+        """Return the control of the ego to SUMO after commands."""
         if self._commanded:
             vehicle, ego = self._api.vehicle, self._ego
             self._call(vehicle.setSpeedMode, ego, SUMO_SPEED)

@@ -71,7 +71,7 @@ class Counts:
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """What is seen, and what is hidden."""
+    """The road users seen and the parts of the road hidden at one instant."""
 
     roads: Roads
     seen: Mapping[int, VehicleState]  # the ego included

@@ -1,4 +1,4 @@
-"""What is computed step by step, compiled by numba.
+"""Computations that go step by step, compiled by numba.
 
 Kernels call only those of their own file and of `stretches`: numba's cache does not notice changes
 in files that a kernel imports.

@@ -1,4 +1,4 @@
-"""Along a path: the highest speed at each place, and the states of a vehicle on it."""
+"""Values along a path: the highest speed at each place, and the states of a vehicle on it."""
 
 import math
 
@@ -15,7 +15,7 @@ _jit = njit(cache=True, error_model="numpy")
 
 @_jit
 def braking_caps(cap: Floats, arc: Floats, braking: float) -> Floats:
-    """Return at every metre the highest speed [m/s] that allows braking for all caps ahead.
+    """Return the highest speed [m/s] at every metre that allows braking for all caps ahead.
 
     Args:
         cap, arc: [N] highest speed [m/s] and arc [m] of each point of the path.
@@ -56,7 +56,7 @@ def place(
 def within(
     total: Floats, heading: Floats, arc: Floats, low: Ints, high: Ints, most: float
 ) -> Bools:
-    """Check for each stretch of a line that it strays at most `most` [m] to the side.
+    """Check for each stretch of a line whether it deviates at most `most` [m] to the side.
 
     Args:
         total: [N] integral of the heading along the line.

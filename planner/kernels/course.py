@@ -1,4 +1,4 @@
-"""What is driven along a path, as the kernels know it."""
+"""The course of a vehicle: a path with speed limits, lines to wait at and lights, for kernels."""
 
 from typing import NamedTuple, TypeAlias
 
@@ -13,13 +13,13 @@ Motion: TypeAlias = tuple[float, float, float]  # arc [m], speed [m/s], accelera
 
 
 class Course(NamedTuple):
-    """What is driven along a path."""
+    """The limits and stops of a vehicle that drives along a path."""
 
     caps: Floats  # [m/s] at every metre
-    halting: float  # [m/s2] of braking to a standstill; 0 to drive on
-    # [m] [L, 3] arcs of lines to give way at, and at which the junction is left; and whether to
-    # come to them slowly while somebody with priority stands there (1) or not (0)
+    halting: float  # [m/s2] deceleration to a standstill; 0 to drive on
+    # [m] [L, 3] arcs of lines to give way at, and of the exits of their junctions; and whether to
+    # approach slowly while a vehicle with priority stands there (1) or not (0)
     lines: Floats
-    rooms: Floats  # [m] [K, 2] arcs at which to keep out of a junction, and to have left it
+    rooms: Floats  # [m] [K, 2] arcs of the entry and exit of junctions to keep clear
     lights: Floats  # [m] [S] arcs at which to stop for a light
-    shows: Codes  # [S, T] what it shows at every step; the last one stays
+    shows: Codes  # [S, T] the code of its state at every step; the last one stays

@@ -20,12 +20,12 @@ RELAXATION = 0.5  # [s] in which a wanted speed is approached
 MIN_GAP = 2.0  # [m] to a standing leader
 GAP_HORIZON = 40  # steps that a gap at a waiting line must stay clear
 INTRUSION = 1.0  # [m] that a vehicle may stand inside another's stretch: boxes are generous
-HINDERED = 0.5  # [m/s] a vehicle that is slower by this than its free speed counts as held up
+HINDERED = 0.5  # [m/s] below its free speed, from which on a vehicle counts as held up
 STANDING_TIME = 3.0  # [s] that a vehicle stands at the end of a stop
 ALIGNED = 0.9  # least cosine of the angle to the path of a vehicle that drives along it
 CUT_IN_MEMORY = 15  # steps after entering the path during which a leader counts as cutting in
 READY = 4.0  # [m/s] at a waiting line while somebody with priority stands there
-JAM = 2.0  # [m/s] below which a vehicle beyond a junction may not make room in time
+JAM = 2.0  # [m/s] below which a vehicle beyond a junction is assumed to block its exit
 FORESIGHT = 10  # steps ahead in which to look for vehicles that move in
 CRAWL = 0.5  # [m/s] up to which a leader blocks the way rather than leads
 LEAST = 0.2  # [m] the smallest gap in calculations
@@ -80,19 +80,19 @@ def accelerate(
     length: float,
     dt: float,
 ) -> tuple[float, int, int, int]:
-    """Return how to accelerate in the coming step, and who is in the way.
+    """Return the acceleration in the coming step, and the vehicle or light that limits it.
 
     Args:
         course, motion, length: of the vehicle; its length [m].
-        step, dt: now, and how long [s] the coming step is.
-        others, ignored: the vehicles to stay behind; [M] which of them are behind this one.
+        step, dt: the present step, and the length [s] of the coming one.
+        others, ignored: the vehicles to stay behind; [M] whether each is behind this one.
         crossing: [C] the vehicles that may have the right of way.
-        firsts: [L, C, T] who goes first at which line and step; later on, as at the last step.
+        firsts: [L, C, T] whether a vehicle goes first, by line and step; the last step stays.
         foreseen: motions to make room for where they lead onto the path.
 
     Returns:
-        Acceleration [m/s2], the index of who is in the way (-1: nobody), in what manner, and the
-        index of the light that holds the vehicle up, directly or by a queue (-1: none).
+        Acceleration [m/s2], the index of the vehicle in the way (-1: none), the kind of hold-up,
+        and the index of the light that holds up directly or by a queue (-1: none).
     """
     caps, lines = course.caps, course.lines
     arc, speed, acceleration = motion
@@ -207,7 +207,7 @@ def _near(speed: float) -> float:
 def _keep_clear(
     motion: Motion, step: int, others: Stretches, ignored: Bools, rooms: Floats, wanted: float
 ) -> tuple[float, int]:
-    """Return the wanted speed [m/s] before junctions with no room beyond, and who takes it up."""
+    """Return the wanted speed [m/s] before junctions without room beyond, and the one in it."""
     arc, speed, _ = motion
     who = -1
     for k in range(len(rooms)):
@@ -222,7 +222,7 @@ def _keep_clear(
 
 @_jit
 def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float) -> int:
-    """Return the nearest vehicle from `enter` to `room` [m] if it crawls there; -1: nobody does."""
+    """Return the nearest vehicle between `enter` and `room` [m] if it crawls, else -1."""
     t = min(step, others.low.shape[1] - 1)
     found, nearest = -1, room + MIN_GAP
     for m in range(len(others.low)):
@@ -234,7 +234,7 @@ def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float
 
 @_inline
 def _ready(arc: float, lines: Floats, crossing: Stretches, firsts: Bools, step: int) -> float:
-    """Return the speed [m/s] at which to near a line while somebody with priority stands there."""
+    """Return the approach speed [m/s] to lines at which a vehicle with priority stands."""
     speed, found = crossing.speed, math.inf
     now, t = min(step, speed.shape[1] - 1), min(step, firsts.shape[2] - 1)
     for line in range(len(lines)):
@@ -248,7 +248,7 @@ def _ready(arc: float, lines: Floats, crossing: Stretches, firsts: Bools, step: 
 
 @_jit
 def _manner(others: Stretches, m: int, step: int) -> int:
-    """Return how a vehicle ahead holds up the one behind it."""
+    """Return the kind of hold-up of a vehicle ahead."""
     t = min(step, others.low.shape[1] - 1)
     entered, speed = others.entered[m, t], others.speed[m, t]
     if entered > 0 and t - entered <= CUT_IN_MEMORY and speed > CRAWL:
@@ -266,9 +266,9 @@ def _blocker(
     firsts: Bools,
     length: float,
 ) -> int:
-    """Return whom to wait for: who has priority and is in the way of driving on freely; else -1.
+    """Return the vehicle to wait for: one with priority, in the way of driving on; else -1.
 
-    Beyond the line, only those count before whom the vehicle can still stop.
+    Beyond the line, a vehicle counts only if it is still possible to stop before it.
     """
     arc, speed, acceleration = motion
     last = others.low.shape[1] - 1
@@ -320,8 +320,8 @@ def drive(
         first, horizon: the first and the last step.
 
     Returns:
-        Motion [S, 3], who held it up, how and at which light [S - 1, 3], whether it came to the
-        end, and the time [s] since step 0 at which it passed the goal, else NaN.
+        Motion [S, 3]; the vehicle that held it up, the kind of hold-up and the light [S - 1, 3];
+        whether it reached the end; and the time [s] since step 0 at the goal, else NaN.
     """
     motion = np.empty((max(horizon - first, 0) + 1, 3))
     hindrance = np.empty((len(motion) - 1, 3), np.int64)

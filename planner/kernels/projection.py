@@ -1,4 +1,4 @@
-"""Where along a path other vehicles are: the stretch that each occupies at every step."""
+"""Projection of other vehicles on a path: the stretch that each occupies at every step."""
 
 import math
 from typing import NamedTuple
@@ -123,8 +123,8 @@ def _reaches(size: Floats, corridor: float) -> tuple[float, float, float]:
     """Return the greatest distances [m] between a path and a vehicle that is on it.
 
     Returns:
-        How far aside its middle may be; how far beyond the path's beginning its front may be while
-        its middle is before it; and how far from the path its front may be.
+        Greatest distance of its middle to the side; of its front beyond the path's beginning while
+        its middle is before it; and of its front from the path.
     """
     length, width = size[0], size[1]
     widest = corridor + 0.5 * (length + width)
@@ -156,8 +156,8 @@ def _occupied(
 ) -> None:
     """Fill in the steps of one vehicle, from step `start` on.
 
-    Its distance from the path is measured now and then; until it has moved as far, it cannot be on
-    the path.
+    Its distance from the path is not measured at every step: until the vehicle has moved that far,
+    it cannot be on the path.
     """
     low, high = found.low[m, start:], found.high[m, start:]
     along, cosine = found.along[m, start:], found.cosine[m, start:]
@@ -214,7 +214,7 @@ def _alike(state: Floats, before: Floats) -> bool:
 def _stretch(
     line: Line, state: Floats, size: Floats, corridor: float, near: int
 ) -> tuple[int, float, float, float]:
-    """Return where a body lies on a path.
+    """Return the stretch of a path on which a body lies.
 
     Args:
         line: the path.
@@ -223,8 +223,8 @@ def _stretch(
         near: index of a path point that may be near.
 
     Returns:
-        The index of the nearest path point, from where to where [m] it lies, and the cosine of
-        the angle to the path; NaN and 0 where it is not on the path.
+        The index of the nearest path point, the lowest and highest arc [m] of the body, and the
+        cosine of its angle to the path; NaN and 0 if it is not on the path.
     """
     points, arc, heading, line_cos, line_sin, spacing, box = line
     length, width = size[0], size[1]
@@ -281,7 +281,7 @@ def _distance(px: float, py: float, x: float, y: float) -> float:
 def _extent(
     length: float, width: float, aside: float, cos: float, sin: float, corridor: float
 ) -> tuple[float, float]:
-    """Return where [m] along the path, from its centre, the part of a body in a corridor lies.
+    """Return the least and greatest arc [m], from a body's centre, of its part in a corridor.
 
     Args:
         length, width: [m] of the body.

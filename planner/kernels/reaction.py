@@ -1,9 +1,9 @@
-"""How others react to a vehicle that is, or comes, ahead of them on their own path.
+"""The reaction of others to a vehicle that is, or comes, ahead of them on their own path.
 
 Car-following is the Intelligent Driver Model (IDM; Treiber, Hennecke and Helbing 2000, Equations
-3 and 4) without its free-road term: a driver who is not held up moves as predicted. Where it
+3 and 4) without its free-road term: a driver who is not held up moves as predicted. Where the IDM
 brakes harder than the constant-acceleration heuristic finds necessary, as behind a vehicle that
-has just cut in, it is softened as by Kesting, Treiber and Helbing (2010, Equation 11).
+has just cut in, the two are combined (Kesting, Treiber and Helbing 2010, Equation 11).
 """
 
 import math
@@ -18,42 +18,42 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 STEP = 0.2  # [s] of the common time base
-ACCELERATION = 2.0  # [m/s2] most when speeding up
-COMFORT = 2.0  # [m/s2] braking that is found comfortable
+ACCELERATION = 2.0  # [m/s2] maximum
+COMFORT = 2.0  # [m/s2] comfortable braking
 FIRM = 4.4  # [m/s2] the hardest braking
-HEADWAY = 0.9  # [s] that is kept to a leader
+HEADWAY = 0.9  # [s] kept to a leader
 MIN_GAP = 2.0  # [m] to a standing leader
 COOLNESS = 0.99  # share of the constant-acceleration heuristic
-DELAY = 3  # steps after which a driver reacts to who has come onto its path
-NOTICEABLE = 0.5  # [m/s2] of braking beyond what is predicted, from which on a driver reacts
+DELAY = 3  # steps after which a driver reacts to a vehicle that has come onto its path
+NOTICEABLE = 0.5  # [m/s2] minimum braking beyond the predicted one for a reaction
 RELAXATION = 0.5  # [s] in which a wanted speed is approached
 STANDING = 0.05  # [m/s] below which a predicted motion waits
 BESIDE = 0.2  # [m] kept free beside the body
 CLEARED = 0.5  # [s] before a driver arrives by which a crossing vehicle must be off its path
-NEAREST = 0.1  # [m] least gap reckoned with
-ALIGNED = 0.9  # cosine of the angle between two headings from which both drive alike
-MOVES = 0.2  # [m] in two steps from which a path shows where it leads
-CROSSING = 0.1  # [m/s] sideways from which a vehicle is about to leave a path
+NEAREST = 0.1  # [m] minimum gap in calculations
+ALIGNED = 0.9  # minimum cosine of the angle between two headings that count as alike
+MOVES = 0.2  # [m] minimum motion in two steps that defines the direction of a path
+CROSSING = 0.1  # [m/s] minimum lateral speed of a vehicle that is about to leave a path
 
 _jit = njit(cache=True, error_model="numpy")
 
 
 class Drivers(NamedTuple):
-    """The others, as they go on."""
+    """The other vehicles, and their progress along their predicted paths."""
 
     paths: Floats  # [M, T, 4] predicted states
     arcs: Floats  # [m] [M, T] along them; filled in for those that are measured
-    measured: Bools  # [M] whose arcs are filled in
+    measured: Bools  # [M] whether its arcs are filled in
     sizes: Floats  # [m] [M, 2] length and width
-    at: Floats  # [M] step of the prediction that each has come to; behind the time once it is late
+    at: Floats  # [M] step of the prediction that each has reached; less than the time if it is late
     pace: Floats  # [m/s] [M]
-    noticed: Ints  # [M] steps for which the ego has been on their path
-    late: Bools  # [M] who has braked
-    elsewhere: Bools  # [M, T] where they are above or below the ego's way; or [0, 0]
+    noticed: Ints  # [M] number of steps for which the ego has been on its path
+    late: Bools  # [M] whether it has braked
+    elsewhere: Bools  # [M, T] whether it is above or below the ego's way; or [0, 0]
 
 
 class Leader(NamedTuple):
-    """Who may be ahead of a driver."""
+    """A vehicle that may be ahead of a driver."""
 
     x: float  # [m] of the middle
     y: float  # [m]
@@ -76,19 +76,19 @@ def react(
     braking: Bools,
     elsewhere: Bools,
 ) -> tuple[Floats, Ints, Bools]:
-    """How others move on where a vehicle, the ego, drives along a line.
+    """Return the motion of others while a vehicle, the ego, drives along a line.
 
     Each keeps to its predicted path and never gets ahead of its prediction. It brakes for the ego
-    while that is ahead on its path, and for others that do; after the line it goes on, late.
+    if the ego is ahead on its path, and for others that brake. After the line it drives on, late.
 
     Args:
         own, size, first: states [S, 4] of the ego from step `first` on; length and width [m].
         states, sizes: [M, T, 4] and [M, 2] of the others, as predicted.
-        noticed, braking: [M] steps for which the ego has been on their path; who has braked.
-        elsewhere: [M, T] where they are above or below the ego's way; [0, 0] if nobody is.
+        noticed, braking: [M] steps for which the ego has been on their path; whether they braked.
+        elsewhere: [M, T] whether they are above or below the ego's way; [0, 0] if none ever is.
 
     Returns:
-        The states, `noticed` and `braking` after the line; the same states where nobody reacts.
+        The states, and `noticed` and `braking` after the line; `states` itself if none reacts.
     """
     count, total = states.shape[:2]
     pace = states[:, min(first, total - 1), 3].copy()
@@ -96,7 +96,7 @@ def react(
     arcs, measured = np.empty((count, total)), np.zeros(count, np.bool_)
     them = Drivers(states, arcs, measured, sizes, at, pace, noticed.copy(), late, elsewhere)
     moved, ends = states, min(first + len(own), total) - 1
-    pushes = np.empty(count)  # [m/s2] left to each
+    pushes = np.empty(count)  # [m/s2] highest acceleration allowed to each
     for t in range(first, total - 1):
         if t >= ends and moved is states:
             break  # nobody reacts
@@ -131,10 +131,10 @@ def _leader(state: Floats, size: tuple[float, float], gain: float) -> Leader:
 
 @_jit
 def _mind(them: Drivers, pushes: Floats, ego: Leader, moved: Floats, t: int) -> None:
-    """Lower what is left to each driver [m/s2]: by the ego, and by those that brake for it.
+    """Lower the highest acceleration [m/s2] of each driver, for the ego and those that brake.
 
-    A driver reacts to the ego once it has been on its path for DELAY; who has it ahead from the
-    very first step on knows of it.
+    A driver reacts to the ego once the ego has been on its path for DELAY steps, or at once if the
+    ego is there at step 0.
     """
     paths, sizes, at, pace = them.paths, them.sizes, them.at, them.pace
     noticed, late = them.noticed, them.late
@@ -166,7 +166,7 @@ def _mind(them: Drivers, pushes: Floats, ego: Leader, moved: Floats, t: int) -> 
 
 @_jit
 def _brakes(them: Drivers, m: int, push: float) -> bool:
-    """Whether a driver that is as predicted now brakes harder than that, so that it shows."""
+    """Check whether a driver has to brake noticeably harder than predicted."""
     k = int(them.at[m])
     planned = (them.paths[m, k + 1, 3] - them.pace[m]) / STEP
     least = planned if them.late[m] else min(planned, 0.0) - NOTICEABLE
@@ -189,7 +189,7 @@ def _drive_on(them: Drivers, m: int, t: int, push: float, state: Floats) -> None
 
 @_jit
 def _near(x: float, y: float, pace: float, length: float, leader: Leader) -> bool:
-    """Whether a leader may be near enough to concern a driver at (x, y), told without a root."""
+    """Check whether a leader may concern a driver at (x, y), without computing a square root."""
     dx, dy = leader.x - x, leader.y - y
     reach = _wished(pace, pace) + leader.length + length + 1e-6
     return bool(dx * dx + dy * dy <= reach * reach)
@@ -199,7 +199,7 @@ def _near(x: float, y: float, pace: float, length: float, leader: Leader) -> boo
 def _concerns(
     paths: Floats, m: int, k: int, x: float, y: float, pace: float, length: float, leader: Leader
 ) -> bool:
-    """Whether a leader may concern a driver at (x, y): it is ahead, and not too far away."""
+    """Check whether a leader may concern a driver at (x, y): it is ahead, and near enough."""
     dx, dy = leader.x - x, leader.y - y
     away = _norm(dx, dy) - leader.length - length
     if not away <= _wished(pace, pace):
@@ -213,7 +213,7 @@ def _concerns(
 
 @_jit
 def _push(them: Drivers, m: int, moved: Floats, t: int, leader: Leader, level: bool) -> float:
-    """The acceleration [m/s2] that a leader, level with the ego or not, allows; or infinite."""
+    """Return the acceleration [m/s2] that a leader, level with the ego or not, allows; or inf."""
     pace, length, width = them.pace[m], them.sizes[m, 0], them.sizes[m, 1]
     ahead, aside, k = _along(them, m, moved[m, t], leader.x, leader.y)
     cos, sin = _direction(them.paths, m, k)
@@ -232,20 +232,20 @@ def _push(them: Drivers, m: int, moved: Floats, t: int, leader: Leader, level: b
 
 @_jit
 def _elsewhere(them: Drivers, m: int, k: int) -> bool:
-    """Whether a driver is above or below the ego's way at a sample of its path."""
+    """Check whether a driver is above or below the ego's way at a sample of its path."""
     return bool(len(them.elsewhere) > 0 and them.elsewhere[m, k])
 
 
 @_jit
 def _wished(speed: float, closing: float) -> float:
-    """The gap [m] that is wanted to a leader, at a speed and a closing speed [m/s]."""
+    """Return the desired gap [m] to a leader, at a speed and a closing speed [m/s]."""
     catching_up = speed * closing / (2.0 * math.sqrt(ACCELERATION * COMFORT))
     return MIN_GAP + max(speed * HEADWAY + catching_up, 0.0)
 
 
 @_jit
 def _follow(gap: float, speed: float, leader: float, gain: float) -> float:
-    """The acceleration [m/s2] behind a leader at a gap [m], all speeds in m/s."""
+    """Return the acceleration [m/s2] behind a leader at a gap [m]; speeds in [m/s]."""
     closing = speed - leader
     idm = ACCELERATION * (1.0 - (_wished(speed, closing) / gap) ** 2)
     gain = min(gain, ACCELERATION)
@@ -261,11 +261,11 @@ def _follow(gap: float, speed: float, leader: float, gain: float) -> float:
 
 @_jit
 def _along(them: Drivers, m: int, here: Floats, x: float, y: float) -> tuple[float, float, int]:
-    """Where a point (x, y) lies along a driver's path, at the nearest place from the driver on.
+    """Return where a point (x, y) lies along a driver's path, from the driver on.
 
     Returns:
-        How far [m] along it ahead of the driver's front and how far [m] to the left of it the
-        point lies, and the sample there.
+        The distance [m] along the path from the driver's front to the point, that [m] of the point
+        to the left of the path, and the index of the nearest sample.
     """
     path, arcs, start = them.paths[m], them.arcs[m], int(them.at[m])
     if not them.measured[m]:
@@ -290,7 +290,7 @@ def _along(them: Drivers, m: int, here: Floats, x: float, y: float) -> tuple[flo
 
 @_jit
 def _measure(path: Floats, arcs: Floats) -> None:
-    """Fill in how far [m] [T] a driver has come along its path [T, 4] by each step."""
+    """Fill in the arcs [m] [T] of a driver's path [T, 4]."""
     arcs[0] = 0.0
     for k in range(1, len(path)):
         step = _norm(path[k, 0] - path[k - 1, 0], path[k, 1] - path[k - 1, 1])
@@ -299,7 +299,7 @@ def _measure(path: Floats, arcs: Floats) -> None:
 
 @_jit
 def _direction(paths: Floats, m: int, k: int) -> tuple[float, float]:
-    """The direction (cosine, sine) of a path at a sample; where it rests, its heading."""
+    """Return the direction (cosine, sine) of a path at a sample; the heading at a standstill."""
     before, after = max(k - 1, 0), min(k + 1, paths.shape[1] - 1)
     dx = paths[m, after, 0] - paths[m, before, 0]
     dy = paths[m, after, 1] - paths[m, before, 1]
@@ -311,9 +311,9 @@ def _direction(paths: Floats, m: int, k: int) -> tuple[float, float]:
 
 @_jit
 def _onward(path: Floats, at: float, room: float) -> float:
-    """The step of a prediction that a driver has come to after driving on by `room` [m].
+    """Return the step of a prediction that a driver reaches by driving on by `room` [m].
 
-    Where the prediction waits, so does the driver: that takes its time.
+    Where the prediction waits, the driver waits as long.
     """
     last = len(path) - 1
     if path[min(int(at) + 1, last), 3] < STANDING:
@@ -335,7 +335,7 @@ def _onward(path: Floats, at: float, room: float) -> float:
 
 @_jit
 def _put(path: Floats, at: float, speed: float, state: Floats) -> None:
-    """Write the state of a driver that has come to a step of its prediction."""
+    """Write the state of a driver that has reached a (fractional) step of its prediction."""
     k = int(at)
     after, share = min(k + 1, len(path) - 1), at - k
     if share <= 0.0 or math.isnan(path[after, 0]):

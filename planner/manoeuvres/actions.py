@@ -124,7 +124,7 @@ def _change(
 
 
 def _change_length(roads: Roads, here: Situation, target: Lane) -> float:
-    """How long [m] a lane change is, so that what the road's bend leaves of the grip suffices."""
+    """Return the length [m] of a lane change: longer where a bend uses much lateral grip."""
     shortest, longest = LANE_CHANGE_LENGTH
     line, offset = roads.line((target.id,)), here.location.offset
     near = (line.arc >= offset) & (line.arc <= offset + here.speed * LANE_CHANGE_TIME)
@@ -180,7 +180,7 @@ def _beside(roads: Roads, entry: Link, direction: Direction) -> bool:
 def exit_by(
     roads: Roads, here: Situation, action: Action, link: Link, goal: EgoGoal | None
 ) -> ActionPlan:
-    """Lane-follow, give way, and turn along a link ahead, or along the one being driven."""
+    """Return the plan to follow the lane, give way, and turn along a link ahead or driven on."""
     lane = here.location.lane
     if lane in link.via:
         lanes = (lane, *rest_of(roads.network, lane))

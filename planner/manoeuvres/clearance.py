@@ -1,7 +1,8 @@
-"""Clearance: who stands beside the path, so near that the body would touch it.
+"""Clearance: vehicles that stand beside the path, so near that the ego would touch them.
 
-Vehicles on the path are kept behind of. But a vehicle that turns sweeps over more than its path:
-who waits inside a junction may stand clear of the line that the front takes, and not of the body.
+Car-following stays behind vehicles on the path. But the body of a turning vehicle covers more than
+its path: one that waits inside a junction may stand clear of the line of the front, and not of the
+body.
 """
 
 import math
@@ -17,22 +18,22 @@ from sim.boxes import overlap
 from sim.scene import VehicleState
 
 SPACING = 0.5  # [m] at which places along the path are tried
-MARGIN = 0.2  # [m] to be left free at each side
+MARGIN = 0.2  # [m] kept free at each side
 
 
 def first_touch(
     path: Path, arc: float, reach: float, ego: VehicleState, standing: Mapping[int, VehicleState]
 ) -> tuple[float, int] | None:
-    """The arc [m] up to which the way is free, and who stands there; None if it is free so far.
+    """Return the arc [m] up to which the way is free, and the vehicle there; None if all is free.
 
-    Whom it touches already cannot be avoided any more, and is left out.
+    Vehicles that the ego touches already cannot be avoided, and are left out.
 
     Args:
-        path: that is driven.
-        arc: [m] where the front is.
-        reach: [m] how far ahead is looked.
+        path: the path driven.
+        arc: [m] of the front.
+        reach: [m] distance ahead that is examined.
         ego: the vehicle; its size counts.
-        standing: the others that do not move, by name.
+        standing: the others that do not move, by number.
     """
     body = replace(ego, width=ego.width + 2.0 * MARGIN)
     near = {
@@ -52,7 +53,7 @@ def first_touch(
 
 
 def _on_another_level(path: Path, other: VehicleState) -> bool:
-    """Check whether somebody stands above or below a path."""
+    """Check whether a vehicle stands above or below a path."""
     if not path.passings:
         return False
     state = np.array([[(*other.position, other.heading, other.speed)]])

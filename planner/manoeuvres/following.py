@@ -144,7 +144,7 @@ def _crossing(roads: Roads, lane: str) -> Link | None:
 
 
 def _widens(roads: Roads, link: Link) -> bool:
-    """Tell whether the road has more lanes beyond a link than before it."""
+    """Check whether the road has more lanes beyond a link than before it."""
     network = roads.network
     before, beyond = (network.lanes[name].edge for name in (link.from_lane, link.to_lane))
     return len(network.edge_lanes(beyond)) > len(network.edge_lanes(before))

@@ -1,4 +1,4 @@
-"""Where ways through junctions lead over crossings for people on foot."""
+"""Crossings for people on foot that ways through junctions lead over."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -11,11 +11,11 @@ from planner.manoeuvres.plans import LetCross
 from planner.roads.trajectory import Roads
 from sim.roads.network import Crossing, Link, cumulative, point_at, project
 
-BEFORE = 1.0  # [m] before a crossing, where to wait for people on it
+BEFORE = 1.0  # [m] before a crossing at which to wait for people on it
 ROOM = 5.5  # [m] that a car needs between two crossings to wait there
 PASSED = BEFORE + 0.5  # [m] beyond a line; farther on, a car has set out over the crossing
 SAMPLING = 0.25  # [m] between the places along a way that are tested
-BEYOND = 1.0  # [m] beyond the ends of a crossing's line that still belongs to it
+BEYOND = 1.0  # [m] beyond each end of a crossing's line that still belongs to it
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ def over(roads: Roads, link: Link) -> tuple[Over, ...]:
 
 
 def lines_over(roads: Roads, link: Link, begin: float) -> Iterator[LetCross]:
-    """Yield where to let people cross on a path, given the arc [m] at which a link begins on it.
+    """Yield the places to let people cross on a path, given the arc [m] at which a link begins.
 
     The arc is negative where the path begins inside the junction. Crossings passed are left out.
     Where there is no room to wait between two crossings, the car waits before the first one for
@@ -67,9 +67,9 @@ def crossings_along(
 
     Args:
         roads: the road network.
-        lane: where the way begins.
-        edges: that the way leads along, in order.
-        reach: [m] how far along them to look.
+        lane: the lane at which the way begins.
+        edges: the edges of the way, in order.
+        reach: [m] greatest distance along them.
     """
     network = roads.network
     inside = network.link_via(lane)
@@ -87,7 +87,7 @@ def crossings_along(
 
 
 def _over(roads: Roads, link: Link, crossing: Crossing) -> Over | None:
-    """Return where a link leads over a crossing; None where it does not."""
+    """Return where a link leads over a crossing; None if it does not."""
     length, half = cumulative(crossing.line)[-1], 0.5 * crossing.width
     inside: list[float] = []
     passed = 0.0

@@ -80,9 +80,9 @@ def _onto_ring(roads: Roads, plan: ActionPlan, turn: Turn) -> bool:
 
 
 def _beyond_exits(roads: Roads, plan: ActionPlan, arc: float) -> float:
-    """Where [m] the last exit of a roundabout before an arc is passed, or else the ring entered.
+    """Return the arc [m] of the last exit of a roundabout passed before an arc, or of its entry.
 
-    It is 0 where the plan leads through none.
+    It is 0 if the plan leads through no roundabout.
     """
     network, found = roads.network, 0.0
     before: str | None = None

@@ -56,7 +56,7 @@ class LetCross:
     stop: float  # [m] arc at which to wait, for the front bumper; negative once passed
     clear: float  # [m] arc at which the crossing is left
     yields_to: frozenset[tuple[str, int]]  # (junction, index) of the crossing
-    crossing: Crossing | None  # None: wherever somebody walks on the road
+    crossing: Crossing | None  # None: people who walk on the road elsewhere
     first: bool  # whether people have priority there
 
     @property
@@ -103,7 +103,7 @@ Manoeuvre = LaneFollow | LaneChange | KeepClear | GiveWay | LetCross | ObeyLight
 
 @dataclass(frozen=True, slots=True)
 class Situation:
-    """Where a vehicle is when it chooses an action."""
+    """The place and motion of a vehicle when it chooses an action."""
 
     time: float  # [s]
     position: Point  # [m]

@@ -37,7 +37,7 @@ class Hindrance:
 
 @dataclass(frozen=True, slots=True)
 class Keeping:
-    """What keeps a vehicle below its free speed: another vehicle, a light, both or neither."""
+    """The reason for a speed below the free one: another vehicle, a light, both or neither."""
 
     hindrance: Hindrance | None  # the other vehicle
     light: Signal | None  # which light, alone or with a queue before it

@@ -1,4 +1,4 @@
-"""What the car did, as it happened: the events beside the traces."""
+"""The events of a ride: what the car did, in addition to the traces of decisions."""
 
 from typing import Literal
 

@@ -1,6 +1,6 @@
-"""What is recorded of hidden parts of the road: who might come from there, and what that cost.
+"""The record of hidden parts of the road: phantoms that might come, and hold-ups by them.
 
-SI units. `planner.hidden_areas.phantoms` works it out.
+SI units. `planner.hidden_areas.phantoms` computes it.
 """
 
 from collections.abc import Collection
@@ -23,9 +23,9 @@ class Phantom(msgspec.Struct, frozen=True, omit_defaults=True):
     heading: float  # [rad]
     speed: float  # [m/s] at which it would come
     distance: float  # [m] along its lanes to the junction's line
-    hidden: float  # [m] of its road from where somebody would arrive before the ego is across
+    hidden: float  # [m] of its road from which a vehicle would arrive before the ego is across
     rate: float  # [1/s] of vehicles on its lane
-    probability: float  # that somebody is on that part
+    probability: float  # that a vehicle is on that part
     junction: str
     link: int  # its way through the junction
     yields: tuple[int, ...]  # the links of the junction by which the ego would give way to it
@@ -35,7 +35,7 @@ class Phantom(msgspec.Struct, frozen=True, omit_defaults=True):
     walled: bool = False  # a building hides it, too, behind that vehicle
 
     def seen_without(self, vehicles: Collection[int]) -> bool:
-        """Tell whether it would be in view without some vehicles."""
+        """Check whether it would be in view without some vehicles."""
         hiders = () if self.behind is None or self.walled else (self.behind, *self.beyond)
         return bool(hiders) and all(one in vehicles for one in hiders)
 

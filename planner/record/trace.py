@@ -70,7 +70,7 @@ UNITS: dict[Component, str] = {
 
 
 class Costs(msgspec.Struct, frozen=True):
-    """What the reward counts, in seconds of travelling time; see planner.rollouts.reward."""
+    """The weights of the reward, in seconds of travelling time; see planner.rollouts.reward."""
 
     weights: dict[Component, float]  # per unit of a component's total over the drive
     penalties: dict[Outcome, float]  # [s] of the outcomes that have one
@@ -206,7 +206,7 @@ class Rollout(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 class NotApplicable(msgspec.Struct, frozen=True):
-    """Why an action could not be taken at a node of the search."""
+    """An action that could not be taken at a node of the search, with the reason."""
 
     node: tuple[Action, ...]  # actions that lead to the node; () is the root
     action: Action

@@ -15,10 +15,10 @@ from planner.kernels.along import within
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-COARSE = 5.0  # [m] from which on a side is long
-SIDES = 4.0  # times the length of one side that the other may have in a bend
+COARSE = 5.0  # [m] minimum length of a side in a wide bend
+SIDES = 4.0  # greatest ratio of the lengths of two sides in a bend
 SHARPEST = 0.6  # [rad] of turn at a corner that is part of a wide bend
-AWAY = 0.4  # [m] by which a curve may lead away from a side
+AWAY = 0.4  # [m] maximum distance of a curve from a side
 SPACING = 1.0  # [m] between points on a curve
 CUT = 0.3  # [m] by which a vehicle may cut the corners of a polygon
 WINDOWS = (2, 3, 4, 6, 8, 12, 16, 24, 32)  # path points on each side to average curvature over
@@ -54,7 +54,7 @@ def eased(points: Array) -> tuple[Array, Ints]:
 
 
 def _slopes(long: Array, heading: Array) -> tuple[Array, Array]:
-    """Return the slopes of the curves against each side at its begin and its end [N - 1]."""
+    """Return the slopes of the curves relative to each side at its two ends [N - 1]."""
     turn = np.diff(heading)
     less, more = np.minimum(long[:-1], long[1:]), np.maximum(long[:-1], long[1:])
     wide = (np.abs(turn) <= SHARPEST) & (less >= COARSE) & (more <= SIDES * less)
@@ -71,7 +71,7 @@ def curvature_of(heading: Array, arc: Array) -> Array:
 
     Curvature is averaged over the widest window in which turning evenly instead of at the
     corners moves a vehicle aside by no more than CUT: a small kink costs no speed, a bend does.
-    Where a lane goes on a little to the side of where it came from, a vehicle swerves.
+    If a lane continues a little to the side, the curvature is that of a swerve.
     """
     n, spacing = len(arc), float(arc[-1]) / (len(arc) - 1)
     total = np.concatenate(([0.0], np.cumsum(0.5 * (heading[1:] + heading[:-1])))) * spacing

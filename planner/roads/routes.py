@@ -19,7 +19,7 @@ ALIKE = 0.35  # [rad] by which two roads straight on may differ in bearing
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Why an action does not apply: a clause in words."""
+    """The reason why an action does not apply: a clause in words."""
 
     reason: str
 
@@ -35,7 +35,7 @@ class Lead:
 
 @dataclass(frozen=True, slots=True)
 class LaneEnd:
-    """Where a lane leads."""
+    """The end of a lane, with the links that it leads to."""
 
     leads: tuple[Lead, ...]
     joint: Link | None  # by which the road just goes on: no choice, nobody to give way to

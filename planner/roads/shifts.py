@@ -1,4 +1,4 @@
-"""Lanes that go on to the side of where they came from: the way over is driven gently.
+"""Lanes that continue to the side of the lane before: a gentle line leads over.
 
 Maps draw such a lane with a jog of a few metres, as where a lane for turning begins beside it.
 People lead over early, within the room that their lane leaves them.

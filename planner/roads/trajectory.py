@@ -24,11 +24,11 @@ SPACING = 1.0  # [m] between path points
 LATERAL_ACCELERATION = 3.5  # [m/s2] in bends, as people drive in town
 DETAIL = 0.4  # [m] below which the steps of a polygon are noise
 TIGHTEST = 0.3  # [1/m] of curvature, from which on a line is made wider
-ROUNDS = 20  # of widening at most
+ROUNDS = 20  # maximum number of rounds of widening
 HAIRPIN = (5, 2.2)  # path points on each side, and [rad] turned there: no corner to be widened
 OVERSHOOT = 6.0  # [m] beyond its lane at which a vehicle may be found
 STEEPEST = 0.6  # [rad] of heading against a lane with which a blend onto it begins
-KEPT = 1024  # paths, and plans along them, that are kept for whoever is at the same place again
+KEPT = 1024  # maximum number of cached paths, and of plans along them
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,7 +49,7 @@ class Path:
         return float(self.arc[-1])
 
     def pose(self, arc: float, length: float = 0.0) -> tuple[Point, float]:
-        """Position [m] and heading [rad] of a vehicle whose front is at `arc` [m].
+        """Return position [m] and heading [rad] of a vehicle whose front is at `arc` [m].
 
         Args:
             arc: [m]
@@ -61,7 +61,7 @@ class Path:
         return (x, y), math.remainder(heading, 2.0 * math.pi)
 
     def headings(self, arcs: Array, length: float) -> Array:
-        """Headings [rad] [N] of a vehicle of a length [m] with its front at arcs [m].
+        """Return headings [rad] [N] of a vehicle of a length [m] with its front at arcs [m].
 
         Its rear follows its front: it points as the path does at its middle.
         """
@@ -78,7 +78,7 @@ class Path:
 
 
 class Roads:
-    """A network with the sampled centrelines of the routes that planning uses, kept."""
+    """A network with a cache of the sampled centrelines of the routes that planning uses."""
 
     def __init__(self, network: Network) -> None:
         self.network = network
@@ -253,14 +253,14 @@ def _along(points: Array) -> Array:
 
 
 def _rounded(arc: Array, points: Array, starts: Array) -> tuple[Array, Array, Array]:
-    """Jogs led over gently, and corners that are tighter than a car can turn made wider.
+    """Smooth jogs of a line, and widen corners that are tighter than a car can turn.
 
     Args:
         arc, points: of a line with even spacing.
         starts: [m] arcs of places on it.
 
     Returns:
-        Arc, points and starts of the line that can be driven; the same where it is one already.
+        Arc, points and starts of the line that can be driven; unchanged if it needs no change.
     """
     bent, loose = shifted(points, starts[1:] / max(arc[1], 1e-9)), ~_hairpins(points)
     for _ in range(ROUNDS):
@@ -284,7 +284,7 @@ def _rounded(arc: Array, points: Array, starts: Array) -> tuple[Array, Array, Ar
 
 
 def _hairpins(points: Array) -> NDArray[np.bool_]:
-    """[N - 2] At which inner points a line turns back."""
+    """Return whether a line turns back at each of its inner points [N - 2]."""
     steps = np.diff(points, axis=0)
     heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
     inner = np.arange(len(points) - 2)
@@ -295,7 +295,7 @@ def _hairpins(points: Array) -> NDArray[np.bool_]:
 
 
 def _interpolate(line: Path, arc: Array) -> tuple[Array, Array, Array, Array]:
-    """Points, headings, curvatures and caps of a line at arcs; straight on beyond its end."""
+    """Return points, headings, curvatures and caps at arcs; straight on beyond the line's end."""
     end = float(line.heading[-1])
     direction = (math.cos(end), math.sin(end))
     columns = (line.points, line.heading, line.curvature)
@@ -303,9 +303,9 @@ def _interpolate(line: Path, arc: Array) -> tuple[Array, Array, Array, Array]:
 
 
 def _nearest(line: Path, position: Point) -> tuple[float, float, float]:
-    """Arc [m], distance to the left [m] and heading [rad] of the nearest place on a line.
+    """Return arc [m], distance to the left [m] and heading [rad] of the nearest place on a line.
 
-    It is looked for on the line's first lane: the line may come by again.
+    Only the line's first lane is searched: the line may pass the same place again later.
     """
     first = line.lanes[1][1] if len(line.lanes) > 1 else line.length
     count = int(np.searchsorted(line.arc, first + OVERSHOOT)) + 1
@@ -316,7 +316,7 @@ def _nearest(line: Path, position: Point) -> tuple[float, float, float]:
 
 
 def relative(line: Path, k: Any, x: Array, y: Array) -> tuple[Array, Array]:
-    """Coordinates [m] of points (x, y) along and to the left of the path point(s) `k`."""
+    """Return coordinates [m] of points (x, y) along and to the left of the path point(s) `k`."""
     dx, dy = x - line.points[k, 0], y - line.points[k, 1]
     cos, sin = np.cos(line.heading[k]), np.sin(line.heading[k])
     return dx * cos + dy * sin, dy * cos - dx * sin

@@ -232,7 +232,7 @@ class CancelRequest(Message, frozen=True, kw_only=True):
 
 
 class CancelReply(Message, frozen=True, kw_only=True):
-    """Whether there was an open question to cancel."""
+    """The reply to a cancellation: whether there was an open question."""
 
     LIMIT = 4 * KIB
 

@@ -9,7 +9,7 @@ from xavi_dialogue.causal.model import Choice, Intervention
 
 @dataclass(frozen=True, slots=True)
 class VehicleHoldUp:
-    """How one vehicle holds the ego up under an intervention."""
+    """The hold-ups of the ego by one vehicle under an intervention."""
 
     vehicle: int
     how: HoldUp  # the way in which it does so longest

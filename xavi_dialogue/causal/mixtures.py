@@ -53,7 +53,7 @@ class Mixture:
         return max(OUTCOMES, key=lambda outcome: self.outcomes[outcome])
 
     def present(self, component: Component) -> list[tuple[Joint, float, float]]:
-        """(sample, weight, value) of the results in which a component is present."""
+        """Return (sample, weight, value) of the results in which a component is present."""
         return [
             (result.joint, weight, value)
             for result, weight in zip(self.results, self.weights, strict=True)
@@ -61,17 +61,17 @@ class Mixture:
         ]
 
     def presence(self, component: Component) -> float:
-        """p(R_c is present)."""
+        """Return p(R_c is present)."""
         return sum(weight for _, weight, _ in self.present(component))
 
     def expectation(self, component: Component) -> float | None:
-        """E[R_c] over the results in which c is present; None where it never is."""
+        """Return E[R_c] over the results in which c is present; None if it never is."""
         present = self.present(component)
         mass = sum(weight for _, weight, _ in present)
         return sum(weight * value for _, weight, value in present) / mass if mass > 0.0 else None
 
     def collisions(self) -> dict[int, float]:
-        """Probability of a collision with each vehicle, by vehicle."""
+        """Return the probability of a collision with each vehicle, by vehicle."""
         found: dict[int, float] = {}
         for result, weight in zip(self.results, self.weights, strict=True):
             vehicle = result.rollout.collided_with

@@ -98,11 +98,11 @@ class CausalModel:
         return tuple(sorted(self._choices))
 
     def choices(self, vehicle: int) -> Mapping[Choice, float]:
-        """p(G_i) p(S_i | G_i) for each goal and trajectory of a vehicle, as given."""
+        """Return p(G_i) p(S_i | G_i) for each goal and trajectory of a vehicle, as given."""
         return self._choices[vehicle]
 
     def prior(self, joint: Joint) -> float:
-        """p(S), the product over vehicles of goal times trajectory probability."""
+        """Return p(S), the product over vehicles, lights and phantoms of what was drawn."""
         index = self._index
         return index.priors[index.numbers[joint]]
 
@@ -181,7 +181,7 @@ class CausalModel:
         return index
 
     def _drawn(self) -> tuple[list[Joint], dict[tuple[Actions, int], list[Rollout]]]:
-        """The samples, and the rollouts of each (actions, number of a sample), in their order."""
+        """Return the samples, and the rollouts by (actions, number of a sample), in order."""
         numbers: dict[Joint, int] = {}
         found: dict[tuple[Actions, int], list[Rollout]] = {}
         for rollout in self.trace.rollouts:

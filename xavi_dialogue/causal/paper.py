@@ -23,7 +23,7 @@ class PaperNetwork:
         self.trace = trace
 
     def outcomes(self, actions: Actions) -> dict[Outcome, float]:
-        """p(O_k = 1 | actions), each outcome for itself: they need not sum to 1."""
+        """Return p(O_k = 1 | actions), each outcome for itself: they need not sum to 1."""
         rollouts = self._through(actions)
         found = {}
         for outcome in OUTCOMES:
@@ -32,12 +32,12 @@ class PaperNetwork:
         return found
 
     def difference(self, fact: Actions, foil: Actions, component: Component) -> float | None:
-        """E[R_c | fact] - E[R_c | foil], as Equation 8 is printed; None where c is absent."""
+        """Return E[R_c | fact] - E[R_c | foil], as Equation 8 is printed; None if c is absent."""
         one, other = self._mean(fact, component), self._mean(foil, component)
         return None if one is None or other is None else one - other
 
     def divergence(self, vehicle: int, choice: Choice) -> float:
-        """D_KL[p(Omega) || p(Omega | G_i, S_i)] in bits (Equation 9), smoothed to be finite."""
+        """Return D_KL[p(Omega) || p(Omega | G_i, S_i)] [bit], Equation 9, smoothed to be finite."""
         every = Counter(_plan(rollout) for rollout in self.trace.rollouts)
         some = Counter(
             _plan(rollout)

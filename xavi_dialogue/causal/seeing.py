@@ -44,21 +44,21 @@ class Observation(Mixture):
     probability: float  # of the evidence
 
     def choices(self, vehicle: int) -> dict[Choice, float]:
-        """p(G_i, S_i | evidence), of the choices that are still possible."""
+        """Return p(G_i, S_i | evidence), of the choices that are still possible."""
         return self._marginal(
             lambda result: next((g, t) for v, g, t in result.joint if v == vehicle)
         )
 
     def goals(self, vehicle: int) -> dict[int, float]:
-        """p(G_i | evidence), by the index of the goal in its prediction."""
+        """Return p(G_i | evidence), by the index of the goal in its prediction."""
         return self._marginal(lambda result: next(g for v, g, _ in result.joint if v == vehicle))
 
     def actions(self, depth: int) -> dict[Action | None, float]:
-        """p(Omega_d | evidence); None: no action at that depth."""
+        """Return p(Omega_d | evidence); the key None: no action at that depth."""
         return self._marginal(lambda result: _at(plan_of(result.rollout), depth))
 
     def plans(self) -> dict[Actions, float]:
-        """p(Omega | evidence)."""
+        """Return p(Omega | evidence)."""
         return self._marginal(lambda result: plan_of(result.rollout))
 
     def _marginal(self, of: Callable[[Result], Value]) -> dict[Value, float]:
@@ -88,7 +88,7 @@ class Search:
         ]
 
     def policy(self, joint: Joint) -> dict[Actions, float]:
-        """p(Omega | S = joint); empty where the search did not draw the sample."""
+        """Return p(Omega | S = joint); empty if the search did not draw the sample."""
         found = {plan_of(r.rollout): float(r.searched) for r, _ in self._rows if r.joint == joint}
         return {plan: count / sum(found.values()) for plan, count in found.items()}
 

@@ -23,7 +23,7 @@ class InputHistoryFile(Protocol):
     """The lines typed at the terminal."""
 
     def sessions(self) -> frozenset[str]:
-        """The sessions in which something was typed."""
+        """Return the sessions in which something was typed."""
 
     def erase(self, session: str | None, before: float | None) -> None:
         """Erase typed lines of a session, or of all, before a wall time [s], or all."""

@@ -1,4 +1,4 @@
-"""Where rides come from: driven here, saved by `xavi drive --save`, recorded by `xavi record`."""
+"""The sources of rides: driven here, saved by `xavi drive --save`, recorded by `xavi record`."""
 
 import tempfile
 import warnings

@@ -33,7 +33,7 @@ _OPTIONS: tuple[tuple[str, Any, object], ...] = (
 
 
 def own_name(shell: Streams) -> Callable[[dict[str, Any]], None]:
-    """Sets the name of a car on the bus; see preflight.own_name."""
+    """Return the function that sets the name of a car on the bus; see preflight.own_name."""
 
     def settle(given: dict[str, Any]) -> None:
         if given["zenoh"] is None:

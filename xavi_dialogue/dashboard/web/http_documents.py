@@ -202,7 +202,7 @@ class Run(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Side(msgspec.Struct, frozen=True, kw_only=True):
-    """What was done, or the foil."""
+    """One side of a contrast: the fact or the foil."""
 
     title: str  # "my plan", "what you asked about", "what I would have done instead"
     brief: str  # what tells it from the other side: "move to the left lane"

@@ -46,13 +46,13 @@ class DashboardSource(Protocol):
         """Handle that a browser has disconnected; called once for each that was greeted."""
 
     def roads(self, name: str) -> bytes | None:
-        """`documents.Roads` as JSON, by its hash; None: not known."""
+        """Return `documents.Roads` as JSON, by its hash; None: not known."""
 
     def past(self) -> bytes:
         """Return `http_documents.Past` as JSON; without scenes before the first ride."""
 
     def decision(self, name: str) -> bytes | None:
-        """`documents.DecisionShown` as JSON, by its trace id; None: not known."""
+        """Return `documents.DecisionShown` as JSON, by its trace id; None: not known."""
 
     async def evidence(self, number: int) -> bytes | None:
         """Return `http_documents.EvidenceShown` of a turn as JSON; None: there is none.

@@ -296,7 +296,7 @@ interface SceneShown {
   hidden?: [string, number, number][];
 }
 
-/** What was done, or the foil. */
+/** One side of a contrast: the fact or the foil. */
 interface Side {
   title: string;
   brief: string;
