@@ -13,6 +13,7 @@ from xavi_dialogue.domain.meaning import (
     Changed,
     Doing,
     Elliptic,
+    HowLong,
     HowMuch,
     Peak,
     Question,
@@ -37,7 +38,9 @@ from xavi_dialogue.domain.terms import (
     Next,
     Not,
     Now,
+    Pronoun,
     Relative,
+    That,
     Vehicle,
     Within,
 )
@@ -135,6 +138,39 @@ def test_what_would_have_come_is_of_what_was_supposed(
     g = grounder(discourse)
     assert subordinate(spoken, g) == (spoken if supposed is None else WhatIf(supposed, spoken))
     assert g.notes.leaned is (supposed is not None)
+
+
+SIDE = Event("change-right", tense="present")
+UNREAL = HowMuch(Measured("delay", event=Event("do", modal="would")))
+COST = HowMuch(Measured("delay", Pronoun("that")))
+NO_CAR = Not(Exists(Vehicle(1)))
+
+
+@pytest.mark.parametrize(
+    ("spoken", "discourse", "supposed"),
+    [
+        (UNREAL, Discourse(option=SIDE), Happens(SIDE)),  # "how much time would that cost?"
+        (HowLong(That()), Discourse(option=SIDE, decided=Event("continue")), Happens(SIDE)),
+        (HowLong(That()), Discourse(option=SIDE), None),  # nothing was weighed
+        (COST, talk(question=WhatIf(Not(Exists(Vehicle(1), time=Now())))), NO_CAR),
+        (COST, talk(question=WhatIf(Not(Happens(SLOWED)))), None),
+        (COST, talk(question=WHY), None),
+    ],
+)
+def test_what_time_it_takes_is_of_the_option_or_absence_spoken_of(
+    spoken: Question, discourse: Discourse, supposed: Any
+) -> None:
+    found = subordinate(spoken, grounder(discourse))
+    delay = HowMuch(Measured("delay"))
+    assert found == (spoken if supposed is None else WhatIf(supposed, delay))
+
+
+def test_what_time_it_would_take_is_at_no_time_of_the_ride() -> None:
+    g = grounder(Discourse())
+    asked = WhatIf(Happens(SIDE), HowMuch(Measured("delay")))
+    grounded = ground_question(asked, g)
+    assert isinstance(grounded, WhatIf)
+    assert (grounded.then, g.notes.span) == (asked.then, None)
 
 
 def test_through_a_place() -> None:

@@ -43,13 +43,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.risks import crash_beside, moving_in
-from xavi_dialogue.nlu.compose.clauses.sem import (
-    Measure,
-    as_thing,
-    between,
-    each_other,
-    is_thing,
-)
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, as_thing, between, each_other, is_thing
 from xavi_dialogue.nlu.compose.clauses.times import is_moment
 from xavi_dialogue.nlu.compose.states.predicates import tense_of
 from xavi_dialogue.nlu.compose.wh_questions.lasting import (
@@ -58,6 +52,7 @@ from xavi_dialogue.nlu.compose.wh_questions.lasting import (
     meanwhile,
     measured,
 )
+from xavi_dialogue.nlu.compose.wh_questions.savings import UNREAL
 from xavi_dialogue.nlu.compose.wh_questions.towards import reference
 from xavi_dialogue.nlu.compose.wh_questions.wh import held_then
 
@@ -118,6 +113,8 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
             return HowMany(Described(doing=cast(Event, done), plural=True, definite=False))
         case "many":
             return HowMany(actor or Described(plural=True, definite=False))
+        case "worse" if actor is None and clause.verb is None:
+            return HowMuch(UNREAL)
         case "much":
             return _much(clause, value, actor)
         case _:

@@ -4,7 +4,7 @@ from typing import Any, Final, cast
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import HowMuch, Question, WhatIf
+from xavi_dialogue.domain.meaning import HowLong, HowMuch, Question, WhatIf
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     Ego,
@@ -18,14 +18,20 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Tense,
 )
-from xavi_dialogue.domain.vocabulary import Attribute
+from xavi_dialogue.domain.vocabulary import ActionName, Attribute
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import as_thing
 
 _IT: Final = (Pronoun("it"), Pronoun("that"), Pronoun("this"))
 _VAGUE: Final = (None, Ego(), Passenger(), *_IT)
 _UNREAL: Final = Event("do", modal="would")
+UNREAL: Final = Measured("delay", event=_UNREAL)  # of the option spoken of
 _TIME: Final = HowMuch(Measured("delay"))
+_TURNS: Final[dict[str, ActionName]] = {
+    "left": "exit-left", "right": "exit-right", "straight": "exit-straight"
+}  # fmt: skip
+#: What leads on by another way: how long it would take is when we would be there.
+_WAYS: Final = (*_TURNS.values(), "turn", "circle", "change-lane", "change-left", "change-right")
 
 
 def of_option(question: Question, clause: Clause, deed: Proposition | None) -> Question:
@@ -36,6 +42,8 @@ def of_option(question: Question, clause: Clause, deed: Proposition | None) -> Q
         clause: its clause, which stands under no condition.
         deed: of "to overtake" in "how much would it save to overtake".
     """
+    if (way := _way(question, clause)) is not None:
+        return WhatIf(Happens(way), _TIME)
     match question:
         case HowMuch(
             of=Measured(attribute="delay" | "duration" | "speed" as attribute), extreme=None
@@ -58,6 +66,20 @@ def of_option(question: Question, clause: Clause, deed: Proposition | None) -> Q
         return question
     asked: Attribute = "duration" if attribute == "duration" else "delay"
     return HowMuch(replace(question.of, attribute=asked, to=None, event=_UNREAL))
+
+
+def _way(question: Question, clause: Clause) -> Event | None:
+    """Name the way of "how long would it take to go straight", "how much longer to the left"."""
+    match question:
+        case HowLong(of=Event(action=action, actor=actor) as way) if (
+            clause.modal == "would" and action in _WAYS and actor in (Ego(), *_IT)
+        ):
+            tense: Tense = "perfect" if clause.has("have") else "present"
+            return replace(way, actor=Ego(), tense=tense, modal=None)
+        case HowMuch(of=Measured(attribute="time-to-go")) if clause.verb is None:
+            turn = next((_TURNS[key] for key, _ in clause.bearings if key in _TURNS), None)
+            return None if turn is None else Event(turn, tense="present")
+    return None
 
 
 def lane_taken(clause: Clause) -> Event | None:

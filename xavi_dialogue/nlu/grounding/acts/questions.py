@@ -39,6 +39,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Happens,
+    Measured,
     Nobody,
     Now,
     Proposition,
@@ -115,8 +116,8 @@ def _supposed_question(spoken: Question, g: Grounder) -> Question:
             return replace(spoken, that=g.proposition(that, "supposed"))
         case When(of=of) | Why(of=of):
             return replace(spoken, of=g.proposition(of, "supposed"))
-        case Doing(actor=None, time=Unsaid()):
-            return spoken  # what would have happened is at no time of the ride
+        case Doing(actor=None, time=Unsaid()) | HowMuch(Measured("delay", Ego(), time=Unsaid())):
+            return spoken  # what would happen is at no time of the ride
     return question(spoken, g)
 
 
@@ -248,9 +249,8 @@ def _summarise(spoken: Summarise, g: Grounder) -> Summarise:
         window = over(spoken.time, g) if when is None else inferred(when, g)
         return replace(spoken, about=about, time=window.term)
     window = over(spoken.time, g)
-    return replace(
-        spoken, about=None if about is None else g.thing(about, window), time=window.term
-    )
+    about = None if about is None else g.thing(about, window)
+    return replace(spoken, about=about, time=window.term)
 
 
 def _how_know(spoken: HowKnow, g: Grounder) -> HowKnow:

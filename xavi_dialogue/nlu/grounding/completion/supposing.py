@@ -8,6 +8,7 @@ from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
     Elliptic,
+    HowLong,
     HowMuch,
     HowSure,
     Listing,
@@ -19,7 +20,7 @@ from xavi_dialogue.domain.meaning import (
     Which,
     Why,
 )
-from xavi_dialogue.domain.rewriting import first
+from xavi_dialogue.domain.rewriting import first, rewrite
 from xavi_dialogue.domain.terms import (
     Between,
     Described,
@@ -32,8 +33,10 @@ from xavi_dialogue.domain.terms import (
     Lane,
     Measured,
     Not,
+    Now,
     Pronoun,
     Proposition,
+    That,
     Thing,
     Unsaid,
     Vehicle,
@@ -99,9 +102,10 @@ def subordinate(spoken: Question, g: Grounder) -> Question:
             g.notes.leaned = g.notes.leaned or then is not None
             return spoken if then is None else WhatIf(Not(replace(of, time=then)))
     earlier = _supposed_before(g)
-    option = isinstance(spoken, HowMuch) and spoken.of.event == _UNREAL
+    option = _of_its_time(spoken, earlier, g)
     if earlier is None or not (option or _hypothetical(spoken, earlier)):
         return _of_nothing(spoken) if isinstance(spoken, HowMuch) and option else spoken
+    earlier = rewrite(earlier, lambda part: Unsaid() if isinstance(part, Now) else part)
     g.notes.leaned = True
     if option:
         return WhatIf(earlier, HowMuch(Measured("delay")))
@@ -110,6 +114,18 @@ def subordinate(spoken: Question, g: Grounder) -> Question:
     if isinstance(spoken, HowSure):
         return WhatIf(earlier, Whether(spoken.of or earlier))
     return WhatIf(earlier, spoken)
+
+
+def _of_its_time(spoken: Question, earlier: Proposition | None, g: Grounder) -> bool:
+    """Tell whether it is asked how much time an option, or the absence of somebody, would take."""
+    match spoken:
+        case HowMuch(of=Measured(event=event)) if event == _UNREAL:
+            return True
+        case HowMuch(of=Measured(attribute="delay", thing=Pronoun(), event=None)):
+            return isinstance(earlier, Not) and isinstance(earlier.content, Exists)
+        case HowLong(of=That()):
+            return g.context.discourse.decided is not None
+    return False
 
 
 def _explained_at(g: Grounder) -> Between | None:
