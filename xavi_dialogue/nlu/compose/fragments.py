@@ -20,6 +20,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Exists,
     Happens,
     Measured,
     Nobody,
@@ -54,6 +55,7 @@ from xavi_dialogue.nlu.compose.wishes import bare_wish
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
+_ANY = frozenset({"any", "anybody", "anyone", "anything"})
 _THINGS = frozenset({"something", "anything", "another"})
 _STYLE = {
     "simpl": "simpler",
@@ -200,6 +202,8 @@ class Fragments(BareQuestions):
             return [((Elliptic(besides=True),), 0.1)]
         if thing is None and event is None and isinstance(clause.time, Unsaid):
             return []
+        if event is None and isinstance(thing, Described) and _is_any(unit, thing):
+            return [((Ask(Whether(Exists(thing, clause.time))),), 0.0)]
         if thing in (SOMEBODY_ELSE, Nobody(SOMEBODY_ELSE)) and event is None:
             # "Or something else?" may be of no vehicle.
             cost = 0.0 if _THINGS.isdisjoint(words_of(unit).split()) else 0.1
@@ -266,3 +270,9 @@ def _words(part: Part) -> list[Leaf]:
 
 def _is_deed(unit: Node) -> bool:
     return any(isinstance(p, Node) and p.name == "bare" for p in unit.parts)
+
+
+def _is_any(unit: Node, thing: Described) -> bool:
+    """Check whether it is asked if there is any such: "anything I should fear?", "any on foot?"."""
+    told = thing.such is not None or thing.bearing is not None
+    return not thing.definite and told and not _ANY.isdisjoint(words_of(unit).split())

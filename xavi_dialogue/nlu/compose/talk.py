@@ -27,6 +27,7 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Proposition,
+    Related,
     That,
     Thing,
     Vehicle,
@@ -55,6 +56,7 @@ _PRAISING = frozenset(
      "beauty", "darling", "great", "smart", "dear", "sweet"}
 )  # fmt: skip
 _STIRRING = frozenset({"frighten", "scare", "startle", "worry", "bother", "unsettle", "alarm"})
+_HINDERING = frozenset({"bother"})
 _SAYING = frozenset({"ask", "say", "use", "talk", "speak", "phrase"})
 
 
@@ -228,6 +230,9 @@ def stirred(unit: Node, clause: Clause, *, liked: bool) -> Social | Ask | None:
     if not shaken or not any(isinstance(sem, Ego) for sem, _ in clause.objects):
         return None
     thing = as_thing(clause.subject)
+    if isinstance(thing, Described | Vehicle) and verb is not None and verb.key in _HINDERING:
+        held = Related("in-the-way-of", thing, Ego(), clause.time, cast(Any, clause.tense))
+        return Ask(Whether(held))
     return Social("feelings", That() if thing is None or isinstance(thing, Pronoun) else thing)
 
 

@@ -88,7 +88,8 @@ def _why(spoken: Why, g: Grounder) -> Why:
     event = first(of, Event)
     if spoken.suspect == SOMEBODY_ELSE:
         return replace(spoken, of=of, instead=instead)
-    blamed: Thing | None = None if isinstance(spoken.suspect, Nobody) else spoken.suspect
+    anybody = isinstance(spoken.suspect, Nobody) or spoken.suspect == Described(definite=False)
+    blamed: Thing | None = None if anybody else spoken.suspect
     if blamed is not None:
         g.notes.cost += UNASKED * (blames and asked_who(g.context))
         blamed = suspect(blamed, event, g, _during(event, g))
