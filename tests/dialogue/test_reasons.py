@@ -83,3 +83,10 @@ def test_how_close_it_was_after_why_not_is_of_the_decision(text: str) -> None:
     talk.hear("Why don't you move to the left lane?")
     answer = talk.hear(text)
     assert answer.startswith("I chose staying in my lane rather than moving to the left lane")
+
+
+@pytest.mark.parametrize("text", ["Was that because of someone?", "Was that because of anybody?"])
+def test_because_of_anybody_asks_for_the_reason_of_what_was_spoken_of(text: str) -> None:
+    talk = Talk("town-0", 22.0)
+    told = talk.hear("Why did you slow down?")
+    assert told.split(":")[0].split(" (")[0] in talk.hear(text)
