@@ -134,31 +134,32 @@ def _check(trace: PlanTrace, network: Network, request: WhatIf) -> None:
         raise WhatIfError("the trace is of a what-if itself; ask about the decision behind it")
     depth = trace.settings.depth
     if max(len(request.actions), len(request.vehicle_actions)) > depth:
-        raise WhatIfError(f"at most {depth} actions in a row are planned")
+        raise WhatIfError(f"at most {depth} actions in a row are possible; give fewer")
     faster = isinstance(request.faster, float)
     supposed = request.goal is not None or bool(request.vehicle_actions) or faster
     if supposed and request.vehicle is None:
-        raise WhatIfError("a goal, actions or a speed are supposed, but of no vehicle")
+        raise WhatIfError("a goal, actions or a speed need a vehicle; name it")
     if request.vehicle is not None and not supposed:
-        raise WhatIfError(f"nothing is supposed of vehicle {request.vehicle}")
+        problem = f"nothing is supposed of vehicle {request.vehicle}"
+        raise WhatIfError(f"{problem}; give a goal, actions or a speed")
     if EGO in request.gone:
         raise WhatIfError("the ego cannot be removed; name another vehicle")
     if request.vehicle == EGO:
-        raise WhatIfError("the ego's goal stands; force its actions instead")
+        raise WhatIfError("the ego's goal cannot be changed; give its actions instead")
     if request.vehicle in request.gone:
-        raise WhatIfError(f"vehicle {request.vehicle} cannot be removed and do something")
+        raise WhatIfError(f"vehicle {request.vehicle} cannot be removed and act; choose one")
     for vehicle in (*sorted(request.gone), request.vehicle):
         if vehicle is not None and vehicle not in trace.scene:
             raise NotInView(f"vehicle {vehicle} was not in view at {trace.sim_time} s")
     for light in supposed_lights(request):
         if light.state not in {state.value for state in LightState}:
-            raise WhatIfError(f"{light.state!r} is no state of a traffic light")
+            raise WhatIfError(f"{light.state!r} is not a state of a traffic light")
         places = (known.places for known in trace.lights if known.controller == light.controller)
         if light.place not in next(places, ()):
             where = f"place {light.place} of the light {light.controller!r}"
             raise NotInView(f"{where} was not in view at {trace.sim_time} s")
     if not seen_past(request) <= frozenset(range(len(trace.phantoms))):
-        raise NotInView(f"nobody of that number was imagined at {trace.sim_time} s")
+        raise NotInView(f"no phantom of that number was recorded at {trace.sim_time} s")
 
 
 def changes_world(request: WhatIf) -> bool:

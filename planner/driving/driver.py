@@ -119,7 +119,7 @@ class Driver:
             DriverError: nothing was decided in that step, or the action does not apply.
         """
         if self._moment is None or self._moment.time != round(scene.time, 3):
-            raise DriverError(f"nothing was decided at {scene.time:.1f} s")
+            raise DriverError(f"no decision was made at {scene.time:.1f} s")
         begun = self._begin(action, self._moment)
         if isinstance(begun, Refusal):
             raise DriverError(f"{action} does not apply at {scene.time:.1f} s: {begun.reason}")

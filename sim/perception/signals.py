@@ -81,7 +81,7 @@ def _circle(lines: Iterable[tuple[Point, ...]]) -> tuple[Point, float]:
 def _named(letter: str) -> LightState:
     state = _STATES.get(letter)
     if state is None:
-        raise ValueError(f"{letter!r} is no state of a traffic light")
+        raise ValueError(f"{letter!r} is not a state of a traffic light")
     return state
 
 

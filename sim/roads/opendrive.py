@@ -91,7 +91,7 @@ def _lost_ways(turns: tuple[_Turn, ...], network: Network) -> Iterator[str]:
         if roads >= set(ends) and ends not in links:
             yield (
                 f"junction {turn.junction!r}: the way from road {turn.incoming!r} to road"
-                f" {turn.outgoing!r} was lost; mend the <laneLink> of connecting road"
+                f" {turn.outgoing!r} was lost; correct the <laneLink> of connecting road"
                 f" {turn.connecting!r} in the map"
             )
 
@@ -107,7 +107,7 @@ def _gaps(network: Network) -> Iterator[str]:
             if away is not None and _road(other) != _road(edge):
                 yield (
                     f"edge {edge!r} ends {away:.1f} m from where {other!r} begins, and no way"
-                    f" leads across; mend the <link> of roads {_road(edge)!r} and"
+                    f" leads across; correct the <link> of roads {_road(edge)!r} and"
                     f" {_road(other)!r} in the map"
                 )
 
@@ -131,7 +131,7 @@ def _dead_ends(network: Network) -> Iterator[str]:
         if not lane.internal and lane.edge in lead_on and not network.links_from(lane.id):
             yield (
                 f"lane {lane.id!r} is a dead end: vehicles must leave it for another lane of edge"
-                f" {lane.edge!r}; if they need not on the road, mend its <link> in the map"
+                f" {lane.edge!r}; if they need not on the road, correct its <link> in the map"
             )
 
 
@@ -153,7 +153,7 @@ def _parts(network: Network, start: str) -> Iterator[str]:
         more = ", ..." if len(names) > SHOWN else ""
         yield (
             f"no way leads between the ego's roads and {', '.join(names[:SHOWN])}{more};"
-            " mend the <link> of these roads in the map if one should"
+            " correct the <link> of these roads in the map if one should"
         )
 
 
@@ -175,7 +175,7 @@ def _contradictions(
         lines = ", ".join(f'"{edge}" = {value}' for edge, value in advice.items())
         mend = f"write in scenario.toml under [priority]: {lines}"
         if all(priority.get(edge) == value for edge, value in advice.items()):
-            mend = "[priority] does not mend it; mend the junction in the map"
+            mend = "[priority] does not solve it; correct the junction in the map"
         told = "; ".join(dict.fromkeys(_told(pair, network) for pair in wrong))
         yield f"junction {junction.get('id')!r}: {told}; {mend}"
 
@@ -220,7 +220,7 @@ def _lost_lights(root: ET.Element, network: Network) -> Iterator[str]:
             if signal.get("type", "").startswith(LIGHT) and held.isdisjoint(edges):
                 yield (
                     f"traffic light {signal.get('id')!r} of road {name!r} was lost: it holds"
-                    " nobody; mend the place, orientation or type of this <signal> in the map"
+                    " nobody; correct the place, orientation or type of this <signal> in the map"
                 )
 
 

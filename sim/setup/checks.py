@@ -80,7 +80,7 @@ def _check_place(file: Path, key: str, vehicle: Departure, network: Network, var
     length = min(lane.stated_length for lane in lanes)
     place = vehicle.position
     if varies and place is None:
-        problem = "departPos is no number, from which [spawn] could vary it"
+        problem = "departPos is not a number, from which [spawn] could vary it"
     elif place is not None and not -length <= place <= length:
         problem = f"departPos {place:g} is beyond the end of {vehicle.edges[0]!r}"
     else:

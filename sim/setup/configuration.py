@@ -68,7 +68,7 @@ def split_place(place: str) -> tuple[Path, dict[str, str]]:
     except ValueError as error:
         raise TableError(file, None, f"{query!r}: {error}", "write ?ego=ID") from error
     if not file.is_file():
-        raise TableError(file, None, "there is no such file", "mend the path")
+        raise TableError(file, None, "there is no such file", "correct the path")
     for key in wishes:
         if key not in KEYS:
             raise TableError(file, key, "unknown", f"known are {', '.join(KEYS)}")
@@ -143,7 +143,7 @@ def _begin(file: Path, text: str | None) -> float | None:
     try:
         return None if text is None else float(text)
     except ValueError as error:
-        raise TableError(file, "begin", f"{text!r} is no number", "write seconds") from error
+        raise TableError(file, "begin", f"{text!r} is not a number", "write seconds") from error
 
 
 def _who_departs(file: Path) -> list[str]:
@@ -176,7 +176,11 @@ def _refused(file: Path) -> Iterator[None]:
     except SumoFailed as error:
         problem = str(error).removeprefix(f"{file}: ")
         option = "No option with the name" in problem
-        remedy = "take it out: it is one of sumo-gui" if option else "mend it for sumo, too"
+        remedy = (
+            "take it out: it is one of sumo-gui"
+            if option
+            else "correct it so that sumo accepts it, too"
+        )
         raise TableError(file, None, problem, remedy) from error
 
 

@@ -261,10 +261,10 @@ def _spawn(table: Table) -> Spawn:
     longitudinal = table.number("longitudinal")
     speeds = table.value("speed", "the least and the greatest speed [m/s]")
     if not isinstance(speeds, list) or len(speeds) != 2:
-        raise table.wrong("speed", f"{speeds!r} is no range", "write it as [least, greatest]")
+        raise table.wrong("speed", f"{speeds!r} is not a range", "write it as [least, greatest]")
     low, high = (table.check("speed", speed) for speed in speeds)
     if not 0.0 <= low <= high:
-        raise table.wrong("speed", f"[{low:g}, {high:g}] is no range", "put the lower one first")
+        raise table.wrong("speed", f"[{low:g}, {high:g}] is not a range", "put the lower one first")
     return Spawn(longitudinal, (low, high))
 
 
@@ -300,7 +300,7 @@ def _check(scenario: Scenario, top: Table) -> tuple[str, ...]:
         root = routes.parse(scenario.routes)
         departures = routes.departures(root)
     except RoutesError as error:
-        raise TableError(scenario.routes, None, str(error), "mend the route file") from error
+        raise TableError(scenario.routes, None, str(error), "correct the route file") from error
     check_routes(scenario.routes, root, network, scenario.ego)
     ids = [departure.id for departure in departures]
     if scenario.ego not in ids:

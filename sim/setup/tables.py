@@ -45,7 +45,7 @@ class Table:
     def text(self, key: str) -> str:
         value = self.value(key, "a text")
         if not isinstance(value, str) or not value.strip():
-            raise self.wrong(key, f"{value!r} is no text", "write it in quotes")
+            raise self.wrong(key, f"{value!r} is not text", "write it in quotes")
         return value
 
     def number(
@@ -72,7 +72,7 @@ class Table:
         """
         if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
             return float(value)
-        raise self.wrong(key, f"{value!r} is no number", "write a finite number, unquoted")
+        raise self.wrong(key, f"{value!r} is not a number", "write a finite number, unquoted")
 
     def integer(self, key: str, *, default: int | None = None, most: int = 2**31 - 1) -> int:
         value = self.values.get(key, default)
@@ -80,19 +80,19 @@ class Table:
             value = self.value(key, "a whole number")
         if not isinstance(value, int) or isinstance(value, bool) or not 0 <= value <= most:
             remedy = f"write a whole number from 0 to {most}"
-            raise self.wrong(key, f"{value!r} is no whole number in range", remedy)
+            raise self.wrong(key, f"{value!r} is not a whole number in range", remedy)
         return value
 
     def path(self, key: str, folder: Path) -> Path:
         path = folder / self.text(key)
         if not path.is_file():
-            raise self.wrong(key, f"there is no file {path}", "put it there or mend the name")
+            raise self.wrong(key, f"there is no file {path}", "put it there or correct the name")
         return path
 
     def table(self, key: str, *, required: bool = False) -> "Table":
         value = self.value(key, f"a table [{key}]") if required else self.values.get(key, {})
         if not isinstance(value, dict):
-            raise self.wrong(key, f"{value!r} is no table", f"write it as [{key}]")
+            raise self.wrong(key, f"{value!r} is not a table", f"write it as [{key}]")
         return Table(self.file, f"{self.prefix}{key}.", value)
 
 
@@ -105,6 +105,6 @@ def read_toml(file: Path) -> Table:
     try:
         return Table(file, "", tomllib.loads(file.read_text(encoding="utf-8")))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise TableError(file, None, f"not TOML: {error}", "mend the syntax there") from error
+        raise TableError(file, None, f"not TOML: {error}", "correct the syntax there") from error
     except OSError as error:
         raise TableError(file, None, str(error.strerror), "make it readable") from error

@@ -10,7 +10,7 @@ from xavi_dialogue.storage.conversations import Store
 from xavi_dialogue.storage.mcap_file import read
 from xavi_dialogue.storage.recording_format import Entry
 
-FULL = "what is said is not kept until this is mended"
+FULL = "what is said is not kept until this is solved"
 MENDED = "what is said is kept again, and what was missed as well"
 NOTHING_MORE = 8 * 1024  # bytes; a log has room, and a database none
 SOME = 16 * 1024  # bytes of a recording

@@ -232,8 +232,8 @@ def test_lines_that_are_no_orders_are_told(hub: Hub, tmp_path: Path) -> None:
     assert player.returncode == 0
     lines = told.splitlines()
     for line in (
-        "xavi: 'bogus' is no order, such as pause, resume or speed 2.0",
-        "xavi: '-3' is no number from 0 on",
+        "xavi: 'bogus' is not a command; write one such as pause, resume or speed 2.0",
+        "xavi: '-3' is not a number of 0 or more",
         "xavi: the recording ends at 0:02",
     ):
         assert lines.count(line) == 1

@@ -338,7 +338,7 @@ def test_another_action_than_the_one_decided_on_can_be_carried_out() -> None:
 def test_only_what_was_just_decided_can_be_replaced_and_only_by_what_applies() -> None:
     driver = Driver(roads("s1").network, goal("s1"), QUICK, seed=0)
     scene = Scene(0.0, {EGO: ego_at("s1", 95.0)})
-    with pytest.raises(DriverError, match="nothing was decided"):
+    with pytest.raises(DriverError, match="no decision was made"):
         driver.carry_out("stop", scene, STEP)
     driver.step(scene, STEP)
     with pytest.raises(DriverError, match="change-right does not apply"):

@@ -140,11 +140,11 @@ def test_the_ego_cannot_be_removed(trace: PlanTrace, network: Network) -> None:
 @pytest.mark.parametrize(
     ("request_", "why"),
     [
-        (WhatIf(vehicle=0, goal="stop"), "the ego's goal stands"),
+        (WhatIf(vehicle=0, goal="stop"), "the ego's goal cannot be changed"),
         (WhatIf(vehicle=1), "nothing is supposed of vehicle 1"),
-        (WhatIf(goal="stop"), "of no vehicle"),
-        (WhatIf(vehicle_actions=("stop",)), "of no vehicle"),
-        (WhatIf(removed=1, vehicle=1, goal="stop"), "cannot be removed and do something"),
+        (WhatIf(goal="stop"), "need a vehicle"),
+        (WhatIf(vehicle_actions=("stop",)), "need a vehicle"),
+        (WhatIf(removed=1, vehicle=1, goal="stop"), "cannot be removed and act; choose one"),
         (WhatIf(("stop",) * 5), "at most 4 actions"),
         (WhatIf(vehicle=1, vehicle_actions=("continue",) * 5), "at most 4 actions"),
     ],
@@ -198,7 +198,7 @@ def test_a_vehicle_may_be_supposed_to_drive_faster(trace: PlanTrace, network: Ne
     assert faster.scene[1].position == trace.scene[1].position
     slower = replan(trace, network, WhatIf(vehicle=1, faster=-50.0))
     assert slower.scene[1].speed == 0.0
-    with pytest.raises(WhatIfError, match="of no vehicle"):
+    with pytest.raises(WhatIfError, match="need a vehicle"):
         replan(trace, network, WhatIf(faster=5.0))
 
 

@@ -127,10 +127,10 @@ def test_lines_that_are_no_orders_are_told_to_who_wants_to_know(
     lines = io.StringIO(f"bogus\nspeed -3\n\n{'x' * 1000}\n\x1b[2J\npause\n")
     child_commands.listen(lines, orders, refused.append)
     assert [orders.get(timeout=2.0) for _ in range(2)] == [Pause(), Quit()]
-    such = "is no order, such as pause, resume or speed 2.0"
+    such = "is not a command; write one such as pause, resume or speed 2.0"
     assert refused == [
         f"'bogus' {such}",
-        "'-3' is no number from 0 on",
+        "'-3' is not a number of 0 or more",
         f"'{'x' * child_commands.SHOWN}' {such}",
         f"'\\x1b[2J' {such}",
     ]

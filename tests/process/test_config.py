@@ -54,10 +54,10 @@ def test_a_file_may_be_named(served: list[Link], tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("lsten = 1", "lsten is no option; the nearest is listen, and xavi COMMAND --help lists"),
-        ("[serve]\nspeed = 1", "speed of [serve] is no option; xavi serve --help lists all"),
+        ("lsten = 1", "lsten is not an option; the nearest is listen, and xavi COMMAND --help"),
+        ("[serve]\nspeed = 1", "speed of [serve] is not an option; xavi serve --help lists all"),
         ("[serve]\nkeepdays = 1", "nearest is keep-days, and xavi serve --help lists all"),
-        ("[srve]\nlisten = 'x'", "[srve] is no command; there are"),
+        ("[srve]\nlisten = 'x'", "[srve] is not a command; the commands are"),
         ("listen = 1979-05-27", "has to be a text"),
         ("listen =", "cannot be read"),
     ],

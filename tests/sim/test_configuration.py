@@ -141,7 +141,7 @@ BROKEN = [
     ("?from=top0A0", ["from without more leaves open who the ego is", "--ego-to EDGE"]),
     ("?from=top0A0&to=A0nowhere", ["there is no edge 'A0nowhere' for cars", "A0top0"]),
     ("?from=A0left0&to=A0right0", ["no way for cars leads from 'A0left0' to 'A0right0'"]),
-    ("?from=top0A0&to=A0left0&begin=soon", ["begin: 'soon' is no number"]),
+    ("?from=top0A0&to=A0left0&begin=soon", ["begin: 'soon' is not a number"]),
     ("?car=late", ["car: unknown", "known are ego, from, to, begin"]),
     ("?late", ["bad query field", "write ?ego=ID"]),
 ]
@@ -180,7 +180,7 @@ def test_configurations_that_sumo_refuses(
 
 
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
-    with pytest.raises(ScenarioInvalid, match=r"a\.sumocfg: there is no such file; mend the path"):
+    with pytest.raises(ScenarioInvalid, match=r"a\.sumocfg: there is no such file; correct the"):
         load(tmp_path / "a.sumocfg")
 
 
@@ -259,7 +259,7 @@ def test_the_first_car_that_departs_is_chosen(file: Path) -> None:
 
 
 def test_only_scenarios_of_configurations_become_folders(tmp_path: Path) -> None:
-    with pytest.raises(ScenarioInvalid, match="no SUMO configuration"):
+    with pytest.raises(ScenarioInvalid, match="not a SUMO configuration"):
         write(load("s1"), tmp_path / "mine")
 
 

@@ -69,7 +69,7 @@ def test_a_right_of_way_that_cannot_be_had(bend: Path) -> None:
     edit(bend / "bend.xodr", "</junction>", rule)
     edit(bend / "scenario.toml", '"-3" = 10', '"-3" = 5\n"2" = 5')
     (warning,) = load(bend).warnings
-    assert "[priority] does not mend it; mend the junction in the map" in warning
+    assert "[priority] does not solve it; correct the junction in the map" in warning
 
 
 @pytest.mark.parametrize(("kind", "found"), [("driving", 1), ("sidewalk", 0)])

@@ -79,18 +79,18 @@ def test_a_folder_without_configuration_is_not_found(tmp_path: Path) -> None:
 TOML = [
     ("step = 0.1", "stepp = 0.1", "stepp: unknown key", "known are name"),
     ("step = 0.1", "", "step: missing", "add it: a number"),
-    ("step = 0.1", 'step = "0.1"', "step: '0.1' is no number", "unquoted"),
-    ("step = 0.1", "step = true", "step: True is no number", "finite"),
-    ("step = 0.1", "step = nan", "step: nan is no number", "finite"),
+    ("step = 0.1", 'step = "0.1"', "step: '0.1' is not a number", "unquoted"),
+    ("step = 0.1", "step = true", "step: True is not a number", "finite"),
+    ("step = 0.1", "step = nan", "step: nan is not a number", "finite"),
     ("step = 0.1", "step = 0", "step: 0 is out of range", "at least 0.001, at most 1"),
-    ("step = 0.1", "step = 0.1\nseed = 1.5", "seed: 1.5 is no whole number", "from 0"),
-    ("step = 0.1", "step = 0.1\nseed = -1", "seed: -1 is no whole number", "from 0"),
-    ("step = 0.1", "step = ", "not TOML", "mend the syntax"),
+    ("step = 0.1", "step = 0.1\nseed = 1.5", "seed: 1.5 is not a whole number", "from 0"),
+    ("step = 0.1", "step = 0.1\nseed = -1", "seed: -1 is not a whole number", "from 0"),
+    ("step = 0.1", "step = ", "not TOML", "correct the syntax"),
     ("duration = 60.0", "duration = -1.0", "duration: -1 is out of range", "at least"),
-    ('name = "s1"', "name = 1", "name: 1 is no text", "in quotes"),
-    ('name = "s1"', 'name = " "', "name: ' ' is no text", "in quotes"),
-    ('"s1.net.xml"', '"s9.net.xml"', "network: there is no file", "mend the name"),
-    ('"s1.rou.xml"', '"s9.rou.xml"', "routes: there is no file", "mend the name"),
+    ('name = "s1"', "name = 1", "name: 1 is not text", "in quotes"),
+    ('name = "s1"', 'name = " "', "name: ' ' is not text", "in quotes"),
+    ('"s1.net.xml"', '"s9.net.xml"', "network: there is no file", "correct the name"),
+    ('"s1.rou.xml"', '"s9.rou.xml"', "routes: there is no file", "correct the name"),
     ('"s1.net.xml"', '"s1.rou.xml"', "network: ", "not a SUMO net"),
     ('ego = "ego"', 'ego = "me"', "ego: s1.rou.xml has no vehicle 'me'", "one of 1, 2, ego"),
     ("[goal]", "[target]", "target: unknown key", "known are"),
@@ -102,10 +102,10 @@ TOML = [
     ("position = 100.0", "position = 1\nlane = 2", "'main_out' has no lane 2", "one of 0, 1"),
     ("position = 100.0", "position = 1\nline = 2", "goal.line: unknown key", "edge, position"),
     ("longitudinal = 10.0", "", "spawn.longitudinal: missing", "add it"),
-    ("[5.0, 10.0]", "5.0", "spawn.speed: 5.0 is no range", "[least, greatest]"),
-    ("[5.0, 10.0]", "[10, 5]", "spawn.speed: [10, 5] is no range", "lower one first"),
-    ("[5.0, 10.0]", '["a", 5]', "spawn.speed: 'a' is no number", "finite"),
-    ("step = 0.1", "step = 0.1\npriority = 3", "priority: 3 is no table", "as [priority]"),
+    ("[5.0, 10.0]", "5.0", "spawn.speed: 5.0 is not a range", "[least, greatest]"),
+    ("[5.0, 10.0]", "[10, 5]", "spawn.speed: [10, 5] is not a range", "lower one first"),
+    ("[5.0, 10.0]", '["a", 5]', "spawn.speed: 'a' is not a number", "finite"),
+    ("step = 0.1", "step = 0.1\npriority = 3", "priority: 3 is not a table", "as [priority]"),
     ("[spawn]", "[priority]\nmain_in = 3\n[spawn]", "priority: only for OpenDRIVE", "remove it"),
 ]
 
@@ -124,7 +124,7 @@ def test_a_broken_key(tmp_path: Path, old: str, new: str, problem: str, remedy: 
 
 ROUTES = [
     ("main_in exit_s", "main_in exit_x", "route of '1': there is no edge 'exit_x'", "choose one"),
-    ('departPos="82"', 'departPos="base"', "vehicle '1': departPos is no number", "0 to 190.5"),
+    ('departPos="82"', 'departPos="base"', "vehicle '1': departPos is not a number", "0 to 190.5"),
     ('departPos="82"', 'departPos="191"', "vehicle '1': departPos 191 is beyond", "190.5"),
     ('id="ego" type="car" depart="0"', 'id="ego" depart="3"', "the ego departs late", 'depart="0"'),
     ('<route edges="main_in exit_s"/>', "", "vehicle '1': it has no route", "give it <route"),
@@ -135,8 +135,8 @@ ROUTES = [
         "car, pat",
     ),
     ("main_in exit_s", "main_in back_out", "route of '1': no way leads", "one of exit_n, exit_s"),
-    ('vehicle id="1"', "vehicle", "a <vehicle> has no id", "mend the route file"),
-    ("</routes>", "", "not an XML file", "mend the route file"),
+    ('vehicle id="1"', "vehicle", "a <vehicle> has no id", "correct the route file"),
+    ("</routes>", "", "not an XML file", "correct the route file"),
 ]
 
 

@@ -174,7 +174,7 @@ def member(role: str, name: str | None = None) -> Member:
         BadName: there is no such role, or the name is not allowed.
     """
     if role not in ROLES:
-        raise BadName(f"{role!r} is no role; there are {', '.join(ROLES)}")
+        raise BadName(f"{role!r} is not a role; the roles are {', '.join(ROLES)}")
     found = Member(role, name)
     if name is not None and not re.fullmatch(VEHICLE_NAME, name):
         raise BadName(

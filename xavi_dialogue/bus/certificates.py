@@ -89,11 +89,11 @@ class Authority:
             certificate = x509.load_pem_x509_certificate(identity.certificate)
             key = serialization.load_pem_private_key(identity.key, password=None)
         except (ValueError, TypeError) as error:
-            raise BadCertificate(f"no certificate with its key: {error}") from error
+            raise BadCertificate(f"not a certificate with its key: {error}") from error
         if not isinstance(key, ec.EllipticCurvePrivateKey):
-            raise BadCertificate("the key is of another kind than ours")
+            raise BadCertificate("the key is not of the kind used here; run `xavi keys` again")
         if key.public_key() != certificate.public_key():
-            raise BadCertificate("the key is not that of the certificate")
+            raise BadCertificate("the key does not belong to the certificate")
         return cls(certificate, key)
 
     @property

@@ -312,7 +312,7 @@ def _config(link: Link) -> zenoh.Config:
             config, settings = zenoh.Config.from_file(str(link.config)), {}
         except zenoh.ZError as error:
             raise BadLink(
-                f"{link.config} is no Zenoh configuration: {_reason(error)};"
+                f"{link.config} is not a Zenoh configuration: {_reason(error)};"
                 " `xavi keys` writes such files"
             ) from error
     said = {"mode": link.mode, "listen/endpoints": link.listen, "connect/endpoints": link.connect}

@@ -93,7 +93,7 @@ class LocalBackend:
             if scene is not None:
                 return scene
             if not self.car.catching_up:
-                raise ChildFailed("the car is not heard of any more")
+                raise ChildFailed("the car no longer sends anything")
 
     def wait(self) -> None:
         """Check the processes; to be called repeatedly while waiting for the car.
@@ -247,7 +247,7 @@ def _await(recorder: Child, bus: ZenohBus, over: threading.Event) -> None:
         if over.is_set():
             raise ChildFailed(OVER)
         if time.monotonic() > give_up:
-            raise ChildFailed("the recorder does not come up")
+            raise ChildFailed("the recorder does not start")
 
 
 def _let_go(bus: ZenohBus, service: RestartedChild) -> None:
@@ -275,7 +275,7 @@ def _join(service: RestartedChild, endpoint: str, over: threading.Event) -> Zeno
             if over.is_set():
                 raise ChildFailed(OVER) from None
             if time.monotonic() > give_up:
-                raise ChildFailed("the dialogue service does not come up") from None
+                raise ChildFailed("the dialogue service does not start") from None
 
 
 def _free_port() -> int:

@@ -191,7 +191,7 @@ class VehicleSupervisor:
 
         if client.wait_for(there, self._still, PATIENCE) is None:
             child.kill()
-            raise ChildFailed("the car is not heard of any more")
+            raise ChildFailed("the car no longer sends anything")
         with self._lock:
             child.order(child_commands.Speed(self._wish.speed))
             child.order(self._wish.motion)

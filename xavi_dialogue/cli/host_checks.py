@@ -206,7 +206,9 @@ def terminal(_: CheckedSystem) -> Finding:
 def settings(patient: CheckedSystem) -> Finding:
     """Check the file of settings."""
     if patient.mistake is not None:
-        return Finding("settings", "fault", patient.mistake, f"mend or remove {patient.settings}")
+        return Finding(
+            "settings", "fault", patient.mistake, f"correct or remove {patient.settings}"
+        )
     if not patient.settings.exists():
         folder = user_config_path(OURS)
         return Finding("settings", "ok", f"none; {folder}/config.toml would be read")

@@ -22,7 +22,7 @@ def write(scenario: Scenario, folder: Path) -> Path:
             already, or it cannot be written.
     """
     if not isinstance(scenario.source, FromConfiguration):
-        raise ScenarioInvalid(f"{scenario.place}: it is no SUMO configuration; copy its folder")
+        raise ScenarioInvalid(f"{scenario.place}: it is not a SUMO configuration; copy its folder")
     target = folder / CONFIG
     if target.exists():
         raise ScenarioInvalid(f"{target}: it is there already; remove it, or name another folder")

@@ -28,7 +28,7 @@ def vehicle_names(text: str) -> frozenset[int]:
     for part in text.split(","):
         first, _, last = part.strip().partition("-")
         if not first.isdecimal() or not (last or first).isdecimal():
-            raise UsageFault(f"--vehicles takes names such as 0-5 or 0,2,7, not {text!r}")
+            raise UsageFault(f"--vehicles takes numbers such as 0-5 or 0,2,7, not {text!r}")
         names.update(range(int(first), min(int(last or first), MAX_VEHICLE) + 1))
     return frozenset(names)
 
@@ -101,7 +101,7 @@ def parse_lines(
         query = query_of(parser, question.text, question.context or ())
         yield msgspec.json.encode({"id": question.id, "query": query}).decode()
     if broken:
-        raise UsageFault(f"{broken} of {count} lines hold no question")
+        raise UsageFault(f"{broken} of {count} lines hold no question; see the notes above")
 
 
 def query_of(parser: Parser, text: str, context: Sequence[str] = ()) -> QueryFields:

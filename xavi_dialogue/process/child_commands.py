@@ -99,7 +99,7 @@ def read(line: str) -> Order:
         case ["seek", time]:
             return Seek(_number(time))
     raise ChildCommandError(
-        f"{line.strip()[:SHOWN]!r} is no order, such as pause, resume or speed 2.0"
+        f"{line.strip()[:SHOWN]!r} is not a command; write one such as pause, resume or speed 2.0"
     )
 
 
@@ -184,5 +184,5 @@ def _number(text: str) -> float:
     except ValueError:
         number = math.nan
     if not 0.0 <= number < math.inf:
-        raise ChildCommandError(f"{text[:SHOWN]!r} is no number from 0 on")
+        raise ChildCommandError(f"{text[:SHOWN]!r} is not a number of 0 or more")
     return number

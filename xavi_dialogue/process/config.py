@@ -50,7 +50,9 @@ def read(path: Path, options: Options) -> dict[str, dict[str, Any]]:
     tables = {name: value for name, value in said.items() if isinstance(value, dict)}
     for name in tables:
         if name not in options:
-            raise SettingsError(f"{path}: [{name}] is no command; there are {_listed(options)}")
+            raise SettingsError(
+                f"{path}: [{name}] is not a command; the commands are {_listed(options)}"
+            )
     known = {option for of_command in options.values() for option in of_command}
     _check(path, "", everywhere, known)
     found: dict[str, dict[str, Any]] = {}
@@ -73,7 +75,7 @@ def _check(path: Path, command: str, said: Mapping[str, Any], known: set[str]) -
     for name, value in said.items():
         if name not in known:
             raise SettingsError(
-                f"{path}: {name}{where} is no option; {_nearest(name, known)}"
+                f"{path}: {name}{where} is not an option; {_nearest(name, known)}"
                 f"xavi {command or 'COMMAND'} --help lists all"
             )
         if not isinstance(value, (str, int, float, list)):

@@ -90,7 +90,7 @@ class Child:
             self._process.stdin.flush()
         except (BrokenPipeError, ValueError):
             self.check()
-            raise ChildFailed(f"{self.name} takes no orders any more") from None
+            raise ChildFailed(f"{self.name} no longer takes commands") from None
         self.ordered += 1
         return self.ordered
 

@@ -102,7 +102,8 @@ def _host(endpoint: str) -> str:
     found = ENDPOINT.fullmatch(endpoint)
     if found is None or not 0 < int(found[3]) < 2**16:
         raise BadEndpoint(
-            f"{endpoint!r} is no endpoint for certificates, such as tls/127.0.0.1:7447"
+            f"{endpoint!r} is not an endpoint for certificates;"
+            " write one such as tls/127.0.0.1:7447"
         )
     return found[2].strip("[]")
 

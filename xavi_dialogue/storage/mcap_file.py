@@ -217,7 +217,7 @@ def _made(path: Path, overwrite: bool) -> int:
     file = os.open(path, flags, 0o600)
     try:
         if not stat.S_ISREG(os.fstat(file).st_mode):
-            raise OSError(errno.EINVAL, "it is no file")
+            raise OSError(errno.EINVAL, "it is not a file")
         os.fchmod(file, 0o600)
         os.ftruncate(file, 0)
     except OSError:

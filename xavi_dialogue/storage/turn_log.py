@@ -270,5 +270,5 @@ class TurnLog:
     def _fail(self, error: StoreError) -> None:
         if not self._failing:
             _LOG.error("the store fails", extra={"problem": str(error)})
-            self.warn(f"what is said is not kept until this is mended: {error}")
+            self.warn(f"what is said is not kept until this is solved: {error}")
         self._failing = True

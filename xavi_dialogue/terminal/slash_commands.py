@@ -80,7 +80,7 @@ def factor(argument: str) -> float:
     """Parse the argument of /speed: simulated seconds per second.
 
     Raises:
-        CommandError: it is no number from 0 to 1000.
+        CommandError: it is not a number from 0 to 1000.
     """
     try:
         number = float(argument)
@@ -95,7 +95,7 @@ def moment(argument: str) -> float:
     """Parse the argument of /seek: a time [s] of the ride.
 
     Raises:
-        CommandError: it is no number from 0 on.
+        CommandError: it is not a number of 0 or more.
     """
     try:
         number = float(argument.removesuffix("s"))

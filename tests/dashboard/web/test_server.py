@@ -96,7 +96,8 @@ def test_a_place_that_is_taken_is_said_so(here: Running) -> None:
 
 
 @pytest.mark.parametrize(
-    ("place", "words"), [("192.0.2.1:0", "no address of this"), ("nowhere.invalid:0", "not known")]
+    ("place", "words"),
+    [("192.0.2.1:0", "not an address of this"), ("nowhere.invalid:0", "not known")],
 )
 def test_a_place_that_is_not_ours_is_said_so(place: str, words: str) -> None:
     with pytest.raises(ListenError, match=words):

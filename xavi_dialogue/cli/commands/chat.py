@@ -171,11 +171,16 @@ def _ride_along(
 
 def _ask(shell: Streams) -> Callable[..., None]:
     def ask(
-        text: str,
+        text: Annotated[str, typer.Argument(help="Question to ask.")],
         scenario: AnyScenario = None,
         seed: Seed = None,
-        at: Annotated[float | None, typer.Option(min=0.0, help="Simulation time [s].")] = None,
-        style: Annotated[Literal["passenger", "paper"], typer.Option()] = "passenger",
+        at: Annotated[
+            float | None, typer.Option(min=0.0, help="Moment of the question, simulation time [s].")
+        ] = None,
+        style: Annotated[
+            Literal["passenger", "paper"],
+            typer.Option(help="Wording for passengers, or as in the paper's tables."),
+        ] = "passenger",
         as_json: AsJson = False,
         connect: Connect = None,
         zenoh: ZenohFile = None,

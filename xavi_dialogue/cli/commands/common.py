@@ -88,7 +88,10 @@ Begin = Annotated[
     float | None,
     typer.Option(min=0.0, metavar="SECONDS", help="With --ego-from: when to start."),
 ]
-Seed = Annotated[int | None, typer.Option(min=0, max=2**31 - 1, help="Default: the scenario's.")]
+Seed = Annotated[
+    int | None,
+    typer.Option(min=0, max=2**31 - 1, help="Seed of random numbers. Default: the scenario's."),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Control = Annotated[bool, typer.Option("--control", hidden=True)]
 SessionName = Annotated[

@@ -39,17 +39,19 @@ def add(app: typer.Typer, shell: Streams) -> None:
 
 def _parse(shell: Streams) -> Callable[..., None]:
     def parse(
-        text: Annotated[str | None, typer.Argument()] = None,
-        jsonl: Annotated[bool, typer.Option("--jsonl", help="Read question lines.")] = False,
+        text: Annotated[str | None, typer.Argument(help="Question to parse.")] = None,
+        jsonl: Annotated[
+            bool, typer.Option("--jsonl", help="Read lines of JSON, each with a question.")
+        ] = False,
         vehicles: Annotated[
-            str, typer.Option(help="Names of vehicles, such as 0-5 or 0,2.")
+            str, typer.Option(help="Numbers of the vehicles in view, such as 0-5 or 0,2.")
         ] = "0-5",
         explain: Annotated[
-            bool, typer.Option("--explain", help="Show the share of each word.")
+            bool, typer.Option("--explain", help="Show what each word contributes.")
         ] = False,
         as_json: AsJson = False,
     ) -> None:
-        """Show the query that a question means."""
+        """Show the meaning of a question as a query."""
         from xavi_dialogue.cli import parse as parsing
 
         with shell.errors():

@@ -42,11 +42,11 @@ def _keys(shell: Streams) -> Callable[..., None]:
         ] = None,
         passenger: Annotated[
             list[str] | None,
-            typer.Option(metavar="NAME", help="Gets a separate certificate; repeatable."),
+            typer.Option(metavar="NAME", help="Passenger with a separate certificate; repeatable."),
         ] = None,
         vehicle: Annotated[
             list[str] | None,
-            typer.Option(metavar="NAME", help="Gets a separate certificate; repeatable."),
+            typer.Option(metavar="NAME", help="Car with a separate certificate; repeatable."),
         ] = None,
         days: Annotated[int, typer.Option(min=1, max=3650, help="Days of validity.")] = 365,
         force: Annotated[bool, typer.Option("--force", help="Replace all existing keys.")] = False,

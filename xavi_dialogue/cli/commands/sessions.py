@@ -37,7 +37,9 @@ def store_file(given: Path | None) -> Path:
 
 def _sessions(shell: Streams) -> Command:
     def sessions(
-        session: Annotated[str | None, typer.Argument(help="Only this one.")] = None,
+        session: Annotated[
+            str | None, typer.Argument(help="Conversation to print. Default: a list of all.")
+        ] = None,
         export: Annotated[
             bool, typer.Option("--export", help="Print all stored data as lines of JSON.")
         ] = False,

@@ -50,7 +50,7 @@ class ListenOptions:
             raise ListenError(f"a token has {FORM}; leave it out for one")
         for name in names:
             if name_of(name) != name.lower().rstrip("."):
-                raise ListenError(f"{name[:64]!r} is no name of a host; write it without a port")
+                raise ListenError(f"{name[:64]!r} is not a host name; write it without a port")
         if token is None and not is_loopback(host):
             token = new_token()
         return cls(host, port, token, tuple(name.lower().rstrip(".") for name in names))
@@ -129,12 +129,12 @@ def _place(text: str) -> tuple[str, int]:
         text = f":{text}"
     found = re.fullmatch(r"(\[[^\]\[]*\]|[^:\[\]]*)(?::([0-9]{1,5}))?", text)
     if found is None:
-        raise ListenError(f"{text[:64]!r} is no place to listen at; {MEND}")
+        raise ListenError(f"{text[:64]!r} is not an address to listen at; {MEND}")
     host, port = found[1] or DEFAULT_HOST, int(found[2] or DEFAULT_PORT)
     if port > 65535:
-        raise ListenError(f"{port} is no port; they go up to 65535")
+        raise ListenError(f"{port} is not a port; give a number up to 65535")
     if name_of(host) is None:
-        raise ListenError(f"{host[:64]!r} is no host; {MEND}")
+        raise ListenError(f"{host[:64]!r} is not a host; {MEND}")
     return host.strip("[]"), port
 
 

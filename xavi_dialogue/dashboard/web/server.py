@@ -168,7 +168,7 @@ def bind(listen: ListenOptions) -> socket.socket:
         reasons = {
             errno.EADDRINUSE: "is in use",
             errno.EACCES: "is not for everybody (ports from 1024 on are)",
-            errno.EADDRNOTAVAIL: "is no address of this machine",
+            errno.EADDRNOTAVAIL: "is not an address of this machine",
         }
         reason = reasons.get(error.errno or 0, "cannot be listened at")
         other = "port 0 is any that is free"
@@ -220,7 +220,7 @@ class _Http(H11Protocol):
 
     def send_400_response(self, msg: str) -> None:
         del msg
-        self._send_off(400, "This is no request that can be understood.")
+        self._send_off(400, "This request cannot be understood.")
 
     def _wait(self) -> None:
         """Wait for the next request for a limited time."""
