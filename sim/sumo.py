@@ -15,7 +15,7 @@ from sim.boxes import overlap
 from sim.engine import EgoGone, Engine, SimulationError, SimulationRunning, SumoFailed, SumoMissing
 from sim.names import VehicleNames
 from sim.perception import appearance
-from sim.perception.looking import Painted, Perception, View
+from sim.perception.ego_view import Painted, Perception, View
 from sim.roads.bridges import apart
 from sim.roads.netfile import read_network
 from sim.scene import Command, Scene, VehicleState

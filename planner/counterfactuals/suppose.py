@@ -12,7 +12,7 @@ import numpy as np
 from planner.manoeuvres.actions import Situation, expand
 from planner.motion.forward import DT, Motion
 from planner.motion.obstacles import NOBODY, Obstacle, Traffic
-from planner.motion.scenery import Others, Scenery
+from planner.motion.surroundings import Others, Surroundings
 from planner.motion.tracks import Observed
 from planner.prediction.astar import GRIP
 from planner.prediction.goals import PLACES, Goal, goals_in_view
@@ -93,9 +93,9 @@ def _on_foot(
         name: observed(name, moment.history[name], state) for name, state in moment.scene.items()
     }
     vehicles = [track for track in seen.values() if track.kind not in ON_FOOT]
-    scenery = Scenery(frame.roads, moment.outlook, round(frame.settings.horizon / DT))
-    going_on = [scenery.on(track.kind).coast(track).usual for track in vehicles]
-    beliefs = ways_of(scenery, seen[vehicle], vehicles, going_on, frame.settings)
+    surroundings = Surroundings(frame.roads, moment.outlook, round(frame.settings.horizon / DT))
+    going_on = [surroundings.on(track.kind).coast(track).usual for track in vehicles]
+    beliefs = ways_of(surroundings, seen[vehicle], vehicles, going_on, frame.settings)
     wanted = _named([belief.goal for belief in beliefs], named.pop())
     if isinstance(wanted, Refusal):
         return wanted
@@ -109,15 +109,15 @@ def _prospect(frame: Frame, moment: Moment, vehicle: int) -> _Prospect:
         name: observed(name, moment.history[name], state) for name, state in moment.scene.items()
     }
     one = seen[vehicle]
-    scenery = Scenery(frame.roads, moment.outlook, round(frame.settings.horizon / DT))
-    own = scenery.on(one.kind)
+    surroundings = Surroundings(frame.roads, moment.outlook, round(frame.settings.horizon / DT))
+    own = surroundings.on(one.kind)
     view = frame.settings.view_radius
     nowhere = EgoGoal("", 0.0, None)
     task = Task(
         own.roads, nowhere, (one.length, one.width), moment.time, own.steps, view, yielding=True
     )
     coasting = tuple(
-        scenery.on(other.kind).coast(other) for name, other in seen.items() if name != vehicle
+        surroundings.on(other.kind).coast(other) for name, other in seen.items() if name != vehicle
     )
     starts = one.situation(own.roads, -1, moment.time)
     return _Prospect(task, one, starts, Others(own, coasting))
@@ -171,7 +171,7 @@ def _acting(
     goal = wanted or reached[-1]
     kept = _belief_in(known, goal)
     start = prospect.task.start
-    motions = prospect.others.scenery.motions(lambda k: _moving(prospect, actions, legs, k))
+    motions = prospect.others.surroundings.motions(lambda k: _moving(prospect, actions, legs, k))
     stretches, stops = held_up(legs, start), held_by_lights(legs, start)
     way = Trajectory(1.0, tuple(actions), motions, stretches, stops)
     return Belief(goal, 0.0 if kept is None else kept.likelihood, 1.0, (way,))
@@ -182,7 +182,7 @@ def _moving(
 ) -> Obstacle:
     """Return the motion of a vehicle with certain actions if lights take certain courses."""
     traffic, legs = prospect.others.under(courses), usual
-    if courses != prospect.others.scenery.outlook.usual:
+    if courses != prospect.others.surroundings.outlook.usual:
         driven = _driven_freely(prospect, actions, traffic)
         legs = usual if isinstance(driven, Refusal) else driven
     motion = motion_along(prospect.task, legs, prospect.observed, traffic)

@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from planner.driving.lookout import shown_now
 from planner.driving.memory import Memory
+from planner.driving.monitoring import shown_now
 from planner.driving.walkers import AROUND, passing_speed, with_walkers
 from planner.hidden_areas.caution import allowed_speed
 from planner.hidden_areas.phantoms import View
@@ -26,9 +26,9 @@ from planner.kernels.driving import (
 from planner.manoeuvres.clearance import first_touch
 from planner.manoeuvres.layout import INSIDE
 from planner.manoeuvres.plans import ActionPlan, GiveWay
-from planner.motion.everybody import everybody_in, standing
 from planner.motion.forward import DT, Hindrance, Keeping, Lane, Motion, accelerate
 from planner.motion.obstacles import Obstacle, Traffic, occupancy
+from planner.motion.road_users import road_users_in, standing
 from planner.motion.tracks import aligned
 from planner.prediction.recognise import Belief
 from planner.record.trace import ON_FOOT
@@ -73,7 +73,7 @@ class Around:
     @cached_property
     def seen(self) -> dict[int, VehicleState]:
         """All road users in the scene."""
-        return everybody_in(self.scene)
+        return road_users_in(self.scene)
 
 
 def control(driving: Driving, around: Around, dt: float) -> tuple[float, Keeping]:

@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 import msgspec
 
 from planner.driving.control import Around, Driving, Outlook, control, view_of
-from planner.driving.lookout import as_foreseen, changed, lookout
 from planner.driving.memory import Memory
+from planner.driving.monitoring import as_foreseen, changed, light_courses
 from planner.errors import PlannerError
 from planner.hidden_areas.phantoms import around
 from planner.manoeuvres.actions import STANDING_TIME, ActionPlan, Situation, expand
@@ -159,7 +159,7 @@ class Driver:
         roads, goal, here = self._frame.roads, self._frame.goal, self._situation(scene)
         edges = way(roads, (here.location.lane,), goal)
         horizon, now = self._frame.settings.horizon, round(scene.time, 3)
-        return lookout(roads, self._memory.watched, now, horizon, edges)
+        return light_courses(roads, self._memory.watched, now, horizon, edges)
 
     def _imagined(self, scene: Scene) -> tuple[Phantom, ...]:
         """Return phantoms that may come out of hidden areas at the junction here or ahead."""

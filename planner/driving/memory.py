@@ -12,9 +12,9 @@ import msgspec
 import numpy as np
 
 from planner.hidden_areas.phantoms import Counts
-from planner.motion.everybody import everybody_in, going_on
 from planner.motion.forward import DT
 from planner.motion.obstacles import Obstacle
+from planner.motion.road_users import going_on, road_users_in
 from planner.motion.tracks import Observed
 from planner.record.places import LightChange
 from planner.record.trace import ON_FOOT, Track
@@ -65,7 +65,7 @@ class Memory:
 
     def observe(self, scene: Scene) -> None:
         """Store what is seen now."""
-        everybody = everybody_in(scene)
+        everybody = road_users_in(scene)
         for vehicle in [x for x in self._seen if x not in everybody]:
             self._recall(vehicle, scene)
         for vehicle, state in everybody.items():

@@ -25,7 +25,7 @@ from planner.motion.kerbs import (
     walks_back,
 )
 from planner.motion.obstacles import Motions, Obstacle
-from planner.motion.scenery import Scenery
+from planner.motion.surroundings import Surroundings
 from planner.motion.tracks import Observed
 from planner.motion.walking import (
     HALF_LANE,
@@ -107,7 +107,7 @@ def concerned(
 
 
 def recognise_people(
-    scenery: Scenery,
+    surroundings: Surroundings,
     people: Sequence[Observed],
     vehicles: Sequence[Observed],
     coasting: Sequence[Obstacle],
@@ -116,7 +116,7 @@ def recognise_people(
     """Return the goals that people may have, with probabilities.
 
     Args:
-        scenery: the roads and lights.
+        surroundings: the roads and lights.
         people: tracks of the people whose goals are recognised; they end now.
         vehicles: all in view, the ego included.
         coasting: the same vehicles, each going on as it does now.
@@ -125,38 +125,38 @@ def recognise_people(
     busy: dict[str, Bools] = {}
     found = {}
     for person in people:
-        aims = _aims(scenery, person, vehicles, settings)
-        found[person.vehicle] = _beliefs(scenery, person, aims, coasting, busy, settings)
+        aims = _aims(surroundings, person, vehicles, settings)
+        found[person.vehicle] = _beliefs(surroundings, person, aims, coasting, busy, settings)
     return found
 
 
 def ways_of(
-    scenery: Scenery,
+    surroundings: Surroundings,
     person: Observed,
     vehicles: Sequence[Observed],
     coasting: Sequence[Obstacle],
     settings: Settings,
 ) -> tuple[Belief, ...]:
     """Return every goal that a person may have, however improbable, each with probability 1."""
-    aims = _aims(scenery, person, vehicles, settings)
+    aims = _aims(surroundings, person, vehicles, settings)
     busy: dict[str, Bools] = {}
     return tuple(
-        Belief(aim.goal, 0.0, 1.0, _trajectories(scenery, person, aim, coasting, busy))
+        Belief(aim.goal, 0.0, 1.0, _trajectories(surroundings, person, aim, coasting, busy))
         for aim in aims
     )
 
 
 def _aims(
-    scenery: Scenery, person: Observed, vehicles: Sequence[Observed], settings: Settings
+    surroundings: Surroundings, person: Observed, vehicles: Sequence[Observed], settings: Settings
 ) -> list[_Aim]:
     """Return the goals that a person may have, staying last."""
-    network, here = scenery.roads.network, place_of(person)
-    on = crossing_under(scenery.roads, here)
+    network, here = surroundings.roads.network, place_of(person)
+    on = crossing_under(surroundings.roads, here)
     routes: list[tuple[Crossing, Route]] = []
     if on is not None:
         routes = [(on, across(person, on, back=walks_back(person, on), on=True))]
     else:
-        for crossing, back in crossings_near(scenery.roads, here):
+        for crossing, back in crossings_near(surroundings.roads, here):
             if not came_over(person, crossing):
                 routes.append((crossing, across(person, crossing, back=back, on=False)))
     waits = any(x.kerb is not None and x.kerb <= KERB for _, x in routes)
@@ -166,17 +166,17 @@ def _aims(
     aims = []
     for crossing, route in routes:
         target = EgoGoal(crossing.id.rpartition("_")[0], 0.0, None)
-        excess = 0.0 if on is not None else _crossing_excess(scenery, person, route, vehicles)
+        excess = 0.0 if on is not None else _crossing_excess(surroundings, person, route, vehicles)
         aims.append(_Aim(Goal("cross", PLACES["cross"], target, share), route, excess))
     if ahead is not None:
-        kind = "cross" if _aslant(scenery.roads, person) else "continue"
+        kind = "cross" if _aslant(surroundings.roads, person) else "continue"
         goal = Goal(kind, PLACES[kind], None, share)  # type: ignore[arg-type]
         aims.append(_Aim(goal, ahead, _onward_excess(person)))
     return [*aims, _Aim(Goal("stop", PLACES["stop"], None, STAY), None, 0.0)]
 
 
 def _beliefs(
-    scenery: Scenery,
+    surroundings: Surroundings,
     person: Observed,
     aims: Sequence[_Aim],
     coasting: Sequence[Obstacle],
@@ -193,43 +193,48 @@ def _beliefs(
     weights = [aim.goal.prior * one for aim, one in zip(aims, like, strict=True)]
     weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
     return tuple(
-        Belief(aim.goal, one, w / sum(weights), _trajectories(scenery, person, aim, coasting, busy))
+        Belief(
+            aim.goal,
+            one,
+            w / sum(weights),
+            _trajectories(surroundings, person, aim, coasting, busy),
+        )
         for aim, one, w in zip(aims, like, weights, strict=True)
         if w > 0.0
     )
 
 
 def _trajectories(
-    scenery: Scenery,
+    surroundings: Surroundings,
     person: Observed,
     aim: _Aim,
     coasting: Sequence[Obstacle],
     busy: dict[str, Bools],
 ) -> tuple[Trajectory, ...]:
     """Return the ways to a goal, one for each speed."""
-    kind, route, steps = aim.goal.kind, aim.route, scenery.steps + 1
+    kind, route, steps = aim.goal.kind, aim.route, surroundings.steps + 1
     if route is None:
         return (Trajectory(1.0, (kind,), Motions(stand(person, steps))),)
     on_it, one = np.zeros(steps, np.bool_), route.crossing
-    waits = one is not None and not people_first(scenery.roads, one)
+    waits = one is not None and not people_first(surroundings.roads, one)
     if one is not None and waits:
         if one.id not in busy:
             busy[one.id] = _busy(one, coasting, steps)
         on_it = busy[one.id]
 
     def under(courses: tuple[int, ...], pace: float) -> Obstacle:
-        lights = scenery.lights(courses)
+        lights = surroundings.lights(courses)
         free = may_go(route, pace, lights, on_it, steps, gaps=waits)
         return walk(person, route, pace, free)
 
     return tuple(
-        Trajectory(share, (kind,), scenery.motions(partial(under, pace=pace)))
+        Trajectory(share, (kind,), surroundings.motions(partial(under, pace=pace)))
         for pace, share in paces(person)
     )
 
 
 def _crossing_excess(
-    scenery: Scenery, person: Observed, route: Route, vehicles: Sequence[Observed]
+    surroundings: Surroundings, person: Observed, route: Route, vehicles: Sequence[Observed]
 ) -> float:
     """Return the excess cost [s] of the track and the rest of the way to a crossing."""
     first = max(person.elapsed - LOOK, 0)
@@ -241,7 +246,9 @@ def _crossing_excess(
     spent = (len(speed) - 1) * DT
     if route.kerb <= AT_KERB and np.any(speed < WALKING) and route.crossing is not None:
         idle = (speed < WALKING)[1:]
-        spent -= DT * int(np.sum(idle & _excused(scenery, route.crossing, vehicles, len(idle))))
+        spent -= DT * int(
+            np.sum(idle & _excused(surroundings, route.crossing, vehicles, len(idle)))
+        )
     return max(spent + left - best, 0.0) + TURNING * (1.0 - math.cos(_turned(person, route)))
 
 
@@ -276,11 +283,11 @@ def _pace(speed: Array) -> float:
 
 
 def _excused(
-    scenery: Scenery, crossing: Crossing, vehicles: Sequence[Observed], samples: int
+    surroundings: Surroundings, crossing: Crossing, vehicles: Sequence[Observed], samples: int
 ) -> Bools:
     """Return in which of the last samples a person had to wait at a crossing [samples]."""
     if isinstance(crossing.control, Signal):
-        before = scenery.outlook.before(samples, scenery.steps + GAP_HORIZON)
+        before = surroundings.outlook.before(samples, surroundings.steps + GAP_HORIZON)
         held: Bools = before.shows(crossing.control, samples)[:samples] > OPEN
         return held
     middle = np.mean(np.array(crossing.line), axis=0)

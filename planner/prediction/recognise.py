@@ -14,7 +14,7 @@ import numpy as np
 from planner.manoeuvres.actions import COMFORT, Situation
 from planner.motion.forward import DT
 from planner.motion.obstacles import NOBODY, Motions, Obstacle, Traffic
-from planner.motion.scenery import Others, Scenery
+from planner.motion.surroundings import Others, Surroundings
 from planner.motion.tracks import (
     Observed,
     berth_of,
@@ -91,29 +91,29 @@ def recognise(
         bound: the place that the ego is bound for; None if it is not known, and the ego coasts.
     """
     steps = round(settings.horizon / DT)
-    scenery = Scenery(roads, outlook, steps)
-    usual = scenery.lights(outlook.usual)
+    surroundings = Surroundings(roads, outlook, steps)
+    usual = surroundings.lights(outlook.usual)
     people = [track for track in tracks if track.kind in ON_FOOT]
     vehicles = [track for track in tracks if track.kind not in ON_FOOT]
     coasting = {
         track.vehicle: _Coasting(
             track.elapsed,
-            scenery.on(track.kind).coast(track),
-            coast(scenery.on(track.kind).roads, track, steps, past=True, lights=usual),
+            surroundings.on(track.kind).coast(track),
+            coast(surroundings.on(track.kind).roads, track, steps, past=True, lights=usual),
         )
         for track in vehicles
     }
     found: dict[int, tuple[Belief, ...]] = {}
     if people:
         going_on = [mine.now.usual for mine in coasting.values()]
-        found = recognise_people(scenery, people, vehicles, going_on, settings)
+        found = recognise_people(surroundings, people, vehicles, going_on, settings)
     for walker in people:
         now = likeliest(found[walker.vehicle])
         coasting[walker.vehicle] = _Coasting(walker.elapsed, now, past_of(walker, now.usual))
     held = {one for one, mine in coasting.items() if outlook.known and mine.now.usual.rests}
     us: tuple[_Coasting, _Coasting] | None = None  # the ego as it coasts, and as it would drive
     for observed in queued(vehicles, held, None if bound is None else ego):
-        one, own = observed.vehicle, scenery.on(observed.kind)
+        one, own = observed.vehicle, surroundings.on(observed.kind)
         waits = observed.standing or one in held
         if one == ego and bound is not None:
             driving = _bound_for(own, observed, coasting, settings, time, bound)
@@ -125,15 +125,15 @@ def recognise(
     return {track.vehicle: found[track.vehicle] for track in tracks if track.vehicle in found}
 
 
-def _frame(scenery: Scenery, observed: Observed, settings: Settings, time: float) -> Task:
+def _frame(surroundings: Surroundings, observed: Observed, settings: Settings, time: float) -> Task:
     """Return the task of planning for a vehicle from now on, without a goal."""
     size, nowhere = (observed.length, observed.width), EgoGoal("", 0.0, None)
-    steps, view, pace = scenery.steps, settings.view_radius, observed.pace
-    return Task(scenery.roads, nowhere, size, time, steps, view, yielding=True, pace=pace)
+    steps, view, pace = surroundings.steps, settings.view_radius, observed.pace
+    return Task(surroundings.roads, nowhere, size, time, steps, view, yielding=True, pace=pace)
 
 
 def _bound_for(
-    scenery: Scenery,
+    surroundings: Surroundings,
     observed: Observed,
     coasting: Mapping[int, _Coasting],
     settings: Settings,
@@ -142,33 +142,33 @@ def _bound_for(
 ) -> _Coasting | None:
     """Return the likeliest motion of a vehicle to the place that it is bound for."""
     others = [other.now for vehicle, other in coasting.items() if vehicle != observed.vehicle]
-    starts = observed.situation(scenery.roads, -1, time)
-    goal, frame = Goal("continue", "", bound, 1.0), _frame(scenery, observed, settings, time)
-    found = _ways_on(frame, starts, goal, observed, Others(scenery, tuple(others)))
+    starts = observed.situation(surroundings.roads, -1, time)
+    goal, frame = Goal("continue", "", bound, 1.0), _frame(surroundings, observed, settings, time)
+    found = _ways_on(frame, starts, goal, observed, Others(surroundings, tuple(others)))
     return replace(coasting[observed.vehicle], now=found[0].motions) if found else None
 
 
 def _beliefs(
-    scenery: Scenery,
+    surroundings: Surroundings,
     observed: Observed,
     coasting: Mapping[int, _Coasting],
     settings: Settings,
     time: float,
     us: tuple[_Coasting, _Coasting] | None,
 ) -> tuple[Belief, ...]:
-    roads = scenery.roads
+    roads = surroundings.roads
     others = [other for vehicle, other in coasting.items() if vehicle != observed.vehicle]
     starts = observed.situation(roads, -1, time)
     if not starts:
-        return _unknown(scenery, observed)
+        return _unknown(surroundings, observed)
     goals = goals_in_view(roads, starts, settings.view_radius)
-    frame = _frame(scenery, observed, settings, time)
-    now = Others(scenery, tuple(other.now for other in others))
+    frame = _frame(surroundings, observed, settings, time)
+    now = Others(surroundings, tuple(other.now for other in others))
     onwards = _ways_to(frame, starts, goals, observed, now)
     if us is not None:
         links = us[0].now.usual.links | us[1].now.usual.links
         reckoned = [us[1].now if other is us[0] else other.now for other in others]
-        with_us = Others(scenery, tuple(reckoned), now.pool)
+        with_us = Others(surroundings, tuple(reckoned), now.pool)
         onwards = [
             _ways_on(frame, starts, goal, observed, with_us) or ways
             if ways and gives_way(roads.network, ways[0].motions.usual.links, links)
@@ -177,7 +177,7 @@ def _beliefs(
         ]
     left = [ways[0].cost - ways[0].waiting if ways else None for ways in onwards]
     likelihood = (
-        likelihoods(frame, observed, goals, left, _before(scenery, observed, others), settings)
+        likelihoods(frame, observed, goals, left, _before(surroundings, observed, others), settings)
         if settings.recognition
         else [0.0 if driving is None else 1.0 for driving in left]
     )
@@ -187,7 +187,7 @@ def _beliefs(
         likelihood = [like * share for like, share in zip(likelihood, shown, strict=True)]
     weights = [goal.prior * like for goal, like in zip(goals, likelihood, strict=True)]
     if sum(weights) == 0.0:
-        return _unknown(scenery, observed)
+        return _unknown(surroundings, observed)
     weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
     return tuple(
         Belief(goal, like, weight / sum(weights), _trajectories(onward, settings, time), share)
@@ -198,19 +198,21 @@ def _beliefs(
     )
 
 
-def _before(scenery: Scenery, observed: Observed, others: Sequence[_Coasting]) -> Traffic:
+def _before(surroundings: Surroundings, observed: Observed, others: Sequence[_Coasting]) -> Traffic:
     """Return the motions of the others from the first sample of a track on."""
     return Traffic.shifted(
         [(other.past, observed.elapsed - other.elapsed) for other in others],
-        scenery.steps + observed.elapsed,
-        scenery.lights_before(observed.elapsed),
+        surroundings.steps + observed.elapsed,
+        surroundings.lights_before(observed.elapsed),
     )
 
 
-def _unknown(scenery: Scenery, observed: Observed) -> tuple[Belief, ...]:
+def _unknown(surroundings: Surroundings, observed: Observed) -> tuple[Belief, ...]:
     """Return the belief about a vehicle for which no goal is possible: it coasts."""
     goal = Goal("continue", PLACES["continue"], None, 1.0)
-    return (Belief(goal, 1.0, 1.0, (Trajectory(1.0, ("continue",), scenery.coast(observed)),)),)
+    return (
+        Belief(goal, 1.0, 1.0, (Trajectory(1.0, ("continue",), surroundings.coast(observed)),)),
+    )
 
 
 def _ways_to(
@@ -283,12 +285,12 @@ def _motions(
 
     def under(courses: tuple[int, ...]) -> Obstacle:
         traffic = others.under(courses)
-        if courses == others.scenery.outlook.usual:
+        if courses == others.surroundings.outlook.usual:
             return _motion(task, solution, observed, traffic)
         legs = held(task, starts, solution.actions, traffic) or solution.legs
         return _motion(task, Solution(solution.cost, legs), observed, traffic)
 
-    return others.scenery.motions(under)
+    return others.surroundings.motions(under)
 
 
 def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic) -> Obstacle:

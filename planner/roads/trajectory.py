@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.kernels.resampling import nearest, resampled
-from planner.roads.easing import curvature_of, eased
 from planner.roads.levels import Levels, Passing
 from planner.roads.shifts import shifted
+from planner.roads.smoothing import curvature_of, smoothed
 from sim.roads.network import Network, angle_between
 from sim.scene import Point
 
@@ -236,7 +236,7 @@ def _sample(network: Network, lanes: tuple[str, ...]) -> Path:
                 points.append(point)
     if len(points) < 2:
         points.append((points[0][0] + 1e-3, points[0][1]))
-    raw, index = eased(np.array(points))
+    raw, index = smoothed(np.array(points))
     at, along = _along(raw), _along(raw[index])
     arc = np.linspace(0.0, at[-1], max(3, math.ceil(at[-1] / SPACING) + 1))
     even = np.column_stack((np.interp(arc, at, raw[:, 0]), np.interp(arc, at, raw[:, 1])))

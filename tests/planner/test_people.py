@@ -13,7 +13,7 @@ from planner.manoeuvres.footways import crossings_along, over
 from planner.manoeuvres.plans import LetCross
 from planner.motion.forward import Motion, drive
 from planner.motion.obstacles import HOW, Obstacle, Traffic
-from planner.motion.scenery import Scenery
+from planner.motion.surroundings import Surroundings
 from planner.motion.tracks import Observed
 from planner.prediction.people import concerned, recognise_people
 from planner.record.light_record import LightCourse, LightPrediction, Showing
@@ -34,8 +34,8 @@ def chances(
     roads: Roads, person: Observed, outlook: Outlook = DARK, vehicles: Sequence[Observed] = ()
 ) -> dict[str, float]:
     """The probability of each kind of goal."""
-    scenery = Scenery(roads, outlook, STEPS)
-    found = recognise_people(scenery, [person], vehicles, (), Settings())[person.vehicle]
+    surroundings = Surroundings(roads, outlook, STEPS)
+    found = recognise_people(surroundings, [person], vehicles, (), Settings())[person.vehicle]
     assert sum(belief.probability for belief in found) == pytest.approx(1.0)
     kinds: dict[str, float] = {}
     for belief in found:
@@ -52,8 +52,8 @@ def motion_of(
     coasting: Sequence[Obstacle] = (),
 ) -> Obstacle:
     """The likeliest motion to a kind of goal."""
-    scenery = Scenery(roads, outlook, STEPS)
-    found = recognise_people(scenery, [person], (), coasting, Settings())[person.vehicle]
+    surroundings = Surroundings(roads, outlook, STEPS)
+    found = recognise_people(surroundings, [person], (), coasting, Settings())[person.vehicle]
     return next(belief.trajectories[0].motion for belief in found if belief.goal.kind == kind)
 
 
@@ -131,8 +131,8 @@ def light(*states: tuple[float, str]) -> Outlook:
 def test_who_stands_right_at_the_kerb_waits_for_green(away: float) -> None:
     roads, person = zebra(control=Signal("L", 0)), standing_at(102.0, -1.6 - away, NORTH)
     red = light((0.0, "r"), (8.0, "G"))
-    scenery = Scenery(roads, red, STEPS)
-    found = recognise_people(scenery, [person], (), (), Settings())[person.vehicle]
+    surroundings = Surroundings(roads, red, STEPS)
+    found = recognise_people(surroundings, [person], (), (), Settings())[person.vehicle]
     for belief in found:
         for way in belief.trajectories:
             assert enters(way.motion) >= 8.0

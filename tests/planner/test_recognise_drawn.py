@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planner.motion.forward import DT
-from planner.motion.scenery import Others, Scenery
+from planner.motion.surroundings import Others, Surroundings
 from planner.motion.tracks import Observed, Side
 from planner.prediction.goals import Goal
 from planner.prediction.recognise import Belief, recognise, trajectories_to
@@ -218,7 +218,7 @@ def on(
     frame = Task(roads, EgoGoal("", 0.0, None), SIZE, 40.0, STEPS, 100.0, yielding=True)
     goal = Goal("continue", "there", EgoGoal("road", x + 200.0, None), 1.0)
     known = Settings(rationality=rationality)
-    nobody = Others(Scenery(roads, DARK, STEPS), ())
+    nobody = Others(Surroundings(roads, DARK, STEPS), ())
     ways = trajectories_to(frame, starts, goal, track, nobody, known)
     return [(way.probability, way.actions) for way in ways]
 

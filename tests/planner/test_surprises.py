@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planner.driving.lookout import STRAY, SURPRISE, as_foreseen
+from planner.driving.monitoring import STRAY, SURPRISE, as_foreseen
 from planner.motion.obstacles import Obstacle
 from sim.scene import PersonState, VehicleState
 

@@ -11,7 +11,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 from functools import cached_property
 
-from planner.motion.everybody import everybody_in
+from planner.motion.road_users import road_users_in
 from planner.record.trace import Action, PlanTrace, VehiclePrediction, WhatIf
 from sim.scene import EGO, Scene
 from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
@@ -75,7 +75,7 @@ class Ride:
         since = self.traces[-1].sim_time
         if not since + ROUNDING < scene.time <= self.now + ROUNDING:
             return None
-        return replace(scene, vehicles=everybody_in(scene))
+        return replace(scene, vehicles=road_users_in(scene))
 
     @property
     def latest(self) -> PlanTrace:

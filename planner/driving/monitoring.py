@@ -1,4 +1,4 @@
-"""Lookout on a drive: lights with their possible courses, and others who surprise."""
+"""Monitoring on a drive: the possible courses of lights, and others who surprise."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -19,7 +19,7 @@ SURPRISE = 1.2  # [m/s] difference from the foreseen speed that is a surprise
 STRAY = 2.0  # [m] the same for the place of a person; setting off or stopping explains less
 
 
-def lookout(
+def light_courses(
     roads: Roads, watched: Sequence[Watched], time: float, horizon: float, edges: Sequence[str]
 ) -> tuple[LightPrediction, ...]:
     """Return the possible courses of the lights in view.

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from planner.roads.easing import AWAY, curvature_of, eased
+from planner.roads.smoothing import AWAY, curvature_of, smoothed
 
 RADIUS = 65.0  # [m]
 
@@ -17,7 +17,7 @@ def circle(side: float, count: int = 8) -> np.ndarray:
 
 
 def test_a_polygon_on_a_circle_becomes_the_circle() -> None:
-    points, index = eased(circle(14.0))
+    points, index = smoothed(circle(14.0))
     inner = points[index[1] : index[-2] + 1]
     away = np.hypot(inner[:, 0], inner[:, 1] - RADIUS) - RADIUS
     assert np.max(np.abs(away)) < 0.02
@@ -28,13 +28,13 @@ def test_a_polygon_on_a_circle_becomes_the_circle() -> None:
 
 def test_corners_stay_where_they_are() -> None:
     corners = circle(14.0)
-    points, index = eased(corners)
+    points, index = smoothed(corners)
     assert points[index] == pytest.approx(corners)
 
 
 def test_a_curve_leads_away_from_its_sides_by_a_little_at_most() -> None:
     corners = circle(30.0)
-    points, index = eased(corners)
+    points, index = smoothed(corners)
     for a, b, first, last in zip(corners, corners[1:], index, index[1:], strict=False):
         along = (b - a) / np.hypot(*(b - a))
         offset = points[first : last + 1] - a
@@ -53,7 +53,7 @@ def test_a_curve_leads_away_from_its_sides_by_a_little_at_most() -> None:
     ],
 )
 def test_what_is_no_polygon_of_a_bend_stays_as_it_is(corners: list[tuple[float, float]]) -> None:
-    points, index = eased(np.array(corners))
+    points, index = smoothed(np.array(corners))
     assert points.tolist() == [list(x) for x in corners]
     assert index.tolist() == list(range(len(corners)))
 

@@ -12,7 +12,7 @@ from planner.roads.trajectory import Roads
 from sim.scene import PersonState, Scene, VehicleState
 
 
-def everybody_in(scene: Scene) -> dict[int, VehicleState]:
+def road_users_in(scene: Scene) -> dict[int, VehicleState]:
     """Return vehicles and people by number, in increasing order; people differ by their kind."""
     people = {name: _as_traffic(state) for name, state in scene.people.items()}
     return dict(sorted({**scene.vehicles, **people}.items()))

@@ -14,7 +14,7 @@ from sim.scene import Signal
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Scenery:
+class Surroundings:
     """The inputs that all vehicles share: the roads, and the possible courses of lights."""
 
     roads: Roads
@@ -23,8 +23,8 @@ class Scenery:
     _lights: dict[tuple[int, ...], Lights] = field(default_factory=dict)
     _before: dict[int, Lights] = field(default_factory=dict)
 
-    def on(self, kind: str) -> "Scenery":
-        """Return the scenery with the roads for a kind of vehicle."""
+    def on(self, kind: str) -> "Surroundings":
+        """Return the surroundings with the roads for a kind of vehicle."""
         roads = roads_of(self.roads, kind)
         return self if roads is self.roads else replace(self, roads=roads)
 
@@ -74,7 +74,7 @@ class Scenery:
 class Others:
     """The motions of the others from now on, and the lights."""
 
-    scenery: Scenery
+    surroundings: Surroundings
     motions: tuple[Motions, ...]
     pool: Pool = field(default_factory=Pool)  # shared with others in which most are the same
     _traffic: dict[tuple[int, ...], Traffic] = field(default_factory=dict)
@@ -84,14 +84,14 @@ class Others:
         found = self._traffic.get(courses)
         if found is None:
             known = [motion.under(courses) for motion in self.motions]
-            lights = self.scenery.lights(courses)
+            lights = self.surroundings.lights(courses)
             found = self._traffic[courses] = Traffic.of(known, lights, self.pool)
         return found
 
     @property
     def usual(self) -> Traffic:
         """The traffic if lights take their likeliest courses."""
-        return self.under(self.scenery.outlook.usual)
+        return self.under(self.surroundings.outlook.usual)
 
 
 def _controllers(roads: Roads, ways: Iterable[tuple[str, int]]) -> frozenset[str]:

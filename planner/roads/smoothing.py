@@ -26,7 +26,7 @@ JOG, ALIKE = 1.2, 0.15  # [m] to the side, and [rad] that a road may go on aside
 SWERVE = 2.0 * math.pi  # curvature of a sine that leads aside, times length^2 / way aside
 
 
-def eased(points: Array) -> tuple[Array, Ints]:
+def smoothed(points: Array) -> tuple[Array, Ints]:
     """Draw the wide bends of a line as curves through its corners.
 
     Args:
