@@ -23,6 +23,7 @@ from xavi_dialogue.domain.answers import (
     Grounds,
     Happenings,
     Identified,
+    Method,
     MotionCause,
     MotionReason,
     OtherReason,
@@ -135,6 +136,7 @@ def _option_in(question: Question) -> Event | None:
         case (
             WhatIf(supposed=Happens(event=Event(actor=Ego()) as event))
             | Why(of=Not(content=Happens(event=Event(actor=Ego()) as event)))
+            | Why(instead=Happens(event=Event(actor=Ego()) as event))
             | Compare(options=(Happens(event=Event(actor=Ego()) as event),))
             | Whether(that=Is(state="safe" | "dangerous", event=Event(actor=Ego()) as event))
         ):
@@ -294,6 +296,8 @@ def _told(result: Answer | Refusal, now: float) -> tuple[float, float] | None:
             return _stretch(deed, now)
         case ChoiceReason(contrast=contrast) | SupposedOfUs(contrast=contrast):
             return contrast.decided, contrast.decided
+        case Method(decided=float() as decided):
+            return decided, decided
         case Happenings(form="list" | "summary"):
             return None
         case Priority(time=time) | Beliefs(time=float() as time):

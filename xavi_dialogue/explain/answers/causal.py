@@ -61,7 +61,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
 )
 from xavi_dialogue.explain.answers.ride.delays import held_up, let_past
 from xavi_dialogue.explain.answers.suppositions import deciding, possible, risks
-from xavi_dialogue.explain.answers.suppositions.listing import listed
+from xavi_dialogue.explain.answers.suppositions.listing import how_decide, listed
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
@@ -71,7 +71,7 @@ QUESTIONS: Mapping[type, Explainer] = {
     WhatIf: risks.what_if,
     HowKnow: knowing.how_know,
     HowSure: knowing.how_sure,
-    HowDecide: knowing.how_decide,
+    HowDecide: how_decide,
     WhatWouldChange: deciding.what_would_change,
     HowAvoid: deciding.how_avoid,
 }

@@ -34,6 +34,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.explain.answers.reasons import knowing as room
 from xavi_dialogue.explain.answers.reasons import others
+from xavi_dialogue.explain.answers.suppositions import listing
 from xavi_dialogue.explain.causes.plans.premise import Premise
 from xavi_dialogue.explain.history.deeds import Deed
 
@@ -234,7 +235,8 @@ def decided(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
         known["foil"] = (about, foil)
         return Premise(GROWS[1], None)
 
-    monkeypatch.setattr(room, "premise", premise)
+    for module in (room, listing):
+        monkeypatch.setattr(module, "premise", premise)
     monkeypatch.setattr(room, "about_foil", about_foil)
     return known
 

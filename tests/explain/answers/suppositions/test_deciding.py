@@ -24,7 +24,7 @@ from xavi_dialogue.domain.answers import (
     SupposedOfUs,
 )
 from xavi_dialogue.domain.discourse import Span
-from xavi_dialogue.domain.meaning import Compare, Listing, WhatWouldChange, Whether
+from xavi_dialogue.domain.meaning import Compare, HowDecide, Listing, WhatWouldChange, Whether
 from xavi_dialogue.domain.terms import At, Event, Happens, Is, Not, Vehicle
 from xavi_dialogue.explain.answers.reasons import choices
 from xavi_dialogue.explain.answers.reasons import motions as driving
@@ -35,6 +35,7 @@ from xavi_dialogue.explain.answers.suppositions.deciding import (
     needed,
     what_would_change,
 )
+from xavi_dialogue.explain.answers.suppositions.listing import how_decide
 
 KEEP, CHANGE = Event("keep-lane", tense="present"), Event("change-left", tense="present")
 
@@ -159,6 +160,12 @@ def test_how_close_two_options_were_is_of_the_last_decision_between_them(
     found = told(compared, Compare((Happens(one), Happens(other)), "margin"))
     assert (found.decided, found.named) == (decided, True)
     assert tuple(o.action for o in found.options) == pair
+
+
+def test_how_it_was_decided_not_to_do_something_is_of_the_decision_against_it() -> None:
+    found = told(how_decide, HowDecide(Not(Happens(Event("change-left", time=At(2.0))))), now=5.0)
+    assert found.decided == 2.0
+    assert {"continue", "change-left"} <= {option.action for option in found.options}
 
 
 # --- what was needed ----------------------------------------------------------------------------

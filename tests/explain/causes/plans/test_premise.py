@@ -232,6 +232,7 @@ def test_what_could_be_chosen_when() -> None:
         (subject(is_past=False), ("stop",), 20.0),
         (subject(span=said(16.0, 18.0)), ("stop",), 17.0),
         (subject(span=Span(16.0, 20.0)), ("stop",), 20.0),
+        (subject(span=said(8.0, 11.5)), ("stop",), 12.0),  # before the turn: the decision for it
     ],
 )
 def test_what_might_have_been_is_asked_of_a_decision_that_could(

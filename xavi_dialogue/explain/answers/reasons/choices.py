@@ -31,7 +31,13 @@ from xavi_dialogue.explain.causes.plans.contrast import (
 )
 from xavi_dialogue.explain.causes.plans.natural import STAYING, natural, on_way, other_way
 from xavi_dialogue.explain.causes.plans.options import free
-from xavi_dialogue.explain.causes.plans.premise import Premise, deeds_called, episode_of, premise
+from xavi_dialogue.explain.causes.plans.premise import (
+    Premise,
+    deeds_called,
+    episode_of,
+    led_to,
+    premise,
+)
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, DRIVING, TURNS, names_of
 from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import ROUNDING, planned
@@ -56,6 +62,7 @@ def why(event: Event | None, scene: Asked, instead: Proposition | None = None) -
     else:
         found = free(scene.ride, premise(scene.ride, subject(scene, event)))
         foil = named_foil(scene, other, found) or ()
+        found = led_to(scene.ride, found, foil) or found
     if not foil:
         return _reason(scene, event, found, natural(scene.ride, found.trace, found.node))
     try:

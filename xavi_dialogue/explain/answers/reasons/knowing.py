@@ -9,7 +9,6 @@ from xavi_dialogue.domain.answers import (
     Answer,
     Beliefs,
     Certainty,
-    Method,
     NeedRollout,
     NotRecorded,
     Priority,
@@ -47,6 +46,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
 )
 from xavi_dialogue.explain.answers.ride.crossings import entries
 from xavi_dialogue.explain.answers.ride.priority import priority_at
+from xavi_dialogue.explain.answers.suppositions.listing import how_decide
 from xavi_dialogue.explain.causes.plans import certainty, options
 from xavi_dialogue.explain.causes.plans.premise import Premise, about_foil, premise
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, EXITS, HALTS, YIELDS, to_macros
@@ -231,28 +231,6 @@ def _done(scene: Asked, event: Event) -> tuple[Episode, ...]:
     """Return the episodes of an event; if there are none, those with any object."""
     found = scene.world.holds(event, 0.0, scene.now)
     return found or scene.world.holds(replace(event, object=None), 0.0, scene.now)
-
-
-def how_decide(question: HowDecide, scene: Asked) -> Answer:
-    """Return what was compared at a decision, and on how many situations that rests.
-
-    Raises:
-        Unanswered: what the question names did not happen; or there is too little evidence.
-    """
-    event = event_of(question.of)
-    ride = scene.ride
-    own = event if event is not None and is_own(event.actor) else None
-    if own is None or not choices.is_choice(own):
-        found = options.in_force(ride, scene.moment)
-    else:
-        found = options.open_at(ride, premise(ride, subject(scene, own)))
-    count = len(found.trace.predictions)
-    rows, rests_on = options.weighed(ride, found), options.situations(found)
-    tried = len(ride.model(found.trace).options(found.node))
-    risk_now = None
-    if scene.past is None and found.trace is not ride.at(scene.now):
-        risk_now = collision_chance(scene, scene.now)
-    return Method(found.trace.sim_time, rows, rests_on, count, tried, risk_now)
 
 
 def _trace_at(scene: Asked) -> PlanTrace:

@@ -24,6 +24,7 @@ from xavi_dialogue.explain.causes.plans.premise import (
     episode_of,
     happened,
     is_open,
+    led_to,
     options_known,
     premise,
 )
@@ -94,6 +95,7 @@ def foil_at(
         found = about_foil(scene.ride, about, names[:1])
     else:
         found = premise(scene.ride, about)
+        found = led_to(scene.ride, found, names[:1]) or found
     steps = (name for step in sequence(event)[1:] for name in settled(scene, step)[:1])
     later = tuple(name for name in steps if means(name))
     foil = to_macros(scene.ride.model(found.trace), (names[0], *later), found.node)
@@ -200,13 +202,17 @@ def earlier_exit(event: Event, scene: Asked) -> tuple[Premise, tuple[MacroAction
 def settled(scene: Asked, event: Event) -> tuple[ActionName, ...]:
     """Return the names of what is asked about; without a side, the record settles it.
 
-    A turn is the one planned. A foil is to the side that was possible, or to both.
+    A turn is the one planned. Sooner or later is what was done. A foil is to the side that was
+    possible, or to both.
     """
     names = names_of(event)
     if names == ("overtake",):
         return options_known(scene.ride, CHANGES) or CHANGES
     if len(names) == 1:
         return names
+    made = [deed.action for deed in scene.ride.deeds if deed.action in names]
+    if made and manner_of(event, "early", "late") is not None:
+        return (made[-1],)
     macros = tuple(m for name in names for m in means(name))
     trace = scene.ride.at(scene.moment)
     steps = () if trace is None else planned(trace)

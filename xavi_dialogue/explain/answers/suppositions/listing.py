@@ -1,15 +1,24 @@
-"""Listing: the options of a decision, and by how much one was chosen before another."""
+"""Listing: the options of a decision, how they were compared, and how close they were."""
 
 from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Options, Weighing
+from xavi_dialogue.domain.answers import Method, Options, Weighing
 from xavi_dialogue.domain.facts import OptionValue
-from xavi_dialogue.domain.meaning import Listing
+from xavi_dialogue.domain.meaning import HowDecide, Listing
 from xavi_dialogue.domain.terms import At, Event
+from xavi_dialogue.explain.answers.expectations.foreseen import collision_chance
+from xavi_dialogue.explain.answers.reasons import choices
+from xavi_dialogue.explain.answers.reasons.against import against
 from xavi_dialogue.explain.answers.reference.asked import Asked
-from xavi_dialogue.explain.answers.reference.reading import subject
+from xavi_dialogue.explain.answers.reference.reading import (
+    event_of,
+    is_own,
+    is_past,
+    subject,
+    unwrapped,
+)
 from xavi_dialogue.explain.causes.plans import options
 from xavi_dialogue.explain.causes.plans.premise import Premise, Subject, premise
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
@@ -51,6 +60,31 @@ def margin(scene: Asked, events: Sequence[Event]) -> Options | None:
         return None
     found, foil = decided
     return replace(_told(scene, found, *options.with_rival(scene.ride, found, foil)), named=True)
+
+
+def how_decide(question: HowDecide, scene: Asked) -> Method:
+    """Return what was compared at a decision, and on how many situations that rests.
+
+    Raises:
+        Unanswered: what the question names did not happen; or there is too little evidence.
+    """
+    of, negated = unwrapped(question.of)
+    event = event_of(of)
+    ride = scene.ride
+    own = event if event is not None and is_own(event.actor) else None
+    if own is not None and negated:
+        found = against(own, scene, before=is_past(scene, own)).found
+    elif own is None or not choices.is_choice(own):
+        found = options.in_force(ride, scene.moment)
+    else:
+        found = options.open_at(ride, premise(ride, subject(scene, own)))
+    count = len(found.trace.predictions)
+    rows, rests_on = options.weighed(ride, found), options.situations(found)
+    tried = len(ride.model(found.trace).options(found.node))
+    risk_now = None
+    if scene.past is None and found.trace is not ride.at(scene.now):
+        risk_now = collision_chance(scene, scene.now)
+    return Method(found.trace.sim_time, rows, rests_on, count, tried, risk_now)
 
 
 def _told(

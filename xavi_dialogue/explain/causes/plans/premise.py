@@ -12,7 +12,7 @@ from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Event
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.causes.vehicles.actions import STRAIGHT, TURNS, means, same, to_macros
-from xavi_dialogue.explain.causes.vehicles.when import RECENT, moment_of, past, pick
+from xavi_dialogue.explain.causes.vehicles.when import LEEWAY, RECENT, moment_of, past, pick
 from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, Unanswered, chose, planned
 
@@ -161,6 +161,10 @@ def about_foil(ride: Ride, subject: Subject, foil: tuple[ActionName, ...]) -> Pr
     span = past(subject.span)
     lately = span is None or span.end >= ride.now - ROUNDING  # "just now": as late as it goes
     named = span is not None or any(m in STRAIGHT for m in means(foil[0]))
+    if span is not None:
+        led = led_to(ride, _before(ride, span) or found, foil)
+        if led is not None:
+            return led
     if named and is_open(ride, found.trace, foil) and not (on and lately):
         return found
     others = (
@@ -172,6 +176,35 @@ def about_foil(ride: Ride, subject: Subject, foil: tuple[ActionName, ...]) -> Pr
     )
     last = next(others, found.trace)
     return found if last is found.trace else Premise(last, None)
+
+
+def _before(ride: Ride, span: Span) -> Premise | None:
+    """Find the decision for the action before which a stretch of time is; None: it is of itself."""
+    if not span.said or span.end - span.begin < LEEWAY:
+        return None
+    deeds = (d for d in ride.deeds if d.action != "continue" and d.time >= span.end)
+    deed = next(deeds, None)
+    if deed is None or deed.time > span.end + LEEWAY:
+        return None
+    return Premise(ride.choice_of(deed), deed)
+
+
+def led_to(ride: Ride, found: Premise, foil: Sequence[ActionName]) -> Premise | None:
+    """Find the last decision for an action at which a foil could still be begun.
+
+    None if the question is about no action, or the foil was never open while it was chosen.
+    """
+    deed = found.deed
+    if deed is None or deed.action == "continue" or found.node or not foil:
+        return None
+    for trace in reversed(ride.traces):
+        if trace.under_way is not None or trace.sim_time > found.trace.sim_time:
+            continue
+        if not chose(trace, deed.action):
+            break
+        if is_open(ride, trace, foil):
+            return Premise(trace, deed)
+    return None
 
 
 def _free(ride: Ride, found: Premise, foil: tuple[ActionName, ...]) -> Premise:

@@ -5,7 +5,7 @@ from typing import Any, cast
 
 from msgspec import structs
 
-from xavi_dialogue.domain.meaning import HowSure, Question, WhatIf, Whether, Why
+from xavi_dialogue.domain.meaning import HowDecide, HowSure, Question, WhatIf, Whether, Why
 from xavi_dialogue.domain.rewriting import first, rewrite
 from xavi_dialogue.domain.terms import (
     Both,
@@ -58,7 +58,10 @@ class Frames:
         if clause.contrast is None and inner is not None and inner.contrast is not None:
             clause = inner
         if isinstance(question, Why):
-            question = preferred(question) or _lacking(question, clause)
+            question = preferred(question) or question
+        if isinstance(question, Why | HowDecide):
+            apart = inner if inner is not None and clause.lacking is None else clause
+            question = _lacking(question, apart)
         if isinstance(question, Why) and clause.contrast is not None:
             instead = self.contrast(clause, question.of)
             if instead is not None:
@@ -167,8 +170,8 @@ def _of_none(of: Proposition) -> Proposition:
     return Not(every)
 
 
-def _lacking(question: Why, clause: Clause) -> Why:
-    """Take why something was done without another deed for why that deed was not done then."""
+def _lacking(question: Why | HowDecide, clause: Clause) -> Why | HowDecide:
+    """Take why or how a deed was done without another for why the other was not done then."""
     lacking, of = clause.lacking, question.of
     if lacking is None or lacking.action == "do" or not isinstance(of, Happens):
         return question

@@ -19,6 +19,7 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
+    At,
     Ego,
     Event,
     Happens,
@@ -28,6 +29,7 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Proposition,
     That,
+    Unsaid,
     Vehicle,
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import (
@@ -63,6 +65,13 @@ def followed(spoken: Question, g: Grounder) -> Question:
             if discourse.option is None or discourse.decided is None:
                 return Listing("rivals")
             return Compare((Happens(discourse.decided), Happens(discourse.option)), "margin")
+        case WhatWouldChange(of=None | That(), most=True) if discourse.option is not None:
+            g.notes.leaned = True
+            return replace(spoken, of=Not(Happens(replace(discourse.option, modal=None))))
+        case Listing(of="options" | "rivals", time=Unsaid(), event=None):
+            if (decided := _decision(discourse)) is not None:
+                g.notes.leaned = True
+                return replace(spoken, time=At(decided))
         case Whether(that=Is(state="close", thing=Pronoun(form="them-all")) as near):
             return replace(spoken, that=replace(near, thing=Pronoun("it")))
         case HowMuch(of=Measured(attribute="delay", event=Event(action="do")) as of):
@@ -73,6 +82,16 @@ def followed(spoken: Question, g: Grounder) -> Question:
             g.notes.leaned = True
             return replace(spoken, of=asked.of)
     return spoken
+
+
+def _decision(discourse: Discourse) -> float | None:
+    """Give when [s] the decision was made that the last answer told of; None: it told of none."""
+    if discourse.option is not None and isinstance(discourse.option.time, At):
+        return discourse.option.time.at
+    if isinstance(discourse.question, HowDecide) and discourse.episode is not None:
+        begin, end = discourse.episode
+        return begin if begin == end else None
+    return None
 
 
 def _saved(of: Measured, g: Grounder) -> Question:
