@@ -48,7 +48,8 @@ def _clear(asked: Asked, at: float) -> Finding:
         if (_on_our_way(look) and look.distance <= FREE[1])
         or asked.world.relation("in-the-way-of", Vehicle(look.vehicle), Ego(), at)
     ]
-    return Finding(not there, tuple(sorted(there, key=lambda look: look.distance)))
+    nearest = sorted(there, key=lambda look: look.distance)
+    return Finding(not there, tuple(nearest))
 
 
 def _on_our_way(look: Look) -> bool:

@@ -51,6 +51,7 @@ from xavi_dialogue.nlu.compose.states.pacing import exceed
 from xavi_dialogue.nlu.compose.states.states import STATES
 from xavi_dialogue.nlu.compose.verbs import lights
 from xavi_dialogue.nlu.compose.verbs.deeds import (
+    admits,
     begun,
     changed,
     deed_named,
@@ -59,6 +60,7 @@ from xavi_dialogue.nlu.compose.verbs.deeds import (
     had_wrong,
     happen,
     made,
+    missed,
     mistaken,
     tense_of,
     time_of,
@@ -72,7 +74,6 @@ _BELIEF = frozenset({"know", "believe", "conclude", "say", "assign", "lie", "hea
 _JUDGING = frozenset({"opinion", "rude", "kind", "dangerous"})
 _FEARING = frozenset({"feel:nervous", "feel:afraid"})
 _LIKING = frozenset({"like", "dislike", "mind"})
-_ERRING = frozenset({"decide", "do", "mistake"})
 _DECISION = frozenset({"decide", "plan", "choose", "consider", "want"})
 
 
@@ -83,8 +84,8 @@ def proposition_of(special: Special) -> Proposition:
 
 
 def _positive(special: Special) -> Proposition:
-    name, sem = special.name, special.object
-    if name in _ERRING and isinstance(sem, Noun) and sem.key == "wrong-prediction":
+    name = special.name
+    if admits(special):
         return mistaken(special)
     if name == "assign":
         return rated(special, special.content or _about(special))
@@ -304,13 +305,6 @@ def _lost(special: Special) -> Proposition:
     return Happens(with_fields(event_of(special, "disappear", None), actor=thing or Pronoun("it")))
 
 
-def _missed(special: Special) -> Proposition:
-    """Read "you missed your chance to overtake": that we could have done so."""
-    content = special.content
-    event = content.event if isinstance(content, Happens) else Event("go", tense="past")
-    return Happens(structs.replace(event, actor=special.subject, tense="past", modal="could"))
-
-
 def _signal(special: Special) -> Proposition:
     return Happens(event_of(special, "signal", None))
 
@@ -333,7 +327,7 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "risk": _is("dangerous"), "blame": _is("at-fault", of_object=True),
     "leave-space": _leave_space,
     "begin": begun, "change": changed,
-    "missed-chance": _missed,
+    "missed-chance": missed,
     "lose-sight": _lost, "prefer": preferred, "rank": preferred, "shift": shifted,
     "refrain": given_up,
     "heed": lambda s: Related("can-see", s.subject, as_thing(s.object) or Pronoun("it"),

@@ -149,8 +149,22 @@ def had_wrong(special: Special) -> Proposition:
     return Is("wrong", whom, time=time_of(special), tense="past")
 
 
+def admits(special: Special) -> bool:
+    """Check whether it is said that somebody "made a mistake"."""
+    sem = special.object
+    made_one = special.name in ("decide", "do", "mistake") and isinstance(sem, Noun)
+    return made_one and cast(Noun, sem).key == "wrong-prediction"
+
+
 def mistaken(special: Special) -> Proposition:
     """Read "you misjudged the van", "you made a mistake": wrong about somebody, or at all."""
     whom = None if isinstance(special.object, Noun) else as_thing(special.object)
     thing = special.subject if whom is None or isinstance(whom, Unknown) else whom
     return Is("wrong", thing, time=time_of(special), tense=tense_of(special))
+
+
+def missed(special: Special) -> Proposition:
+    """Read "you missed your chance to overtake": that we could have done so."""
+    content = special.content
+    event = content.event if isinstance(content, Happens) else Event("go", tense="past")
+    return Happens(with_fields(event, actor=special.subject, tense="past", modal="could"))
