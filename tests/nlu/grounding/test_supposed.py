@@ -21,6 +21,7 @@ from xavi_dialogue.domain.meaning import (
     WhatIf,
     When,
     Whether,
+    Which,
     Whither,
     Why,
 )
@@ -42,6 +43,7 @@ from xavi_dialogue.domain.terms import (
     Relative,
     That,
     Vehicle,
+    Wanted,
     Within,
 )
 from xavi_dialogue.nlu.grounding.acts.questions import question as ground_question
@@ -104,6 +106,8 @@ def test_before_that_is_counted_from_what_was_asked_about(time: Any, found: Any)
     assert counted_from(BEFORE, early) == Between(0.0, 2.95)
 
 
+SIDE = Event("change-right", tense="present")
+HOLDS_UP = Which(Wanted(), Happens(Event("block", Wanted(), Ego(), modal="would")))
 SUPPOSED = talk(question=WhatIf(Not(Happens(SLOWED))))
 
 
@@ -130,6 +134,8 @@ SUPPOSED = talk(question=WhatIf(Not(Happens(SLOWED))))
             Happens(Event("turn", tense="perfect")),
         ),
         (Why(Happens(Event("collide", modal="would"))), SUPPOSED, None),
+        (HOLDS_UP, Discourse(option=SIDE), Happens(SIDE)),  # "who would be in our way there?"
+        (HOLDS_UP, Discourse(), None),
     ],
 )
 def test_what_would_have_come_is_of_what_was_supposed(
@@ -140,7 +146,6 @@ def test_what_would_have_come_is_of_what_was_supposed(
     assert g.notes.leaned is (supposed is not None)
 
 
-SIDE = Event("change-right", tense="present")
 UNREAL = HowMuch(Measured("delay", event=Event("do", modal="would")))
 COST = HowMuch(Measured("delay", Pronoun("that")))
 NO_CAR = Not(Exists(Vehicle(1)))

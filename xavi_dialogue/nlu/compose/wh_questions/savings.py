@@ -4,7 +4,7 @@ from typing import Any, Final, cast
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import HowLong, HowMuch, Question, WhatIf
+from xavi_dialogue.domain.meaning import HowLong, HowMuch, Question, WhatIf, Which
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     Ego,
@@ -16,7 +16,9 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Proposition,
+    Related,
     Tense,
+    Wanted,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -45,6 +47,12 @@ def of_option(question: Question, clause: Clause, deed: Proposition | None) -> Q
     if (way := _way(question, clause)) is not None:
         return WhatIf(Happens(way), _TIME)
     match question:
+        case Which(such=Related("in-the-way-of" | "ahead-of" as how, Wanted() as who, Ego())) if (
+            clause.modal == "would"
+            and (how == "in-the-way-of" or any(key == "there" for key, _ in clause.bearings))
+        ):  # "who would be in our way there?"
+            held = Event("block", who, Ego(), tense="present", modal="would")
+            return replace(question, such=Happens(held))
         case HowMuch(
             of=Measured(attribute="delay" | "duration" | "speed" as attribute), extreme=None
         ):

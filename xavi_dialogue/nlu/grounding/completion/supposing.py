@@ -151,7 +151,7 @@ def _hypothetical(spoken: Question, earlier: Proposition) -> bool:
     match spoken:
         case (
             HowSure(of=Happens(event=Event(action="collide", modal="would")))
-            | Which(such=Happens(event=Event(action="collide", modal="would")))
+            | Which(such=Happens(event=Event(action="collide" | "block", modal="would")))
         ):
             return True  # "how sure are you that it would hit us?", "which car would hit us?"
         case (
