@@ -319,8 +319,7 @@ def _fault(spoken: Fault, g: Grounder) -> Fault:
     event = first(of, Event)
     blamed = spoken.suspect
     if blamed is not None:
-        helper = event or Event("happen", actor=Ego())
-        blamed = suspect(blamed, helper, g, _during(event, g))
+        blamed = suspect(blamed, event or Event("happen", actor=Ego()), g, _during(event, g))
     return replace(spoken, of=of, suspect=blamed)
 
 
