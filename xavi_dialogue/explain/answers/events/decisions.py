@@ -18,7 +18,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import was_said, window
 from xavi_dialogue.explain.causes.plans.contrast import contrast
 from xavi_dialogue.explain.causes.plans.natural import natural
-from xavi_dialogue.explain.causes.vehicles.actions import CHANGES
+from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, TURNS
 from xavi_dialogue.explain.facts.traffic_lights import shown_at
 from xavi_dialogue.explain.history.ride import planned
 
@@ -96,10 +96,19 @@ def last_change(asked: Asked, since: float) -> Altered | None:
     until = asked.now if asked.past is None or not asked.past.said else asked.past.end
     for one in reversed(asked.world.episodes(Ego(), ("change-plan",), since, until)):
         before, after = _trace(asked, one.begin - BEFORE), _trace(asked, one.begin)
-        if _told(planned(before)) != _told(planned(after)):
-            found = altered(asked, before.sim_time, after.sim_time)
+        old, new = planned(before), planned(after)
+        found = altered(asked, before.sim_time, after.sim_time)
+        if _told(old) != _told(new):
             return replace(found, sudden=True)
+        turning = set(old[:1]) <= set(TURNS) or set(new[:1]) <= _open(asked, before) & set(TURNS)
+        if old[:1] != new[:1] and turning:  # the same turn, at another junction
+            ways = (replace(d, steps=p[:1]) for d, p in ((found.before, old), (found.after, new)))
+            return replace(found, **dict(zip(("before", "after"), ways, strict=True)), sudden=True)
     return None
+
+
+def _open(asked: Asked, trace: PlanTrace) -> set[Action]:
+    return set(asked.ride.model(trace).options())
 
 
 def why_changed(asked: Asked, found: Altered) -> ChoiceReason | None:

@@ -105,7 +105,7 @@ def _saved(of: Measured, g: Grounder) -> Question:
         done = g.context.holds(changed, g.context.begin, g.context.now)
         return HowMuch(replace(of, event=changed)) if done else Listing("rivals")
     g.notes.leaned = True
-    chosen = known.action in (*TURNS, "keep-lane", "continue")
+    chosen = known.action in (*TURNS, "keep-lane", "continue", "change-plan")
     return Listing("rivals", event=known) if chosen else HowMuch(replace(of, event=known))
 
 
