@@ -2,8 +2,9 @@
 
 import pytest
 
-from xavi_dialogue.domain.meaning import Ask, HowMuch, HowSure, Reading, Whether
-from xavi_dialogue.domain.terms import Both, Compares, Happens, Measured, Pronoun
+from xavi_dialogue.domain.meaning import Ask, Elliptic, HowMuch, HowSure, Reading, Whether
+from xavi_dialogue.domain.rewriting import first
+from xavi_dialogue.domain.terms import Both, Compares, Happens, Measured, Pronoun, Unknown
 from xavi_dialogue.nlu.grounding.doubts import judge
 from xavi_dialogue.nlu.interpret import interpret
 from xavi_dialogue.nlu.parse import Parser
@@ -98,6 +99,8 @@ def test_staying_behind_is_behind_whom_is_overtaken() -> None:
     [
         ("How long till we are in the village?", "village"),
         ("Which vehicle came closest to us on this stretch?", "stretch"),
+        ("Is only the bus turning?", "only"),
+        ("Do you normally overtake here?", "normally"),
     ],
 )
 def test_a_word_that_makes_no_difference_is_owned_up_to(text: str, idle: str) -> None:
@@ -125,3 +128,12 @@ def test_a_word_that_chooses_the_sense_of_a_verb_has_a_part(text: str) -> None:
 def test_a_question_that_is_read_is_not_given_up_for_what_is_told_beside_it() -> None:
     asked = interpret("Told you. Now we're stuck behind it. How fast is it even going?")[0].acts[-1]
     assert asked == Ask(HowMuch(Measured("speed", Pronoun("it"))))
+
+
+@pytest.mark.parametrize("text", ["when does the lorry get its gap?", "has the van got its gap?"])
+def test_what_somebody_else_gets_is_no_view_of_us(text: str) -> None:
+    assert first(_best(text).acts, Unknown) is not None
+
+
+def test_a_text_is_not_read_as_an_act_that_names_nothing() -> None:
+    assert Elliptic() not in _best("so whose allowed to go first him or us").acts

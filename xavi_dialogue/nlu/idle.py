@@ -7,9 +7,9 @@ the rest is composed again: where that gives the same acts, the word has no part
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Final
+from typing import Any, Final
 
-from xavi_dialogue.domain.meaning import Act, Ask
+from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, HowSure
 from xavi_dialogue.domain.terms import (
     Compares,
     Destination,
@@ -31,12 +31,17 @@ from xavi_dialogue.nlu.ignored import STEPS, SUBORDINATE, TALK
 _BEARING: Final = frozenset(("V", "VING", "VED", "VPAST", "ADJ", "KIND", "COLOUR", "ABS", "MEAS",
                              "PLACEN"))  # fmt: skip
 #: Keys of words that say little more than the clause that they stand in.
-_NAMED: Final = frozenset(("vehicle", "car", "trip", "ride", "time", "reason", "difference",
-                           "start", "rude", "law", "value", "road"))  # fmt: skip
+_NAMED: Final = frozenset(
+    ("vehicle", "car", "trip", "ride", "time", "reason", "difference", "start", "rude", "law",
+     "value", "road", "decision", "prediction"),
+)  # fmt: skip
 _LIGHT: Final = frozenset(("go", "come", "do", "get", "take", "make", "have", "be", "let"))
 #: What says as much as a word of a class: any measure, any place.
 _PLACES: Final = (Junction, Exit, Road, Lane, Feature, Destination, "turn")
-_ALIKE: Final = {"MEAS": frozenset((Measured, Compares)), "PLACEN": frozenset(_PLACES)}
+_ALIKE: Final[dict[str, frozenset[Any]]] = {
+    "MEAS": frozenset((Measured, Compares, HowSure)), "PLACEN": frozenset(_PLACES),
+    "brake": frozenset(("deceleration", "braking")),
+}  # fmt: skip
 #: Phrases in which a word is said beside what is asked, and those in which it is one of several.
 _BESIDE: Final = SUBORDINATE | {"pp", "then", "purpose", "participle", "adjective"}
 _SEVERAL: Final = frozenset(("group", "or_state", "between"))
@@ -54,16 +59,20 @@ def idle(unit: Node, rows: Sequence[tuple[Act, ...]], end_mark: str) -> list[tup
     asking = [k for k in asking if not any(isinstance(act, TALK) for act in rows[k])]
     said = [frozenset(atoms(acts)) for acts in rows]
     for leaf in leaves_of(unit) if asking else ():
-        if leaf.category not in _BEARING or leaf.key in _NAMED | _LIGHT:
+        limits = leaf.category == "FOCUS" and leaf.key == "limit"  # "only"
+        if not limits and (leaf.category not in _BEARING or leaf.key in _NAMED | _LIGHT):
             continue
         again = (_composed_with(unit, leaf, other, end_mark) for other in _OTHERS)
-        same = {leaf.key} | _ALIKE.get(leaf.category, frozenset())
+        same = {leaf.key, *_ALIKE.get(leaf.category, ()), *_ALIKE.get(leaf.key, ())}
         left = [k for k in asking if same.isdisjoint(said[k])]
         while left and (acts := next(again, None)) is not None:
             left = [k for k in left if rows[k] in acts]
         for k in left:
             found[k].append(leaf)
     core = [tuple(leaf for leaf in leaves if _is_core(unit, leaf)) for leaves in found]
+    bearing = tuple(leaf for leaf in leaves_of(unit) if leaf.category in _BEARING)
+    if len(bearing) > 1:  # nothing of it is in an act that names nothing
+        core = [bearing if acts == (Elliptic(),) else c for acts, c in zip(rows, core, strict=True)]
     return [
         (main, tuple(leaf for leaf in leaves if leaf not in main))
         for main, leaves in zip(core, found, strict=True)
@@ -74,7 +83,7 @@ def _is_core(node: Node, leaf: Leaf) -> bool:
     """Say whether a word is in no adjunct or clause of a phrase, or one of several names."""
     inner = next(p for p in node.parts if (isinstance(p, Node) and leaf in p.leaves) or p is leaf)
     if isinstance(inner, Leaf) or inner.name in _SEVERAL:
-        return True
+        return leaf.category != "FOCUS"
     return inner.name not in _BESIDE and _is_core(inner, leaf)
 
 

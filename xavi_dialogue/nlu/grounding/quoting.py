@@ -63,7 +63,7 @@ def _quote(said: Sequence[TokenShare]) -> str:
 
 def _bears(share: TokenShare) -> bool:
     """Say whether a word bears content that can be missed."""
-    if share.strange:
+    if share.strange or share.share == "idle":
         return True
     idle = share.share in ("politeness", "hedge", "address") or share.part.startswith(_IDLE)
     return not idle and share.text not in _LITTLE

@@ -1,7 +1,6 @@
 """Having: what "we have priority", "he has his indicator on", "you have a lorry behind" say."""
 
 from xavi_dialogue.domain.terms import (
-    Compares,
     Described,
     Ego,
     Event,
@@ -11,7 +10,6 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
-    Measured,
     Nobody,
     Not,
     Passenger,
@@ -49,7 +47,7 @@ def had(special: Special) -> Proposition:
         value = special.clause.side or "on"
         return Has(sem.of.attribute, value, special.subject, time_of(special), tense_of(special))
     if isinstance(sem, Measure):
-        return Compares(Measured(sem.of.attribute, special.subject), "same", None)
+        return Happens(Event("do", special.subject, Unknown("have")))
     if isinstance(sem, Feature) and sem.kind == "space":
         return roomy(special.clause, time_of(special))
     if isinstance(sem, Road) and sem.which == "main":

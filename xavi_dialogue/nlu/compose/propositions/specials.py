@@ -36,7 +36,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.nominal import event_in, propose
-from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.propositions.having import had
 from xavi_dialogue.nlu.compose.propositions.severally import each_seen
 from xavi_dialogue.nlu.compose.propositions.valuing import (
@@ -97,6 +97,8 @@ def _positive(special: Special) -> Proposition:
         # "He will think that we are rude."
         return Is("upset", special.subject, time=time_of(special), tense=tense_of(special))
     if name in _BELIEF and is_other(special.subject):
+        if special.content is None and not _is_of_us(special.object):
+            return Happens(event_of(special, "do", Unknown(name)))  # "it gets its gap"
         return Related("can-see", special.subject, Ego(), time_of(special), tense_of(special))
     if name in _BELIEF:
         return believed(special, special.content or _about(special))
@@ -112,6 +114,11 @@ def _positive(special: Special) -> Proposition:
     verb = cast(Any, special.clause.verb).key
     thing = as_thing(special.object)
     return Happens(event_of(special, "do", thing or Unknown(verb)))
+
+
+def _is_of_us(sem: Sem | None) -> bool:
+    """Tell whether what another knows or notices may be us, rather than a thing or measure."""
+    return not isinstance(sem, Measure | Feature | Described | Unknown)
 
 
 def _about(special: Special) -> Proposition:
