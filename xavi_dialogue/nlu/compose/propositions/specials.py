@@ -83,6 +83,9 @@ def proposition_of(special: Special) -> Proposition:
     return Not(found) if special.clause.negated else found
 
 
+_OTHERS = (Measure, Feature, Described, Unknown)  # what is no view of us
+
+
 def _positive(special: Special) -> Proposition:
     name = special.name
     if admits(special):
@@ -97,7 +100,7 @@ def _positive(special: Special) -> Proposition:
         # "He will think that we are rude."
         return Is("upset", special.subject, time=time_of(special), tense=tense_of(special))
     if name in _BELIEF and is_other(special.subject):
-        if special.content is None and not _is_of_us(special.object):
+        if special.content is None and isinstance(special.object, _OTHERS):
             return Happens(event_of(special, "do", Unknown(name)))  # "it gets its gap"
         return Related("can-see", special.subject, Ego(), time_of(special), tense_of(special))
     if name in _BELIEF:
@@ -114,11 +117,6 @@ def _positive(special: Special) -> Proposition:
     verb = cast(Any, special.clause.verb).key
     thing = as_thing(special.object)
     return Happens(event_of(special, "do", thing or Unknown(verb)))
-
-
-def _is_of_us(sem: Sem | None) -> bool:
-    """Tell whether what another knows or notices may be us, rather than a thing or measure."""
-    return not isinstance(sem, Measure | Feature | Described | Unknown)
 
 
 def _about(special: Special) -> Proposition:
