@@ -36,7 +36,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.nominal import event_in, propose
-from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.propositions.having import had
 from xavi_dialogue.nlu.compose.propositions.severally import each_seen
 from xavi_dialogue.nlu.compose.propositions.valuing import (
