@@ -150,4 +150,5 @@ CASES: tuple[Answer, ...] = (
     SupposedOfUs(RISKIER, form="dangerous", past=False),
     SupposedOfUs(replace(RISKY, collision=0.9), form="dangerous", past=False),
     SupposedOfUs(LATER, form="dangerous", past=False),
+    SupposedOfUs(ends("collision", 0.8, 2), form="arrival", past=False, arrival=40.0),
 )

@@ -15,6 +15,7 @@ from xavi_dialogue.domain.meaning import (
     Elliptic,
     HowLong,
     HowMuch,
+    HowSure,
     Peak,
     Question,
     Summarise,
@@ -34,6 +35,7 @@ from xavi_dialogue.domain.terms import (
     Exists,
     Exit,
     Happens,
+    Is,
     Junction,
     Measured,
     Next,
@@ -176,6 +178,25 @@ def test_what_time_it_would_take_is_at_no_time_of_the_ride() -> None:
     grounded = ground_question(asked, g)
     assert isinstance(grounded, WhatIf)
     assert (grounded.then, g.notes.span) == (asked.then, None)
+
+
+COLLIDES = HowSure(Happens(Event("collide", modal="would")))
+
+
+@pytest.mark.parametrize(
+    "spoken",
+    [
+        COLLIDES,
+        HowSure(Happens(Event("collide", tense="present"))),
+        HowSure(Is("wrong", Pronoun("that"))),
+        Why(Is("dangerous", Pronoun("that"))),
+    ],
+)
+def test_a_risk_is_that_of_the_option_spoken_of(spoken: Question) -> None:
+    option = Event("change-left", tense="present")
+    weighed = Discourse(option=option, decided=Event("continue", tense="present"))
+    assert subordinate(spoken, grounder(discourse=weighed)) == WhatIf(Happens(option), COLLIDES)
+    assert subordinate(spoken, grounder(discourse=Discourse())) == spoken
 
 
 def test_through_a_place() -> None:

@@ -62,6 +62,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
 from xavi_dialogue.explain.answers.ride.delays import held_up, let_past
 from xavi_dialogue.explain.answers.suppositions import deciding, possible, risks
 from xavi_dialogue.explain.answers.suppositions.listing import how_decide, listed
+from xavi_dialogue.explain.answers.suppositions.undone import is_undone
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
@@ -211,6 +212,8 @@ def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
     if isinstance(of, Is) and of.state == "right" and not negated:
         return deciding.needed if of.event is not None and is_own(of.event.actor) else None
     if isinstance(of, Is) and of.state in NEEDED:
+        if of.state == "worth-it" and of.event is not None and is_undone(of.event, scene):
+            return _was_cause
         about_us = of.event is None or is_own(of.event.actor)
         if not about_us and of.state == "worth-it":
             return _worth
@@ -286,7 +289,7 @@ def _is_option(option: object) -> bool:
 
 
 def _was_cause(question: Whether, scene: Asked) -> Answer:
-    """Return the reason of an event, with a verdict on the supposed cause."""
+    """Return the reason for what the question says: of an event, with a verdict on its cause."""
     return reasons.why(Why(question.that), scene)
 
 

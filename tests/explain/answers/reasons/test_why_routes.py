@@ -171,16 +171,17 @@ def test_who_goes_first_need_not_stop(
 # --- states -------------------------------------------------------------------------------------
 
 ASKED = Event("stop", tense="present")
+DONE = Event("stop", tense="past")
 
 
 @pytest.mark.parametrize(
     ("of", "by", "args"),
     [
         (Is("necessary", event=ASKED), "choices.needed", (ASKED,)),
-        (Is("worth-it", event=ASKED), "choices.needed", (ASKED,)),
+        (Is("worth-it", event=DONE), "choices.needed", (DONE,)),
         (Is("better", event=ASKED), "choices.needed", (ASKED,)),
         (Is("right", event=ASKED), "choices.needed", (ASKED,)),
-        (Is("safe", event=ASKED), "motions.motion", (ASKED,)),
+        (Is("safe", event=DONE), "motions.motion", (DONE,)),
         (Not(Is("moving")), "motions.standing_or_slow", (Event("move", tense="present"),)),
         (Not(Is("fast")), "motions.standing_or_slow", (Event("move", tense="present"),)),
         (Is("moving"), "standings.fact", (Is("moving"),)),

@@ -13,6 +13,7 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.evidence import Evidence
 from xavi_dialogue.domain.meaning import HowAvoid, Why
+from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
     SOMEBODY_ELSE,
     Believed,
@@ -60,7 +61,8 @@ from xavi_dialogue.explain.answers.reference.reading import (
 from xavi_dialogue.explain.answers.ride import onward
 from xavi_dialogue.explain.answers.ride.delays import held_up
 from xavi_dialogue.explain.answers.ride.priority import priority_at
-from xavi_dialogue.explain.answers.suppositions import deciding
+from xavi_dialogue.explain.answers.suppositions import deciding, undone
+from xavi_dialogue.explain.answers.suppositions.own_suppositions import of_us
 from xavi_dialogue.explain.causes.plans.terms import RISK
 
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "pass", "come", "approach"))
@@ -81,6 +83,8 @@ YIELDING = frozenset[ActionName](
     ("stop", "wait", "give-way", "let-go", "slow-down", "brake", "stand")
 )
 HOLDING = frozenset[ActionName](("follow", "keep-distance", "approach"))
+#: States of what we could do, which its risk decides first.
+WEIGHED = frozenset[State](("safe", "dangerous", "worth-it"))
 #: Durations of ours that are explained by waiting.
 LASTING = frozenset[Attribute](("duration", "delay", "waiting-time"))
 
@@ -295,7 +299,18 @@ def own_not(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         raise Unanswered(structs.replace(thin, overtaking=True)) from None
 
 
+def _undone(event: Event, state: State, scene: Asked) -> Answer:
+    """Return what speaks against something that we do not do: its risk, if it has one."""
+    choice = event.action not in undone.GOING
+    if choice and (state == "worth-it" or _is_risky(event, scene)):
+        return own_not(event, scene)
+    forms: dict[State, Asking] = {"safe": "safe", "dangerous": "dangerous"}
+    return of_us(event, scene, forms.get(state, "better"))
+
+
 def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
+    if of.event is not None and of.state in WEIGHED and undone.is_undone(of.event, scene):
+        return _undone(of.event, of.state, undone.of_now(of.event, scene))
     if of.event is not None and of.state in ("necessary", "worth-it", "better", "right"):
         return choices.needed(of.event, scene)
     if of.event is not None and is_own(of.event.actor):

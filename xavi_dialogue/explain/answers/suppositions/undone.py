@@ -22,8 +22,9 @@ JUST = 0.3  # [s] for which an action still counts as going on after its end
 
 def is_undone(event: Event, asked: Asked) -> bool:
     """Check whether we could do something now that we are not doing."""
-    if not is_us(event.actor):
+    if not is_us(event.actor) or event.tense not in ("present", "future"):
         return False
+    asked = of_now(event, asked)
     if event.action in GOING:
         return is_halted(asked) or stops(asked)
     return bool(set(names_of(event)) & MANOEUVRES) and occasion(asked, event) is None

@@ -38,10 +38,10 @@ def judged_so(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
     """Read a judgement of an action, or of whoever performed it; None for anything else."""
     about = about_whom(clause)
     match of:
-        case Is(state="dangerous" | "safe", thing=Pronoun("that" | "it"), event=None) if (
+        case Is(state="dangerous" | "safe" as state, thing=Pronoun("that" | "it"), event=None) if (
             clause.modal == "would"
-        ):
-            return Compare((That(),), "safety")  # "would that have been risky?"
+        ):  # "would that have been risky?"
+            return Compare((That(),), "safety", least=state == "dangerous")
         case Is(state="wrong", thing=Ego() | Described() as thing) if _of_any(clause, thing, about):
             return Listing("wrong-predictions", time=clause.time)
         case Exists(thing=Described(kind="vehicle", such=Is("wrong", Wanted()))) if clause.verb:

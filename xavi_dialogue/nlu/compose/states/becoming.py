@@ -25,9 +25,13 @@ def become(special: Special, event: Callable[..., Event]) -> Proposition:
         if word in _BECOMING:
             return Happens(event(special, _BECOMING[word], None))
     state = next((word for word in words if word in _STATES), "right")
+    deed = clause.subject if isinstance(clause.subject, Event) else None  # "has overtaking become"
     return Is(
         cast(Any, state),
-        special.subject,
+        special.subject if deed is None else None,
+        deed,
         time=when(clause, special.match),
-        tense=cast(Any, clause.tense),
+        tense=cast(
+            Any, "present" if deed is not None and clause.tense == "perfect" else clause.tense
+        ),
     )

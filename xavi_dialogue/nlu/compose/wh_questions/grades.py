@@ -210,7 +210,9 @@ def sure_of(clause: Clause, value: Any) -> Question:
     elif isinstance(clause.subject, Event):
         if (risk := crash_beside(clause, clause.subject)) is not None:
             return risk
-        content = Happens(_met(clause, clause.subject))
+        met = _met(clause, clause.subject)
+        unreal = clause.modal == "would" and met.action == "collide"
+        content = Happens(replace(met, modal="would") if unreal else met)
     return HowSure(held_then(clause, content), clause.time)
 
 

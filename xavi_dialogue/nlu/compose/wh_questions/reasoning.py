@@ -14,6 +14,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Feature,
     Happens,
+    Lane,
     Not,
     Pronoun,
     Proposition,
@@ -27,6 +28,7 @@ from xavi_dialogue.nlu.compose.clauses.nominal import propose
 from xavi_dialogue.nlu.compose.clauses.sem import as_thing
 from xavi_dialogue.nlu.compose.verbs.others import expected_of
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured
+from xavi_dialogue.nlu.compose.wh_questions.savings import change_to
 
 
 def reasoned(clause: Clause, value: Special) -> Question | None:
@@ -74,6 +76,8 @@ def reasoned(clause: Clause, value: Special) -> Question | None:
 
 
 def _against(value: Special) -> Proposition | None:
-    """Find against what something speaks: "what spoke against overtaking"."""
+    """Find against what something speaks: "what spoke against overtaking", "the left lane"."""
     deed = value.match.phrases.get("with")
+    if isinstance(lane := as_thing(deed), Lane):
+        deed = change_to(lane, value.clause.tense)
     return None if deed is None else as_of(propose(deed) or That(), value.clause.tense)

@@ -98,6 +98,11 @@ def lane_taken(clause: Clause) -> Event | None:
         return None
     if clause.verb is not None and not isinstance(as_thing(clause.subject), Lane):
         return None
+    return change_to(lane, clause.tense)
+
+
+def change_to(lane: Lane, tense: str) -> Event:
+    """Return the change to a lane that is named."""
     side = {"left": "left", "right": "right", "leftmost": "left", "rightmost": "right"}
     action: Any = f"change-{side.get(lane.which, 'lane')}"
-    return Event(action, tense=cast(Any, clause.tense))
+    return Event(action, tense=cast(Any, tense))

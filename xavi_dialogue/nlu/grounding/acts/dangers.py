@@ -15,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Relative,
+    Thing,
     Unknown,
     Unsaid,
     Vehicle,
@@ -38,18 +39,21 @@ def threatened(spoken: Is, g: Grounder) -> Is:
 
     "Were we in danger when he came past?", "It shot across. Were we in danger just then?"
     """
-    if spoken.state not in STATES or spoken.event is not None:
+    if spoken.state not in STATES | {"worth-it", "wrong"} or spoken.event is not None:
+        return spoken
+    option = g.context.discourse.option
+    if option is not None and spoken.tense == "present" and _is_vague(spoken.thing):
+        g.notes.leaned = True
+        state = "dangerous" if spoken.state == "wrong" else spoken.state
+        return replace(spoken, state=state, thing=None, event=option)
+    if spoken.state not in STATES:
         return spoken
     if spoken.thing == Described(definite=False):
         return replace(spoken, thing=None)  # "was anything dangerous?"
     if isinstance(spoken.thing, Unknown) and spoken.thing.words in RIDES:
         return replace(spoken, thing=None, time=WholeRide())
-    if not _of_us(spoken, g):
+    if not _of_us(spoken):
         return spoken
-    option = g.context.discourse.option
-    if option is not None and spoken.tense == "present" and not isinstance(spoken.thing, Ego):
-        g.notes.leaned = True
-        return replace(spoken, thing=None, event=option)
     match spoken.time:
         case Relative(relation="during", anchor=Event(actor=Described() | Pronoun() as whom)):
             return replace(spoken, thing=whom)
@@ -59,14 +63,15 @@ def threatened(spoken: Is, g: Grounder) -> Is:
     return spoken
 
 
-def _of_us(spoken: Is, g: Grounder) -> bool:
+def _is_vague(thing: Thing | None) -> bool:
+    """Tell whether it is said of nothing, or of what was spoken of."""
+    return thing is None or (isinstance(thing, Pronoun) and thing.form in _VAGUE)
+
+
+def _of_us(spoken: Is) -> bool:
     """Tell whether it is said of us, or of nothing but what happened then."""
-    told = spoken.tense == "present" and g.context.discourse.option is not None
-    if spoken.thing is None:
-        return told
     if isinstance(spoken.thing, Pronoun):
-        timed = isinstance(spoken.time, Relative | WholeRide)
-        return spoken.thing.form in _VAGUE and (timed or told)
+        return _is_vague(spoken.thing) and isinstance(spoken.time, Relative | WholeRide)
     return isinstance(spoken.thing, Ego | Passenger)
 
 

@@ -29,6 +29,7 @@ from xavi_dialogue.domain.terms import (
     Exists,
     Exit,
     Happens,
+    Is,
     Junction,
     Lane,
     Measured,
@@ -103,14 +104,15 @@ def subordinate(spoken: Question, g: Grounder) -> Question:
             return spoken if then is None else WhatIf(Not(replace(of, time=then)))
     earlier = _supposed_before(g)
     option = _of_its_time(spoken, earlier, g)
+    if earlier is not None and (risk := _risk_of(spoken, g)) is not None:
+        g.notes.leaned = True
+        return WhatIf(earlier, risk)
     if earlier is None or not (option or _hypothetical(spoken, earlier)):
         return _of_nothing(spoken) if isinstance(spoken, HowMuch) and option else spoken
     earlier = rewrite(earlier, lambda part: Unsaid() if isinstance(part, Now) else part)
     g.notes.leaned = True
     if option:
         return WhatIf(earlier, HowMuch(Measured("delay")))
-    if isinstance(spoken, HowSure) and spoken.of == _OUR_COLLISION:
-        return WhatIf(earlier, spoken)  # "how risky would that have been?"
     if isinstance(spoken, HowSure):
         return WhatIf(earlier, Whether(spoken.of or earlier))
     return WhatIf(earlier, spoken)
@@ -126,6 +128,24 @@ def _of_its_time(spoken: Question, earlier: Proposition | None, g: Grounder) -> 
         case HowLong(of=That()):
             return g.context.discourse.decided is not None
     return False
+
+
+def _risk_of(spoken: Question, g: Grounder) -> HowSure | None:
+    """Ask for the risk of what was supposed: "how likely would a crash be?", "what's the danger?".
+
+    What is said of now is of an option too, if one was compared with what we do.
+    """
+    weighed = g.context.discourse.decided is not None
+    match spoken:
+        case HowSure(of=Happens(event=Event(action="collide", actor=Ego(), object=None) as event)):
+            asked = weighed or event.modal == "would"
+        case HowSure(of=Is(state="wrong" | "dangerous", thing=Pronoun(), event=None)):
+            asked = True
+        case Why(of=Is(state="dangerous", thing=None | Pronoun(), event=None, tense="present")):
+            asked = weighed
+        case _:
+            return None
+    return HowSure(_OUR_COLLISION) if asked else None
 
 
 def _explained_at(g: Grounder) -> Between | None:
