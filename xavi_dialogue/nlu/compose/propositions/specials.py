@@ -59,7 +59,7 @@ from xavi_dialogue.nlu.compose.verbs.deeds import (
     event_of,
     had_wrong,
     happen,
-    made,
+    make_do,
     missed,
     mistaken,
     tense_of,
@@ -178,14 +178,6 @@ def _see_past(special: Special) -> Proposition:
     """Read "see past the lorry", "see round the corner", "see behind that building"."""
     to = beside(special)
     return Related("sees-past", special.subject, to, time_of(special), tense_of(special))
-
-
-def _make_do(special: Special) -> Proposition:
-    effect = special.content
-    if effect is None:
-        thing = as_thing(special.object) or Ego()
-        effect = Happens(Event("do", thing, Pronoun("that"), tense=tense_of(special)))
-    return made(special, effect)
 
 
 def _cause(special: Special) -> Proposition:
@@ -316,7 +308,7 @@ def _signal(special: Special) -> Proposition:
 
 _RULES: dict[str, Callable[[Special], Proposition]] = {
     "see-past": _see_past, "emerge": emerge, "lurk": lurk,
-    "see": _see, "look": _see, "have": had, "make-do": _make_do, "cause": _cause,
+    "see": _see, "look": _see, "have": had, "make-do": make_do, "cause": _cause,
     "influence": _cause, "matter": _cause, "cost": _cost, "delay": _cost, "take-time": _cost,
     "last": _cost, "save": _cost, "deed": deed_named, "happen": happen, "do": do,
     "had-wrong": had_wrong, "mistake": mistaken, "happen-wrong": _is("wrong"),

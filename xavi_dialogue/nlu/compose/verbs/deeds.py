@@ -168,3 +168,12 @@ def missed(special: Special) -> Proposition:
     content = special.content
     event = content.event if isinstance(content, Happens) else Event("go", tense="past")
     return Happens(with_fields(event, actor=special.subject, tense="past", modal="could"))
+
+
+def make_do(special: Special) -> Proposition:
+    """Read "you made him stop", "what made you do that": that something has an effect."""
+    effect = special.content
+    if effect is None:
+        thing = as_thing(special.object) or Ego()
+        effect = Happens(Event("do", thing, Pronoun("that"), tense=tense_of(special)))
+    return made(special, effect)
