@@ -15,6 +15,7 @@ FRESH: Final = 1.5  # more salience within the turn, so that it outdoes the turn
 BY_CAR: Final = 0.97  # share of the salience of what the car named, not the passenger
 FADED: Final = 0.05  # below which a thing is no longer spoken of
 JUST: Final = 0.3  # [s] before now up to which a time is now
+IN_FORCE: Final = 1.0  # [s] before now up to which what was decided is still in force
 ROLES: Final = {"subject": 1.0, "cause": 0.95, "object": 0.85, "other": 0.7}
 
 

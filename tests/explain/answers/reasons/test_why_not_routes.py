@@ -9,13 +9,11 @@ from tests.explain.answers.given import NOW, Given, Told, deed, look, plan, refu
 from xavi_dialogue.domain.answers import CannotSay, DidNotHappen, NotApplicable, NotRecorded
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import Why
-from xavi_dialogue.domain.reasons import Performed
 from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Exit,
     Happens,
-    Is,
     Junction,
     Not,
     Related,
@@ -24,7 +22,6 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.explain.answers.propositions import reasons
 from xavi_dialogue.explain.answers.reasons import choices, motions, not_going, refraining
 from xavi_dialogue.explain.answers.reference.asked import Unanswered
-from xavi_dialogue.explain.answers.reference.foils import Did
 from xavi_dialogue.explain.answers.ride import onward
 
 ONE = Vehicle(1)
@@ -207,17 +204,3 @@ def test_stopping_rather_than_driving_on_is_asked_of_the_stop() -> None:
     stop, on = Event("stop", tense="present"), Happens(Event("go", tense="present"))
     found: Any = reasons.why(Why(Happens(stop), instead=on), scene())
     assert (found.by, *rest(found)) == ("motions.motion", stop)
-
-
-def test_what_would_be_dangerous_is_asked_as_undone_unless_it_was_done(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    left = Event("change-left", tense="present")
-    question = Why(Is("dangerous", event=left, tense="present"))
-    assert reasons.why(question, scene()).by == "choices.why_not"  # type: ignore[union-attr]
-
-    def did(*args: Any, **more: Any) -> Any:
-        raise Did(left, Performed("change-left", "doing"), None)
-
-    monkeypatch.setattr(choices, "why_not", did)
-    assert reasons.why(question, scene()).by == "choices.why"  # type: ignore[union-attr]

@@ -46,7 +46,6 @@ from xavi_dialogue.explain.answers.reasons import (
 )
 from xavi_dialogue.explain.answers.reasons.suspects import with_suspect, with_suspects
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.reference.foils import Did
 from xavi_dialogue.explain.answers.reference.moments import Window, window
 from xavi_dialogue.explain.answers.reference.reading import (
     check_able,
@@ -314,11 +313,6 @@ def _state(of: Is, scene: Asked, question: Why, *, negated: bool) -> Answer:
     if of.event is not None and of.state in ("necessary", "worth-it", "better", "right"):
         return choices.needed(of.event, scene)
     if of.event is not None and is_own(of.event.actor):
-        if of.state == "dangerous" and not negated and choices.is_choice(of.event):
-            try:
-                return own_not(of.event, scene, question)
-            except Did:
-                pass
         return own(of.event, scene, question)
     vehicle = vehicle_in(of.thing)
     still = (of.state == "moving") if negated else (of.state == "stationary")

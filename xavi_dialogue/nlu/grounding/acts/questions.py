@@ -59,9 +59,9 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
     explained,
+    focus_of,
     hindrance,
     interval,
-    is_of_now,
     is_supposed,
     questioned,
     spoken_of,
@@ -105,8 +105,8 @@ def _during(event: Event | None, g: Grounder) -> Window:
 def _what_if(spoken: WhatIf, g: Grounder) -> WhatIf:
     supposed = g.proposition(spoken.supposed, "supposed")
     then = None if spoken.then is None else _supposed_question(spoken.then, g)
-    focus = g.context.discourse.episode
-    if g.notes.span is None and focus is not None and not is_of_now(supposed):
+    focus = focus_of(supposed, g.context)
+    if g.notes.span is None and focus is not None:
         g.notes.spans(inferred(focus, g).span)
     return replace(spoken, supposed=supposed, then=then)
 

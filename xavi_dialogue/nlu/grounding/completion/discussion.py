@@ -46,6 +46,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.context import Context
 from xavi_dialogue.nlu.grounding.events.windows import NOTABLE
+from xavi_dialogue.nlu.grounding.salience import IN_FORCE
 
 PROPOSITIONS: Final = (
     Happens, Related, Is, Has, Compares, Exists, Caused, Believed, Not, Both, That,
@@ -120,10 +121,16 @@ def is_supposed(known: Proposition, context: Context) -> bool:
     return imagined or isinstance(context.discourse.question, WhatIf)
 
 
-def is_of_now(supposed: Proposition) -> bool:
-    """Check whether a supposition is about what we do now, whatever was discussed before."""
-    event = first(supposed, Event)
-    return event is not None and event.actor == Ego() and isinstance(event.time, Now)
+def focus_of(supposed: Proposition, context: Context) -> tuple[float, float] | None:
+    """Return when what was discussed happened [s], if a supposition is about that; None: about now.
+
+    What was decided within the last second is still in force.
+    """
+    focus, event = context.discourse.episode, first(supposed, Event)
+    if focus is None or focus[1] >= context.now - IN_FORCE:
+        return None
+    ours = event is not None and event.actor == Ego() and isinstance(event.time, Now)
+    return None if ours else focus
 
 
 def affirmed(proposition: Proposition) -> Proposition:
