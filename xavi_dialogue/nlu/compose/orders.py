@@ -7,6 +7,7 @@ from xavi_dialogue.domain.terms import (
     Compares,
     Ego,
     Event,
+    Feature,
     Happens,
     Is,
     Measured,
@@ -126,8 +127,9 @@ class Orders(Telling):
             return None
         in_time = "early" in event.manner and event.action in ("stop", "brake") and not please
         races = "first" in event.manner and event.object is not None and not please
-        if clause.than is not None or in_time or races:
-            return None  # "can you stop in time?", "can we make it before him?"
+        on_red = isinstance(event.object, Feature) and event.object.colour == "red" and not please
+        if clause.than is not None or in_time or races or on_red:
+            return None  # "can you stop in time?", "can we turn on red?"
         return (request(event, clause, negated=refrain and isinstance(of, Not)),)
 
     def _best(self, clause: Clause) -> Any:

@@ -31,6 +31,7 @@ _NAMES = {"distance-to-go": "the distance to our destination", "turn": "the next
           "exit-number": "the exit that we take", "time-to-go": "the time that we still need",
           "arrival-time": "the time of arrival"}  # fmt: skip
 SOON = 1.0  # [s] maximum time of what comes at once
+WIDE = 5.0  # [s] by how much sooner a wait may end for that to be told
 BETWEEN = frozenset(("gap", "headway", "distance", "time-to-collision"))
 AT_HAND = 4.0  # [m] distance below which a place is just ahead
 AT = 1.5  # [m] distance below which we are at a place
@@ -241,7 +242,10 @@ def _particular(one: Measure, value: float | None, context: SpeechContext) -> di
             return {"pair": pair}
         case "waiting-time":
             lasts = one.extreme is None and one.until is not None and one.until >= context.now
-            return {"left": lasts, "soon": lasts and (value or 0.0) < SOON}
+            low = one.low
+            sooner = low is not None and (value or 0.0) - low > WIDE
+            least = Quantity(low, "s") if low is not None and sooner else None
+            return {"left": lasts, "soon": lasts and (value or 0.0) < SOON, "least": least}
         case "duration":
             return {"going_on": one.until is None and one.at_least, "at_least": False}
         case "cost":

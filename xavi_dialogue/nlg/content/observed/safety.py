@@ -17,6 +17,7 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Moment, Number, Quantity, Who
 
 NEAR = 1.0  # [m] distance below which a vehicle came very close
+ROOM = 5.0  # [m] distance below which nobody can say from it that there is room
 CLOSE = 2.5  # [m] distance below which it came close
 URGENT = 1.5  # [s] time to collision below which it was a near miss
 MANY = 3  # minimum of vehicles that are not named one by one
@@ -213,6 +214,9 @@ def _lead(answer: Closeness) -> str | None:
             return "yes, that was close" if near and answer.past else "yes" if near else "no"
         case "dangerous":
             return "it was tight" if tight and answer.past else "it is tight" if tight else "no"
+    beside = metres is not None and metres < ROOM and not answer.past
+    if answer.asked == "room" and beside and not tight:
+        return None  # how near somebody is does not tell whether there is room to go anywhere
     if answer.asked == "room" and not tight:
         return "yes, there was enough room" if answer.past else "yes, there is enough room"
     if tight:

@@ -68,7 +68,9 @@ def reasoned(clause: Clause, value: Special) -> Question | None:
             return HowAvoid(value.content or propose(value.object))
         case "tell" | "say" | "report":
             if value.content is None and isinstance(clause.subject, Feature):
-                return None  # "what is that light showing?"
+                if clause.subject.kind == "light":
+                    return None  # "what is that light showing?"
+                return measured("writing", clause, clause.subject)  # "what does the sign say?"
             return HowKnow(value.content)
         case "cost" | "take-time" if isinstance(subject, (Pronoun, Event)):
             return measured("delay", clause, as_thing(subject))
