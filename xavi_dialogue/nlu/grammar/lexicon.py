@@ -21,7 +21,7 @@ LATER_SENSE = 0.15  # cost of a phrase marked "*"
 UNKNOWN = 1.0  # cost of a word without a sense
 SKIPPED = 1.6  # cost of a word with senses of which none is taken
 AUXILIARY = 0.03  # what "want to" is cheaper by than the verb and its infinitive
-LONGER = 0.1  # what a kind in several words is cheaper by than the words apart
+LONGER = 0.15  # what a kind in several words is cheaper by than the words apart
 FILLER = 0.35  # cost of a function word that is read past
 AUXILIARIES = {"do": 0.1, "have": 0.2}  # cost as verbs in their own right
 ADJECTIVAL = 0.06  # cost of a verb form that is an adjective too
@@ -116,7 +116,7 @@ def _add_class(trie: Trie, category: str, key: str, listed: str, nouns: set[str]
     for phrase in phrases(listed):
         cost = LATER_SENSE if phrase[0].startswith("*") else 0.0
         words = (phrase[0].lstrip("*"), *phrase[1:])
-        longer = category == "KIND" and len(words) > 1 and "a" not in words  # "man on foot"
+        longer = category == "KIND" and len(words) > 1  # "man on foot" is no "man"
         cost -= AUXILIARY if category == "SEMI" else 0.0
         cost -= LONGER if longer else 0.0
         trie.add(words, Entry(category, key, "", cost))
