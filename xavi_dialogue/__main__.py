@@ -13,7 +13,16 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperGroup
 
-from xavi_dialogue.cli.commands import chat, dashboard, doctor, keys, record, serve, sessions
+from xavi_dialogue.cli.commands import (
+    chat,
+    dashboard,
+    doctor,
+    keys,
+    record,
+    serve,
+    sessions,
+    traces,
+)
 from xavi_dialogue.cli.commands import inspect as looking
 from xavi_dialogue.cli.commands.common import Streams, to_json
 from xavi_dialogue.process.exit_status import ExitStatus
@@ -172,7 +181,7 @@ def _note(text: str) -> None:
 
 
 SHELL = Streams(_errors, _write, _note, _lines)
-for room in (chat, dashboard, serve, record, looking, sessions, keys, doctor):
+for room in (chat, dashboard, serve, record, looking, traces, sessions, keys, doctor):
     room.add(app, SHELL)
 
 

@@ -259,6 +259,27 @@ def test_a_ride_is_saved_to_be_shown(tmp_path: Path) -> None:
     assert refused.exit_code == 2
 
 
+def test_traces_are_checked_and_explained_without_a_car(tmp_path: Path) -> None:
+    ride = "transcripts/rides/s1-0.ride.jsonl.gz"
+    why = "Why did you change left?"
+    assert xavi("explain", ride, why).stdout.startswith("I moved to the left lane, because")
+    told = xavi("explain", ride, why, "--json", "--style", "paper")
+    assert list(json.loads(told.stdout)) == KEYS
+    checked = xavi("trace", "check", ride)
+    assert (checked.exit_code, checked.stdout.splitlines()[0]) == (
+        1,
+        "20 decisions of 'car', from 0 to 19 s, xavi.plan_trace/2",
+    )
+    found = json.loads(xavi("trace", "check", ride, "--json").stdout)
+    assert [(one["part"], one["decisions"]) for one in found] == [("rollouts.weight", 3)]
+    (tmp_path / "bad.json").write_text("{}", encoding="utf-8")
+    for command in (("trace", "check"), ("explain",)):
+        asked = (why,) if command == ("explain",) else ()
+        failed = xavi(*command, str(tmp_path / "bad.json"), *asked)
+        assert failed.exit_code == 2
+        assert "not a plan trace" in failed.stderr
+
+
 def test_notes_at_a_terminal_break_at_spaces_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     class Terminal(io.StringIO):
         def isatty(self) -> bool:

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import xavi_dialogue as xavi
+from planner.record.trace import encode
 from sim.roads.netfile import read_network
 from sim.setup.scenario import load as load_scenario
 from tests.recording.test_player import recorded_in, ride_moments
@@ -252,3 +253,23 @@ def test_a_ride_that_is_driven_answers_as_xavi_ask_does() -> None:
         assert (found.content, found.explanation) == (said.answers, said.explanation)
     assert ride.scenes[1].time - ride.scenes[0].time == pytest.approx(scenario.step)
     assert ride.end == ride.record.ended
+
+
+def test_plan_traces_of_any_planner_are_a_ride_of_decisions(tmp_path: Path) -> None:
+    kept = s1().record.traces[:5]
+    file = tmp_path / "mine.jsonl"
+    file.write_bytes(b"\n".join(map(encode, kept)))
+    ride = xavi.open(file)
+    assert [one.time for one in ride.decisions] == [trace.sim_time for trace in kept]
+    assert ride.ask("Why are you changing left?", at=3.0).text.startswith("I plan to move to")
+    refused = ride.ask("What if vehicle 1 were not there?", at=3.0)
+    assert refused.reason == "planner-unavailable"
+    planned = xavi.open(file, scenario="s1").ask("What if vehicle 1 were not there?", at=3.0)
+    assert planned.kind == "answer"
+
+
+def test_what_holds_no_trace_is_no_ride(tmp_path: Path) -> None:
+    file = tmp_path / "mine.json"
+    file.write_text("{}", encoding="utf-8")
+    with pytest.raises(xavi.XaviError, match=r"mine\.json: not a plan trace.*or plan traces"):
+        xavi.open(file)

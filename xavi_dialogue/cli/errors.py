@@ -13,12 +13,16 @@ from xavi_dialogue.bus.interface import BadLink, TransportError
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.chat.remote_backend import NotOnBus
 from xavi_dialogue.dashboard.web import MISSING
+from xavi_dialogue.library.errors import LibraryError
 from xavi_dialogue.process.exit_status import ExitStatus, RunFault, UsageFault
 
 #: The status of each error: the first kind that fits. Packages that may import `process` derive
 #: their errors from `UsageFault` and `RunFault`.
 _STATUSES: tuple[tuple[tuple[type[Exception], ...], ExitStatus], ...] = (
-    ((UsageFault, ScenarioError, BadLink, BadName, CertificateError), ExitStatus.USAGE),
+    (
+        (UsageFault, ScenarioError, BadLink, BadName, CertificateError, LibraryError),
+        ExitStatus.USAGE,
+    ),
     ((NotOnBus,), ExitStatus.PLANNER_UNAVAILABLE),
     ((RunFault, TransportError, SimulationError, DriverError, TraceError), ExitStatus.FAILED),
     ((NetconvertMissing,), ExitStatus.FAILED),

@@ -1,4 +1,4 @@
-"""Files that hold plan traces: one trace, or a recorded ride."""
+"""Files that hold plan traces: one trace, lines with one each, or a recorded ride."""
 
 import gzip
 import io
@@ -27,7 +27,7 @@ class Traces:
     """The contents of a file."""
 
     traces: tuple[PlanTrace, ...]
-    ride: bool  # whether it is a recorded ride, of which a decision must be chosen
+    ride: bool  # whether it is a recorded ride
 
 
 def content(name: str) -> bytes:
@@ -55,7 +55,7 @@ def _file(name: str) -> Path:
 
 
 def read(data: bytes) -> Traces:
-    """Read a trace or a ride, gzipped or not.
+    """Read a trace, lines with one each, or a ride, gzipped or not.
 
     Raises:
         TraceFileError: it is neither.
@@ -65,10 +65,21 @@ def read(data: bytes) -> Traces:
         raise TraceFileError(f"has more than {MAX_RIDE_LINES} lines")
     if b'"scenario"' in text.partition(b"\n")[0][:4096] and text.count(b"\n") > 1:
         return _ride(text)
+    lines = text.split(b"\n") if text.count(b"\n{") else [text]
     try:
-        return Traces((decode(text.strip()),), ride=False)
+        found = tuple(decode(line.strip()) for line in lines if line.strip())
     except TraceError as error:
         raise TraceFileError(str(error)) from error
+    return Traces(_of_one_vehicle(found), ride=False)
+
+
+def _of_one_vehicle(traces: tuple[PlanTrace, ...]) -> tuple[PlanTrace, ...]:
+    names = sorted({trace.vehicle for trace in traces})
+    if not names:
+        raise TraceFileError("the file is empty")
+    if len(names) > 1:
+        raise TraceFileError(f"holds traces of {' and '.join(names)}; give those of one vehicle")
+    return tuple(sorted(traces, key=lambda trace: (trace.sim_time, trace.decision)))
 
 
 def choose(held: Traces, decision: int | None, at: float | None) -> PlanTrace | None:

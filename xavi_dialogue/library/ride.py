@@ -12,6 +12,7 @@ from xavi_dialogue.bus.messages import MAX_TEXT
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.dialogue.manager import fold
 from xavi_dialogue.dialogue.manoeuvres import carried_out
+from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.events import Input
 from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.library.answers import Answer, answer
@@ -141,14 +142,18 @@ class Conversation:
         Raises:
             XaviError: there is no such time.
         """
-        time = self._time(at)
         text = one_line(question)[:MAX_TEXT]
-        with translated():
-            self._know(time)
-            reply = self._inner.ask(text, time, self.style)
+        reply = self.reply(text, at)
         found = answer(text, reply, self.ride.decision(reply.trace_id))
         self.answers = (*self.answers, found)
         return found
+
+    def reply(self, question: str, at: float | None = None) -> Reply:
+        """Return the reply to a question as it goes over the bus; see `ask`."""
+        time = self._time(at)
+        with translated():
+            self._know(time)
+            return self._inner.ask(one_line(question)[:MAX_TEXT], time, self.style)
 
     def _time(self, at: float | None) -> float:
         if at is None:

@@ -1,8 +1,8 @@
-"""The sources of rides: driven here, saved by `xavi drive --save`, recorded by `xavi record`."""
+"""The sources of rides: driven here, saved, recorded, or plan traces of any planner."""
 
 import tempfile
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import msgspec
@@ -21,6 +21,8 @@ from xavi_dialogue.dialogue.state.events import (
     TraceRecorded,
 )
 from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.inspection import trace_files
+from xavi_dialogue.inspection.trace_files import TraceFileError
 from xavi_dialogue.library.errors import LibraryError, translated
 from xavi_dialogue.library.ride import Known, Ride
 from xavi_dialogue.recording import player
@@ -34,7 +36,8 @@ from xavi_dialogue.vehicle.episode import clock, network_of, start
 
 MAX_SEED = 2**31 - 1
 RECORDING = ".mcap"
-OPENED = "give a file that `xavi drive --save`, `Ride.save` or `xavi record` wrote"
+COMPRESSED = ".gz"  # most likely a saved ride
+OPENED = "give a file that `xavi drive --save`, `Ride.save` or `xavi record` wrote, or plan traces"
 
 
 def drive(
@@ -64,12 +67,13 @@ def drive(
 
 
 def open_ride(path: str | Path, scenario: str | Path | None = None, car: str | None = None) -> Ride:
-    """Open a ride that was saved by `xavi drive --save`, or recorded by `xavi record`.
+    """Open a ride that was saved or recorded, or the plan traces that any planner wrote.
 
     Args:
-        path: of the file; a saved ride needs no ending, a recording ends in `.mcap`.
-        scenario: of a saved ride, where it lies elsewhere: without its roads nothing can be
-            planned again. Default: as the file says.
+        path: of the file; a saved ride needs no ending, a recording ends in `.mcap`; plan traces
+            are JSON, one in a line.
+        scenario: of a saved ride, where it lies elsewhere, or of traces: without its roads nothing
+            can be planned again. Default: as the file says.
         car: of a recording with several cars, which one.
 
     Raises:
@@ -108,11 +112,24 @@ def _saved(file: Path, scenario: str | Path | None) -> Ride:
 
 def _read(file: Path) -> RecordedRide:
     try:
-        return ride_file.load(file.read_bytes())
+        data = file.read_bytes()
     except OSError as error:
         raise LibraryError(f"cannot read {file}: {error.strerror}; {OPENED}") from error
+    try:
+        return ride_file.load(data)
     except RideFileError as error:
-        raise LibraryError(f"{file}: {error}; {OPENED}") from error
+        no_ride = error
+    try:
+        return _of_traces(file, trace_files.read(data).traces)
+    except TraceFileError as error:
+        fault = no_ride if file.suffix == COMPRESSED else error
+        raise LibraryError(f"{file}: {fault}; {OPENED}") from error
+
+
+def _of_traces(file: Path, traces: Sequence[PlanTrace]) -> RecordedRide:
+    """Return a ride of which decisions alone are known."""
+    last = traces[-1]
+    return RecordedRide(file.name, last.seed, last.sim_time, traces=list(traces))
 
 
 def _time(known: Input) -> float:

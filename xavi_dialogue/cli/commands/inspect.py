@@ -1,4 +1,4 @@
-"""Commands that show questions, scenarios, transcripts and decisions."""
+"""Commands that show questions, scenarios and transcripts."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -30,11 +30,6 @@ def add(app: typer.Typer, shell: Streams) -> None:
     folders.command("new")(_scenario_new(shell))
     app.add_typer(folders, name="scenario")
     app.command("transcripts")(_transcripts(shell))
-    traces = typer.Typer(
-        help="Show recorded decisions.", no_args_is_help=True, rich_markup_mode=None
-    )
-    traces.command("show")(_trace_show(shell))
-    app.add_typer(traces, name="trace")
 
 
 def _parse(shell: Streams) -> Callable[..., None]:
@@ -143,33 +138,3 @@ def _transcripts(shell: Streams) -> Callable[..., None]:
         raise typer.Exit(ExitStatus.FAILED if differing and not accept else ExitStatus.ANSWERED)
 
     return transcripts
-
-
-def _trace_show(shell: Streams) -> Callable[..., None]:
-    def trace_show(
-        file: Annotated[
-            str, typer.Argument(help="A trace or a ride, gzipped or not; - for stdin.")
-        ],
-        decision: Annotated[
-            int | None, typer.Option(min=0, help="In a ride: number of the decision.")
-        ] = None,
-        at: Annotated[
-            float | None, typer.Option(min=0.0, help="In a ride: the latest decision by [s].")
-        ] = None,
-        depth: Annotated[int, typer.Option(min=1, help="Number of successive actions shown.")] = 2,
-        everything: Annotated[
-            bool, typer.Option("--all", help="Show every branch and reason.")
-        ] = False,
-    ) -> None:
-        """Show the search tree of a decision; of a ride, first the list of its decisions."""
-        from xavi_dialogue.inspection import decision_text as text
-        from xavi_dialogue.inspection import trace_files
-
-        with shell.errors():
-            held = trace_files.read(trace_files.content(file))
-            trace = trace_files.choose(held, decision, at)
-            extent = text.Extent(depth, everything)
-            shown = text.listing(held.traces) if trace is None else text.show(trace, extent)
-        shell.write(shown)
-
-    return trace_show
