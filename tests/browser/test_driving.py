@@ -43,7 +43,7 @@ def test_a_question_back_is_answered_by_a_click(crew: Crew, visit: Visits) -> No
     screen = visit(dashboard(crew, *motorway, "--speed", "2").address)
     screen.until_at(6.5)
     screen.ask_page("window.xavi.store.seek(6)")
-    turn = screen.ask_and_hear("Why is the car between us and the exit so slow?")
+    turn = screen.ask_and_hear("Why is the car over there so slow?")
     assert turn["reply"]["kind"] == "clarification"
     latest = screen.turn(turn["n"])
     before = screen.count
