@@ -7,6 +7,7 @@ import sys
 from functools import cache
 from pathlib import Path
 
+import msgspec
 import pytest
 
 import xavi_dialogue as xavi
@@ -266,6 +267,16 @@ def test_plan_traces_of_any_planner_are_a_ride_of_decisions(tmp_path: Path) -> N
     assert refused.reason == "planner-unavailable"
     planned = xavi.open(file, scenario="s1").ask("What if vehicle 1 were not there?", at=3.0)
     assert planned.kind == "answer"
+
+
+def test_without_predictions_what_a_vehicle_does_is_given_no_chance(tmp_path: Path) -> None:
+    trace = s1().record.traces[3]
+    blind = tuple(msgspec.structs.replace(one, samples=()) for one in trace.rollouts)
+    bare = msgspec.structs.replace(trace, predictions=(), rollouts=blind)
+    file = tmp_path / "bare.json"
+    file.write_bytes(encode(bare))
+    told = xavi.open(file).ask("Why are you changing left?").text
+    assert "(vehicle 1) to slow down to about 13 km/h; staying in my lane would cost us" in told
 
 
 def test_what_holds_no_trace_is_no_ride(tmp_path: Path) -> None:

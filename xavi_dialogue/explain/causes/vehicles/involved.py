@@ -100,10 +100,13 @@ def against(model: CausalModel, vehicle: int) -> Cause:
 
 
 def expected_actions(model: CausalModel, vehicle: int, choice: Choice) -> tuple[Actions, float]:
-    """Return the actions of a goal and trajectory, and the probability that they are taken."""
+    """Return the actions of a goal and trajectory, and the probability that they are taken.
+
+    Of a vehicle without predicted goals, no actions: what it does is taken as given.
+    """
     known = prediction(model.trace, vehicle)
     if known is None:
-        return (), 0.0
+        return (), 1.0
     goal, way = choice
     actions = known.goals[goal].trajectories[way].actions
     probability = sum(
