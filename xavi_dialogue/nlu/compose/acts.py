@@ -30,7 +30,8 @@ from xavi_dialogue.domain.terms import (
     Together,
     Vehicle,
 )
-from xavi_dialogue.nlu.compose.alternatives.blames import blamed_for, of_one_alone
+from xavi_dialogue.nlu.compose.affairs import of_affairs, why_not
+from xavi_dialogue.nlu.compose.alternatives.blames import blamed_for
 from xavi_dialogue.nlu.compose.alternatives.choosing import options_of
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.hedged import as_when, supposing
@@ -98,7 +99,7 @@ class Composer(Statements):
         else:
             found = self._talk(unit)
         words = words_of(unit)
-        found = [(tuple(of_one_alone(act, words) for act in acts), cost) for acts, cost in found]
+        found = [(of_affairs(acts, words), cost) for acts, cost in found]
         talk = tuple(a for p in unit.parts if (a := _lead_act(p)) is not None)
         if unit.name == "talk" or not talk:
             return found
@@ -197,7 +198,7 @@ class Composer(Statements):
             clause, refrain=_refrains(unit), please="please" in words_of(unit).split()
         )
         if order is not None:
-            return [(order, 0.0)]
+            return [(why_not(order, unit, clause), 0.0)]
         if goes_on(unit) or supposing(unit):
             return []
         if (why := blamed_for(clause)) is not None:
@@ -325,8 +326,7 @@ def _lead_act(part: Part) -> Act | None:
 
 def _missed(clause: Clause) -> bool:
     """Check whether a clause asks what the passenger missed."""
-    missed = clause.verb is not None and clause.verb.key == "miss"
-    return missed and isinstance(clause.subject, Passenger)
+    return clause.verb is not None and clause.verb.key == "miss" and clause.subject == Passenger()
 
 
 def _grounds(question: Question) -> Question:

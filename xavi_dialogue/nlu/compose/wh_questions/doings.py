@@ -15,8 +15,10 @@ from xavi_dialogue.domain.terms import (
     Quantity,
     That,
     Thing,
+    Time,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, as_thing
@@ -97,3 +99,11 @@ def _tense(clause: Clause) -> Any:
     """Give the tense of a question for a deed: "what do you mean to do?" asks what comes."""
     meant = "semi-want" in clause.aux and clause.tense == "present"
     return "future" if meant else clause.tense
+
+
+def up_with(thing: Thing, time: Time) -> Question:
+    """Ask "what is up with that van": what it does; "with the slowing down": why we do it."""
+    match thing:
+        case Described(doing=Event() as deed) if thing == Described(doing=deed):
+            return Why(Happens(with_fields(deed, actor=Ego())))
+    return Doing(thing, time, "present")

@@ -62,7 +62,7 @@ from xavi_dialogue.nlu.compose.verbs.others import (
     with_lane,
     with_whom,
 )
-from xavi_dialogue.nlu.compose.wh_questions.doings import deed_asked, doing, happened
+from xavi_dialogue.nlu.compose.wh_questions.doings import deed_asked, doing, happened, up_with
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured
 from xavi_dialogue.nlu.compose.wh_questions.reasoning import reasoned
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, content_of, fact, held_then
@@ -180,7 +180,7 @@ class What:
                 if (changing := self._of_change(wh, clause, event)) is not None:
                     return changing
             case Related(relation="with", thing=Wanted(), to=to) if is_vehicle(to):
-                return Doing(to, clause.time, "present")  # "what is up with that van"
+                return up_with(to, clause.time)
             case Is(state="wrong", thing=Wanted()) if (who := with_whom(clause)) is not None:
                 return Doing(who, clause.time, "present")
             case Is(state="over", thing=Wanted()) if clause.modal in ("could", "should"):

@@ -1,0 +1,59 @@
+"""State of affairs: "how are things looking?", "is everything all right?", "can't we go?"."""
+
+from typing import Final
+
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.meaning import Act, Ask, Doing, HowDecide, Request, Whether, Why
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Happens,
+    Is,
+    Not,
+    Pronoun,
+    Related,
+    Unknown,
+)
+from xavi_dialogue.nlu.compose.alternatives.blames import of_one_alone
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.tree import words_of
+from xavi_dialogue.nlu.grammar.chart import Node
+
+WELL: Final = Ask(Whether(Is("safe", Ego())))
+_THINGS: Final = (
+    Described(plural=True, definite=False),
+    Pronoun("it"),
+    Unknown("everything"),
+    Unknown("ride"),
+)
+
+
+def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
+    """Read how things look or go as what we do and whether it is safe."""
+    acts = tuple(of_one_alone(act, words) for act in acts)
+    if len(acts) != 1 or not isinstance(acts[0], Ask):
+        return acts
+    match acts[0].question:
+        case HowDecide(
+            Related("can-see", thing) | Happens(Event("go", thing, tense="present"))
+        ) if thing in _THINGS:
+            return Ask(Doing()), WELL
+        case HowDecide(Happens(Event("do", Ego(), None, tense="present"))):
+            return Ask(Doing()), WELL
+        case Whether(
+            Is("safe" | "better", thing, tense="present")
+            | Happens(Event("go", thing, manner=("safely",), tense="present"))
+        ) if thing in _THINGS and thing != Pronoun("it"):
+            return (WELL,)
+    return acts
+
+
+def why_not(acts: tuple[Act, ...], unit: Node, clause: Clause) -> tuple[Act, ...]:
+    """Read "can't we just go straight?" as the question what keeps us from it."""
+    words = words_of(unit).split()
+    match acts:
+        case (Request(event=event),) if clause.negated and "we" in words and "please" not in words:
+            return (Ask(Why(Not(Happens(replace(event, modal="can"))))),)
+    return acts
