@@ -54,6 +54,6 @@ def why_not(acts: tuple[Act, ...], unit: Node, clause: Clause) -> tuple[Act, ...
     """Read "can't we just go straight?" as the question what keeps us from it."""
     words = words_of(unit).split()
     match acts:
-        case (Request(event=event),) if clause.negated and "we" in words and "please" not in words:
+        case (Request(event, False),) if clause.negated and "we" in words and "please" not in words:
             return (Ask(Why(Not(Happens(replace(event, modal="can"))))),)
     return acts
