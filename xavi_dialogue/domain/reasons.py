@@ -32,7 +32,7 @@ class Performed(Value, frozen=True):
 class ChoiceReason(Value, frozen=True):
     """The reason why the ego chose an action, or did not choose another."""
 
-    form: Literal["why", "why-not", "necessary", "worth-it"]
+    form: Literal["why", "why-not", "necessary", "worth-it", "mistaken"]
     deed: Episode | None  # what was done; None: it is only planned
     contrast: Contrast
     suspect: int | None = None  # a vehicle that the question supposes to be the cause ...

@@ -48,6 +48,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
     Within,
 )
+from xavi_dialogue.nlu.grounding.acts.follow_ups import followed
 from xavi_dialogue.nlu.grounding.acts.questions import question as ground_question
 from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
 from xavi_dialogue.nlu.grounding.completion.supposing import subordinate, through
@@ -197,6 +198,21 @@ def test_a_risk_is_that_of_the_option_spoken_of(spoken: Question) -> None:
     weighed = Discourse(option=option, decided=Event("continue", tense="present"))
     assert subordinate(spoken, grounder(discourse=weighed)) == WhatIf(Happens(option), COLLIDES)
     assert subordinate(spoken, grounder(discourse=Discourse())) == spoken
+
+
+def test_that_for_which_we_do_not_is_what_was_told_of_us() -> None:
+    option = Event("stop", time=At(4.0), modal="would")
+    told = HowMuch(Measured("delay"))
+    spoken = Why(That(), suspect=Pronoun("that"))
+    reason = Why(Not(Happens(Event("stop", time=At(4.0)))))
+    weighed = Discourse(option=option, question=told)
+    assert followed(spoken, grounder(discourse=weighed)) == reason
+    done = Why(Not(Happens(Event("do"))), suspect=Pronoun("that"))
+    assert followed(done, grounder(discourse=weighed)) == reason
+    of_car = Discourse(option=option, question=HowMuch(Measured("speed", Vehicle(1))))
+    found = followed(spoken, grounder(discourse=of_car))
+    assert isinstance(found, Why)
+    assert found.suspect == Pronoun("that")
 
 
 def test_through_a_place() -> None:

@@ -56,6 +56,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Not,
+    Now,
     Proposition,
     Tense,
     Thing,
@@ -120,7 +121,8 @@ def _weighed(turn: Turn, before: Discourse) -> tuple[Event | None, Event | None]
         done = None if against is None else next(iter(against.fact), None)
         if against is not None and option.action in _UNSETTLED:
             option = replace(option, action=against.foil[0])
-        if getattr(part.result, "past", True) is False:
+        in_force = isinstance(option.time, Now) and getattr(part.result, "open_at", 0.0) is None
+        if in_force or getattr(part.result, "past", True) is False:
             option = replace(option, time=Unsaid(), tense="present", modal=None)
         elif against is not None:
             option = replace(option, time=At(against.decided))

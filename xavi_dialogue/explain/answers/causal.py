@@ -211,6 +211,9 @@ def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
         return possible.must
     if isinstance(of, Is) and of.state == "right" and not negated:
         return deciding.needed if of.event is not None and is_own(of.event.actor) else None
+    if isinstance(of, Is) and of.state == "wrong" and of.event is not None:
+        ours = is_own(of.event.actor) and choices.is_choice(of.event)
+        return deciding.needed if ours else None
     if isinstance(of, Is) and of.state in NEEDED:
         if of.state == "worth-it" and of.event is not None and is_undone(of.event, scene):
             return _was_cause

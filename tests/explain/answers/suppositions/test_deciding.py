@@ -194,7 +194,7 @@ BRAKED = MotionReason(did("brake", 3.0, 5.0), ())
 
 def test_a_choice_is_needed_by_its_best_alternative() -> None:
     for state, form in (("necessary", "necessary"), ("worth-it", "worth-it"),
-                        ("better", "worth-it")):  # fmt: skip
+                        ("better", "worth-it"), ("wrong", "mistaken")):  # fmt: skip
         for that in (Is(state, event=CHANGE), Not(Is(state, event=CHANGE))):  # type: ignore[arg-type]
             found = told(needed, Whether(that))
             assert isinstance(found, ChoiceReason)

@@ -42,7 +42,7 @@ from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, DRIVING, TURN
 from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import ROUNDING, planned
 
-Form = Literal["why", "why-not", "necessary", "worth-it"]
+Form = Literal["why", "why-not", "necessary", "worth-it", "mistaken"]
 LATELY = 12.0  # [s] after a change of lanes in which it still explains why we are in our lane
 LEAST = 1.0  # [s] minimum duration of a change of lanes or a turn
 

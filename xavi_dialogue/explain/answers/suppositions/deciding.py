@@ -66,7 +66,9 @@ def needed(question: Whether, scene: Asked) -> Answer:
         event = replace(event, tense="past")
     if event is not None and event.action in ("go", "move") and "fast" in event.manner:
         return motions.fast(scene)
-    form: Literal["necessary", "worth-it"] = "necessary" if state == "necessary" else "worth-it"
+    form: choices.Form = "necessary" if state == "necessary" else "worth-it"
+    if state == "wrong":
+        form = "mistaken"
     if event is not None and not choices.is_choice(event):
         found = _moved(event, scene)
         if isinstance(found, MotionReason):

@@ -59,6 +59,7 @@ def plan_choice(answer: ChoiceReason, context: SpeechContext) -> Plan:
     }
     rule = {
         "why": "WHY", "why-not": "WHY_NOT", "necessary": "NECESSARY", "worth-it": "WORTH_IT",
+        "mistaken": "WAS_WRONG",
     }[answer.form]  # fmt: skip
     risk = risks(contrast, context, past=past, unsaid=_silent(rule, slots))
     if slots["ahead"] is not None and slots["weak"] and contrast.fact_collision < RISK:

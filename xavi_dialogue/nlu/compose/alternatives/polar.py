@@ -317,7 +317,8 @@ class Polar(Comparing):
         staked = clause.verb is not None and clause.verb.key == "bet"
         if staked and clause.modal == "would" and isinstance(as_thing(value.subject), Ego):
             return HowSure(value.content)  # "would you bet on it?"
-        ours = isinstance(value.content, Happens) and isinstance(value.content.event.actor, Ego)
+        deed = value.content.event if isinstance(value.content, Happens) else value.object
+        ours = isinstance(deed, Event) and isinstance(deed.actor, Ego)
         if value.name == "consider" and (ours or (value.content is None and _is_option(clause))):
             return Listing("options", time=clause.time)  # "did you consider alternatives?"
         return None

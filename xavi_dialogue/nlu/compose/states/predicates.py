@@ -51,6 +51,7 @@ from xavi_dialogue.nlu.grammar.chart import Part
 
 Found = tuple[Proposition, float]
 _PACES: dict[str | None, str] = {"fastest": "more", "slowest": "less"}
+_AMISS = frozenset({"wrong", "bad", "poor"})
 _FACTS = frozenset({"it", "that", "this"})
 SLOWEST = 6  # [km/h] from which on a bare number said of a vehicle is its speed
 #: [km/h] numbers that are limits where nothing else is said.
@@ -113,8 +114,11 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
     if isinstance(sem, Event) and sem.action == "turn" and sem.side is None:
         going = Event("go", sem.actor, None, None, ("first",), time, tense, "should")
         return [(Happens(going), 0.0)]  # "it is our turn"
-    if isinstance(sem, Event) and isinstance(clause.subject, Event):
-        return [(Is("right", None, clause.subject, time=time, tense=tense), 0.1)]
+    if isinstance(sem, Event) and (deed := _deed_judged(clause)) is not None:
+        amiss = _AMISS & {*words_of(clause.objects[0][1]).split()}
+        if amiss:
+            return [(_mistake(clause, deed), 0.1)]
+        return [(Is("right", None, deed, time=time, tense=tense), 0.1)]
     if isinstance(sem, Event):
         return [(Is("right", subject, sem, time=time, tense=tense), 0.5)]
     return _same(clause, as_thing(sem), subject, time)
@@ -215,6 +219,18 @@ def _cleft(sem: Sem) -> Proposition | None:
     return None
 
 
+def _deed_judged(clause: Clause) -> Event | None:
+    """Return the deed that a clause judges: "was stopping a mistake", "... right to stop"."""
+    undone = clause.infinitive is not None and clause.infinitive.negated
+    deed = clause.subject if isinstance(clause.subject, Event) else clause.inner
+    return None if undone else deed
+
+
+def _mistake(clause: Clause, deed: Event) -> Proposition:
+    tense = tense_of(clause)
+    return Is("wrong", None, with_fields(deed, tense=tense), time=clause.time, tense=tense)
+
+
 def _noun_state(clause: Clause, sem: Noun, subject: Thing, time: Time) -> Proposition:
     if sem.key == "fault":
         event = sem.clause.event if isinstance(sem.clause, Happens) else None
@@ -227,6 +243,9 @@ def _noun_state(clause: Clause, sem: Noun, subject: Thing, time: Time) -> Propos
     if sem.key in ("option", "plan") and sem.negative:
         return Not(Is("possible", subject, time=time, tense=tense_of(clause)))
     if sem.key in ("prediction", "wrong-prediction"):
+        deed = _deed_judged(clause)
+        if deed is not None:
+            return _mistake(clause, deed)
         return Is("wrong", subject, time=time, tense=tense_of(clause))
     if sem.key == "truth":
         return Is("right", subject, time=time, tense=tense_of(clause))

@@ -53,6 +53,12 @@ def followed(spoken: Question, g: Grounder) -> Question:
     discourse = g.context.discourse
     asked = discourse.question
     match spoken:
+        case Why(of=of, suspect=Pronoun(form="that" | "this")) if _tells_of_us(asked):
+            g.notes.leaned = True  # "is that why you don't?": "that" is what was told
+            vague = isinstance(of, That) or getattr(first(of, Event), "action", None) == "do"
+            if vague and discourse.option is not None:
+                of = Not(Happens(replace(discourse.option, modal=None)))
+            return replace(spoken, of=of, suspect=None)
         case Why(of=That(), suspect=suspect) if suspect is not None:
             if discourse.option is not None:
                 g.notes.leaned = True
@@ -131,6 +137,12 @@ def _weighs(discourse: Discourse, *, pair: bool) -> bool:
                 return False
             return pair or (isinstance(of, Not) and (event.action in _MOVES or not named))
     return pair and isinstance(asked, WhatIf)
+
+
+def _tells_of_us(asked: Question | None) -> bool:
+    """Tell whether the answer to a question gives a reason or figure of ours, of no one named."""
+    ours = isinstance(asked, Why | WhatIf | HowMuch | HowSure | Compare)
+    return ours and first(asked, Vehicle) is None
 
 
 def _is_ours(of: Proposition) -> bool:
