@@ -21,15 +21,10 @@ from functools import lru_cache
 from itertools import islice, product
 
 from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading
-from xavi_dialogue.nlu.compose.acts import NOTHING, Composer
-from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
-from xavi_dialogue.nlu.evidence import LOST, missing
+from xavi_dialogue.nlu.compose.acts import NOTHING
 from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node, Nodes
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
-from xavi_dialogue.nlu.honesty import is_dear, well_typed
-from xavi_dialogue.nlu.idle import idle
-from xavi_dialogue.nlu.ignored import PASSED_OVER, asks_nothing, ignored
 from xavi_dialogue.nlu.joining.alternatives import chosen_between
 from xavi_dialogue.nlu.joining.meanwhile import at_same_time, in_its_world
 from xavi_dialogue.nlu.joining.outcomes import struck_by
@@ -42,14 +37,14 @@ from xavi_dialogue.nlu.joining.sentences import (
     unlike,
 )
 from xavi_dialogue.nlu.joining.topics import fold
-from xavi_dialogue.nlu.plausible import oddity
 from xavi_dialogue.nlu.screen import on_screen
 from xavi_dialogue.nlu.segments import CLAUSES, RARE, Path, segment
-from xavi_dialogue.nlu.shares import is_unknown, shares_of, unknown_shares, unread_of, words_in
+from xavi_dialogue.nlu.shares import shares_of, unknown_shares, unread_of, words_in
 from xavi_dialogue.nlu.text.languages import is_foreign
 from xavi_dialogue.nlu.text.lattice import HEARD, Lattice, build
 from xavi_dialogue.nlu.text.tokens import Typed, tokenise
-from xavi_dialogue.nlu.unread import OPENERS, unread_cost, unreadable
+from xavi_dialogue.nlu.units import ALTERNATIVES, Row, Units
+from xavi_dialogue.nlu.unread import OPENERS, unreadable
 
 MAX_STEPS = 6_500  # for a sentence
 MOST_STEPS = 9_000  # for a text
@@ -61,23 +56,16 @@ REACH = 24  # [tokens] maximum length of that question
 TRIES = 4
 FEW = 0.2  # greatest share of unknown words with which a long text counts as understood
 DEAR = 1.5  # greatest cost per act with which a long text counts as understood
-DROPPED = 1.2  # cost of a clause after "and" that no act was made from
 FOREIGN = 0.5  # cost of taking a text for another language
 LOOSE = 1.5  # cost of a topic that no clause takes up
 PASSED = 0.25  # cost of words that are unknown
 STORY = 1.0  # cost of a story before the question
 EASY = 0.42  # cost of an act up to which a reading is taken as it is
 EASY_ALONE = 0.62  # the same of an act that is the only one
-_ALTERNATIVES = 3
-IDLE = 0.03  # cost of a word that makes no difference to the acts
 GAIN = 0.3  # what a reading by ear must be cheaper by than one that leaves words unread ...
 GAIN_OF_WHOLE = 0.8  # ... and than one that leaves none
 ENOUGH = 2  # readings, with which those that cost much more are not looked for
 NEAR = 0.5
-
-#: Acts, their cost, words without a part in them, words that make no difference, clauses.
-Row = tuple[tuple[Act, ...], float, tuple[Leaf, ...], tuple[Leaf, ...], tuple[Node, ...]]
-Composed = tuple[list[Row], list[Leaf]]
 
 
 class Parser:
@@ -154,15 +142,15 @@ def _understood(lattice: Lattice, budget: Budget) -> list[Reading]:
     found = leaves(lattice)
     readings: list[Reading] = []
     nodes: Nodes = {}
-    composed: dict[int, Composed] = {}
+    units = Units(lattice, budget)
     try:
         strict = Chart(grammar(), without_skips(found), budget, nodes)
         paths = segment(strict, lattice, found, CLAUSES)
-        readings = _readings(paths, lattice, composed, budget)
+        readings = _readings(paths, lattice, units)
         if not readings or not _plain(readings[0]):
             loose = Chart(grammar(), found, budget, nodes)
             paths = segment(loose, lattice, found, CLAUSES + RARE)
-            others = _readings(paths, lattice, composed, budget)
+            others = _readings(paths, lattice, units)
             readings = unlike([*readings, *others])
     except ChartLimitError:
         pass
@@ -227,16 +215,17 @@ def _plain(reading: Reading) -> bool:
     return bool(count) and not reading.unknown and reading.cost <= limit
 
 
-def _readings(
-    paths: list[Path], lattice: Lattice, composed: dict[int, Composed], budget: Budget
-) -> list[Reading]:
+def _readings(paths: list[Path], lattice: Lattice, units: Units) -> list[Reading]:
     found: list[_Draft] = []
     best = float("inf")
     for path in paths:
-        if path.cost > best + (SPREAD if len(found) < ENOUGH else NEAR):
+        most = best + (SPREAD if len(found) < ENOUGH else NEAR)
+        if path.cost > most:
             break
         try:
-            drafts = _along(path, lattice, composed, budget)
+            if path.cost + sum(map(units.least, path.units)) > most:
+                continue
+            drafts = _along(path, units)
         except ChartLimitError:
             break
         found += drafts
@@ -272,18 +261,16 @@ class _Draft:
         return Reading(self.acts, shares, round(cost, 3), unread, ignored=passed)
 
 
-def _along(
-    path: Path, lattice: Lattice, composed: dict[int, Composed], budget: Budget
-) -> list[_Draft]:
+def _along(path: Path, units: Units) -> list[_Draft]:
     """Compose the units of a path; return a draft for each combination of their readings."""
     choices: list[list[Row]] = []
     unknown: list[Leaf] = []
     for unit in path.units:
-        alternatives, left = _composed(unit, lattice, composed, budget)
+        alternatives, left = units.read(unit)
         unknown += left
         choices.append(alternatives)
     found: list[_Draft] = []
-    for combination in islice(product(*choices), _ALTERNATIVES * 2):
+    for combination in islice(product(*choices), ALTERNATIVES * 2):
         owners: list[int | None] = []
         acts: list[Act] = []
         pairs = [(acts, extra) for acts, extra, *_ in combination]
@@ -303,47 +290,3 @@ def _along(
         read = (path.units, tuple(owners), tuple(without), idle_, passed)
         found.append(_Draft(tuple(acts), cost, *read))
     return found
-
-
-def _composed(
-    unit: Node, lattice: Lattice, composed: dict[int, Composed], budget: Budget
-) -> Composed:
-    key = id(unit)
-    if key not in composed:
-        mark = lattice.end_mark if unit.end >= lattice.size else lattice.marks.get(unit.end, "")
-        composer = Composer(budget, mark)
-        read = composer.compose(unit)
-        notes = composer.notes
-        lost = DROPPED * sum(id(c) not in notes.taken for c in notes.chained)
-        lost += sum(max(0.0, cost) for cost in notes.inner.values())
-        inert = idle(unit, [acts for acts, _ in read], mark)
-        rows = [(acts, cost + lost + sum(map(oddity, acts)),
-                 tuple(dict.fromkeys((*missing(unit, acts), *core))), beside)
-                for (acts, cost), (core, beside) in zip(read, inert, strict=True)]  # fmt: skip
-        rows = [(acts, cost + LOST * len(leaves) + IDLE * len(idle_), leaves, idle_)
-                for acts, cost, leaves, idle_ in rows]  # fmt: skip
-        rows.sort(key=lambda entry: entry[1])
-        found = [_row(unit, *row, mark) for row in rows[:_ALTERNATIVES]]
-        found.sort(key=lambda entry: entry[1])
-        if not found or is_unknown(unit, composer.notes.unknown):
-            found = [((), _unread(unit), (), (), ())]
-        composed[key] = (found, composer.notes.unknown)
-    return composed[key]
-
-
-def _row(
-    unit: Node, acts: tuple[Act, ...], cost: float, leaves: tuple[Leaf, ...],
-    idle_: tuple[Leaf, ...], mark: str,
-) -> Row:  # fmt: skip
-    """Leave out acts that cost too much or have no sense; list the clauses passed over."""
-    row = () if is_dear(unit, cost) else well_typed(acts)
-    acts, cost = row, cost if row or not acts else max(cost, _unread(unit))
-    if (clauses := ignored(unit, acts, mark)) and asks_nothing(acts):
-        return (), _unread(unit), leaves, (), ()
-    idle_ = tuple(leaf for leaf in idle_ if not any(leaf in c.leaves for c in clauses))
-    return acts, cost + PASSED_OVER * len(clauses), leaves, idle_, clauses
-
-
-def _unread(unit: Node) -> float:
-    """Say what a unit costs of which nothing is made: the more, the longer it is."""
-    return unread_cost(len({token for leaf in leaves_of(unit) for token in leaf.tokens}))
