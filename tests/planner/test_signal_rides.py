@@ -231,7 +231,7 @@ def test_a_light_that_is_not_in_view_cannot_be_supposed(alone: Ride) -> None:
     trace = at_red(alone)
     with pytest.raises(NotInView, match="'nowhere'"):
         replan(trace, alone.network, WhatIf(lights=(LightSupposed("nowhere", 0, "G"),)))
-    with pytest.raises(WhatIfError, match="'x' is no state"):
+    with pytest.raises(WhatIfError, match="'x' is not a state"):
         replan(trace, alone.network, WhatIf(lights=(LightSupposed("A0", 0, "x"),)))
 
 

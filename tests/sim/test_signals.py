@@ -78,7 +78,7 @@ def test_every_letter_of_sumo_is_a_state(letter: str) -> None:
 
 
 def test_a_letter_that_is_no_state_is_refused() -> None:
-    with pytest.raises(ValueError, match="'x' is no state"):
+    with pytest.raises(ValueError, match="'x' is not a state"):
         Signals({A: ((9.0, 0.0),)}, Shown("x")).look(0.0, EAST, 100.0)
 
 

@@ -493,7 +493,7 @@ def test_what_is_no_file_is_not_written_to(tmp_path: Path) -> None:
         with pytest.raises((Unwritable, FileThere)):
             McapWriter(pipe, "1", overwrite=overwrite)
     reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
-    with pytest.raises(Unwritable, match="no file"):
+    with pytest.raises(Unwritable, match="not a file"):
         McapWriter(pipe, "1", overwrite=True)
     os.close(reader)
 

@@ -45,10 +45,10 @@ def test_a_place_is_read(
         ("127.0.0.1:-1", "write it as"),
         ("127.0.0.1:٣", "write it as"),
         ("127.0.0.1:65536", "up to 65535"),
-        ("[localhost]:1", "no host"),
-        ("[fe80::1%eth0]:1", "no host"),
-        ("a b:1", "no host"),
-        ("*:1", "no host"),
+        ("[localhost]:1", "not a host"),
+        ("[fe80::1%eth0]:1", "not a host"),
+        ("a b:1", "not a host"),
+        ("*:1", "not a host"),
         ("http://127.0.0.1:1", "write it as"),
         ("\x1b[31m:1", "write it as"),
     ],
@@ -87,7 +87,7 @@ def test_a_token_that_is_none_is_refused(token: str) -> None:
     "name", ["", "a:80", "http://a", "a b", "-a", "a/b", "a..b", "[::1", "\x1b"]
 )
 def test_a_name_that_is_none_is_refused(name: str) -> None:
-    with pytest.raises(ListenError, match="no name of a host"):
+    with pytest.raises(ListenError, match="not a host name"):
         ListenOptions.read(names=(name,))
 
 
