@@ -9,10 +9,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace as replace_field
 from typer.testing import CliRunner, Result
 
 from benchmarks.drive import drive as bench_drive
 from benchmarks.drive.runs import Run
+from planner.record.trace import encode
 from sim.setup import scenario
 from tests.sim.test_configuration import configured
 from xavi_dialogue.__main__ import _note, app
@@ -20,6 +22,7 @@ from xavi_dialogue.chat import main as chat
 from xavi_dialogue.cli import ask
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Reason
+from xavi_dialogue.inspection.trace_files import read
 from xavi_dialogue.process.exit_status import status_of
 from xavi_dialogue.vehicle import main as drive
 
@@ -266,12 +269,13 @@ def test_traces_are_checked_and_explained_without_a_car(tmp_path: Path) -> None:
     told = xavi("explain", ride, why, "--json", "--style", "paper")
     assert list(json.loads(told.stdout)) == KEYS
     checked = xavi("trace", "check", ride)
-    assert (checked.exit_code, checked.stdout.splitlines()[0]) == (
-        1,
-        "20 decisions of 'car', from 0 to 19 s, xavi.plan_trace/2",
-    )
-    found = json.loads(xavi("trace", "check", ride, "--json").stdout)
-    assert [(one["part"], one["decisions"]) for one in found] == [("rollouts.weight", 3)]
+    assert checked.exit_code == 0
+    assert checked.stdout.startswith("20 decisions of 'car', from 0 to 19 s, xavi.plan_trace/2\n")
+    known = read(Path(ride).read_bytes()).traces[3]
+    (tmp_path / "roadless.json").write_bytes(encode(replace_field(known, road=None)))
+    checked = xavi("trace", "check", str(tmp_path / "roadless.json"), "--json")
+    assert checked.exit_code == 1
+    assert [(one["part"], one["decisions"]) for one in json.loads(checked.stdout)] == [("road", 1)]
     (tmp_path / "bad.json").write_text("{}", encoding="utf-8")
     for command in (("trace", "check"), ("explain",)):
         asked = (why,) if command == ("explain",) else ()

@@ -279,6 +279,12 @@ def test_without_predictions_what_a_vehicle_does_is_given_no_chance(tmp_path: Pa
     assert "(vehicle 1) to slow down to about 13 km/h; staying in my lane would cost us" in told
 
 
+def test_a_saved_ride_that_was_unpacked_keeps_its_events(tmp_path: Path) -> None:
+    file = tmp_path / "s1.jsonl"
+    file.write_bytes(gzip.decompress(S1.read_bytes()))
+    assert xavi.open(file).events == s1().events
+
+
 def test_what_holds_no_trace_is_no_ride(tmp_path: Path) -> None:
     file = tmp_path / "mine.json"
     file.write_text("{}", encoding="utf-8")

@@ -1,6 +1,6 @@
 """What plan traces lack, and which kinds of answers cannot be given for want of it.
 
-A planner of another kind may write traces too. What it does not record cannot be told.
+Any planner may write traces. Answers can use only what it records.
 """
 
 from collections.abc import Callable, Sequence
@@ -32,7 +32,7 @@ class _Rule:
 
 
 def gaps(traces: Sequence[PlanTrace]) -> tuple[Gap, ...]:
-    """Return what traces lack, in the order of how much it costs."""
+    """Return what traces lack, most important parts first."""
     found = []
     for rule in _RULES:
         count = sum(not rule.holds(trace) for trace in traces)
@@ -62,10 +62,13 @@ def _others(trace: PlanTrace) -> set[int]:
     return set(trace.scene) - {EGO}
 
 
+def _tried(trace: PlanTrace) -> set[str]:
+    return {one.actions[0].action for one in trace.rollouts if one.actions}
+
+
 def _compares(trace: PlanTrace) -> bool:
-    tried = {one.actions[0].action for one in trace.rollouts if one.actions}
     refused = {one.action for one in trace.not_applicable if not one.node}
-    return not trace.rollouts or len(tried) > 1 or bool(refused)
+    return not trace.rollouts or len(_tried(trace)) > 1 or bool(refused)
 
 
 def _foresees(trace: PlanTrace) -> bool:
@@ -126,7 +129,7 @@ _RULES: Final = (
     ),
     _Rule(
         "rollouts.weight", "no weights of the comparison", "how close a decision was",
-        lambda trace: not trace.rollouts or any(r.weight is not None for r in trace.rollouts),
+        lambda t: len(_tried(t)) < 2 or any(r.weight is not None for r in t.rollouts),
     ),
     _Rule(
         "history", f"less than {RECENT:g} s of our own track",

@@ -1,5 +1,6 @@
 """The sources of rides: driven here, saved, recorded, or plan traces of any planner."""
 
+import gzip
 import tempfile
 import warnings
 from collections.abc import Iterator, Sequence
@@ -120,7 +121,10 @@ def _read(file: Path) -> RecordedRide:
     except RideFileError as error:
         no_ride = error
     try:
-        return _of_traces(file, trace_files.read(data).traces)
+        held = trace_files.read(data)
+        if held.ride:  # not compressed
+            return ride_file.load(gzip.compress(data))
+        return _of_traces(file, held.traces)
     except TraceFileError as error:
         fault = no_ride if file.suffix == COMPRESSED else error
         raise LibraryError(f"{file}: {fault}; {OPENED}") from error

@@ -193,7 +193,7 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         instead = Happens(Event("keep-lane"))  # "rather than slow down behind him"
         other = event_of(instead)
     if other is not None and other.action in ONWARD and event.action in ("stop", "wait"):
-        instead = other = None  # a stop is told by what it puts off anyway
+        instead = other = None  # the reason for a stop names what it puts off
     if other is not None and choices.is_kept_from(other, event, KEEPING):
         return choices.why_not(structs.replace(other, tense=event.tense), scene)
     if event.action == "signal":

@@ -246,8 +246,7 @@ def denied(clause: Clause) -> Clause:
 
 def _mistaken(answer: Verdict, context: SpeechContext) -> Plan:
     """Plan how the car admits an error: what it expected, and what happened."""
-    pairs = tuple(zip(answer.believed, answer.facts, strict=False))
-    if len(pairs) > 1 and len(answer.believed) == len(answer.facts):
+    if len(answer.believed) == len(answer.facts) > 1:
         return _often_mistaken(answer, context)
     went = next((f for f in answer.facts if isinstance(f, Episode)), None)
     belief = answer.believed[0] if answer.believed else None
