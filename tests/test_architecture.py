@@ -38,6 +38,7 @@ ROOMS = (
     ("xavi_dialogue.nlu",),
     ("xavi_dialogue.nlg",),
     ("xavi_dialogue.dialogue",),
+    ("xavi_dialogue.runtime",),
     ("xavi_dialogue.bus",),
     ("xavi_dialogue.storage", "xavi_dialogue.process", "xavi_dialogue.security"),
     ("xavi_dialogue.vehicle",),
@@ -66,6 +67,15 @@ GATES = {  # each outside world enters through one file
     "zenoh": "xavi_dialogue/bus/zenoh_bus.py",
     "zstandard": "xavi_dialogue/storage/mcap_file.py",
 }
+# Where time, waiting and threads go through one door, so that a simulation can replace them.
+TIMED = ("xavi_dialogue.bus", "xavi_dialogue.service", "xavi_dialogue.storage")
+TIMED_FILES = {
+    *("xavi_dialogue/chat/client.py", "xavi_dialogue/chat/remote_backend.py"),
+    *("xavi_dialogue/chat/batch.py", "xavi_dialogue/vehicle/node.py"),
+    *("xavi_dialogue/vehicle/outbox.py", "xavi_dialogue/vehicle/telemetry.py"),
+    *("xavi_dialogue/dashboard/controller.py", "xavi_dialogue/dashboard/document_cache.py"),
+}
+UNTIMED = {"xavi_dialogue/bus/timers.py", "xavi_dialogue/bus/zenoh_bus.py"}  # of Zenoh alone
 SHELLS = {"xavi_dialogue/__main__.py", "xavi_dialogue/terminal/prompt.py"}
 IMPURE = {
     *("asyncio", "datetime", "http", "multiprocessing", "os", "pathlib", "secrets", "shutil"),
@@ -149,6 +159,26 @@ def test_an_outside_world_enters_through_one_file(library: str, gate: str) -> No
         if any(i.target.split(".")[0] == library for i in imports(module))
     }
     assert importers == {gate}
+
+
+@every_module
+def test_time_passes_and_threads_start_through_one_door(module: Module) -> None:
+    timed = any(within(module.name, package) for package in TIMED) or module.path in TIMED_FILES
+    if timed and module.path not in UNTIMED:
+        used = {i.target.split(".")[0] for i in imports(module)}
+        assert used & {"time", "secrets", "threading"} <= {"threading"}, module.path
+        threads = [node.lineno for node in module.nodes if _is_waiting(node)]
+        assert threads == [], f"{module.path} waits or starts threads in lines {threads}"
+
+
+def _is_waiting(node: ast.AST) -> bool:
+    """Check whether a node is a class of threads that may wait; a plain lock is none."""
+    match node:
+        case ast.Attribute(value=ast.Name(id="threading"), attr=name):
+            return name != "Lock"
+        case ast.Call(func=ast.Attribute(value=ast.Name(id="queue"), attr=_)):
+            return True
+    return False
 
 
 @every_module

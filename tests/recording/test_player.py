@@ -178,7 +178,7 @@ def test_a_ride_whose_end_was_not_recorded_is_not_said_to_be_over(tmp_path: Path
 
 def test_the_pace_is_kept(recorded: RecordedMessages, monkeypatch: pytest.MonkeyPatch) -> None:
     now = 100.0
-    monkeypatch.setattr(player.time, "monotonic", lambda: now)
+    monkeypatch.setattr("time.monotonic", lambda: now)
     one = Player(recorded, MemoryHub().connect(), KEYS, Pace(2.0, running=True))
     one.go_to(0)
     assert one._delay() == pytest.approx(0.25)  # 0.5 s at twice the speed

@@ -2,7 +2,6 @@
 
 import os
 import threading
-import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 from xavi_dialogue import __version__
 from xavi_dialogue.bus.interface import Bus, Call, Keys, Presence, TransportError
 from xavi_dialogue.bus.messages import AliveReport, pack
+from xavi_dialogue.runtime import system
 
 MEMORY = "resident_bytes"  # a counter of every component, if the system reports it
 STATM = Path("/proc/self/statm")  # in pages; see proc(5)
@@ -23,7 +23,7 @@ class HealthReporter:
         component: str,
         counters: Iterable[str] = (),
         *,
-        clock: Callable[[], float] = time.monotonic,
+        clock: Callable[[], float] = system.monotonic,
     ) -> None:
         """Begin to count.
 
@@ -71,7 +71,7 @@ class HealthReporter:
             version=__version__,
             seq=number,
             sim_time=self._sim_time,
-            wall_time=time.time(),
+            wall_time=system.wall(),
             uptime_s=round(self._clock() - self._began, 3),
             counters=dict(sorted(counters.items())),
         )

@@ -22,6 +22,7 @@ from types import TracebackType
 from typing import Protocol, Self, TypeAlias
 
 from xavi_dialogue.bus.errors import BusError
+from xavi_dialogue.runtime import system
 
 ROOT = "xavi/v1"
 DEFAULT_ENDPOINT = "tcp/127.0.0.1:7447"
@@ -218,7 +219,7 @@ def call(bus: Bus, key: str, payload: bytes, timeout: float) -> bytes:
         TooLate: no reply within `timeout` [s].
         Refused: the reply is a failure.
     """
-    outcomes: queue.SimpleQueue[Outcome] = queue.SimpleQueue()
+    outcomes: system.Queue[Outcome] = system.new_queue()
     bus.request(key, payload, timeout, outcomes.put)
     try:
         outcome = outcomes.get(timeout=timeout)

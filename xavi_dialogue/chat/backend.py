@@ -1,18 +1,18 @@
 """The processes behind a conversation: started for it, or by others."""
 
-import threading
 from typing import Protocol
 
 from xavi_dialogue.bus.messages import SceneReport
 from xavi_dialogue.chat.client import Client
 from xavi_dialogue.process import child_commands
+from xavi_dialogue.runtime import system
 
 
 class Backend(Protocol):
     """Vehicle and service, as a conversation uses them."""
 
     @property
-    def over(self) -> threading.Event:
+    def over(self) -> system.Event:
         """An event that is set when the conversation is over."""
 
     @property

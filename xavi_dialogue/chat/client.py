@@ -1,9 +1,5 @@
 """A passenger's side of the bus: the latest scene, and questions to the service."""
 
-import queue
-import secrets
-import threading
-import time
 from collections.abc import Callable
 from functools import partial
 from typing import TypeAlias, TypeVar
@@ -37,6 +33,7 @@ from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Reason, Unavailable
 from xavi_dialogue.nlg.context import SpeechContext, Style
 from xavi_dialogue.process.exit_status import RunFault
+from xavi_dialogue.runtime import system
 
 DEADLINE = 10.0  # [s] for an answer
 GRACE = 0.5  # [s] allowed for the transport of a reply
@@ -79,7 +76,7 @@ class Client:
         self._token, self._share = token, share
         self.scene: SceneReport | None = None  # the latest
         self._bus, self._keys, self._session = bus, keys, session
-        self._changed = threading.Condition()
+        self._changed = system.condition()
         self._latest: EventReport | None = None
         self._on_event = on_event
         bus.subscribe(keys.of("scene"), self._on_scene)
@@ -136,7 +133,7 @@ class Client:
         Raises:
             ServiceLost: there is no reply.
         """
-        replies: queue.SimpleQueue[Reply | ServiceLost] = queue.SimpleQueue()
+        replies: system.Queue[Reply | ServiceLost] = system.new_queue()
         self.send(text, replies.put, at=at, style=style)
         reply = replies.get()
         if isinstance(reply, ServiceLost):
@@ -211,13 +208,13 @@ class Client:
             going_on: called repeatedly; raises to stop waiting.
             patience: [s] without any new scene after which None is returned.
         """
-        give_up = time.monotonic() + patience
+        give_up = system.monotonic() + patience
         latest = None
         with self._changed:
             while self.scene is None or not wanted(self.scene):
                 if self.scene is not latest:
-                    latest, give_up = self.scene, time.monotonic() + patience
-                if time.monotonic() > give_up:
+                    latest, give_up = self.scene, system.monotonic() + patience
+                if system.monotonic() > give_up:
                     return None
                 self._changed.wait(POLL)
                 going_on()
@@ -246,7 +243,7 @@ class Client:
 
 def new_request() -> str:
     """Return a name for a request."""
-    return secrets.token_hex(8)
+    return system.token(8)
 
 
 def _reply(came: Outcome, at: float | None) -> Reply | ServiceLost:

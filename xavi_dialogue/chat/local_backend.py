@@ -2,7 +2,6 @@
 
 import socket
 import threading
-import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field, replace
@@ -18,6 +17,7 @@ from xavi_dialogue.chat.client import Client, ServiceLost
 from xavi_dialogue.chat.vehicle_supervisor import VehicleSupervisor
 from xavi_dialogue.process import child_commands
 from xavi_dialogue.process.subprocesses import Child, ChildFailed, OptionalChild, RestartedChild
+from xavi_dialogue.runtime import system
 from xavi_dialogue.storage.turn_log import Retention
 from xavi_dialogue.terminal.slash_commands import CommandError
 
@@ -42,7 +42,7 @@ class LocalBackend:
     service: RestartedChild
     bus: ZenohBus
     recorder: OptionalChild | None = None
-    over: threading.Event = field(default_factory=threading.Event)
+    over: system.Event = field(default_factory=system.event)
     seeks: bool = False  # the car is a recording, which can go to any moment
     endpoint: str = ""  # of the hub: others may join
     paced: bool = True  # see Backend
@@ -60,8 +60,8 @@ class LocalBackend:
 
     def recover(self, client: Client) -> bool:
         """See Backend."""
-        give_up = time.monotonic() + BACK
-        while time.monotonic() < give_up and not self.over.wait(RETRY):
+        give_up = system.monotonic() + BACK
+        while system.monotonic() < give_up and not self.over.wait(RETRY):
             self.service.check()
             with suppress(ServiceLost):
                 client.probe()
@@ -124,7 +124,7 @@ class LocalOptions:
     overwrite: bool = False  # replace an existing file
     warn: Tell = lambda _: None  # gets the service's warnings, on a thread
     tell: Tell = lambda _: None  # gets notes for the passenger, on a thread
-    over: threading.Event = field(default_factory=threading.Event)  # set: nothing is waited for
+    over: system.Event = field(default_factory=system.event)  # set: nothing is waited for
 
 
 @contextmanager
@@ -233,7 +233,7 @@ def _recorder(stack: ExitStack, options: LocalOptions, endpoint: str) -> Optiona
     return OptionalChild(child, options.tell)
 
 
-def _await(recorder: Child, bus: ZenohBus, over: threading.Event) -> None:
+def _await(recorder: Child, bus: ZenohBus, over: system.Event) -> None:
     """Wait until the recorder is ready, so that it misses nothing of the ride.
 
     Raises:
@@ -241,12 +241,12 @@ def _await(recorder: Child, bus: ZenohBus, over: threading.Event) -> None:
     """
     there = threading.Event()
     bus.watch(Keys().of("alive/recorder"), lambda _, alive: there.set() if alive else None)
-    give_up = time.monotonic() + START_PATIENCE
+    give_up = system.monotonic() + START_PATIENCE
     while not there.wait(RETRY):
         recorder.check()
         if over.is_set():
             raise ChildFailed(OVER)
-        if time.monotonic() > give_up:
+        if system.monotonic() > give_up:
             raise ChildFailed("the recorder does not start")
 
 
@@ -260,13 +260,13 @@ def _let_go(bus: ZenohBus, service: RestartedChild) -> None:
         closing.join(BACK)
 
 
-def _join(service: RestartedChild, endpoint: str, over: threading.Event) -> ZenohBus:
+def _join(service: RestartedChild, endpoint: str, over: system.Event) -> ZenohBus:
     """Connect to the service as soon as it is ready.
 
     Raises:
         ChildFailed: it did not start; or the chat is over.
     """
-    give_up = time.monotonic() + START_PATIENCE
+    give_up = system.monotonic() + START_PATIENCE
     while True:
         try:
             return join(Link.to_hub(endpoint), patience=RETRY)
@@ -274,7 +274,7 @@ def _join(service: RestartedChild, endpoint: str, over: threading.Event) -> Zeno
             service.check()
             if over.is_set():
                 raise ChildFailed(OVER) from None
-            if time.monotonic() > give_up:
+            if system.monotonic() > give_up:
                 raise ChildFailed("the dialogue service does not start") from None
 
 

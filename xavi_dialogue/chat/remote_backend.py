@@ -1,7 +1,6 @@
 """A chat with a car and a service that others started; it starts and stops no process."""
 
 import threading
-import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -19,6 +18,7 @@ from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.errors import XaviError
 from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.process import child_commands
+from xavi_dialogue.runtime import system
 from xavi_dialogue.security.client_token import Passenger
 from xavi_dialogue.terminal.slash_commands import CommandError
 
@@ -68,7 +68,7 @@ class RemoteBackend:
     bus: ZenohBus
     vehicle: str
     cars: NamesOnBus
-    over: threading.Event = field(default_factory=threading.Event)
+    over: system.Event = field(default_factory=system.event)
     paced: bool = False  # see Backend
 
     def check(self) -> None:
@@ -76,8 +76,8 @@ class RemoteBackend:
 
     def recover(self, client: Client) -> bool:
         """See Backend."""
-        give_up = time.monotonic() + BACK
-        while time.monotonic() < give_up and not self.over.wait(POLL):
+        give_up = system.monotonic() + BACK
+        while system.monotonic() < give_up and not self.over.wait(POLL):
             with suppress(ServiceLost):
                 client.probe()
                 return True
@@ -151,15 +151,15 @@ def meet(
 def _wait_for_service(
     there: RemoteCar, client: Client, services: NamesOnBus, patience: float
 ) -> None:
-    give_up = time.monotonic() + patience
+    give_up = system.monotonic() + patience
     while True:
         try:
             client.probe()
             return
         except ServiceLost as error:
-            if time.monotonic() > give_up:
+            if system.monotonic() > give_up:
                 raise NotOnBus(_silent(there, error, seen=bool(services.names))) from None
-        time.sleep(POLL)
+        system.sleep(POLL)
 
 
 def _silent(there: RemoteCar, error: ServiceLost, *, seen: bool) -> str:
@@ -175,11 +175,11 @@ def _silent(there: RemoteCar, error: ServiceLost, *, seen: bool) -> str:
 
 
 def _wait_for_car(there: RemoteCar, client: Client, cars: NamesOnBus, patience: float) -> None:
-    give_up = time.monotonic() + patience
+    give_up = system.monotonic() + patience
     while there.vehicle not in cars.names:
-        if time.monotonic() > give_up:
+        if system.monotonic() > give_up:
             raise NotOnBus(f"there is no car {there.vehicle!r}; {cars.told()}")
-        time.sleep(POLL)
+        system.sleep(POLL)
     if client.wait_for(lambda _: True, lambda: None, patience) is None:
         raise NotOnBus(f"the car {there.vehicle!r} is there, but says nothing")
 

@@ -5,7 +5,6 @@ Everything here runs on the event loop. Slow work and waiting for the bus run on
 
 import asyncio
 import logging
-import time
 from collections.abc import Callable, Coroutine
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -39,6 +38,7 @@ from xavi_dialogue.dashboard.web.websocket_messages import (
     Welcome,
 )
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.runtime import system
 from xavi_dialogue.security.client_token import Passenger
 from xavi_dialogue.service.reorder_buffer import ReportOfRide
 
@@ -99,7 +99,7 @@ class Controller:
                 _LOG.exception("internal error", extra={"vehicle": self.keys.vehicle})
 
     async def _look(self) -> None:
-        for message in self.record.wait(time.monotonic()):
+        for message in self.record.wait(system.monotonic()):
             if not self._held:
                 self.clients.tell(message)
         self._see("hub", self._bus is not None and self._bus.linked)

@@ -2,7 +2,6 @@
 
 import asyncio
 import logging
-import time
 from collections import OrderedDict
 from collections.abc import Callable
 from contextlib import suppress
@@ -19,6 +18,7 @@ from xavi_dialogue.dashboard.ride_state import RideState
 from xavi_dialogue.dashboard.views import map as roads
 from xavi_dialogue.dashboard.views.decision import whole
 from xavi_dialogue.dashboard.views.evidence import has_evidence, of_turn, traces_of
+from xavi_dialogue.runtime import system
 from xavi_dialogue.vehicle.map_server import NETWORK
 
 _LOG = logging.getLogger(__name__)
@@ -64,7 +64,7 @@ class DocumentCache:
 
     def look(self) -> None:
         """Request the roads of the ride until they are known."""
-        ride, now = self._record.ride, time.monotonic()
+        ride, now = self._record.ride, system.monotonic()
         due = self._asked is None or now > self._asked + AGAIN
         if self._bus_client is None or ride is None or self._network is not None or not due:
             return

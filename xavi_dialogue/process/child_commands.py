@@ -15,6 +15,7 @@ from typing import IO, TypeAlias
 
 from xavi_dialogue.errors import XaviError
 from xavi_dialogue.process import scratch
+from xavi_dialogue.runtime import system
 
 SHOWN = 40  # characters of a line that is no order
 PATIENCE = 5.0  # [s] after the end of the input, when the process is ended by force
@@ -57,7 +58,7 @@ class Quit:
 
 
 Order: TypeAlias = Pause | Resume | Speed | Until | Seek | Quit
-Orders: TypeAlias = "queue.SimpleQueue[Order]"
+Orders: TypeAlias = system.Queue[Order]
 
 
 class ChildCommandError(XaviError, ValueError):

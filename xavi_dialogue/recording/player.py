@@ -7,13 +7,11 @@ with rising numbers, also where their time goes back.
 import queue
 import sys
 import tempfile
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from secrets import token_hex
 from typing import TypeAlias
 
 import msgspec
@@ -33,6 +31,7 @@ from xavi_dialogue.bus.messages import (
 )
 from xavi_dialogue.nlg.narration import clock
 from xavi_dialogue.process import child_commands
+from xavi_dialogue.runtime import system
 from xavi_dialogue.storage.mcap_file import read
 from xavi_dialogue.storage.recording_format import (
     RecordedMessages,
@@ -69,7 +68,7 @@ class Player:
     record: Callable[[Moment], None] = lambda _: None  # called with every published decision
     note: Note = lambda _: None  # called with notes for the sender of commands
     alive: HealthReporter = field(default_factory=lambda: HealthReporter("car", COUNTERS))
-    ride: str = field(default_factory=lambda: token_hex(4))
+    ride: str = field(default_factory=lambda: system.token(4))
     index: int = 0  # of the scene that is shown
     traces: int = 0  # number published
     events: list[Event] = field(default_factory=list)  # published
@@ -102,7 +101,7 @@ class Player:
             halted = self.at_end or not self.pace.running
             if halted:
                 self._show()
-                self.due = time.monotonic()
+                self.due = system.monotonic()
             elif self._delay() <= 0.0:
                 self._advance()
 
@@ -112,7 +111,7 @@ class Player:
         scene = self._publish_record()
         self.pace.arrive(scene.sim_time, self.events)
         self._show(always=True)
-        self.due = time.monotonic()
+        self.due = system.monotonic()
 
     def _delay(self) -> float:
         """Return the time [s] to the next scene."""
@@ -121,7 +120,7 @@ class Player:
         if self.pace.speed == 0.0:
             return 0.0
         ahead = self.recorded.times[self.index + 1] - self.recorded.times[self.index]
-        return self.due + ahead / self.pace.speed - time.monotonic()
+        return self.due + ahead / self.pace.speed - system.monotonic()
 
     def _advance(self) -> None:
         times = self.recorded.times
@@ -164,7 +163,7 @@ class Player:
                 ride=self.ride,
                 seq=numbers[len(self.events)],  # missing reports stay missing
                 sim_time=event.sim_time,
-                wall_time=time.time(),
+                wall_time=system.wall(),
                 event=event,
             )
             self.alive.count("events")
@@ -178,7 +177,7 @@ class Player:
             ride=self.ride,
             seq=self.recorded.trace_numbers[self.traces],
             sim_time=trace.sim_time,
-            wall_time=time.time(),
+            wall_time=system.wall(),
             trace=trace,
             first=self._first,
         )
@@ -188,7 +187,7 @@ class Player:
         self.traces += 1
 
     def _show(self, *, always: bool = False) -> None:
-        if not always and time.monotonic() - self.shown < 0.9 * SHOWN_EVERY:
+        if not always and system.monotonic() - self.shown < 0.9 * SHOWN_EVERY:
             return
         scene = self.recorded.scene(self.index)
         # Published reports stay known when the ride goes back; missing reports stay missing.
@@ -200,7 +199,7 @@ class Player:
             scene,
             ride=self.ride,
             seq=self.scenes,
-            wall_time=time.time(),
+            wall_time=system.wall(),
             state=self._state(),
             speed_factor=self.pace.speed,
             traces=self.told[0],
@@ -211,7 +210,7 @@ class Player:
         self.alive.at(report.sim_time)
         self._scene.put(pack(report))
         self.scenes += 1
-        self.shown = time.monotonic()
+        self.shown = system.monotonic()
 
     def _state(self) -> CarState:
         if self.at_end:

@@ -1,7 +1,6 @@
 """`xavi serve`: the dialogue service as a process, which hosts the hub."""
 
 import gc
-import queue
 import sys
 from collections.abc import Callable
 from functools import partial
@@ -14,6 +13,7 @@ from xavi_dialogue.dialogue.state.events import Asked
 from xavi_dialogue.dialogue.state.state import Dialogue
 from xavi_dialogue.nlg.surface.realiser import grammar
 from xavi_dialogue.process import child_commands
+from xavi_dialogue.runtime import system
 from xavi_dialogue.service.in_process import make_pipeline
 from xavi_dialogue.service.server import Service
 from xavi_dialogue.storage.turn_log import TurnLog
@@ -32,7 +32,7 @@ def serve(link: Link, memory: TurnLog, note: Callable[[str], None], *, controlle
         EndpointTaken: an endpoint is in use.
         BadLink: the link's configuration cannot be used.
     """
-    orders: child_commands.Orders = queue.SimpleQueue()
+    orders: child_commands.Orders = system.new_queue()
     child_commands.quit_on_signals(orders)
     if controlled:
         child_commands.listen(sys.stdin, orders)

@@ -1,7 +1,6 @@
 """Handling of requests: they are checked, admitted, and passed to the session of their vehicle."""
 
 import logging
-import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import TypeVar
@@ -30,6 +29,7 @@ from xavi_dialogue.bus.messages import (
 from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.errors import XaviError
+from xavi_dialogue.runtime import system
 from xavi_dialogue.service.ownership import UNKNOWN, SessionOwners
 from xavi_dialogue.service.requests import Question
 from xavi_dialogue.service.vehicle_session import VehicleSession
@@ -193,7 +193,7 @@ class RequestHandler:
             session=wanted.session,
             seq=seq,
             sim_time=0.0 if scene is None else scene.sim_time,
-            wall_time=time.time(),
+            wall_time=system.wall(),
             total=len(turns),
             turns=latest(shown, HistoryReply.LIMIT - KIB),
         )

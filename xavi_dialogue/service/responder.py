@@ -1,7 +1,6 @@
 """Sending of replies, shared turns and requests to cars; it never waits."""
 
 import logging
-import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -37,6 +36,7 @@ from xavi_dialogue.bus.messages import (
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.domain.answers import Reason
+from xavi_dialogue.runtime import system
 from xavi_dialogue.service.ownership import SessionOwners
 from xavi_dialogue.service.requests import Answer, PlanAgain
 from xavi_dialogue.service.vehicle_session import VehicleSession
@@ -75,13 +75,13 @@ class Responder:
             owner = self.owners.known.get(asked.session)
             name = named(vehicle_session.vehicle, asked.request)
             self.memory.keep(
-                asked.session, ride_of(vehicle_session), time.time(), answer.turn, owner, name
+                asked.session, ride_of(vehicle_session), system.wall(), answer.turn, owner, name
             )
-        taken = round((time.monotonic() - question.came) * 1000.0, 3)
+        taken = round((system.monotonic() - question.came) * 1000.0, 3)
         payload = self._packed(asked, answer.reply, taken)
         if answer.reply.reason not in PASSING:
             key = (asked.session, named(vehicle_session.vehicle, asked.request))
-            self.sent[key] = (asked, payload, time.monotonic())
+            self.sent[key] = (asked, payload, system.monotonic())
         while len(self.sent) > MAX_SENT:
             del self.sent[next(iter(self.sent))]
         for call in question.calls:
@@ -100,9 +100,9 @@ class Responder:
         before = self.sent.get((asked.session, name))
         if before is not None:
             told, payload, at = before
-            fresh = time.monotonic() - at < AGAIN
+            fresh = system.monotonic() - at < AGAIN
             return payload if told == asked and fresh else None
-        turn = self.memory.answered(asked.session, name, time.time() - AGAIN)
+        turn = self.memory.answered(asked.session, name, system.wall() - AGAIN)
         if turn is None or turn.text != asked.text or turn.reply.reason in PASSING:
             return None
         if asked.at is not None and abs(turn.reply.sim_time - asked.at) > EPSILON:
@@ -117,7 +117,7 @@ class Responder:
     def _packed(self, asked: AskRequest, reply: Reply, taken: float | None) -> bytes:
         fields = msgspec.structs.asdict(reply) | {"timing_ms": taken}
         return pack(
-            AskReply(**fields, request=asked.request, seq=self.next(), wall_time=time.time())
+            AskReply(**fields, request=asked.request, seq=self.next(), wall_time=system.wall())
         )
 
     def _count(self, answer: Answer, taken: float) -> None:
@@ -145,7 +145,7 @@ class Responder:
             session=asked.session,
             seq=self.shared,
             sim_time=reply.sim_time,
-            wall_time=time.time(),
+            wall_time=system.wall(),
             turn=PastTurn(asked.text, reply),
         )
         self.shared += 1
@@ -155,7 +155,7 @@ class Responder:
 
     def plan_again(self, vehicle: str, task: PlanAgain, done: Callable[[Outcome], None]) -> None:
         """Ask a car to plan again; `done` gets the result, on a thread of the bus."""
-        remaining = max(task.deadline - time.monotonic(), 0.001)
+        remaining = max(task.deadline - system.monotonic(), 0.001)
         fields = msgspec.structs.asdict(task.need)
         wanted = WhatIfRequest(
             **{name: value for name, value in fields.items() if value is not msgspec.UNSET},

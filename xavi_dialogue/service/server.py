@@ -9,7 +9,6 @@ import contextlib
 import logging
 import queue
 import threading
-import time
 from collections.abc import Callable
 from functools import partial
 from typing import TypeAlias
@@ -42,6 +41,7 @@ from xavi_dialogue.bus.messages import (
 )
 from xavi_dialogue.bus.schema import schema_of
 from xavi_dialogue.dialogue.pipeline import Pipeline
+from xavi_dialogue.runtime import system
 from xavi_dialogue.service.ownership import SessionOwners
 from xavi_dialogue.service.request_handler import Rejection, RequestHandler
 from xavi_dialogue.service.requests import Answer, PlanAgain, Task
@@ -88,7 +88,7 @@ class Service:
             self._responder.forget,
         )
         self._bus = bus
-        self._inbox: queue.SimpleQueue[_Job] = queue.SimpleQueue()
+        self._inbox: system.Queue[_Job] = system.new_queue()
         self._held, self._room = 0, threading.Lock()  # bytes of the reports in the inbox
         self._seen: dict[str, Presence] = {}  # signs of life of the service, by car
 
@@ -144,9 +144,9 @@ class Service:
             if self._inbox.empty() and not self.handler.ready():
                 break
         idle = not self.handler.waiting()
-        self._memory.tidy(time.time(), idle=idle)
+        self._memory.tidy(system.wall(), idle=idle)
         for vehicle_session in self.handler.all_vehicles() if idle else ():
-            self._run(vehicle_session, vehicle_session.foresee(time.monotonic()))
+            self._run(vehicle_session, vehicle_session.foresee(system.monotonic()))
 
     def _do(self, job: _Job) -> None:
         """Run one action; an internal error in it does not stop the service."""
@@ -160,10 +160,10 @@ class Service:
 
     def _settle(self, vehicle_session: VehicleSession) -> None:
         """Answer one question of a vehicle's session, and update the average time."""
-        ready, began = vehicle_session.scheduler.ready, time.monotonic()
+        ready, began = vehicle_session.scheduler.ready, system.monotonic()
         self._do(lambda: self._run(vehicle_session, vehicle_session.settle(began)))
         if ready:
-            self.handler.learn(time.monotonic() - began)
+            self.handler.learn(system.monotonic() - began)
 
     def _empty_inbox(self) -> None:
         with contextlib.suppress(queue.Empty):
@@ -175,7 +175,7 @@ class Service:
         for vehicle_session in self.handler.all_vehicles():
             deadline = vehicle_session.scheduler.next_deadline()
             if deadline is not None:
-                patience = min(patience, max(deadline - time.monotonic(), 0.0))
+                patience = min(patience, max(deadline - system.monotonic(), 0.0))
             if vehicle_session.reports is not None and vehicle_session.reports.missing is not None:
                 patience = min(patience, HURRY)
         return patience
@@ -193,7 +193,7 @@ class Service:
 
     def _take_question(self, call: Call) -> None:
         """Queue a question; its deadline counts from now on."""
-        self._take(partial(self.handler.ask, came=time.monotonic()), call)
+        self._take(partial(self.handler.ask, came=system.monotonic()), call)
 
     def _handle(self, handle: Callable[[Call], None], call: Call) -> None:
         try:
@@ -248,7 +248,7 @@ class Service:
             ):  # it is not seen yet
                 ride = None
             ride = ride or RideName(named(vehicle_session.vehicle, report.ride))
-            self._memory.hear(ride, report.seq, time.time(), report.event)
+            self._memory.hear(ride, report.seq, system.wall(), report.event)
 
     def _on_car(self, key: str, alive: bool) -> None:
         vehicle = vehicle_in(key)

@@ -13,13 +13,13 @@ Every message names the file and says how to repair it.
 import contextlib
 import os
 import sqlite3
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
 from xavi_dialogue.process.exit_status import RunFault
+from xavi_dialogue.runtime import system
 
 APPLICATION = 0x58415649  # "XAVI", in the file's header
 PAUSE = 0.05  # [s] between attempts to open a file that another process is creating
@@ -30,6 +30,56 @@ Writing: TypeAlias = sqlite3.Connection
 
 _BROKEN = frozenset({sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_ERROR})
 _UNFIT = (OverflowError, UnicodeError, ValueError, sqlite3.DataError, sqlite3.InterfaceError)
+
+
+class Disk:
+    """The disk of this machine: the one door to files of SQLite; a simulation exchanges it."""
+
+    def create(self, path: Path) -> None:
+        """Create an empty file that only its owner may read.
+
+        Raises:
+            OSError: it exists, or cannot be created.
+        """
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        # Only a file that did not exist is opened here: closing one that is in use would
+        # release the locks that this process holds on it.
+        os.close(os.open(path, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o600))
+
+    def connect(self, path: Path, patience: float) -> Writing:
+        """Open a file as a database; wait up to `patience` [s] for others that write."""
+        return sqlite3.connect(path, timeout=patience, isolation_level=None)
+
+    def flush(self, path: Path) -> None:
+        """Flush what was written to a file, so that it survives a power cut.
+
+        Raises:
+            OSError: the file is missing, or cannot be written.
+        """
+        file = os.open(path, os.O_RDONLY)
+        try:
+            os.fsync(file)
+        finally:
+            os.close(file)
+
+    def protect(self, path: Path) -> None:
+        """Let only the owner read a file; it may be another user's that we may write."""
+        with contextlib.suppress(OSError):
+            path.chmod(0o600)
+
+
+_disk = Disk()
+
+
+@contextlib.contextmanager
+def on_disk(disk: Disk) -> Iterator[None]:
+    """Use another disk within; for simulations."""
+    global _disk
+    before, _disk = _disk, disk
+    try:
+        yield
+    finally:
+        _disk = before
 
 
 class StoreError(RunFault):
@@ -85,7 +135,7 @@ class Database:
         self.path, self._patience = path, patience
         self._make()
         with self._translated():
-            self._connection = sqlite3.connect(path, timeout=patience, isolation_level=None)
+            self._connection = _disk.connect(path, patience)
         # A damaged byte must spoil only its own value, not everything that is read with it.
         self._connection.text_factory = lambda text: text.decode(errors="surrogateescape")
         try:
@@ -128,15 +178,11 @@ class Database:
         """
         # Only the log is flushed: after a checkpoint the next writer would wait for the disk.
         try:
-            log = os.open(f"{self.path}-wal", os.O_RDONLY)
+            _disk.flush(self.path.with_name(f"{self.path.name}-wal"))
         except FileNotFoundError:
             return
-        try:
-            os.fsync(log)
         except OSError as error:
             raise Unwritable(_hint(self.path, error.strerror or str(error))) from error
-        finally:
-            os.close(log)
 
     def owe(self, file: Writing) -> None:
         """Mark in the file, within a deletion, that the files must be purged."""
@@ -202,17 +248,14 @@ class Database:
 
     def _make(self) -> None:
         try:
-            self.path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-            # Only a file that did not exist is opened here: closing one that is in use would
-            # release the locks that this process holds on it.
-            os.close(os.open(self.path, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o600))
+            _disk.create(self.path)
         except FileExistsError:
             pass
         except OSError as error:
             raise Unwritable(_hint(self.path, error.strerror or str(error))) from error
 
     def _open(self, steps: Mapping[int, str], version: int) -> None:
-        give_up = time.monotonic() + 2.0 * self._patience
+        give_up = system.monotonic() + 2.0 * self._patience
         while True:
             try:
                 self._version(version)  # before anything is changed in a file of another program
@@ -220,11 +263,10 @@ class Database:
                 break
             except Unwritable as error:
                 # The process that creates the file takes its lock without waiting.
-                if time.monotonic() > give_up or "locked" not in str(error):
+                if system.monotonic() > give_up or "locked" not in str(error):
                     raise
-                time.sleep(PAUSE)
-        with contextlib.suppress(OSError):  # it may be another user's file that we may write
-            self.path.chmod(0o600)
+                system.sleep(PAUSE)
+        _disk.protect(self.path)
         with self.writing() as file:
             held = self._version(version)
             if held < version:

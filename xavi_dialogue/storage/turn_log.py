@@ -5,7 +5,6 @@ and one warning; the missing turns are stored as soon as the file can be written
 """
 
 import logging
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -13,6 +12,7 @@ from pathlib import Path
 
 from planner.record.events import Event
 from xavi_dialogue.dialogue.state.turn import Turn
+from xavi_dialogue.runtime import system
 from xavi_dialogue.storage.conversations import New, NewEvent, NewTurn, RideName, Store, fits
 from xavi_dialogue.storage.database import Damaged, NotStorable, StoreError, Unpurged, Unwritable
 
@@ -209,7 +209,7 @@ class TurnLog:
         Raises:
             Unwritable: it cannot be used, or it is too early to try again.
         """
-        began = time.monotonic()
+        began = system.monotonic()
         if began < self._again:
             raise Unwritable(f"{keeping.path} is not tried again yet")
         try:
@@ -219,7 +219,7 @@ class TurnLog:
         except Unpurged:
             raise  # the file works
         except Unwritable:
-            ended = time.monotonic()
+            ended = system.monotonic()
             self._again = ended + REST * (ended - began)
             raise
 

@@ -1,7 +1,6 @@
 """The loop of the car process: drives the ride at its pace, and reports it on the bus."""
 
 import queue
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import partial
@@ -16,6 +15,7 @@ from xavi_dialogue.bus.interface import Bus, Call, CallHandler, Keys
 from xavi_dialogue.bus.messages import CarState, EventReport, SceneReport, TraceReport
 from xavi_dialogue.bus.schema import schema_of
 from xavi_dialogue.process.child_commands import Order, Orders, Pause, Quit, Resume, Speed, Until
+from xavi_dialogue.runtime import system
 from xavi_dialogue.vehicle.episode import Moment, halts
 from xavi_dialogue.vehicle.outbox import REPORTS, SCENES
 from xavi_dialogue.vehicle.telemetry import Reporter
@@ -88,15 +88,15 @@ class VehicleNode:
     def _wait(self, moment: Moment) -> None:
         """Wait until the next step is due; after the ride, until asked to quit."""
         if self.pace.speed > 0.0:
-            self.due = max(self.due, time.monotonic() - self.step) + self.step / self.pace.speed
+            self.due = max(self.due, system.monotonic() - self.step) + self.step / self.pace.speed
         over = moment.ending is not None
         while not self.pace.quit and (not over or self.stays):
             halted = over or not self.pace.running
-            delay = 0.0 if self.pace.speed == 0.0 else self.due - time.monotonic()
+            delay = 0.0 if self.pace.speed == 0.0 else self.due - system.monotonic()
             self._listen(moment, SHOWN_EVERY if halted else min(delay, SHOWN_EVERY))
             if halted:
                 self._show(moment)
-                self.due = time.monotonic()
+                self.due = system.monotonic()
             elif delay <= 0.0:
                 return
 

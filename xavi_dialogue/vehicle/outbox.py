@@ -6,13 +6,13 @@ dropped are dropped first, from the oldest on, and then the oldest of the rest; 
 """
 
 import logging
-import threading
 from collections import deque
 from contextlib import suppress
 from dataclasses import dataclass
 
 from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Bus, Publisher, TransportError
+from xavi_dialogue.runtime import system
 
 SCENES = "scenes_dropped"  # counters of what was dropped
 REPORTS = "reports_dropped"
@@ -63,9 +63,8 @@ class Outbox:
         self._waiting: deque[_QueuedMessage] = deque()
         self._droppable = self._size = 0  # waiting messages that may be dropped; waiting bytes
         self._sending = self._closing = False
-        self._changed = threading.Condition()
-        self._sender = threading.Thread(target=self._send, name="outbox", daemon=True)
-        self._sender.start()
+        self._changed = system.condition()
+        self._sender = system.start("outbox", self._send)
 
     def publisher(self, key: str, keep: int = 0) -> Publisher:
         """Return a publisher for a key; see Bus. Messages that are not kept may be dropped."""

@@ -25,6 +25,7 @@ from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Call, TransportError
 from xavi_dialogue.bus.messages import Failure, WhatIfRequest, pack, unpack
 from xavi_dialogue.process.subprocesses import TOP
+from xavi_dialogue.runtime import system
 from xavi_dialogue.vehicle.episode import Moment
 from xavi_dialogue.vehicle.replan_worker import ReplanOrder
 from xavi_dialogue.vehicle.worker_pool import WAITING, Job, WorkerPool
@@ -81,7 +82,7 @@ class Replanner:
 
     def __call__(self, call: Call) -> None:
         """Pass a request on to a worker, or refuse it; returns at once."""
-        came = time.monotonic()
+        came = system.monotonic()
         try:
             wanted = unpack(call.payload, WhatIfRequest)
         except MessageError as error:

@@ -1,7 +1,5 @@
 """Reports on the bus about the moments of a ride."""
 
-import secrets
-import time
 from collections import deque
 from collections.abc import Callable
 from typing import Protocol
@@ -10,6 +8,7 @@ from planner.record.trace import PlanTrace
 from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Keys, Publisher
 from xavi_dialogue.bus.messages import CarState, EventReport, SceneReport, TraceReport, pack
+from xavi_dialogue.runtime import system
 from xavi_dialogue.vehicle.episode import Moment, clock
 
 KEPT_TRACES = 300  # for late joiners
@@ -26,7 +25,7 @@ class ReportSink(Protocol):
 class RateMeter:
     """A meter of the recent speed of the simulation."""
 
-    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, clock: Callable[[], float] = system.monotonic) -> None:
         self._clock = clock
         self._marks: deque[tuple[float, float]] = deque()  # [s] of the clock, of the simulation
 
@@ -70,7 +69,7 @@ class Reporter:
         self._alive = HealthReporter("car") if alive is None else alive
         self._speedometer = RateMeter()
         self._alive.gauge("speed", self._speedometer.read)
-        self._ride = secrets.token_hex(4)
+        self._ride = system.token(4)
         self._scene = bus.publisher(keys.of("scene"))
         self._trace = bus.publisher(keys.of("trace"), keep=KEPT_TRACES)
         self._event = bus.publisher(keys.of("event"), keep=KEPT_EVENTS)
@@ -89,7 +88,7 @@ class Reporter:
                 ride=self._ride,
                 seq=self._events,
                 sim_time=event.sim_time,
-                wall_time=time.time(),
+                wall_time=system.wall(),
                 event=event,
             )
             self._event.put(pack(report))
@@ -98,7 +97,7 @@ class Reporter:
 
     def idle_time(self) -> float:
         """Return the age [s] of the latest published scene."""
-        return time.monotonic() - self._published
+        return system.monotonic() - self._published
 
     def show(
         self,
@@ -112,7 +111,7 @@ class Reporter:
             ride=self._ride,
             seq=self._scenes,
             sim_time=clock(moment),
-            wall_time=time.time(),
+            wall_time=system.wall(),
             vehicles=dict(moment.scene.vehicles),
             lights=moment.scene.lights,
             people=dict(moment.scene.people),
@@ -129,7 +128,7 @@ class Reporter:
         self._scene.put(pack(report))
         self._scenes += 1
         self._alive.count("scenes")
-        self._published = time.monotonic()
+        self._published = system.monotonic()
 
     def _publish_trace(self, trace: PlanTrace) -> None:
         self._first = self._first or trace.trace_id
@@ -137,7 +136,7 @@ class Reporter:
             ride=self._ride,
             seq=self._traces,
             sim_time=trace.sim_time,
-            wall_time=time.time(),
+            wall_time=system.wall(),
             trace=trace,
             first=self._first,
         )

@@ -1,0 +1,1 @@
+"""Clock, waiting and threads, behind one door."""
