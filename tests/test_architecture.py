@@ -46,6 +46,7 @@ ROOMS = (
     ("xavi_dialogue.terminal", "xavi_dialogue.transcripts"),
     ("xavi_dialogue.chat", "xavi_dialogue.recording", "xavi_dialogue.inspection"),
     ("xavi_dialogue.dashboard", "xavi_dialogue.library"),
+    ("xavi_dialogue.viewers",),
     ("xavi_dialogue.cli",),
     ("benchmarks", "xavi_dialogue.__main__"),
 )
@@ -55,6 +56,9 @@ PURE = (
 )
 APART = {"xavi_dialogue.nlu": "xavi_dialogue.nlg", "xavi_dialogue.nlg": "xavi_dialogue.nlu"}
 GATES = {  # each outside world enters through one file
+    "foxglove_schemas_protobuf": "xavi_dialogue/viewers/messages.py",
+    "google": "xavi_dialogue/viewers/messages.py",
+    "mcap_protobuf": "xavi_dialogue/viewers/messages.py",
     "cryptography": "xavi_dialogue/bus/certificates.py",
     "libsumo": "sim/engine.py",
     "sumolib": "sim/roads/netreader.py",

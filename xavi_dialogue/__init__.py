@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         Option,
         Ride,
         Scene,
+        Trajectory,
         XaviError,
         drive,
         open,  # noqa: A004 - as in PIL.Image
@@ -37,6 +38,7 @@ __all__ = [
     "Option",
     "Ride",
     "Scene",
+    "Trajectory",
     "XaviError",
     "__version__",
     "drive",

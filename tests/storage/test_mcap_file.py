@@ -32,6 +32,7 @@ from xavi_dialogue.bus.messages import (
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.storage import mcap_file, recording_format
 from xavi_dialogue.storage.mcap_file import McapWriter, read
+from xavi_dialogue.storage.message_format import schema_to_view
 from xavi_dialogue.storage.recording_format import (
     RECORDED,
     AttachedFile,
@@ -44,7 +45,6 @@ from xavi_dialogue.storage.recording_format import (
     Truncation,
     Unwritable,
     read_ride,
-    schema_to_view,
 )
 
 EGO = VehicleState((0.0, 0.0), 0.0, 10.0, 0.0, 4.5, 1.8)

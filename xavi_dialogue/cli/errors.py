@@ -7,6 +7,7 @@ from planner.errors import TraceError
 from sim.roads.netconvert import NetconvertMissing
 from sim.setup.scenario import ScenarioError
 from sim.sumo import SimulationError
+from xavi_dialogue import viewers
 from xavi_dialogue.bus.access_control import BadName
 from xavi_dialogue.bus.certificates import CertificateError
 from xavi_dialogue.bus.interface import BadLink, TransportError
@@ -39,8 +40,8 @@ class ReportedError:
 
 def failure(error: Exception) -> ReportedError | None:
     """Return how to report an error; None for an internal error, which needs its traceback."""
-    if isinstance(error, ImportError) and str(error) == MISSING:
-        return ReportedError(MISSING, ExitStatus.FAILED)
+    if isinstance(error, ImportError) and str(error) in (MISSING, viewers.MISSING):
+        return ReportedError(str(error), ExitStatus.FAILED)
     for kinds, status in _STATUSES:
         if isinstance(error, kinds):
             return ReportedError(one_line(str(error)), status)

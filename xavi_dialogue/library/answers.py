@@ -11,6 +11,7 @@ from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.domain.evidence import Evidence
 from xavi_dialogue.library.decisions import Decision
 from xavi_dialogue.library.html import element, listed
+from xavi_dialogue.library.trajectories import Compared, Trajectory
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +30,8 @@ class Answer:
     choices: tuple[str, ...]  # of a clarification: ask with "1" for the first
     suggestions: tuple[str, ...]  # what could be asked next
     decision: Decision | None = field(repr=False)  # that it explains
+    planned: Trajectory | None = field(repr=False)  # that the car set out on
+    ghost: Trajectory | None = field(repr=False)  # that it would have driven otherwise
 
     def __str__(self) -> str:
         return self.text
@@ -46,7 +49,7 @@ class Answer:
         )
 
 
-def answer(question: str, reply: Reply, decision: Decision | None) -> Answer:
+def answer(question: str, reply: Reply, decision: Decision | None, lines: Compared) -> Answer:
     """Return a reply as an answer."""
     return Answer(
         question=question,
@@ -61,6 +64,8 @@ def answer(question: str, reply: Reply, decision: Decision | None) -> Answer:
         choices=reply.choices,
         suggestions=reply.suggestions,
         decision=decision,
+        planned=lines.planned,
+        ghost=lines.ghost,
     )
 
 

@@ -7,6 +7,7 @@ from functools import cached_property
 from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.inspection.comparison import Option, comparison
 from xavi_dialogue.library.html import element, table
+from xavi_dialogue.library.trajectories import Trajectory, planned
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +50,11 @@ class Decision:
     def options(self) -> tuple[Option, ...]:
         """The first actions that were compared, best first; none of older records."""
         return comparison(self.trace)
+
+    @cached_property
+    def planned(self) -> Trajectory | None:
+        """The likeliest trajectory of the plan, as far as the record holds one."""
+        return planned(self.trace)
 
     @property
     def ruled_out(self) -> Mapping[Action, str]:

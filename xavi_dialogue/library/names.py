@@ -10,6 +10,7 @@ from xavi_dialogue.library.decisions import Belief, Decision
 from xavi_dialogue.library.ride import Conversation, Ride
 from xavi_dialogue.library.sources import drive
 from xavi_dialogue.library.sources import open_ride as open  # noqa: A004 - as in PIL.Image
+from xavi_dialogue.library.trajectories import Trajectory
 
 __all__ = [
     "Answer",
@@ -21,6 +22,7 @@ __all__ = [
     "Option",
     "Ride",
     "Scene",
+    "Trajectory",
     "XaviError",
     "drive",
     "open",

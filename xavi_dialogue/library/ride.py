@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TypeAlias, get_args
 
 from planner.record.events import Event
+from sim.roads.network import Network
 from sim.scene import Scene
 from xavi_dialogue.bus.messages import MAX_TEXT
 from xavi_dialogue.bus.sanitize import one_line
@@ -18,6 +19,7 @@ from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.library.answers import Answer, answer
 from xavi_dialogue.library.decisions import Decision
 from xavi_dialogue.library.errors import LibraryError, translated
+from xavi_dialogue.library.trajectories import compared
 from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.service import in_process
 from xavi_dialogue.service.in_process import Replan, make_pipeline
@@ -37,6 +39,7 @@ class Ride:
     scenes: tuple[Scene, ...]  # in order of time
     known: tuple[Known, ...]  # what answers rest on, in order of time
     again: Replan  # plans again what the record does not hold
+    network: Network | None = None  # the roads, where they are known
 
     @property
     def scenario(self) -> str:
@@ -144,7 +147,9 @@ class Conversation:
         """
         text = one_line(question)[:MAX_TEXT]
         reply = self.reply(text, at)
-        found = answer(text, reply, self.ride.decision(reply.trace_id))
+        record = self.ride.record
+        lines = compared(reply, (*record.traces, *record.whatifs.values()))
+        found = answer(text, reply, self.ride.decision(reply.trace_id), lines)
         self.answers = (*self.answers, found)
         return found
 

@@ -11,6 +11,7 @@ import msgspec
 from planner.record.trace import PlanTrace
 from sim.errors import SimError
 from sim.roads.netfile import read_network
+from sim.roads.network import Network
 from sim.scene import Scene
 from sim.setup.scenario import load as load_scenario
 from xavi_dialogue.bus.messages import EventReport, SceneReport, TraceReport, unpack
@@ -64,7 +65,7 @@ def drive(
         number = loaded.seed if seed is None else seed
         with start(loaded, number, network, duration=duration) as moments:
             known = [(clock(m), one) for m in moments for one in inputs_of_moment(m)]
-    return _ride(str(scenario), number, known, planner_for(network))
+    return _ride(str(scenario), number, known, network)
 
 
 def open_ride(path: str | Path, scenario: str | Path | None = None, car: str | None = None) -> Ride:
@@ -87,7 +88,7 @@ def open_ride(path: str | Path, scenario: str | Path | None = None, car: str | N
         return _saved(file, scenario)
 
 
-def _ride(scenario: str, seed: int, known: list[Known], again: Replan) -> Ride:
+def _ride(scenario: str, seed: int, known: list[Known], network: Network | None) -> Ride:
     """Return the ride that is told by inputs of the dialogue."""
     inputs = [one for _, one in known]
     record = RecordedRide(
@@ -99,7 +100,7 @@ def _ride(scenario: str, seed: int, known: list[Known], again: Replan) -> Ride:
         ended=next((one.at for one in inputs if isinstance(one, RideEnded)), None),
     )
     scenes = tuple(one.scene for one in inputs if isinstance(one, SceneSeen))
-    return Ride(record, scenes, tuple(known), again)
+    return Ride(record, scenes, tuple(known), _plans_on(network), network)
 
 
 def _saved(file: Path, scenario: str | Path | None) -> Ride:
@@ -108,7 +109,8 @@ def _saved(file: Path, scenario: str | Path | None) -> Ride:
         raise LibraryError(f"{file} holds no decision; drive the ride again, and longer")
     known = sorted(((_time(one), one) for one in inputs_of(record)), key=lambda pair: pair[0])
     scenes = tuple(Scene(trace.sim_time, trace.scene) for trace in record.traces)
-    return Ride(record, scenes, tuple(known), _planner(record, scenario))
+    network = _roads(record, scenario)
+    return Ride(record, scenes, tuple(known), _plans_on(network), network)
 
 
 def _read(file: Path) -> RecordedRide:
@@ -147,8 +149,8 @@ def _time(known: Input) -> float:
     raise AssertionError(known)
 
 
-def _planner(record: RecordedRide, scenario: str | Path | None) -> Replan:
-    """Return what plans on the roads of a saved ride, if they can be found.
+def _roads(record: RecordedRide, scenario: str | Path | None) -> Network | None:
+    """Return the roads of a saved ride, if they can be found.
 
     Raises:
         LibraryError: the scenario that is named has other roads.
@@ -158,12 +160,16 @@ def _planner(record: RecordedRide, scenario: str | Path | None) -> Replan:
     except SimError:
         if scenario is not None:
             raise
-        return _plans_nothing
+        return None
     if network.hash == record.traces[0].network:
-        return planner_for(network)
+        return network
     if scenario is not None:
         raise LibraryError(f"{scenario} has other roads than the ride; name its own scenario")
-    return _plans_nothing
+    return None
+
+
+def _plans_on(network: Network | None) -> Replan:
+    return _plans_nothing if network is None else planner_for(network)
 
 
 def _plans_nothing(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
@@ -174,7 +180,7 @@ def _plans_nothing(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
 def _recorded(file: Path, recorded: RecordedMessages) -> Ride:
     first = recorded.scene(0)
     known = list(_inputs(recorded))
-    return _ride(first.scenario or str(file), first.seed or 0, known, _planner_in(recorded))
+    return _ride(first.scenario or str(file), first.seed or 0, known, _roads_in(recorded))
 
 
 def _inputs(recorded: RecordedMessages) -> Iterator[Known]:
@@ -207,13 +213,13 @@ def _report(recorded: RecordedMessages, scene: SceneReport, number: int) -> Even
     )
 
 
-def _planner_in(recorded: RecordedMessages) -> Replan:
-    """Return what plans on the roads that a recording holds, if it holds any."""
+def _roads_in(recorded: RecordedMessages) -> Network | None:
+    """Return the roads that a recording holds, if it holds any."""
     with tempfile.TemporaryDirectory(prefix="xavi-") as folder:
         path = Path(folder) / "network.net.xml"
         if not player.find_network(recorded, path):
-            return _plans_nothing
-        return planner_for(read_network(path))
+            return None
+        return read_network(path)
 
 
 def _warn(text: str) -> None:

@@ -5,9 +5,7 @@ the next chunk overwrites, so a recorder that is killed leaves a file that can b
 is written when the file is closed.
 """
 
-import errno
 import os
-import stat
 import struct
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
@@ -27,6 +25,8 @@ from mcap.writer import MCAP0_MAGIC, CompressionType, Writer
 
 from xavi_dialogue.bus.messages import schema_name
 from xavi_dialogue.bus.sanitize import one_line
+from xavi_dialogue.storage.growing_file import create, write_at
+from xavi_dialogue.storage.message_format import MessageFormat, schema_to_view
 from xavi_dialogue.storage.recording_format import (
     MIB,
     PROFILE,
@@ -38,7 +38,6 @@ from xavi_dialogue.storage.recording_format import (
     Truncation,
     Unwritable,
     kind_of,
-    schema_to_view,
 )
 
 CHUNK = MIB  # greatest number of bytes of messages that are compressed together
@@ -97,7 +96,7 @@ class McapWriter:
         self.messages = 0
         self._path = path
         try:
-            self._file = _made(path, overwrite)
+            self._file = create(path, overwrite)
         except FileExistsError:
             raise FileThere(f"{path} is there already; --force overwrites it") from None
         except OSError as error:
@@ -130,6 +129,28 @@ class McapWriter:
         )
         self.messages += 1
         return True
+
+    def add_other(self, topic: str, form: MessageFormat, data: bytes, now: int) -> None:
+        """Write a message that is not of the bus.
+
+        Args:
+            topic: of the message.
+            form: of all messages of this topic.
+            data: the message.
+            now: [ns since 1970]
+        """
+        channel = self._channels.get(topic)
+        if channel is None:
+            if form.name not in self._schemas:
+                self._schemas[form.name] = self._writer.register_schema(
+                    form.name, form.encoding, form.schema
+                )
+            number = self._schemas[form.name]
+            channel = self._writer.register_channel(topic, form.encoding, number)
+            self._channels[topic] = channel
+        now = _within(now, MAX_TIME)
+        self._writer.add_message(channel, now, data, now)
+        self.messages += 1
 
     def attach(self, name: str, data: bytes, now: int) -> None:
         """Add a gzipped file; `now` is in nanoseconds since 1970."""
@@ -174,11 +195,11 @@ class McapWriter:
 
     def _write(self, data: bytes, ending: bytes) -> None:
         try:
-            _write_at(self._file, self.size, data + ending)
+            write_at(self._file, self.size, data + ending)
         except OSError as error:
             with suppress(OSError):
                 os.ftruncate(self._file, self.size)
-                _write_at(self._file, self.size, ENDING)
+                write_at(self._file, self.size, ENDING)
             self._shut()
             raise Unwritable(
                 f"cannot write {self._path} any further: {error.strerror};"
@@ -204,33 +225,6 @@ class McapWriter:
 
 def _within(number: int, limit: int) -> int:
     return min(max(number, 0), limit)
-
-
-def _made(path: Path, overwrite: bool) -> int:
-    """Create an empty file, readable by its owner alone, and return its descriptor.
-
-    Raises:
-        OSError: there is one already, or it cannot be created.
-    """
-    # O_NONBLOCK, because opening a pipe would wait for a reader.
-    flags = os.O_CREAT | os.O_WRONLY | os.O_NONBLOCK | (0 if overwrite else os.O_EXCL)
-    file = os.open(path, flags, 0o600)
-    try:
-        if not stat.S_ISREG(os.fstat(file).st_mode):
-            raise OSError(errno.EINVAL, "it is not a file")
-        os.fchmod(file, 0o600)
-        os.ftruncate(file, 0)
-    except OSError:
-        os.close(file)
-        raise
-    return file
-
-
-def _write_at(file: int, place: int, data: bytes) -> None:
-    view = memoryview(data)
-    while view:
-        written = os.pwrite(file, view, place)
-        place, view = place + written, view[written:]
 
 
 class _Capped:

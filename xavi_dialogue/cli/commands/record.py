@@ -1,4 +1,4 @@
-"""The commands `xavi record` and `xavi replay`: rides into files, and back."""
+"""The commands `xavi record`, `replay` and `export`: rides into files, back, and for viewers."""
 
 import sys
 from collections.abc import Callable
@@ -46,6 +46,7 @@ def add(app: typer.Typer, shell: Streams) -> None:
     """Add the commands."""
     app.command("record")(logged("recorder")(_record(shell)))
     app.command("replay")(logged("car", own_name(shell))(_replay(shell)))
+    app.command("export")(_export(shell))
 
 
 def _record(shell: Streams) -> Callable[..., None]:
@@ -100,6 +101,48 @@ def _replay(shell: Streams) -> Callable[..., None]:
                 _talk(shell, own, speed, as_json)
 
     return replay
+
+
+def _export(shell: Streams) -> Callable[..., None]:
+    def export(
+        source: Annotated[
+            Path,
+            typer.Argument(metavar="RIDE", help="A recording, a saved ride, or plan traces."),
+        ],
+        target: Annotated[Path, typer.Argument(metavar="OUT", help="File to write (MCAP).")],
+        ask: Annotated[
+            list[str] | None,
+            typer.Option(
+                metavar="QUESTION",
+                help="Show what would have been driven by its answer. May be repeated.",
+            ),
+        ] = None,
+        at: Annotated[
+            float | None, typer.Option(min=0.0, help="Moment of the questions [s].")
+        ] = None,
+        scenario: Annotated[
+            str | None, typer.Option(help="Scenario with the roads, where it is not found.")
+        ] = None,
+        car: Car = None,
+        layout: Annotated[
+            Path | None,
+            typer.Option(metavar="FILE", help="Write the layout of panels for viewers, too."),
+        ] = None,
+        force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.")] = False,
+    ) -> None:
+        """Write a ride as a file that Foxglove and Lichtblick show in 3-D."""
+        from xavi_dialogue.library.sources import open_ride
+
+        with shell.errors():
+            from xavi_dialogue.viewers.export import ExportOptions, export, write_layout
+
+            ride = open_ride(source, scenario, car)
+            told = export(ride, ExportOptions(source, target, tuple(ask or ()), at, force))
+            if layout is not None:
+                write_layout(layout, overwrite=force)
+        shell.write("\n".join(f"{topic:12} {count}" for topic, count in told.items()))
+
+    return export
 
 
 @dataclass(frozen=True)
