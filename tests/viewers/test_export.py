@@ -4,6 +4,7 @@ import json
 import math
 from collections import defaultdict
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -73,7 +74,7 @@ def test_the_foreign_reader_reads_every_topic(exported: Path) -> None:
     assert (len(found["/plan"]), len(found["/beliefs"])) == (decisions, decisions)
     moments = [time for time, _ in found["/tf"]]
     assert moments == sorted(moments)
-    assert max(b - a for a, b in zip(moments, moments[1:], strict=False)) <= 0.21
+    assert max(b - a for a, b in pairwise(moments)) <= 0.21
     assert moments[-1] == pytest.approx(s1().scenes[-1].time)
 
 
@@ -214,7 +215,7 @@ def test_a_ghost_that_stands_looks_where_it_came_from() -> None:
 def test_scenes_between_decisions_lie_on_the_way_that_was_recorded() -> None:
     scenes = list(motion.scenes(s1()))
     assert len(scenes) > 4 * len(s1().decisions)
-    for before, after in zip(scenes, scenes[1:], strict=False):
+    for before, after in pairwise(scenes):
         moved = math.dist(before.ego.position, after.ego.position)
         assert moved == pytest.approx(before.ego.speed * (after.time - before.time), abs=0.5)
 
