@@ -82,7 +82,7 @@ install() {
     pip_install setuptools
     case $level in
         runtime) pip_install --no-build-isolation --editable '.[dashboard]' ;;
-        develop) pip_install --no-build-isolation --editable '.[browser,dashboard,dev,maps,viewers]' ;;
+        develop) pip_install --no-build-isolation --editable '.[browser,dashboard,dev,maps,tables,viewers]' ;;
     esac
     rm "$venv/unfinished"
 }

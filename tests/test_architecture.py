@@ -63,6 +63,7 @@ GATES = {  # each outside world enters through one file
     "libsumo": "sim/engine.py",
     "sumolib": "sim/roads/netreader.py",
     "mcap": "xavi_dialogue/storage/mcap_file.py",
+    "pandas": "xavi_dialogue/library/tables.py",
     "playwright": "benchmarks/service/browser.py",
     "sqlite3": "xavi_dialogue/storage/database.py",
     "starlette": "xavi_dialogue/dashboard/web/routes.py",

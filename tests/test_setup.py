@@ -111,7 +111,7 @@ def test_a_change_of_what_is_needed_installs_anew(checkout: Checkout, file: str)
 
 def test_what_serves_the_developer_serves_the_passenger(checkout: Checkout) -> None:
     checkout.setup("develop")
-    assert "--editable .[browser,dashboard,dev,maps,viewers]" in checkout.log
+    assert "--editable .[browser,dashboard,dev,maps,tables,viewers]" in checkout.log
     checkout.setup("runtime")
     assert checkout.log == ""
 

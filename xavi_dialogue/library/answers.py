@@ -1,6 +1,6 @@
 """Answers: what the car replies to a question, as a value."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import msgspec
@@ -11,6 +11,7 @@ from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.domain.evidence import Evidence
 from xavi_dialogue.library.decisions import Decision
 from xavi_dialogue.library.html import element, listed
+from xavi_dialogue.library.pictures import Picture, drawn
 from xavi_dialogue.library.trajectories import Compared, Trajectory
 
 
@@ -36,6 +37,13 @@ class Answer:
     def __str__(self) -> str:
         return self.text
 
+    @property
+    def map(self) -> Picture | None:
+        """The decision on a map, with the plan and the ghost; None where it explains none."""
+        if self.decision is None:
+            return None
+        return drawn(replace(self.decision.view, planned=self.planned, ghost=self.ghost))
+
     def _repr_html_(self) -> str:
         rests = f"At {self.at:g} s. {_evidence(self.evidence)}"
         if self.reason is not None:
@@ -45,8 +53,14 @@ class Answer:
             f"<blockquote>{element('p', self.question)}</blockquote>"
             + "".join(element("p", line) for line in self.text.splitlines())
             + f"<p>{element('small', rests)}</p>"
+            + self._shown()
             + (listed(more) if more else "")
         )
+
+    def _shown(self) -> str:
+        compares = self.planned is not None or self.ghost is not None
+        picture = self.map if compares else None
+        return "" if picture is None else picture._repr_html_()
 
 
 def answer(question: str, reply: Reply, decision: Decision | None, lines: Compared) -> Answer:

@@ -5,8 +5,11 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from planner.record.trace import Action, PlanTrace
+from sim.roads.network import Network
+from sim.scene import Scene
 from xavi_dialogue.inspection.comparison import Option, comparison
 from xavi_dialogue.library.html import element, table
+from xavi_dialogue.library.pictures import Picture, View, drawn
 from xavi_dialogue.library.trajectories import Trajectory, planned
 
 
@@ -25,6 +28,7 @@ class Decision:
     """One decision."""
 
     trace: PlanTrace = field(repr=False)  # its whole record
+    network: Network | None = field(default=None, repr=False, compare=False)  # if it is known
 
     @property
     def time(self) -> float:
@@ -55,6 +59,17 @@ class Decision:
     def planned(self) -> Trajectory | None:
         """The likeliest trajectory of the plan, as far as the record holds one."""
         return planned(self.trace)
+
+    @property
+    def view(self) -> View:
+        """What a map of it shows."""
+        scene = Scene(self.trace.sim_time, self.trace.scene)
+        return View(scene, self.network, self.planned, beliefs=self.trace)
+
+    @property
+    def map(self) -> Picture:
+        """A map of what was seen, planned and believed."""
+        return drawn(self.view)
 
     @property
     def ruled_out(self) -> Mapping[Action, str]:
@@ -89,6 +104,7 @@ class Decision:
         )
         return (
             element("p", repr(self)[1:-1])
+            + ("" if self.network is None else self.map._repr_html_())
             + table(("option", "value [s]", "chances"), options)
             + table(("vehicle", "goal", "place", "probability"), beliefs)
         )

@@ -1,10 +1,12 @@
 """A ride that can be asked about, and conversations about it."""
 
 import math
-from dataclasses import dataclass
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TypeAlias, get_args
+from typing import TYPE_CHECKING, TypeAlias, TypeVar, get_args
 
 from planner.record.events import Event
 from sim.roads.network import Network
@@ -16,9 +18,14 @@ from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.events import Input
 from xavi_dialogue.dialogue.state.state import EPSILON
+from xavi_dialogue.library import html
 from xavi_dialogue.library.answers import Answer, answer
+from xavi_dialogue.library.curves import Curves, curves
 from xavi_dialogue.library.decisions import Decision
 from xavi_dialogue.library.errors import LibraryError, translated
+from xavi_dialogue.library.html import element
+from xavi_dialogue.library.pictures import Picture, drawn
+from xavi_dialogue.library.tables import TableName, table
 from xavi_dialogue.library.trajectories import compared
 from xavi_dialogue.nlg.context import Style
 from xavi_dialogue.service import in_process
@@ -26,6 +33,11 @@ from xavi_dialogue.service.in_process import Replan, make_pipeline
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.ride_file import RecordedRide
 from xavi_dialogue.transcripts.replay import keeping
+
+if TYPE_CHECKING:
+    from xavi_dialogue.library.tables import DataFrame
+
+T = TypeVar("T")
 
 #: An input of the dialogue, and the time [s] from which on it is known.
 Known: TypeAlias = tuple[float, Input]
@@ -59,7 +71,7 @@ class Ride:
     @cached_property
     def decisions(self) -> tuple[Decision, ...]:
         """Every decision, oldest first."""
-        return tuple(map(Decision, self.record.traces))
+        return tuple(Decision(trace, self.network) for trace in self.record.traces)
 
     @property
     def events(self) -> tuple[Event, ...]:
@@ -88,6 +100,39 @@ class Ride:
         """
         return Conversation(self, style)
 
+    def map(self, at: float | None = None) -> Picture:
+        """Return a map of a moment, with the plan in force and what was believed.
+
+        Args:
+            at: [s]. Default: as in `ask`.
+        """
+        time = self.default_time if at is None else at
+        scene = _latest(self.scenes, [one.time for one in self.scenes], time)
+        decision = _latest(self.decisions, [one.time for one in self.decisions], time)
+        return drawn(replace(decision.view, scene=scene))
+
+    def curves(self, vehicle: int) -> Curves:
+        """Return how the beliefs about a road user moved over the ride.
+
+        Raises:
+            XaviError: no decision considered it.
+        """
+        found = curves(self.record.traces, vehicle)
+        if found is None:
+            seen = {one.vehicle for trace in self.record.traces for one in trace.predictions}
+            raise LibraryError(
+                f"no decision expected anything of vehicle {vehicle}; there are {sorted(seen)}"
+            )
+        return found
+
+    def table(self, name: TableName) -> "DataFrame":
+        """Return a table of pandas: `decisions`, `options`, `beliefs` or `events`.
+
+        Raises:
+            XaviError: there is no such table, or pandas is not installed.
+        """
+        return table(name, self.decisions, self.events)
+
     def save(self, path: str | Path) -> Path:
         """Save decisions, events and what was planned again, as `xavi drive --save` does.
 
@@ -115,6 +160,19 @@ class Ride:
     def __repr__(self) -> str:
         count = len(self.record.traces)
         return f"<Ride {self.scenario}, seed {self.seed}: {count} decisions, {self.end:g} s>"
+
+    def _repr_html_(self) -> str:
+        changes = [
+            (f"{one.time:g}", ", ".join(one.plan) or "stop")
+            for before, one in zip((None, *self.decisions), self.decisions, strict=False)
+            if before is None or before.plan != one.plan
+        ]
+        return element("p", repr(self)[1:-1]) + html.table(("from [s]", "plan"), changes)
+
+
+def _latest(of: Sequence[T], times: Sequence[float], time: float) -> T:
+    """Return what was the latest at a time [s], else the first."""
+    return of[max(bisect_right(times, time + EPSILON) - 1, 0)]
 
 
 class Conversation:

@@ -1,0 +1,76 @@
+"""A car on a real bus, asked by programs that wait and by those that do not."""
+
+import asyncio
+import socket
+from collections.abc import Iterator
+from contextlib import ExitStack
+
+import pytest
+
+import xavi_dialogue as xavi
+from tests.chat.test_client_example import started
+
+pytestmark = pytest.mark.slow
+
+WHERE = "Where are you going?"
+
+
+@pytest.fixture(scope="module")
+def hub() -> Iterator[str]:
+    """The endpoint of a service with a car that has driven a while."""
+    with socket.socket() as trial:
+        trial.bind(("127.0.0.1", 0))
+        endpoint = f"tcp/127.0.0.1:{trial.getsockname()[1]}"
+    with ExitStack() as stack:
+        service = started(stack, "serve", "--listen", endpoint, "--keep-days", "0")
+        assert service.stderr is not None
+        assert f"serving at {endpoint}" in service.stderr.readline()
+        started(stack, "drive", "--connect", endpoint, "--speed", "0.5")
+        with xavi.connect(endpoint, patience=120.0) as car:
+            met = car._client.wait_for(lambda scene: scene.sim_time > 7.0, lambda: None, 120.0)
+            assert met is not None
+        yield endpoint
+
+
+def test_a_program_that_waits(hub: str) -> None:
+    with xavi.connect(hub) as car:
+        assert car.now is not None
+        assert car.now > 7.0
+        answer = car.ask("Why did you change left?")
+        assert answer.text.startswith("I moved to the left lane, because")
+        assert answer.decision is not None
+        assert answer.decision.time == 3.0
+        assert answer.decision.plan[0] == "change-left"
+        assert answer.ghost is not None
+        assert answer.map is not None
+        follow_up = car.ask("and if it had not been there?")
+        assert follow_up.text == "Without the blue car, I would have stayed in my lane instead."
+        assert car.answers == (answer, follow_up)
+        session = car.session
+    with xavi.connect(hub, session=session) as again:  # the conversation goes on
+        assert again.ask("what did I ask first?").kind != "refusal"
+    with pytest.raises(xavi.XaviError):
+        car.ask(WHERE)
+
+
+def test_a_program_that_does_not_wait(hub: str) -> None:
+    async def program() -> list[xavi.Answer]:
+        async with await xavi.connect_async(hub) as car:
+            first = await car.ask_async("Why did you change left?")
+            taken_back = asyncio.create_task(car.ask_async(WHERE))
+            await asyncio.sleep(0)
+            taken_back.cancel()
+            with pytest.raises(asyncio.CancelledError):
+                await taken_back
+            return [first, *await asyncio.gather(car.ask_async(WHERE, 5.0))]
+
+    first, second = asyncio.run(program())
+    assert first.text.startswith("I moved to the left lane, because")
+    assert (second.kind, second.at) == ("answer", 5.0)
+
+
+def test_where_there_is_no_hub_or_car(hub: str) -> None:
+    with pytest.raises(xavi.XaviError, match="'nobody'"):
+        xavi.connect(hub, vehicle="nobody", patience=1.0)
+    with pytest.raises(xavi.XaviError):
+        xavi.connect("tcp/127.0.0.1:1", patience=1.0)
