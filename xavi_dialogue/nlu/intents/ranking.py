@@ -16,7 +16,8 @@ from xavi_dialogue.domain.meaning import (
     Reading,
     TokenShare,
 )
-from xavi_dialogue.domain.terms import Both
+from xavi_dialogue.domain.rewriting import first
+from xavi_dialogue.domain.terms import Both, Feature
 from xavi_dialogue.nlu.grounding.doubts import SMALL
 from xavi_dialogue.nlu.intents.classifier import Intent, judge
 from xavi_dialogue.nlu.intents.features import asking, features
@@ -37,7 +38,7 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
     best = readings[0]
     asked = asking(text, best.shares)
     incomplete = _is_incomplete(best, asked)
-    clear = not incomplete and _cost(best) <= CLEAR * len(best.acts)
+    clear = not incomplete and (_cost(best) <= CLEAR * len(best.acts) or _of_light(best))
     if clear or _of_several(best) or any(share.strange for share in asked):
         return tuple(readings)
     thing = mentioned(best)
@@ -66,6 +67,12 @@ def _is_incomplete(best: Reading, asked: Sequence[TokenShare]) -> bool:
 def _cost(best: Reading) -> float:
     """Give what a reading costs without what is told beside and was not read."""
     return best.cost - sum(unread_cost(len(one.words)) for one in best.unread if not one.asks)
+
+
+def _of_light(best: Reading) -> bool:
+    """Tell whether a reading is of a traffic light, of which no plain question is."""
+    light = first(best.acts, Feature)
+    return light is not None and light.kind == "light"
 
 
 def _of_several(best: Reading) -> bool:

@@ -113,6 +113,8 @@ def _topic_only(act: Act) -> bool:
 
 def _topic(act: Act) -> Thing | None:
     match act:
+        case Elliptic(thing=Feature(kind="light") as light, event=None, form="same", negated=False):
+            return light
         case Elliptic(thing=Vehicle() | Described() as thing, event=None, time=Unsaid(),
                       negated=False, form="same", besides=False):  # fmt: skip
             return structs.replace(thing, definite=True) if isinstance(thing, Described) else thing

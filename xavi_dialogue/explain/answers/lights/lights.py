@@ -76,6 +76,11 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
             return _asked(lights_ahead.how_sure)
         case When(of) if lights_ahead.is_to_come(of, scene):
             return _asked(lights_ahead.when)
+        case HowLong(of) if lights_ahead.is_to_come(of, scene):
+            return _asked(lights_ahead.staying)
+        case HowMuch(Measured("duration", Feature(kind="light"), tense=tense)):
+            past = tense in ("past", "perfect")
+            return _asked(lights_seen.how_long if past else lights_ahead.staying)
         case HowKnow(of) if of is not None and lights_ahead.is_change(of):
             return _asked(lights_ahead.how_known)
         case WhatIf(supposed, then) if lights_turn.goes_now(supposed, then, scene):

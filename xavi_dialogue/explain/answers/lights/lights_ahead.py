@@ -8,8 +8,8 @@ from typing import Any
 
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer
-from xavi_dialogue.domain.meaning import HowKnow, HowSure, When, Whether
-from xavi_dialogue.domain.terms import Believed, Feature, Happens, Has, Proposition
+from xavi_dialogue.domain.meaning import HowKnow, HowLong, HowMuch, HowSure, When, Whether
+from xavi_dialogue.domain.terms import Believed, Feature, Happens, Has, Measured, Proposition
 from xavi_dialogue.domain.traffic_lights import COLOURS, LightColour, LightForeseen, LightTold
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.reading import unwrapped
@@ -66,6 +66,16 @@ def is_change(of: Proposition | None) -> bool:
 def when(question: When, scene: Asked) -> Answer:
     """Return when a light is expected to change."""
     return _forecast(question.of, scene, "when")
+
+
+def staying(question: HowLong | HowMuch, scene: Asked) -> Answer:
+    """Return how long a light is expected to show what it shows: when it changes next."""
+    of = question.of
+    that: Any = Has("colour", None, of.thing) if isinstance(of, Measured) else of
+    light, wanted = wanted_of(that)
+    one = shown_at(scene.ride, light, scene.now)
+    stays = one is not None and wanted == one.colour
+    return _forecast(Has("colour", None, light) if stays else that, scene, "when")
 
 
 def coming(question: Whether, scene: Asked) -> Answer:

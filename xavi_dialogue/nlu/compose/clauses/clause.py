@@ -119,6 +119,8 @@ class Clause:
             return "past" if "have-past" in self.aux else "perfect"
         if not {"do-past", "be-past", "semi-past"}.isdisjoint(self.aux):
             return "past"
+        if {"be-present", "be-been"} <= set(self.aux):
+            return "perfect"  # "how long's it been red"
         form = self.verb.form if self.verb is not None else ""
         if self.verb is not None and self.verb.key in _UNCHANGED and form == "base":
             return "past" if self.subject is not None and not self.aux else "present"

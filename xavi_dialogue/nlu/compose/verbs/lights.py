@@ -34,10 +34,12 @@ _OURS: Final = (Ego, Passenger, Wanted)
 
 
 def colour_of(sem: object) -> str | None:
-    """Tell the colour of a noun phrase that is a colour of lights and nothing else."""
+    """Tell the colour of a noun phrase that is a colour of lights: "on red", "on red here"."""
     if not isinstance(sem, Described) or sem.colour not in LIT:
         return None
-    return sem.colour if sem == Described(colour=sem.colour, definite=sem.definite) else None
+    here = "here" if sem.bearing == "here" else None
+    plain = Described(colour=sem.colour, definite=sem.definite, bearing=here)
+    return sem.colour if sem == plain else None
 
 
 def on_light(key: str, sem: Sem | None, leaves: Iterable[Leaf]) -> Sem | None:

@@ -163,7 +163,10 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
         return HowMuch(Measured("time-to-go"))  # "how long is left"
     if isinstance(subject, Event):
         return HowLong(subject)
-    if isinstance(value, _STATES) and (isinstance(actor, Ego) or clause.tense != "present"):
+    if isinstance(value, Special) and value.name == "stay-colour":
+        return HowLong(proposition_of(value))
+    lasts = isinstance(actor, Ego) or clause.tense != "present"
+    if isinstance(value, _STATES) and (lasts or getattr(value, "attribute", None) == "colour"):
         return HowLong(value)
     if isinstance(subject, Noun) and subject.quality == "waiting":
         return Peak("waiting", clause.time)  # "how long was the longest stop?"

@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Act, Doing, Identify, Where
+from xavi_dialogue.domain.meaning import Act, Doing, HowLong, Identify, Where
 from xavi_dialogue.domain.rewriting import rewrite
 from xavi_dialogue.domain.terms import (
     Described,
@@ -39,7 +39,7 @@ GOING: Final = frozenset[ActionName](
 CROSSING: Final = frozenset[ActionName](("cross", "pass", "enter"))
 AT: Final = frozenset(("near", "on", "ahead-of", "to", "with"))
 _OPEN: Final = frozenset(("it", "that", "this", "one"))
-_MEASURED: Final = frozenset(("distance", "place", "colour", "kind"))
+_MEASURED: Final = frozenset(("distance", "place", "colour", "kind", "duration"))
 NONE_SEEN: Final = 0.5  # cost of speaking of a light where none has been seen
 NOBODY: Final = 0.2  # salience below which no vehicle is spoken of
 
@@ -62,6 +62,10 @@ def _meant(part: Any, g: Grounder) -> Any:
             action in SHOWING and anchor.tense in ("present", "future")
         ):  # "what happens when it turns green?"
             return Doing(Ego(), rewrite(part.time, lambda inner: _meant(inner, g)), "future")
+        case HowLong(of=Event(action=action, actor=Pronoun() | Feature() as thing, object=None)) if (
+            action in HELD and (light := _light(_spoken(thing, g))) is not None
+        ):  # "how long will it stay like that?"
+            return HowLong(Happens(replace(part.of, action="show", actor=light)))
         case Where(of=Pronoun() as thing):
             return replace(part, of=_spoken(thing, g))
         case Identify(thing=thing) | Exists(thing=thing):
