@@ -10,6 +10,7 @@ from xavi_dialogue.domain.vocabulary import ActionName, Attribute, Extreme, Rela
 from xavi_dialogue.explain.facts import beliefs, looks, plans, relations
 from xavi_dialogue.explain.facts.actions import covered, mirrored, somebody
 from xavi_dialogue.explain.facts.episodes import happening
+from xavi_dialogue.explain.facts.episodes.crossing import crossing
 from xavi_dialogue.explain.facts.episodes.light_events import light_episodes
 from xavi_dialogue.explain.facts.measures import extremes, measuring
 from xavi_dialogue.explain.facts.states import states_of
@@ -46,6 +47,10 @@ class World:
     def in_view(self, t: float) -> tuple[int, ...]:
         """Return the vehicles in view at a time, in order of their numbers."""
         return self.states.memo(("view", t), lambda: self.states.in_view(t))
+
+    def crossing(self, t: float) -> tuple[int, ...]:
+        """Return who crosses our way at a time, crossed it lately or is about to."""
+        return self.states.memo(("crossing", t), lambda: crossing(self.states, t))
 
     def look(self, vehicle: int, t: float) -> Look | None:
         """Return a vehicle as it is seen at a time, or was seen last; None if it never was."""

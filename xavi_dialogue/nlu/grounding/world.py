@@ -24,6 +24,9 @@ class World(Protocol):
     def in_view(self, t: float) -> tuple[int, ...]:
         """List the vehicles that are seen at a time."""
 
+    def crossing(self, t: float) -> tuple[int, ...]:
+        """List who crosses our way at a time, crossed it lately or is about to."""
+
     def look(self, vehicle: int, t: float) -> Look | None:
         """Describe a vehicle as it is seen at a time, or was seen last; None: never until then."""
 

@@ -34,6 +34,7 @@ from xavi_dialogue.nlu.grounding.events.afoot import afoot
 from xavi_dialogue.nlu.grounding.events.fitting import (
     JUST,
     LASTING,
+    LATELY,
     ONGOING,
     acting,
     done,
@@ -224,6 +225,7 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
     granted = mode == "presupposed"
     if not window.said and window.term != Unsaid() and _is_present(window):
         late = g.context.holds(found, *searched(g, window))
+        late = _going_on(found, g) if late and _is_over(late[-1], g) else late
         if late and granted:
             return _at(found, late[-1], g, window, inner)
     if not inner:
@@ -241,6 +243,17 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
         return replace(found, time=window.term)
     g.notes.cost += NEARLY
     return _at(found, _pick(near, window, g), g, window, inner)
+
+
+def _is_over(episode: Episode, g: Grounder) -> bool:
+    return episode.end is not None and episode.end < g.context.now - JUST
+
+
+def _going_on(found: Event, g: Grounder) -> tuple[Episode, ...]:
+    """Return what goes on now and may be meant by an event; else that event, which is over."""
+    now = g.context.now
+    near = like(g.context, found, now - JUST, now) if found.tense == "present" else ()
+    return near or g.context.holds(found, now - LATELY, now)
 
 
 def _is_next(found: Event, g: Grounder) -> bool:

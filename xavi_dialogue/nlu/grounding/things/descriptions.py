@@ -183,7 +183,8 @@ def _every(search: Search) -> bool:
 
 def _pools(search: Search) -> Iterator[tuple[float, tuple[int, ...]]]:
     context, moment = search.grounder.context, search.moment
-    yield STAGES[0], context.in_view(moment)
+    met = scene.on_foot(context, moment) if _walks(search.described) else ()
+    yield STAGES[0], (*context.in_view(moment), *met)
     if moment < context.now - 0.5:
         yield STAGES[1], context.in_view(context.now)
     if not search.described.definite and search.present_only:
@@ -238,6 +239,7 @@ def _resolved(search: Search, good: list[Match]) -> Thing:
     others = [m for m in good if m.vehicle not in _spoken_of(search)] if thing.other else good
     if not others:
         return Nobody(described=thing) if not thing.definite else _missing(search, None)
+    others = _crossing(search, others) or others
     ranked = thing.rank is not None or thing.extreme is not None
     if thing.plural or ((thing.number or 1) > 1 and not ranked):
         chosen = several(g.context, thing, others, search.moment)
@@ -249,6 +251,21 @@ def _resolved(search: Search, good: list[Match]) -> Thing:
     if len(options) > 1 and thing.definite:
         g.notes.unclear.append(Unclear(thing, options, search.moment))
     return Vehicle(options[0])
+
+
+def _crossing(search: Search, good: list[Match]) -> list[Match]:
+    """Keep those who cross our way where people are spoken of, and not what they do."""
+    thing = search.described
+    told = thing.doing, thing.such, thing.of, thing.origin, thing.rank, thing.extreme
+    if not _walks(thing) or any(part is not None for part in told):
+        return []
+    met = scene.on_foot(search.grounder.context, search.moment)
+    least = min(m.cost for m in good) + GOOD
+    return [m for m in good if m.vehicle in met and m.cost <= least]
+
+
+def _walks(thing: Described) -> bool:
+    return thing.definite and thing.kind in scene.ON_FOOT
 
 
 def _spoken_of(search: Search) -> tuple[int, ...]:

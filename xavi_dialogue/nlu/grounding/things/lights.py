@@ -62,7 +62,9 @@ def _meant(part: Any, g: Grounder) -> Any:
             action in SHOWING and anchor.tense in ("present", "future")
         ):  # "what happens when it turns green?"
             return Doing(Ego(), rewrite(part.time, lambda inner: _meant(inner, g)), "future")
-        case HowLong(of=Event(action=action, actor=Pronoun() | Feature() as thing, object=None)) if (
+        case HowLong(
+            of=Event(action=action, actor=Pronoun() | Feature() as thing, object=None)
+        ) if (
             action in HELD and (light := _light(_spoken(thing, g))) is not None
         ):  # "how long will it stay like that?"
             return HowLong(Happens(replace(part.of, action="show", actor=light)))

@@ -9,7 +9,7 @@ from xavi_dialogue.domain.terms import Everyone, Pronoun, Thing, Vehicle, Vehicl
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Unclear, Window
 from xavi_dialogue.nlu.grounding.salience import group, vehicles_of
 from xavi_dialogue.nlu.grounding.things.descriptions import MISSING
-from xavi_dialogue.nlu.grounding.things.scene import interacting, most_prominent
+from xavi_dialogue.nlu.grounding.things.scene import interacting, most_prominent, on_foot
 
 CLEAR: Final = 0.3  # salience from which a vehicle may be one of "both"
 PAIR: Final = 2
@@ -24,8 +24,9 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
     """Resolve a pronoun that stands for vehicles."""
     mentions = g.context.discourse.mentions
     together = group(mentions)
+    met = on_foot(g.context, g.context.now if window.ahead else min(window.end, g.context.now))
     if thing.form == "them-all":
-        spoken = together or _spoken(g)
+        spoken = together or _spoken(g) or met
         seen = g.context.world.in_view(min(window.end, g.context.now))
         if len(spoken) < PAIR <= len(seen) <= PAIR:  # "have you seen both?"
             spoken = seen
@@ -36,6 +37,8 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
     weighed = _weighed(g, fits, moment)
     if weighed:
         return _salient(thing, g, weighed, moment)
+    if thing.form == "they" and len(met) > 1:
+        return Vehicles(met)
     found = interacting(g.context, moment, fits)
     if found is None:
         found = interacting(g.context, g.context.now, fits)

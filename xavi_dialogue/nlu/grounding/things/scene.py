@@ -13,6 +13,7 @@ LATELY: Final = 8.0  # [s] in which an episode still makes a vehicle stand out
 LEADER: Final = 70.0  # [m] up to which somebody ahead of us is our leader
 APPROACH_TIME: Final = 1.0  # [s] over which it is judged whether somebody comes nearer
 MENTIONED: Final = 0.3  # salience from which somebody stands out by it
+ON_FOOT: Final = ("pedestrian", "wheelchair")
 #: What two vehicles do that interact.
 INTERACTING: Final = frozenset(
     (
@@ -21,6 +22,13 @@ INTERACTING: Final = frozenset(
         *("nearly-collide", "approach", "merge", "cross", "stand"),
     )
 )
+
+
+def on_foot(context: Context, moment: float) -> tuple[int, ...]:
+    """List the people who cross our way at a time, crossed it lately or are about to."""
+    met = context.world.crossing(moment) or context.world.crossing(context.now)
+    looks = (context.look(vehicle, moment) for vehicle in met)
+    return tuple(look.vehicle for look in looks if look is not None and look.kind in ON_FOOT)
 
 
 def interacting(context: Context, moment: float, fits: Fits | None = None) -> int | None:
