@@ -57,10 +57,14 @@ class FakeWorld:
     now: float = 20.0
     begin: float = 0.0
     facts: RoadFacts | None = None
+    across: tuple[int, ...] = ()  # who cross our way
 
     @property
     def vehicles(self) -> tuple[int, ...]:
         return tuple(n for n, car in sorted(self.cars.items()) if car.seen[0] <= self.now)
+
+    def crossing(self, t: float) -> tuple[int, ...]:
+        return tuple(n for n in self.in_view(t) if n in self.across)
 
     def in_view(self, t: float) -> tuple[int, ...]:
         return tuple(n for n, c in sorted(self.cars.items()) if c.seen[0] <= t <= c.seen[1])

@@ -48,7 +48,7 @@ from xavi_dialogue.nlu.compose.clauses.senses import LEFT_OTHER, Match
 from xavi_dialogue.nlu.compose.clauses.tree import is_negated, words_of
 from xavi_dialogue.nlu.grammar.chart import Node
 
-_CROSSINGS = frozenset({"crossing", "crosswalk", "zebra"})
+CROSSINGS = frozenset({"crossing", "crosswalk", "zebra"})
 _OF = frozenset({"for", "of", "about", "into", "over", "with", "from", "between", "on", "in"})
 _COMPARED = {"fast": ("speed", "more"), "slow": ("speed", "less"), "close": ("distance", "less"),
              "far": ("distance", "more")}  # fmt: skip
@@ -108,6 +108,8 @@ def placed_on(thing: Described, phrase: Complement, place: Thing) -> Described:
     """
     if isinstance(place, Described) and thing.kind == "vehicle" and phrase.key in ("on", "in"):
         return structs.replace(thing, **ridden(thing, place))
+    if phrase.key == "at" and thing.kind == "pedestrian" and isinstance(place, Junction | Feature):
+        return thing  # "the lady at the crossing": whoever is there
     if is_crossing(phrase, place) and thing.doing is None:
         return structs.replace(thing, doing=Event("cross", Wanted(), Ego(), tense="present"))
     return structs.replace(thing, such=Related("on", Wanted(), place))
@@ -125,7 +127,7 @@ _OF_RIDDEN = ("colour", "size", "bearing", "origin", "of", "doing")
 def is_crossing(phrase: Complement, place: Thing) -> bool:
     """Check whether a phrase is "on the crossing", where people cross the road."""
     named = place in (Junction(), Feature("crossing")) and phrase.key == "on"
-    return named and words_of(phrase.node).split()[-1] in _CROSSINGS
+    return named and words_of(phrase.node).split()[-1] in CROSSINGS
 
 
 def also_named(first: Sem, second: Sem) -> Sem:

@@ -18,7 +18,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.clauses.adoption import also_named
+from xavi_dialogue.nlu.compose.clauses.adoption import CROSSINGS, also_named
 from xavi_dialogue.nlu.compose.clauses.followers import Followers, doing
 from xavi_dialogue.nlu.compose.clauses.sem import (
     NONE_OF_THEM,
@@ -297,7 +297,9 @@ def _at_place(where: Sem, core: Node, traits: Traits) -> Sem:
         return where
     if isinstance(where, SideOf) and where.side in ("left", "right"):
         traits.fields.setdefault("bearing", where.side)
-    return described("vehicle", traits, plural=words_of(core).endswith("people"))
+    last = words_of(core).split()[-1]
+    walks = last in CROSSINGS or "person" in words_of(core).split()  # "the lady at the crossing"
+    return described("pedestrian" if walks else "vehicle", traits, plural=last == "people")
 
 
 def _is_reason(core: Node) -> bool:

@@ -10,6 +10,7 @@ from typing import Final
 
 from msgspec.structs import replace
 
+from planner.record.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import NoSuchVehicle
 from xavi_dialogue.domain.facts import Episode, Look
@@ -265,7 +266,7 @@ def _crossing(search: Search, good: list[Match]) -> list[Match]:
 
 
 def _walks(thing: Described) -> bool:
-    return thing.definite and thing.kind in scene.ON_FOOT
+    return thing.definite and thing.kind in ON_FOOT
 
 
 def _spoken_of(search: Search) -> tuple[int, ...]:

@@ -24,20 +24,19 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
     """Resolve a pronoun that stands for vehicles."""
     mentions = g.context.discourse.mentions
     together = group(mentions)
-    met = on_foot(g.context, g.context.now if window.ahead else min(window.end, g.context.now))
+    moment = g.context.now if window.ahead else min(window.end, g.context.now)
     if thing.form == "them-all":
-        spoken = together or _spoken(g) or met
+        spoken = together or _spoken(g) or on_foot(g.context, moment)
         seen = g.context.world.in_view(min(window.end, g.context.now))
         if len(spoken) < PAIR <= len(seen) <= PAIR:  # "have you seen both?"
             spoken = seen
         return Vehicles(spoken) if len(spoken) > 1 else Everyone()
     if thing.form == "they" and together and _group_leads(g):
         return Vehicles(together)
-    moment = g.context.now if window.ahead else min(window.end, g.context.now)
     weighed = _weighed(g, fits, moment)
     if weighed:
         return _salient(thing, g, weighed, moment)
-    if thing.form == "they" and len(met) > 1:
+    if thing.form == "they" and len(met := on_foot(g.context, moment)) > 1:
         return Vehicles(met)
     found = interacting(g.context, moment, fits)
     if found is None:

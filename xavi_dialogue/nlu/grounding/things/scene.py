@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator
 from typing import Final
 
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.nlu.grounding.context import Context, Fits
@@ -13,7 +14,6 @@ LATELY: Final = 8.0  # [s] in which an episode still makes a vehicle stand out
 LEADER: Final = 70.0  # [m] up to which somebody ahead of us is our leader
 APPROACH_TIME: Final = 1.0  # [s] over which it is judged whether somebody comes nearer
 MENTIONED: Final = 0.3  # salience from which somebody stands out by it
-ON_FOOT: Final = ("pedestrian", "wheelchair")
 #: What two vehicles do that interact.
 INTERACTING: Final = frozenset(
     (
