@@ -278,3 +278,16 @@ def test_any_other_clause_may_tell_a_vehicle() -> None:
     hidden = Described(such=Not(Is("visible", Wanted())), plural=True, definite=False)
     found = question_of(asked(HowMany(hidden), world))
     assert found.of == Vehicle(3)  # type: ignore[union-attr]
+
+
+def test_people_who_cross_are_meant_rather_than_the_nearest() -> None:
+    walkers = {
+        1: Car(3.0, -3.0, "pedestrian", None),
+        2: Car(15.0, 1.0, "pedestrian", None),
+        3: Car(16.0, -1.0, "pedestrian", None),
+        4: Car(10.0, 0.0, "truck", "brown"),
+    }
+    several = Described("pedestrian", plural=True)
+    assert meant(several, FakeWorld(walkers, across=(2, 3, 4))) == Vehicles((2, 3))
+    assert meant(Described("pedestrian"), FakeWorld(walkers, across=(2,))) == Vehicle(2)
+    assert meant(Described("pedestrian", bearing="right"), FakeWorld(walkers)) == Vehicle(1)

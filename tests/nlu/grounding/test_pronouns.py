@@ -12,6 +12,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Measured,
+    Now,
     Pronoun,
     Related,
     Thing,
@@ -42,6 +43,20 @@ def test_they_may_be_several_or_one() -> None:
     assert meant("they", discourse=talk(Vehicle(3))) == Vehicle(3)
     assert meant("them-all", discourse=talk(Vehicles((1, 2)))) == Vehicles((1, 2))
     assert meant("them-all") == Everyone()
+
+
+def test_without_mentions_they_are_the_people_who_cross() -> None:
+    walkers = {n: Car(10.0 + n, 0.0, "pedestrian", None) for n in (1, 2)}
+    crossing = FakeWorld({3: Car(8.0), **walkers}, across=(1, 2))
+    found = question_of(asked(Identify(Pronoun("they")), crossing))
+    assert found == Identify(Vehicles((1, 2)))
+
+
+def test_what_goes_on_is_meant_rather_than_what_is_over() -> None:
+    told = (did("stop", 10.0, 15.0), did("brake", 18.0, None, going_on=True))
+    world = FakeWorld({1: Car(20.0)}, told)
+    found = question_of(asked(Why(Happens(Event("stop", Ego(), tense="present"))), world))
+    assert found.of.event.time == Now()  # type: ignore[union-attr]
 
 
 def test_who_did_what_is_said_is_meant() -> None:

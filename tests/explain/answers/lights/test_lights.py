@@ -107,6 +107,8 @@ def test_when_it_will_change_is_a_belief():
     assert (found.foreseen.low, found.foreseen.middle, found.foreseen.high) == (26.0, 32.0, None)
     sure = answer(Ask(HowSure(future)), 20.0)
     assert sure.foreseen.chance == pytest.approx(0.7)
+    stays = answer(Ask(HowLong(is_lit("red", "future"))), 20.0)
+    assert (stays.foreseen.to, stays.foreseen.middle) == ("green", 32.0)
     known = answer(Ask(HowKnow(future)), 20.0)
     assert isinstance(known, LightForeseen)
 
