@@ -3,12 +3,13 @@
 from collections.abc import Sequence
 from typing import Final
 
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.facts import Look
 from xavi_dialogue.domain.terms import Described, Thing, Vehicle, Vehicles
 from xavi_dialogue.nlu.grounding.context import Context
 from xavi_dialogue.nlu.grounding.salience import group, vehicles_of
 from xavi_dialogue.nlu.grounding.things.match import Match
-from xavi_dialogue.nlu.grounding.things.scene import MENTIONED, interacting, most_prominent
+from xavi_dialogue.nlu.grounding.things.scene import MENTIONED, interacting, most_prominent, on_foot
 
 TIE: Final = 0.15  # difference of cost that decides nothing
 LATER: Final = 3.0  # [s] by which what was done last is meant
@@ -64,6 +65,22 @@ def choose(
     if all(m.deed is not None for m in tied):  # it is true of each of them
         return (max(tied, key=lambda m: (m.deed.begin if m.deed else 0.0, -m.vehicle)).vehicle,)
     return _prominent(context, wanted, tied, moment)
+
+
+def walks(thing: Described) -> bool:
+    """Tell whether people on foot are spoken of as known."""
+    return thing.definite and thing.kind in ON_FOOT
+
+
+def crossing(
+    context: Context, thing: Described, good: Sequence[Match], moment: float
+) -> list[Match]:
+    """Keep those who cross our way where people are spoken of, and not what they do."""
+    told = thing.doing, thing.such, thing.of, thing.origin, thing.rank, thing.extreme
+    if not walks(thing) or any(part is not None for part in told):
+        return []
+    met, least = on_foot(context, moment), min(m.cost for m in good) + 2.0 * TIE
+    return [m for m in good if m.vehicle in met and m.cost <= least]
 
 
 def just_named(context: Context, thing: Described, good: Sequence[Match]) -> list[Match]:

@@ -10,14 +10,12 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from planner.record.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import NoSuchVehicle
 from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.terms import Described, Ego, Nobody, Thing, Vehicle, Vehicles
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Unclear, Window
-from xavi_dialogue.nlu.grounding.things import looks, scene
-from xavi_dialogue.nlu.grounding.things.choosing import choose, just_named, several
+from xavi_dialogue.nlu.grounding.things import choosing, looks, scene
 from xavi_dialogue.nlu.grounding.things.match import Match
 from xavi_dialogue.nlu.grounding.things.passing import goes_past, passing_cost, placed
 from xavi_dialogue.nlu.grounding.things.relative import Clause, clause_of
@@ -184,7 +182,7 @@ def _every(search: Search) -> bool:
 
 def _pools(search: Search) -> Iterator[tuple[float, tuple[int, ...]]]:
     context, moment = search.grounder.context, search.moment
-    met = scene.on_foot(context, moment) if _walks(search.described) else ()
+    met = scene.on_foot(context, moment) if choosing.walks(search.described) else ()
     yield STAGES[0], (*context.in_view(moment), *met)
     if moment < context.now - 0.5:
         yield STAGES[1], context.in_view(context.now)
@@ -240,33 +238,18 @@ def _resolved(search: Search, good: list[Match]) -> Thing:
     others = [m for m in good if m.vehicle not in _spoken_of(search)] if thing.other else good
     if not others:
         return Nobody(described=thing) if not thing.definite else _missing(search, None)
-    others = _crossing(search, others) or others
+    others = choosing.crossing(g.context, thing, others, search.moment) or others
     ranked = thing.rank is not None or thing.extreme is not None
     if thing.plural or ((thing.number or 1) > 1 and not ranked):
-        chosen = several(g.context, thing, others, search.moment)
+        chosen = choosing.several(g.context, thing, others, search.moment)
         return Vehicle(chosen[0]) if len(chosen) == 1 else Vehicles(chosen)
-    others = just_named(g.context, thing, others) or others
-    options = choose(g.context, thing, others, search.moment, search.reference)
+    others = choosing.just_named(g.context, thing, others) or others
+    options = choosing.choose(g.context, thing, others, search.moment, search.reference)
     chosen_match = next(m for m in others if m.vehicle == options[0])
     g.notes.cost += chosen_match.cost
     if len(options) > 1 and thing.definite:
         g.notes.unclear.append(Unclear(thing, options, search.moment))
     return Vehicle(options[0])
-
-
-def _crossing(search: Search, good: list[Match]) -> list[Match]:
-    """Keep those who cross our way where people are spoken of, and not what they do."""
-    thing = search.described
-    told = thing.doing, thing.such, thing.of, thing.origin, thing.rank, thing.extreme
-    if not _walks(thing) or any(part is not None for part in told):
-        return []
-    met = scene.on_foot(search.grounder.context, search.moment)
-    least = min(m.cost for m in good) + GOOD
-    return [m for m in good if m.vehicle in met and m.cost <= least]
-
-
-def _walks(thing: Described) -> bool:
-    return thing.definite and thing.kind in ON_FOOT
 
 
 def _spoken_of(search: Search) -> tuple[int, ...]:
