@@ -8,7 +8,7 @@ from typing import TypeAlias
 from xavi_dialogue.bus.messages import MAX_TEXT, SceneReport
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.chat.backend import Backend
-from xavi_dialogue.chat.client import Client, ServiceLost
+from xavi_dialogue.chat.client import Client, ServiceLost, new_request
 from xavi_dialogue.chat.controller import plan_told, vehicles_in_words
 from xavi_dialogue.chat.history import SessionHistory
 from xavi_dialogue.dialogue.reply import Reply, encode
@@ -91,12 +91,13 @@ class BatchChat:
 
     def _reply(self, text: str) -> Reply:
         at = self.backend.now(self.client) if self.at is None else self.at
+        request = new_request()  # the same again: it may have been answered and stored already
         try:
-            return self.client.ask(text, at)
+            return self.client.ask(text, at, request=request)
         except ServiceLost:
             if not self.backend.recover(self.client):
                 raise
-        return self.client.ask(text, at)
+        return self.client.ask(text, at, request=request)
 
     def _obey(self, command: Command) -> bool:
         match command.name:

@@ -127,14 +127,20 @@ class Client:
 
         self._bus.request(key, pack(asked), DEADLINE + GRACE, settle)
 
-    def ask(self, text: str, at: float | None = None, style: Style = "passenger") -> Reply:
-        """Ask and wait for the reply.
+    def ask(
+        self,
+        text: str,
+        at: float | None = None,
+        style: Style = "passenger",
+        request: str | None = None,
+    ) -> Reply:
+        """Ask and wait for the reply; a request of the same name is answered once.
 
         Raises:
             ServiceLost: there is no reply.
         """
         replies: system.Queue[Reply | ServiceLost] = system.new_queue()
-        self.send(text, replies.put, at=at, style=style)
+        self.send(text, replies.put, at=at, style=style, request=request)
         reply = replies.get()
         if isinstance(reply, ServiceLost):
             raise reply
