@@ -3,7 +3,7 @@
 import queue
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cache, partial
 
 import msgspec
 
@@ -132,11 +132,17 @@ def serve(bus: Bus, keys: Keys, planning: CallHandler, alive: HealthReporter | N
         alive: reports the health of the car.
     """
     bus.serve(keys.of("@rpc/whatif"), planning)
-    for name, kind in {**TOLD, "plan_trace": PlanTrace}.items():
-        schema = schema_of(kind, plan_trace.SCHEMA if kind is PlanTrace else None)
-        document = msgspec.json.encode(schema)
+    for name, document in _schemas().items():
         bus.serve(keys.of(f"@schema/{name}"), partial(_reply_with, document))
     (HealthReporter("car", COUNTERS) if alive is None else alive).serve(bus, keys)
+
+
+@cache
+def _schemas() -> dict[str, bytes]:
+    """Return the schemas of what a car sends, by name."""
+    found = {name: schema_of(kind) for name, kind in TOLD.items()}
+    found["plan_trace"] = schema_of(PlanTrace, plan_trace.SCHEMA)
+    return {name: msgspec.json.encode(schema) for name, schema in found.items()}
 
 
 def _reply_with(document: bytes, call: Call) -> None:
