@@ -9,7 +9,6 @@ time [s since 1970]; requests carry a name and a deadline instead.
     └── Malformed      not JSON, or a field is missing or wrong
 """
 
-from functools import cache
 from typing import Annotated, ClassVar, Literal, TypeAlias, TypeVar
 
 import msgspec
@@ -301,11 +300,15 @@ AnyMessage: TypeAlias = Message | AskReply
 M = TypeVar("M", bound=AnyMessage)
 
 
-@cache  # it is wanted for every message, and reading a class takes as long as a small message
+_SCHEMAS: dict[type, str] = {}  # it is wanted for every message, and reading a class takes long
+
+
 def schema_name(kind: type[msgspec.Struct]) -> str:
     """Return the field `schema` of a message, such as `xavi.ask/1`."""
-    fields = {field.name: field.default for field in msgspec.structs.fields(kind)}
-    return str(fields["schema"])
+    if kind not in _SCHEMAS:
+        fields = {field.name: field.default for field in msgspec.structs.fields(kind)}
+        _SCHEMAS[kind] = str(fields["schema"])
+    return _SCHEMAS[kind]
 
 
 class _Label(msgspec.Struct):

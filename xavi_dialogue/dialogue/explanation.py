@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable
+from functools import cache
 from typing import get_args
 
 import msgspec
@@ -109,9 +110,40 @@ def explanation_of(results: Iterable[Result]) -> dict[str, object] | None:
 
 
 def as_json(value: msgspec.Struct) -> dict[str, object]:
-    """Return a value as a JSON object, from which the value can be decoded again."""
-    found: dict[str, object] = msgspec.json.decode(msgspec.json.encode(value))
+    """Return a value as a JSON object, from which the value can be decoded again.
+
+    Equal values give equal objects. When msgspec encodes, it leaves out a default only if it is
+    the same object, which the same value is not once it was stored and read again.
+    """
+    found = _canonical(value)
+    assert isinstance(found, dict)
     return found
+
+
+def _canonical(value: object) -> object:
+    """Return a value as JSON, without the fields that equal their defaults."""
+    match value:
+        case msgspec.Struct():
+            config = value.__struct_config__
+            held = {} if config.tag is None else {str(config.tag_field): config.tag}
+            for name, default in _defaults(type(value)):
+                inner = getattr(value, name)
+                same = type(inner) is type(default) and inner == default
+                if not (config.omit_defaults and same):
+                    held[name] = _canonical(inner)  # type: ignore[assignment]
+            return held
+        case tuple() | list():
+            return [_canonical(one) for one in value]
+        case dict():
+            return {str(name): _canonical(one) for name, one in value.items()}
+    return msgspec.to_builtins(value)
+
+
+@cache
+def _defaults(kind: type[msgspec.Struct]) -> tuple[tuple[str, object], ...]:
+    """Return the fields of a struct with their defaults."""
+    found = msgspec.structs.fields(kind)
+    return tuple((one.name, one.default) for one in found)
 
 
 def kind_of(result: Result) -> str:
