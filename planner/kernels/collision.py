@@ -11,6 +11,7 @@ Floats = NDArray[np.float64]
 
 SAFE_CUT_IN = 1.5  # [s] to collision with a follower, below which a lane change hits it
 BERTH = 1.0  # [m] kept free before and behind a lane change, as predictions are inexact
+ALIKE = 0.7  # least cosine of the angle between the headings of a vehicle and its follower
 
 _jit = njit(cache=True, error_model="numpy")
 
@@ -68,7 +69,7 @@ def first_hit(
             if k == 0 and berth > 0.0 and _meets(own[k], size, other, sizes[m], berth):
                 berth = 0.0
             if _meets(own[k], size, other, sizes[m], berth):
-                if careless or not _in_front(own[k], other) < -1.0:
+                if careless or not _follows(own[k], other):
                     found, whom = k, m
                 break
         else:
@@ -88,6 +89,12 @@ def _meets(own: Floats, size: Any, other: Floats, other_size: Any, berth: float)
     x, y = own[0] + berth * math.cos(own[2]), own[1] + berth * math.sin(own[2])
     longer = (size[0] + 2.0 * berth, size[1])
     return overlap(x, y, own[2], longer, other[0], other[1], other[2], other_size)
+
+
+@_jit
+def _follows(own: Floats, other: Floats) -> bool:
+    """Check whether another is behind us and heads the same way; who crosses does not follow."""
+    return bool(_in_front(own, other) < -1.0 and math.cos(other[2] - own[2]) > ALIKE)
 
 
 @_jit

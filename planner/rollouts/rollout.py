@@ -3,7 +3,8 @@
 They react to the ego if the task says so: see `planner.kernels.reaction`. A collision that then
 remains is one at the other's side, or one that it could not have avoided by braking firmly
 (`FIRM`) along its path, once it had seen the ego there for its reaction time. As in traffic law,
-an ego that is hit from behind without having changed lanes has not collided.
+an ego that is hit from behind without having changed lanes has not collided. Who crosses its way
+is not behind it: the rear of a long vehicle may still hit it once the front has passed.
 """
 
 import math

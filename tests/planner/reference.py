@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.kernels.collision import BERTH, SAFE_CUT_IN
+from planner.kernels.collision import ALIKE, BERTH, SAFE_CUT_IN
 from planner.kernels.driving import (
     ACCELERATION,
     ALIGNED,
@@ -506,8 +506,10 @@ def first_hit(
         sample = first_overlap(*body, where, turned, theirs)
         if sample is None and careless:
             sample = _cut_off(own, size[0], first, other)
-        elif sample is not None and not careless and _ahead(own[sample], where[sample]) < -1.0:
-            sample = None
+        elif sample is not None and not careless:
+            behind = _ahead(own[sample], where[sample]) < -1.0
+            if behind and math.cos(turned[sample] - own[sample, 2]) > ALIKE:
+                sample = None
         if sample is not None:
             hits.append((sample, m))
     return min(hits, default=(-1, -1))

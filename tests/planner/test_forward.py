@@ -303,6 +303,20 @@ def test_giving_way_never_ends_in_a_collision(away: float, speed: float) -> None
     assert first_hit(own, SIZE, 0, traffic.states, traffic.sizes, False, 0.0) == (-1, -1)
 
 
+@pytest.mark.parametrize(
+    ("turned", "hits"),
+    [(0.0, False), (0.5, False), (1.2, True), (-1.2, True), (2.4, True), (math.pi, True)],
+)
+def test_only_who_heads_the_same_way_is_a_follower(turned: float, hits: bool) -> None:
+    own = np.array([[0.0, 0.0, 0.0, 3.0]])
+    rear = (-SIZE[0] + 0.5, 0.0)  # inside our body, behind its middle
+    front = np.array([rear])
+    other = Obstacle(1, 12.0, 2.5, front, np.array([turned]), np.array([5.0]), frozenset())
+    traffic = Traffic.of((other,))
+    found = first_hit(own, SIZE, 0, traffic.states, traffic.sizes, False, 0.0)
+    assert (found == (0, 0)) == hits
+
+
 def test_who_has_gone_first_is_followed_and_not_waited_for() -> None:
     slow = from_west("straight", -26.0, 3.0)  # on the exit already, and slower than the ego
     driven = turn_right(slow)
