@@ -15,14 +15,7 @@ from planner.manoeuvres.actions import COMFORT, Situation
 from planner.motion.forward import DT
 from planner.motion.obstacles import NOBODY, Motions, Obstacle, Traffic
 from planner.motion.surroundings import Others, Surroundings
-from planner.motion.tracks import (
-    Observed,
-    berth_of,
-    coast,
-    drive_on,
-    links_of,
-    queued,
-)
+from planner.motion.tracks import Observed, berth_of, coast, drive_on, links_of, queued
 from planner.prediction.astar import GRIP, SOLUTIONS, Solution, held, ways
 from planner.prediction.beliefs import NEGLIGIBLE, Belief, Trajectory, likeliest
 from planner.prediction.goals import PLACES, Goal, goals_in_view
@@ -264,13 +257,20 @@ def _ways_on(
 def _held_up(
     task: Task, starts: tuple[Situation, ...], observed: Observed, others: Others, grip: float
 ) -> list[_Way]:
-    """Return the best way to a goal that others or lights block, as far as they allow."""
+    """Return the best way to a goal that others or lights block, as far as they allow.
+
+    Who stands, and cannot even move out without a collision, is expected to wait.
+    """
     found = []
     for free in ways(task, starts, NOBODY, 1, grip):
-        legs = held(task, starts, free.actions, others.usual) or free.legs
-        far = Solution(free.cost, legs)
-        drive_on = partial(_motions, task, starts, far, observed, others)
-        found.append(_Way(free.cost, 0.0, free.actions, legs, drive_on))
+        legs = held(task, starts, free.actions, others.usual)
+        waits = None
+        if observed.standing and not legs:
+            waits = stopping(task, starts[0], observed, others.usual)
+        far = Solution(free.cost, legs or free.legs)
+        go = partial(_motions, task, starts, far, observed, others)
+        drive_on = go if waits is None else partial(Motions, waits)
+        found.append(_Way(free.cost, 0.0, free.actions, far.legs, drive_on))
     return found
 
 

@@ -241,6 +241,19 @@ def test_no_way_leads_past_the_end() -> None:
     assert on(avenue(length=200.0), 100.0, 10.0, 1.5) == []
 
 
+@pytest.mark.parametrize(("behind", "waits"), [(25.0, True), (32.0, True), (60.0, False)])
+def test_who_stands_and_cannot_move_out_now_waits(behind: float, waits: bool) -> None:
+    roads, track = avenue(), eastward(150.0, [0.0] * 10)
+    frame = Task(roads, EgoGoal("", 0.0, None), SIZE, 40.0, STEPS, 100.0, yielding=True)
+    surroundings = Surroundings(roads, DARK, STEPS)
+    other = surroundings.coast(eastward(150.0 - behind, [12.0] * 10, 3.5, vehicle=2))
+    goal = Goal("continue", "there", EgoGoal("road", 250.0, 1), 1.0)
+    starts = track.situation(roads, -1, 40.0)
+    (way,) = trajectories_to(frame, starts, goal, track, Others(surroundings, (other,)), Settings())
+    assert (float(np.max(way.motion.speed)) < 0.1) == waits
+    assert bool(np.all(way.motion.position[:, 1] < 0.1)) == waits
+
+
 def test_a_vehicle_off_the_road_coasts_from_now_on() -> None:
     track = seen([(50.0, 80.0), (51.0, 80.0), (52.0, 80.0)], [5.0] * 3)
     (belief,) = beliefs(track)[1]
