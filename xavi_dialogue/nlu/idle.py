@@ -3,6 +3,8 @@
 A word of content has a part in an act if the act would be another one with another word in its
 place. So each one is put in turn as a word that means nothing, and as things of other types, and
 the rest is composed again: where that gives the same acts, the word has no part in them.
+Words at the core of a unit are tested. Beside it, only named places are: adjectives, verbs and
+places of the road there mostly repeat what is known.
 """
 
 from collections.abc import Sequence
@@ -35,6 +37,7 @@ _NAMED: Final = frozenset(
     ("vehicle", "car", "trip", "ride", "time", "reason", "difference", "start", "rude", "law",
      "value", "road", "decision", "prediction"),
 )  # fmt: skip
+_PLACE: Final = "building"  # "the village", "the school": places that the road network does not name
 _LIGHT: Final = frozenset(("go", "come", "do", "get", "take", "make", "have", "be", "let"))
 #: What says as much as a word of a class: any measure, any place.
 _PLACES: Final = (Junction, Exit, Road, Lane, Feature, Destination, "turn")
@@ -59,8 +62,9 @@ def idle(unit: Node, rows: Sequence[tuple[Act, ...]], end_mark: str) -> list[tup
     asking = [k for k in asking if not any(isinstance(act, TALK) for act in rows[k])]
     said = [frozenset(atoms(acts)) for acts in rows]
     for leaf in leaves_of(unit) if asking else ():
-        limits = leaf.category == "FOCUS" and leaf.key == "limit"  # "only"
-        if not limits and (leaf.category not in _BEARING or leaf.key in _NAMED | _LIGHT):
+        if leaf.category not in _BEARING or leaf.key in _NAMED | _LIGHT:
+            continue
+        if leaf.key != _PLACE and not _is_core(unit, leaf):
             continue
         again = (_composed_with(unit, leaf, other, end_mark) for other in _OTHERS)
         same = {leaf.key, *_ALIKE.get(leaf.category, ()), *_ALIKE.get(leaf.key, ())}
@@ -83,7 +87,7 @@ def _is_core(node: Node, leaf: Leaf) -> bool:
     """Say whether a word is in no adjunct or clause of a phrase, or one of several names."""
     inner = next(p for p in node.parts if (isinstance(p, Node) and leaf in p.leaves) or p is leaf)
     if isinstance(inner, Leaf) or inner.name in _SEVERAL:
-        return leaf.category != "FOCUS"
+        return True
     return inner.name not in _BESIDE and _is_core(inner, leaf)
 
 

@@ -37,6 +37,9 @@ _CONTENT: Final = frozenset(
 )  # fmt: skip
 #: Phrases that stay well formed when a clause is left out.
 _HOLDERS: Final = frozenset(("vp", "copular", "state", "np", *CLAUSES, *RARE))
+#: Clauses that change what is asked, mostly; others repeat it, or say what it is set against.
+_CHANGING: Final = frozenset(("when", "if_clause", "because", "without", "relative", "gerund",
+                              "wh_clause"))  # fmt: skip
 _TELLING: Final = 2  # [words of content] minimum for a clause to be informative
 _SOONER: Final = frozenset(("when", "if_clause", "because", "contrast", "and_pred"))
 TALK: Final = (AskHelp, Beyond, Feel, Quizzing, Repair, Social)  # of whatever was said with it
@@ -58,6 +61,11 @@ def ignored(unit: Node, acts: tuple[Act, ...], end_mark: str) -> tuple[Node, ...
         if any(other == acts for other, _ in again):
             found.append(clause)
     return tuple(found)
+
+
+def changes(clause: Node) -> bool:
+    """Check whether an answer has to own up to having passed over a clause."""
+    return clause.name in _CHANGING
 
 
 def asks_nothing(acts: tuple[Act, ...]) -> bool:

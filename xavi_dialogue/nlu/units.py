@@ -12,7 +12,7 @@ from xavi_dialogue.nlu.grammar.chart import Budget, Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 from xavi_dialogue.nlu.honesty import is_dear, well_typed
 from xavi_dialogue.nlu.idle import idle
-from xavi_dialogue.nlu.ignored import PASSED_OVER, asks_nothing, ignored
+from xavi_dialogue.nlu.ignored import PASSED_OVER, asks_nothing, changes, ignored
 from xavi_dialogue.nlu.plausible import oddity
 from xavi_dialogue.nlu.shares import is_unknown
 from xavi_dialogue.nlu.text.lattice import Lattice
@@ -100,7 +100,8 @@ def _row(
     if (clauses := ignored(unit, acts, mark)) and asks_nothing(acts):
         return (), _unread(unit), leaves, (), ()
     idle_ = tuple(leaf for leaf in idle_ if not any(leaf in c.leaves for c in clauses))
-    return acts, cost + PASSED_OVER * len(clauses), leaves, idle_, clauses
+    told = tuple(clause for clause in clauses if changes(clause))
+    return acts, cost + PASSED_OVER * len(clauses), leaves, idle_, told
 
 
 def _unread(unit: Node) -> float:

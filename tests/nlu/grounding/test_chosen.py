@@ -159,12 +159,12 @@ def test_a_question_with_a_word_without_a_sense_is_not_understood() -> None:
     assert [act.act for act in other.acts] == [Ask(Why(BRAKED))]
 
 
-def test_words_that_leave_a_doubt_are_quoted_with_those_that_are_strange() -> None:
+def test_words_in_no_vocabulary_are_quoted() -> None:
     shares = (
         share("why"), share("brake"), share("flurbly", "strange"), share("greenly", "unknown")
     )  # fmt: skip
     found = grounded(Reading((WHY_BRAKE,), shares))
-    assert found.acts[0].doubts == ("flurbly greenly",)
+    assert found.acts[0].doubts == ("flurbly",)
     assert found.acts[0].strange == ("flurbly",)
     plain = grounded(Reading((WHY_BRAKE,), shares[:2]))
     assert (plain.acts[0].doubts, plain.acts[0].strange) == ((), ())

@@ -1,8 +1,8 @@
 """Doubts: what words without a sense do to the acts of a reading.
 
-Decided by what such a word could have been: an adverb, an adjective before a noun or the noun of a
-place leaves a doubt; with any other word, nothing is left to answer. A word that has a sense, but
-makes no difference, leaves a doubt.
+Decided by what such a word could have been: with an adverb, an adjective before a noun or the noun
+of a place, the rest is answered; with any other word, nothing is left to answer. The answer owns up
+to a word that is in no vocabulary, and to a named place that makes no difference.
 """
 
 from collections.abc import Sequence
@@ -70,8 +70,10 @@ def judge(reading: Reading) -> Doubts:
         elif share.share == "unknown" and share.act is not None and not small:
             clause = [s for s in kept if s.act in (None, share.act)]
             index = next(i for i, other in enumerate(clause) if other is share)
-            found = fatal if _is_main(clause, index) else left
-            found[share.act] = (*found.get(share.act, ()), share.text)
+            if _is_main(clause, index):
+                fatal[share.act] = (*fatal.get(share.act, ()), share.text)
+            elif share.strange:
+                left[share.act] = (*left.get(share.act, ()), share.text)
     return Doubts(fatal, left)
 
 
