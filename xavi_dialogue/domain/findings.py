@@ -238,7 +238,7 @@ class Closeness(Value, frozen=True):
     vehicle: int | None
     closest: Measure | None  # smallest distance
     ttc: Measure | None = None  # shortest time to collision
-    risk: float | None = None  # of a collision under the plan, as foreseen
+    risk: float | None = None  # of a collision under the plan, as foreseen; the highest
     asked: Literal["safe", "dangerous", "close", "hit", "room", "grounds"] = "safe"
     time: float = 0.0
     past: bool = True
@@ -248,6 +248,7 @@ class Closeness(Value, frozen=True):
     grounds: "Assurance | None" = None  # why no collision is expected, if the question is that
     giving: tuple[int, ...] = ()  # vehicles that we are about to let go first, in the present
     degree: bool = False  # the question is how risky it is, not whether
+    planned: float | None = None  # [s] the decision of that risk, if it is one of several
 
 
 class Assurance(Value, frozen=True):

@@ -37,7 +37,7 @@ _NAMED: Final = frozenset(
     ("vehicle", "car", "trip", "ride", "time", "reason", "difference", "start", "rude", "law",
      "value", "road", "decision", "prediction"),
 )  # fmt: skip
-_PLACE: Final = "building"  # "the village", "the school": places that the road network does not name
+_PLACE: Final = "building"  # "the village": a place that the road network does not name
 _LIGHT: Final = frozenset(("go", "come", "do", "get", "take", "make", "have", "be", "let"))
 #: What says as much as a word of a class: any measure, any place.
 _PLACES: Final = (Junction, Exit, Road, Lane, Feature, Destination, "turn")

@@ -10,6 +10,7 @@ from xavi_dialogue.domain.meaning import (
     Elliptic,
     Feel,
     HowSure,
+    Listing,
     Quizzing,
     Repair,
     Social,
@@ -105,6 +106,8 @@ def called(node: Node) -> list[tuple[tuple[Act, ...], float]]:
 
 def bodily(clause: Clause) -> Act | None:
     """Read "my heart is pounding", "I felt that in my tummy", "my coffee!" as a feeling."""
+    if clause.negated and clause.modal is not None:
+        return Social("acknowledge")  # "I can't turn my neck round": no complaint
     sems = [clause.subject, *(sem for sem, _ in clause.objects)]
     sems += [phrase.sem for phrase in clause.complements]
     kinds = [sem.key for sem in sems if isinstance(sem, Noun) and sem.key in _BODY]
@@ -240,6 +243,8 @@ def _unforeseen(clause: Clause, about: object) -> Ask | None:
     """Read "were you surprised by him" as whether we were wrong about whom is named."""
     if not isinstance(about, Described | Vehicle) and about not in _SOMEBODY:
         return None
+    if about == Described(definite=False):
+        return Ask(Listing("wrong-predictions", time=clause.time))  # "by anything"
     return Ask(Whether(Is("wrong", cast(Any, about), time=clause.time, tense="past")))
 
 

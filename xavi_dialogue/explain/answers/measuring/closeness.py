@@ -42,7 +42,10 @@ def closeness(
     near = about.widened() if about.instant else about
     seen = near if past else Window(asked.now, asked.now)  # the present tense means now
     fading = 0.0 if seen.said else FADING
-    risk = _risk(asked, about, vehicle) if past else collision_chance(asked, asked.now, vehicle)
+    now = asked.now
+    risk, planned = (
+        _risk(asked, about, vehicle) if past else (collision_chance(asked, now, vehicle), now)
+    )
     if not past and vehicle is None and how in ("safe", "dangerous") and risk is not None:
         first = _let_first(asked)  # the nearest vehicle may not matter
         walker = None if first else _on_foot(asked)
@@ -57,8 +60,9 @@ def closeness(
     closest = closest_approach(asked, who, seen)
     soon = shortest_time(asked, who, near)
     found = Closeness(
-        who, closest, soon, risk, how, about.end, past, ever=_nearer(asked, closest, who, vehicle)
-    )
+        who, closest, soon, risk, how, about.end, past, ever=_nearer(asked, closest, who, vehicle),
+        planned=None if about.instant else planned,
+    )  # fmt: skip
     return replace(found, braked=braked_hard(asked, vehicle, seen) if judged else ())
 
 
@@ -80,11 +84,12 @@ def _nearer(asked: Asked, then: Measure, who: int, vehicle: int | None) -> Measu
     return ever if then.value is not None and least < then.value - NEARER else None
 
 
-def _risk(asked: Asked, about: Window, vehicle: int | None) -> float | None:
-    """Return the highest risk of a collision for the decisions in a stretch of the ride."""
+def _risk(asked: Asked, about: Window, vehicle: int | None) -> tuple[float | None, float]:
+    """Return the highest risk of a collision for the decisions in a stretch, and its time [s]."""
     inside = [t.sim_time for t in asked.ride.traces if about.begin < t.sim_time <= about.end]
-    found = (collision_chance(asked, at, vehicle) for at in (about.begin, *inside))
-    return max((risk for risk in found if risk is not None), default=None)
+    found = ((collision_chance(asked, at, vehicle), at) for at in (about.begin, *inside))
+    known = [(risk, at) for risk, at in found if risk is not None]
+    return max(known, key=lambda one: one[0], default=(None, about.begin))
 
 
 def _tightest(asked: Asked, about: Window) -> int | None:

@@ -175,11 +175,13 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
     details += [_braked(one) for one in answer.braked]
     if (
         judged
-        and not (left is not None and left <= URGENT)
+        and not (urgent and not answer.past)
         and answer.risk is not None
         and (vehicle is not None or answer.giving)
     ):
-        details.append(message("RISK", risk=Chance(answer.risk), past=answer.past))
+        of = answer.planned if answer.risk >= RISKY else None
+        at = None if of is None else Moment(of)
+        details.append(message("RISK", risk=Chance(answer.risk), past=answer.past, at=at))
     return Plan((first,), tuple(details))
 
 

@@ -68,6 +68,8 @@ _WAYS = frozenset(
 )  # fmt: skip
 
 
+#: Nouns whose existence is a state, not a question for them.
+_STATED = frozenset(("danger", "problem", "sight", "side", "truth"))
 _OTHERS = (Described, Pronoun, Vehicle)
 
 
@@ -186,7 +188,9 @@ class Polar(Comparing):
         sem = clause.objects[0][0]
         if isinstance(sem, Measure) and sem.of.attribute == "probability":
             return self._chance(clause, sem)
-        if not isinstance(sem, Noun) or sem.key in ("problem", "sight", "side", "truth"):
+        if isinstance(sem, Noun) and sem.key == "danger" and sem.clause is not None:
+            return HowSure(sem.clause, clause.time)
+        if not isinstance(sem, Noun) or sem.key in _STATED:
             return None
         governed = clause.that or clause.infinitive
         if governed is not None and sem.clause is None:

@@ -42,6 +42,9 @@ def judged_so(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
             clause.modal == "would"
         ):  # "would that have been risky?"
             return Compare((That(),), "safety", least=state == "dangerous")
+        case Happens(event=Event(action="do", actor=Ego(), modal="would", manner=("again",))):
+            done = Event("do", Ego(), Pronoun("that"), tense="past")  # "would you do it again?"
+            return Whether(Is("right", Pronoun("that"), done, tense="past"))
         case Is(state="wrong", thing=Ego() | Described() as thing) if _of_any(clause, thing, about):
             return Listing("wrong-predictions", time=clause.time)
         case Exists(thing=Described(kind="vehicle", such=Is("wrong", Wanted()))) if clause.verb:

@@ -21,6 +21,7 @@ from xavi_dialogue.domain.meaning import (
     WhatWouldChange,
     When,
     Where,
+    Whether,
     Which,
     Whither,
     Why,
@@ -34,6 +35,7 @@ from xavi_dialogue.domain.terms import (
     Everyone,
     Exit,
     Happens,
+    Is,
     Lane,
     Measured,
     Not,
@@ -216,6 +218,8 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
             return Which(Wanted(), Happens(held))
         case "problem":
             return Why(That())
+        case "danger":
+            return Whether(Is("dangerous", Ego(), time=time, tense=cast(Any, tense)))
         case "difference" if isinstance(about, Happens):
             return WhatIf(about)
         case "difference":

@@ -35,6 +35,14 @@ def quality_of(extreme: str | None, adjectives: list[str]) -> str:
     return _QUALITIES[named[0] or ""] if named else ""
 
 
+def most_of(clause: Clause) -> str:
+    """Name what "which bit was hardest", "which moment was the trickiest" ask for; "" for nothing."""
+    if "hardest" in clause.focus:
+        return "difficulty"
+    said = (leaf for _, node in clause.objects for leaf in leaves_of(node))
+    return next((quality_of(leaf.key, []) for leaf in said if leaf.category == "SUPER"), "")
+
+
 def _most(sem: Sem) -> bool:
     """Say whether a noun phrase is "the most time"."""
     return getattr(sem, "extreme", None) == "highest" or getattr(sem, "unit", "") in ("s", "time")

@@ -112,6 +112,11 @@ def _positive(special: Special) -> Proposition:
         return rule(special)
     if name in _FEARING and special.clause.modal in ("should", "must"):
         return Is("dangerous", Ego(), time=time_of(special), tense=tense_of(special))  # "worry"?
+    if name == "feel:surprised" and isinstance(as_thing(special.object), Ego):
+        by = special.subject  # who surprises us does not do what we expected
+        named = isinstance(by, Vehicle | Pronoun) or (isinstance(by, Described) and by.definite)
+        whom = by if named else Ego()
+        return Is("wrong", whom, time=time_of(special), tense=tense_of(special))
     if name.startswith("feel"):
         return Is("comfortable", as_thing(special.object) or Passenger())
     verb = cast(Any, special.clause.verb).key

@@ -21,6 +21,9 @@ from xavi_dialogue.domain.terms import (
     Relative,
     Thing,
     Unknown,
+    Unsaid,
+    Vehicle,
+    WholeRide,
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import placed_on, with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import PASSED_OVER, Clause
@@ -48,6 +51,8 @@ def existing(clause: Clause) -> list[Found]:
         return [(Happens(with_fields(sem, tense="future", time=clause.time)), 0.0)]
     if isinstance(sem, Noun):
         thing = Unknown(sem.word)
+        if sem.key == "danger":
+            return [(_danger(clause, sem), 0.0)]
         if sem.key == "problem":
             state: Proposition = Is(
                 "wrong", Pronoun("that"), time=clause.time, tense=tense_of(clause)
@@ -75,6 +80,21 @@ def existing(clause: Clause) -> list[Found]:
     denied = clause.objects and words_of(clause.objects[0][1]).startswith("no ")
     past = 0.0 if clause.that is None else PASSED_OVER
     return [(Not(there) if denied else there, past)]
+
+
+def from_whom(clause: Clause) -> Thing | None:
+    """Tell who "were we in danger from him", "are we safe from that lorry" names."""
+    named = (as_thing(c.sem) for c in clause.complements if c.key in ("from", "of", "with", "by"))
+    return next((one for one in named if isinstance(one, Described | Vehicle | Pronoun)), None)
+
+
+def _danger(clause: Clause, noun: Noun) -> Proposition:
+    """Read "was there ever any danger from him" as whether we were in danger."""
+    whom = from_whom(clause) or Ego()
+    tense = tense_of(clause)
+    ever = "ever" in clause.focus and isinstance(clause.time, Unsaid) and tense != "present"
+    state = Is("dangerous", whom, time=WholeRide() if ever else clause.time, tense=tense)
+    return Not(state) if noun.negative else state
 
 
 def if_alone(words: str, clause: Clause) -> Question | None:

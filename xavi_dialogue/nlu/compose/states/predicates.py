@@ -236,7 +236,9 @@ def _noun_state(clause: Clause, sem: Noun, subject: Thing, time: Time) -> Propos
         event = sem.clause.event if isinstance(sem.clause, Happens) else None
         thing = as_thing(sem.owner) or as_thing(sem.of) or subject
         return Is("at-fault", thing, event, time=time, tense=tense_of(clause))
-    if sem.key == "problem" and isinstance(subject, Described | Vehicle | Wanted):
+    if sem.key == "danger" or (
+        sem.key == "problem" and isinstance(subject, Described | Vehicle | Wanted)
+    ):
         return Is("dangerous", subject, time=time, tense=tense_of(clause))
     if sem.key == "problem":
         return Is("wrong", subject, time=time, tense=tense_of(clause))

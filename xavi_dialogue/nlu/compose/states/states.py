@@ -41,7 +41,7 @@ from xavi_dialogue.nlu.compose.clauses.followers import relation_of
 from xavi_dialogue.nlu.compose.clauses.risks import moving_in
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, as_thing, between, is_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
-from xavi_dialogue.nlu.compose.states.existence import existing
+from xavi_dialogue.nlu.compose.states.existence import existing, from_whom
 from xavi_dialogue.nlu.compose.states.pacing import pace_said
 from xavi_dialogue.nlu.compose.states.placing import LOOSE, placed
 from xavi_dialogue.nlu.compose.states.predicates import UNITS, lights, nominal, tense_of
@@ -253,7 +253,7 @@ def _is(clause: Clause, key: str, too: bool) -> Proposition:
     if state in ("close", "far") and isinstance(thing, Pronoun | Ego):
         thing = _near_what(clause, thing)
     if state in ("dangerous", "safe") and isinstance(thing, Ego | Passenger | Pronoun):
-        thing = _from_whom(clause) or thing
+        thing = from_whom(clause) or thing
     if state in ("dangerous", "safe") and inner is None and event is None:
         inner = moving_in(clause, thing)  # "is it safe on the left?"
         thing = thing if inner is None else None
@@ -294,12 +294,6 @@ def _near_what(clause: Clause, thing: Thing) -> Thing:
         if phrase.key in _APART and isinstance(other, (Described, Vehicle)):
             return other
     return Destination() if clause.still and not clause.bearings else thing
-
-
-def _from_whom(clause: Clause) -> Thing | None:
-    """Tell who "were we in danger from him", "are we safe from that lorry" names."""
-    named = (as_thing(c.sem) for c in clause.complements if c.key in ("from", "of", "with", "by"))
-    return next((one for one in named if isinstance(one, Described | Vehicle | Pronoun)), None)
 
 
 def _compares(clause: Clause) -> Proposition | None:

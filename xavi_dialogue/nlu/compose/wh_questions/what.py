@@ -188,7 +188,7 @@ class What:
             case Is(state="wrong", thing=Wanted()) if (lane := with_lane(clause)) is not None:
                 kept = Event("keep-lane", object=lane, tense=cast(Any, clause.tense))
                 return Why(Not(Happens(kept)))  # "what's wrong with this lane?"
-            case Is(state="wrong", thing=Wanted()) if clause.verb is not None:
+            case Is(state="wrong", thing=Wanted() | Ego()) if clause.verb is not None:
                 return Listing("wrong-predictions", time=clause.time)  # "what did you get wrong?"
             case Is(state="wrong", thing=Wanted()):
                 return Doing(None, clause.time, "present")
