@@ -17,7 +17,10 @@ def _best(text: str) -> Reading:
 @pytest.mark.parametrize(
     ("text", "passed"),
     [
-        ("Could you take it a bit slower coming out of the next one?", "coming out of the next one"),
+        (
+            "Could you take it a bit slower coming out of the next one?",
+            "coming out of the next one",
+        ),
         (
             "Is there any traffic in the roundabout that you have to take into account?",
             "that you have to take into account",

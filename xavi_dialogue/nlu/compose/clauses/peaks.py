@@ -36,7 +36,7 @@ def quality_of(extreme: str | None, adjectives: list[str]) -> str:
 
 
 def most_of(clause: Clause) -> str:
-    """Name what "which bit was hardest", "which moment was the trickiest" ask for; "" for nothing."""
+    """Name what "which bit was hardest", "which was the trickiest" ask for; "" for nothing."""
     if "hardest" in clause.focus:
         return "difficulty"
     said = (leaf for _, node in clause.objects for leaf in leaves_of(node))
