@@ -43,7 +43,7 @@ _LIGHT: Final = frozenset(("go", "come", "do", "get", "take", "make", "have", "b
 _PLACES: Final = (Junction, Exit, Road, Lane, Feature, Destination, "turn")
 _ALIKE: Final[dict[str, frozenset[Any]]] = {
     "MEAS": frozenset((Measured, Compares, HowSure)), "PLACEN": frozenset(_PLACES),
-    "brake": frozenset(("deceleration", "braking")),
+    "brake": frozenset(("deceleration", "braking")), "space": frozenset(("keep-distance",)),
 }  # fmt: skip
 #: Phrases in which a word is said beside what is asked, and those in which it is one of several.
 _BESIDE: Final = SUBORDINATE | {"pp", "then", "purpose", "participle", "adjective"}

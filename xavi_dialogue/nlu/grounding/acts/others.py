@@ -93,10 +93,14 @@ def of_others(spoken: Question, g: Grounder) -> Question | None:
             return HowSure(asked.of if isinstance(asked, HowSure) else None, changed=True)
         case Identify(thing=Described("vehicle", doing=Event("do", actor, Wanted()))):
             return Doing(actor, tense="past")  # "what was the last thing it did?"
-        case Whether(that=Happens(event=Event("keep-distance", Ego(), whom, tense="present"))) if (
-            isinstance(whom, Described | Pronoun | Vehicle)
-        ):  # "are you keeping well back from him?"
-            return Whether(Not(Is("close", whom), lexical=True))
+        case Whether(that=Happens(event=Event("keep-distance", Ego(), whom) as event)) if isinstance(
+            whom, Described | Pronoun | Vehicle
+        ):
+            if event.tense == "future":  # "will you leave him plenty of room?"
+                nearest = Measured("distance", Ego(), whom, time=WholeRide(), tense="future")
+                return HowMuch(nearest, "lowest")
+            if event.tense == "present":  # "are you keeping well back from him?"
+                return Whether(Not(Is("close", whom), lexical=True))
         case HowLong(of=Event("stand", Ego(), where=Related(), tense="past") as event):
             return HowLong(replace(event, where=None))  # "how long did we stand behind him?"
         case HowLong(of=Event("stand", actor, where=Related() as where) as event) if not isinstance(
