@@ -18,7 +18,8 @@ from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Tense, Who
 
-LISTED = 12  # maximum of episodes in a list
+LISTED = 12  # maximum of episodes in a list of one kind
+NOTABLE = 6  # maximum of episodes in a list of whatever happened: the most important ones
 TOLD = 7  # maximum of episodes in a summary
 TOLD_MORE = 14
 SOON = 1.0  # [s] maximum time between two episodes that are joined by "then"
@@ -65,13 +66,16 @@ def _nothing(answer: Happenings, context: SpeechContext) -> Plan:
 
 
 def _list(answer: Happenings, context: SpeechContext) -> Plan:
-    shown = answer.episodes[:LISTED]
-    items = [_item(e, context, ends=answer.asked is not None) for e in shown]
+    one_kind = answer.asked is not None
+    shown = answer.episodes[:LISTED] if one_kind else _weightiest(answer.episodes, NOTABLE)
+    often = one_kind and all(isinstance(e.actor, Ego) for e in answer.episodes)
+    items = [_item(e, context, ends=one_kind) for e in shown]
     left = len(answer.episodes) - len(shown)
     if left:
         items.append(message("AND_MORE", number=str(left)))
     ride = _ride(answer.measures)
-    return Plan((*ride, message("LIST", items=tuple(items))))
+    count = times(len(answer.episodes)) if often else None
+    return Plan((*ride, message("LIST", items=tuple(items), times=count)))
 
 
 def _item(episode: Episode, context: SpeechContext, *, ends: bool = False) -> Message:

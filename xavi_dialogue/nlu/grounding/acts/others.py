@@ -93,8 +93,8 @@ def of_others(spoken: Question, g: Grounder) -> Question | None:
             return HowSure(asked.of if isinstance(asked, HowSure) else None, changed=True)
         case Identify(thing=Described("vehicle", doing=Event("do", actor, Wanted()))):
             return Doing(actor, tense="past")  # "what was the last thing it did?"
-        case Whether(that=Happens(event=Event("keep-distance", Ego(), whom) as event)) if isinstance(
-            whom, Described | Pronoun | Vehicle
+        case Whether(that=Happens(event=Event("keep-distance", Ego(), whom) as event)) if (
+            isinstance(whom, Described | Pronoun | Vehicle)
         ):
             if event.tense == "future":  # "will you leave him plenty of room?"
                 nearest = Measured("distance", Ego(), whom, time=WholeRide(), tense="future")

@@ -163,7 +163,7 @@ def _listed(spoken: Question) -> Question | None:
         case (
             Summarise(about=Described(doing=Event(actor=Wanted()) as of), time=time)
             | Listing(of="vehicles", about=Described(doing=Event(actor=Wanted()) as of), time=time)
-        ):
+        ) if of.tense != "present":  # who does something now is in view
             said = of.time if isinstance(time, Unsaid) else time
             return Listing("events", time=said, event=replace(of, time=Unsaid()))
         case HowMany(of=Event(actor=Ego(), object=Pronoun(form="who") | Wanted()) as of):
