@@ -106,11 +106,11 @@ def called(node: Node) -> list[tuple[tuple[Act, ...], float]]:
 
 def bodily(clause: Clause) -> Act | None:
     """Read "my heart is pounding", "I felt that in my tummy", "my coffee!" as a feeling."""
-    if clause.negated and clause.modal is not None:
-        return Social("acknowledge")  # "I can't turn my neck round": no complaint
     sems = [clause.subject, *(sem for sem, _ in clause.objects)]
     sems += [phrase.sem for phrase in clause.complements]
     kinds = [sem.key for sem in sems if isinstance(sem, Noun) and sem.key in _BODY]
+    if kinds and clause.negated and clause.modal is not None:
+        return Social("acknowledge")  # "I can't turn my neck round": no complaint
     return Feel(_BODY[kinds[0]]) if kinds else None
 
 
