@@ -108,7 +108,10 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
             return because_of_us
         case Why(of=Happens(event=Event(action="change-plan", actor=Ego())), suspect=None):
             return wavered
-        case Which(such=Happens(Event("collide", Ego(), Wanted(), tense="present"))):
+        case Which(
+            such=Happens(Event("collide", Ego(), Wanted(), tense="present"))
+            | Is("dangerous", Wanted(), None, tense="present")
+        ):
             return risks.who
         case Which(such=Compares(Measured("delay", Wanted()))) if _names_several(question):
             return compared_costs

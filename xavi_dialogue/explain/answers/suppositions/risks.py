@@ -1,74 +1,106 @@
 """Risks: who an option of a decision would have collided with in its rollouts."""
 
-import dataclasses
 from collections import Counter
 
 from msgspec.structs import replace
 
+from planner.record.trace import PlanTrace, Rollout
 from xavi_dialogue.causal.model import plan_of
-from xavi_dialogue.domain.answers import Answer, Options
+from xavi_dialogue.domain.answers import Answer, Identified, Options
+from xavi_dialogue.domain.facts import OptionValue
 from xavi_dialogue.domain.meaning import WhatIf, Which
-from xavi_dialogue.domain.terms import Ego, Event, Happens
+from xavi_dialogue.domain.terms import At, Ego, Event, Happens
 from xavi_dialogue.explain.answers.measuring.closeness import closeness
+from xavi_dialogue.explain.answers.reasons.against import EARLIER
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import Window
+from xavi_dialogue.explain.answers.reference.naming import first_look
 from xavi_dialogue.explain.answers.suppositions import supposing
 from xavi_dialogue.explain.answers.suppositions.undone import is_present
 from xavi_dialogue.explain.causes.plans.options import of_trace, situations
 from xavi_dialogue.explain.causes.plans.premise import Premise
+from xavi_dialogue.explain.causes.plans.terms import RISK
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
-from xavi_dialogue.explain.history.ride import planned
 
 ONWARD = frozenset(("continue", "exit-straight"))
 
 
 def what_if(question: WhatIf, asked: Asked) -> Answer:
-    """Return the consequences of something, or who an option would have hit.
+    """Return the consequences of something, or who an option would have met.
 
     Raises:
         Unanswered: it cannot be supposed; or it is what was; or rollouts are needed.
     """
-    return _struck_by(question, asked) or supposing.what_if(question, asked)
+    return _met_by(question, asked) or supposing.what_if(question, asked)
 
 
 def who(question: Which, scene: Asked) -> Answer:
-    """Return who we may hit by our plan, according to its rollouts.
+    """Return who we may hit by our plan, else by the riskiest of the other options.
 
     Raises:
         Unanswered: no decision is recorded.
     """
-    step = next(iter(planned(scene.ride.latest)), None)
-    now = dataclasses.replace(scene, span=None)
-    supposed = None if step is None else Happens(Event(step, tense="present"))
-    found = None if supposed is None else _struck_by(WhatIf(supposed, question), now)
-    if found is None or found.hits == 0:
+    del question
+    trace, ride = scene.ride.latest, scene.ride
+    rows = [_struck(trace, option) for option in of_trace(ride, trace)]
+    ours = [found for found in rows if found.options[0].chosen and found.hits]
+    risky = [found for found in rows if found.options[0].collision >= RISK]
+    worst = max(ours or risky, key=lambda found: found.options[0].collision, default=None)
+    if worst is None:
         return closeness(scene, None, Window(scene.now, scene.now), "hit", past=False)
-    return found
+    return worst
 
 
-def _struck_by(question: WhatIf, asked: Asked) -> Options | None:
-    """Return who an option would have hit; None if that is not asked, or not recorded."""
+def _met_by(question: WhatIf, asked: Asked) -> Options | Identified | None:
+    """Return who an option would have hit, or been held up by; None if that is not asked."""
     match question:
         case WhatIf(
             supposed=Happens(event=Event(actor=Ego()) as event),
-            then=Which(such=Happens(event=Event(action="collide", actor=Ego()))),
+            then=Which(such=Happens(event=Event(action="collide" | "block" as how))),
         ):
             pass
         case _:
             return None
-    trace = asked.ride.at(asked.now if is_present(event, asked) else asked.moment)
-    if trace is None:
+    found = _weighed(event, asked)
+    if found is None:
         return None
+    trace, option = found
+    told = _struck(trace, option)
+    if how == "block" and option.collision < RISK:
+        held = Counter[int]()
+        for rollout in _begun(trace, option):
+            share = 0.0 if rollout.weight is None else rollout.weight
+            held.update(dict.fromkeys((stretch.vehicle for stretch in rollout.held_up), share))
+        first = next((vehicle for vehicle, share in held.most_common(1) if share > 0.0), None)
+        look = None if first is None else first_look(asked, first, trace.sim_time)
+        return Identified(() if look is None else (look,), none=look is None)
+    return replace(told, earlier=trace is not asked.ride.latest)
+
+
+def _weighed(event: Event, asked: Asked) -> tuple[PlanTrace, OptionValue] | None:
+    """Find the option that an event names, and the last decision that weighed it, if lately."""
+    at = asked.now if is_present(event, asked) else asked.moment
+    at = event.time.at if isinstance(event.time, At) else at
     names = set(names_of(event)) | (ONWARD if event.action in ONWARD else set())
-    known = of_trace(asked.ride, trace)
-    found = [option for option in known if option.action in names]
-    if not found:
-        return None
-    option, evidence = found[0], situations(Premise(trace, None))
+    for trace in reversed(asked.ride.traces):
+        if at - EARLIER <= trace.sim_time <= at:
+            for option in of_trace(asked.ride, trace):
+                if option.action in names:
+                    return trace, option
+    return None
+
+
+def _begun(trace: PlanTrace, option: OptionValue) -> list[Rollout]:
+    """List the rollouts that begin with an option, each once."""
     begun = (r for r in trace.rollouts if r.actions and r.actions[0].action == option.action)
-    drives = {(r.samples, plan_of(r)): r for r in begun}  # each rollout once
-    struck = Counter(r.collided_with for r in drives.values() if r.collided_with is not None)
+    return list({(r.samples, plan_of(r)): r for r in begun}.values())
+
+
+def _struck(trace: PlanTrace, option: OptionValue) -> Options:
+    """Return who an option collided with in its rollouts."""
+    drives = _begun(trace, option)
+    struck = Counter(r.collided_with for r in drives if r.collided_with is not None)
     if option.collided_with is None and struck:
         option = replace(option, collided_with=struck.most_common(1)[0][0])
-    hits = sum(struck.values())
+    evidence, hits = situations(Premise(trace, None)), sum(struck.values())
     return Options((option,), trace.sim_time, evidence, risk=True, hits=hits, drives=len(drives))

@@ -151,7 +151,7 @@ def plan_options(answer: Options, context: SpeechContext) -> Plan:
         told = option_message(answer.options[0], risk=True)
         hits = str(answer.hits) if answer.hits else None
         whole = Chance(answer.options[0].collision)
-        more = {"hits": hits, "drives": str(answer.drives), "whole": whole}
+        more = {"hits": hits, "drives": str(answer.drives), "whole": whole, "past": answer.earlier}
         return Plan((message(told.rule, **told.slots, **more),))
     chosen = next((o for o in answer.options if o.chosen), answer.options[0])
     others = [o for o in answer.options if o.action != chosen.action]

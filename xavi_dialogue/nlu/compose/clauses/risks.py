@@ -8,7 +8,7 @@ from xavi_dialogue.domain.meaning import Question, Whether
 from xavi_dialogue.domain.terms import Ego, Event, Is, Lane, Measured, Pronoun, Tense, Thing
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, Sem
 
 _SIDES: Final = ("left", "right")
 #: Actions that the ego may choose, each with a risk of its own.
@@ -16,6 +16,14 @@ _CHOSEN: Final = frozenset[ActionName](
     ("change-left", "change-right", "change-lane", "exit-left", "exit-right", "exit-straight",
      "turn", "stop", "continue", "continue-next-exit", "overtake", "pass", "merge", "keep-lane")
 )  # fmt: skip
+
+
+def is_danger(sem: object) -> bool:
+    """Say whether a thing is called a danger or a risk: "who is the threat?"."""
+    if isinstance(sem, Noun):
+        return sem.key == "problem"
+    crash = sem.of.event if isinstance(sem, Measure) and sem.of.attribute == "probability" else None
+    return crash is not None and crash.action == "collide" and crash.object is None
 
 
 def risk_of(key: str, of: Sem | None, event: Event | None, side: str | None) -> Measure | None:

@@ -53,6 +53,8 @@ def placed(clause: Clause) -> list[Found]:
         return [(Is("free", thing, time=time, tense=tense), 1.0)]
     gap = as_thing(clause.gap)
     if gap is not None:
+        if any(phrase.key == "with" for phrase in clause.complements):
+            return [(Related("with", thing, gap, time, tense), 0.4)]  # "who would that be with?"
         return [(Related("same-as", thing, gap, time, tense), 0.4)]
     if isinstance(time, Next) and isinstance(thing, Ego | Pronoun | Described):
         going = Event("go", thing, None, None, ("first",), tense=tense, modal="should")

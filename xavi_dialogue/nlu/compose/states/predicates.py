@@ -34,6 +34,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.clauses.followers import relation_of
+from xavi_dialogue.nlu.compose.clauses.risks import is_danger
 from xavi_dialogue.nlu.compose.clauses.sem import (
     Group,
     Measure,
@@ -95,6 +96,8 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
     if isinstance(sem, Measure) and sem.of.attribute == "right-of-way":
         other = sem.of.to or Everyone()
         return [(Related("has-priority-over", sem.of.thing, other, time, tense), 0.0)]
+    if is_danger(sem) and isinstance(subject, Described | Vehicle | Wanted):
+        return [(Is("dangerous", subject, time=time, tense=tense), 0.0)]
     if isinstance(sem, Measure) and (kept := _kept(clause, sem, subject)) is not None:
         return [(Is("safe", kept, time=time, tense=tense), 0.0)]
     if isinstance(sem, Measure):
@@ -236,9 +239,7 @@ def _noun_state(clause: Clause, sem: Noun, subject: Thing, time: Time) -> Propos
         event = sem.clause.event if isinstance(sem.clause, Happens) else None
         thing = as_thing(sem.owner) or as_thing(sem.of) or subject
         return Is("at-fault", thing, event, time=time, tense=tense_of(clause))
-    if sem.key == "danger" or (
-        sem.key == "problem" and isinstance(subject, Described | Vehicle | Wanted)
-    ):
+    if sem.key == "danger":
         return Is("dangerous", subject, time=time, tense=tense_of(clause))
     if sem.key == "problem":
         return Is("wrong", subject, time=time, tense=tense_of(clause))

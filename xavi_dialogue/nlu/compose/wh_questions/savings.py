@@ -23,6 +23,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import as_thing
+from xavi_dialogue.nlu.compose.clauses.tree import words_of
 
 _IT: Final = (Pronoun("it"), Pronoun("that"), Pronoun("this"))
 _VAGUE: Final = (None, Ego(), Passenger(), *_IT)
@@ -48,9 +49,10 @@ def of_option(question: Question, clause: Clause, deed: Proposition | None) -> Q
         return WhatIf(Happens(way), _TIME)
     match question:
         case Which(such=Related("in-the-way-of" | "ahead-of" as how, Wanted() as who, Ego())) if (
-            clause.modal == "would"
-            and (how == "in-the-way-of" or any(key == "there" for key, _ in clause.bearings))
-        ):  # "who would be in our way there?"
+            how == "in-the-way-of"
+        ) + (clause.modal == "would") + _elsewhere(
+            clause
+        ) > 1:  # "who would be in our way?", "who is in our way there?"
             held = Event("block", who, Ego(), tense="present", modal="would")
             return replace(question, such=Happens(held))
         case HowMuch(
@@ -74,6 +76,14 @@ def of_option(question: Question, clause: Clause, deed: Proposition | None) -> Q
         return question
     asked: Attribute = "duration" if attribute == "duration" else "delay"
     return HowMuch(replace(question.of, attribute=asked, to=None, event=_UNREAL))
+
+
+def _elsewhere(clause: Clause) -> bool:
+    """Say whether it is said of there: "who is in our way there?"."""
+    placed = [words_of(phrase.node).split() for phrase in clause.complements]
+    return any(key == "there" for key, _ in clause.bearings) or ["there"] in [
+        p[-1:] for p in placed
+    ]
 
 
 def _way(question: Question, clause: Clause) -> Event | None:

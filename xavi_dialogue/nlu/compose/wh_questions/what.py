@@ -48,7 +48,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import adopted, with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.clauses.nominal import asked_of, deed_of, propose
-from xavi_dialogue.nlu.compose.clauses.risks import risk_beside
+from xavi_dialogue.nlu.compose.clauses.risks import is_danger, risk_beside
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of, words_of
 from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
@@ -109,6 +109,9 @@ class What:
                 subject = adopted(subject, phrase) or subject
         if isinstance(subject, Noun) and subject.key == "rival":
             return rivals(clause)
+        if wh.kind == "who" and is_danger(subject):
+            tense = cast(Any, clause.tense)
+            return Which(Wanted(), Is("dangerous", Wanted(), time=clause.time, tense=tense))
         found = risk_beside(clause, subject) or asked_of(subject, clause.time, clause.tense)
         return _person(wh, found or Identify(as_thing(subject) or Pronoun("that")))
 

@@ -32,7 +32,7 @@ from xavi_dialogue.domain.meaning import (
     Whither,
     Why,
 )
-from xavi_dialogue.domain.rewriting import first
+from xavi_dialogue.domain.rewriting import first, parts
 from xavi_dialogue.domain.terms import (
     SOMEBODY_ELSE,
     Described,
@@ -61,7 +61,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 )
 from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
 from xavi_dialogue.nlu.grounding.completion.replacing import with_event, with_thing, with_time
-from xavi_dialogue.nlu.grounding.completion.supposing import PLACES, through, what_if
+from xavi_dialogue.nlu.grounding.completion.supposing import PLACES, through, what_if, whom_struck
 from xavi_dialogue.nlu.grounding.context import Grounder
 
 FRAMELESS: Final = 0.6  # cost of a fragment that has nothing to complete
@@ -297,14 +297,13 @@ def _of_our_way(question: Question | None) -> bool:
 
 def _danger(question: Question | None, g: Grounder) -> Act | None:
     """Ask whom we may strike, after a question for the risk: of the option it was about, if any."""
-    event, state = main_event(question), first(question, Is)
-    about = state is not None and state.state in STATES
-    if not about and (event is None or event.action != "collide" or event.tense == "past"):
+    option, state = g.context.discourse.option, first(question, Is)
+    about = option is not None and option.action not in _FOR_WHOM
+    about = about or (state is not None and state.state in STATES)
+    hits = (e.action == "collide" and e.tense != "past" for e in parts(question, Event))
+    if not about and not any(hits):
         return None
-    who = Event("collide", object=Wanted(), tense="present", modal="might")
-    option = g.context.discourse.option
-    asked = Which(Wanted(), Happens(who))
-    return Ask(asked if option is None else WhatIf(Happens(option), asked))
+    return Ask(whom_struck(None if option is None else Happens(option)))
 
 
 def _asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
@@ -314,7 +313,8 @@ def _asked(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | No
         if thing is None and isinstance(question, Which):
             return Ask(question)
         event = main_event(question)
-        if thing is None and (danger := _danger(question, g)) is not None:
+        open_ = thing is None or (isinstance(thing, Described) and not thing.colour)
+        if open_ and (danger := _danger(question, g)) is not None:
             return danger
         named = thing is not None or isinstance(question, Why)
         if not named and event is not None and event.action in _FOR_WHOM:

@@ -37,10 +37,12 @@ from xavi_dialogue.domain.terms import (
     Now,
     Pronoun,
     Proposition,
+    Related,
     That,
     Thing,
     Unsaid,
     Vehicle,
+    Wanted,
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import discussed, questioned
 from xavi_dialogue.nlu.grounding.context import Grounder
@@ -103,6 +105,9 @@ def subordinate(spoken: Question, g: Grounder) -> Question:
             g.notes.leaned = g.notes.leaned or then is not None
             return spoken if then is None else WhatIf(Not(replace(of, time=then)))
     earlier = _supposed_before(g)
+    if _asks_whom(spoken):
+        g.notes.leaned = g.notes.leaned or earlier is not None
+        return whom_struck(earlier)
     option = _of_its_time(spoken, earlier, g)
     if earlier is not None and (risk := _risk_of(spoken, g)) is not None:
         g.notes.leaned = True
@@ -116,6 +121,24 @@ def subordinate(spoken: Question, g: Grounder) -> Question:
     if isinstance(spoken, HowSure):
         return WhatIf(earlier, Whether(spoken.of or earlier))
     return WhatIf(earlier, spoken)
+
+
+def whom_struck(supposed: Proposition | None) -> Question:
+    """Ask whom we may strike: by an option, else by what we do."""
+    whom = Which(
+        Wanted(), Happens(Event("collide", object=Wanted(), tense="present", modal="might"))
+    )
+    return whom if supposed is None else WhatIf(supposed, whom)
+
+
+def _asks_whom(spoken: Question) -> bool:
+    """Tell whether it is asked from whom the danger is: "which car is the danger?"."""
+    match spoken:
+        case Which(such=Is(state="dangerous", thing=Wanted(), event=None, tense="present")):
+            return True
+        case Which(such=Related(relation="with", thing=Pronoun(), to=Wanted())):
+            return True
+    return False
 
 
 def _of_its_time(spoken: Question, earlier: Proposition | None, g: Grounder) -> bool:
