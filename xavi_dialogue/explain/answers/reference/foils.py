@@ -122,8 +122,9 @@ def at_turn(scene: Asked, names: tuple[ActionName, ...], *, past: bool) -> Premi
     at = next((k for k, step in enumerate(plan) if step in TURNS), None)
     if at is None or trace.under_way is not None:
         return None
-    aside = [name for name in names if name not in STRAIGHT]
-    if plan[0] in STRAIGHT and any(is_open(scene.ride, trace, (name,)) for name in aside):
+    halts = plan[0] == "stop"
+    here = [name for name in names if halts or name not in STRAIGHT]
+    if plan[halts] in STRAIGHT and any(is_open(scene.ride, trace, (name,)) for name in here):
         return Premise(trace, None)  # the next junction, which the plan goes straight over
     return Premise(trace, None, _before_stop(scene, trace, names, plan[:at]))
 

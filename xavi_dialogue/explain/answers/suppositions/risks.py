@@ -69,9 +69,10 @@ def _met_by(question: WhatIf, asked: Asked) -> Options | Identified | None:
     if how == "block" and option.collision < RISK:
         held = Counter[int]()
         for rollout in _begun(trace, option):
-            share = 0.0 if rollout.weight is None else rollout.weight
-            held.update(dict.fromkeys((stretch.vehicle for stretch in rollout.held_up), share))
-        first = next((vehicle for vehicle, share in held.most_common(1) if share > 0.0), None)
+            for stretch in rollout.held_up:
+                lasts = (rollout.weight or 0.0) * (stretch.until - stretch.since)
+                held.update({stretch.vehicle: lasts})
+        first = next((vehicle for vehicle, lasts in held.most_common(1) if lasts > 0.0), None)
         look = None if first is None else first_look(asked, first, trace.sim_time)
         return Identified(() if look is None else (look,), none=look is None)
     return replace(told, earlier=trace is not asked.ride.latest)
