@@ -16,6 +16,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Lane,
+    Now,
     Vehicle,
     Vehicles,
     Wanted,
@@ -51,8 +52,14 @@ from xavi_dialogue.explain.answers.ride.priority import lawful, owed, right_of_w
 from xavi_dialogue.explain.answers.sight.room import free
 from xavi_dialogue.explain.answers.sight.sight import busy, minded
 from xavi_dialogue.explain.answers.suppositions.own_suppositions import of_us
-from xavi_dialogue.explain.answers.suppositions.undone import HINDERED, held, is_undone, of_now
-from xavi_dialogue.explain.causes.plans.options import options_at
+from xavi_dialogue.explain.answers.suppositions.undone import (
+    GOING,
+    HINDERED,
+    held,
+    is_undone,
+    of_now,
+)
+from xavi_dialogue.explain.causes.plans.options import options_at, risky_onward
 from xavi_dialogue.explain.history.thresholds import STANDING
 
 NEAR_GAP = 2.0  # [s] headway below which a vehicle is close
@@ -113,6 +120,10 @@ def _safe(of: Is, asked: Asked) -> Finding:
     elif of.event is not None and is_undone(of.event, asked):
         form: Asking = "safe" if of.state == "safe" else "dangerous"
         return Finding(None, answer=of_us(of.event, asked, form))
+    elif of.event is not None and _may_go_straight(of.event, asked):
+        form = "safe" if of.state == "safe" else "dangerous"
+        straight = Event("exit-straight", tense="present", time=Now())
+        return Finding(None, answer=of_us(straight, asked, form))
     other = number(of.thing)
     if other is None and of.event is not None:
         other = number(of.event.actor) or number(of.event.object)
@@ -120,6 +131,12 @@ def _safe(of: Is, asked: Asked) -> Finding:
     if past and other is None and of.event is None and not about.said:
         about = with_somebody(asked, about)
     return Finding(None, answer=closeness(asked, other, about, how, past=past))
+
+
+def _may_go_straight(event: Event, asked: Asked) -> bool:
+    """Check whether driving on may mean going straight on, which has a risk and is not planned."""
+    going = is_us(event.actor) and event.action in GOING and event.tense == "present"
+    return going and risky_onward(asked.ride) is not None
 
 
 def _comfortable(of: Is, asked: Asked) -> Finding:

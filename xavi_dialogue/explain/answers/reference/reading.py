@@ -112,16 +112,21 @@ def subject(scene: Asked, event: Event | None) -> Subject:
 def foil_subject(scene: Asked, event: Event | None) -> Subject:
     """Return the time that a question about what was not done is about, if it names no action.
 
-    A time inferred from earlier questions counts only if the question refers back.
+    A time inferred from earlier questions counts only if the question refers back. Of now, it is
+    the decision in force that counts.
     """
-    span = scene.span
+    span = None if event is not None and _is_of_now(event) else scene.span
     inferred = span is not None and not (span.said or span.ahead or scene.act.leaned)
     return Subject(None, (), is_past(scene, event), None if inferred else span)
 
 
+def _is_of_now(event: Event) -> bool:
+    return event.tense == "present" and isinstance(event.time, Now)
+
+
 def is_past(scene: Asked, event: Event | None) -> bool:
     """Check whether a question is about the past."""
-    if event is not None and event.tense == "present" and isinstance(event.time, Now):
+    if event is not None and _is_of_now(event):
         return False
     return scene.past is not None or event is None or event.tense in ("past", "perfect")
 

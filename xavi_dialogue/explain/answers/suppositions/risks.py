@@ -17,12 +17,10 @@ from xavi_dialogue.explain.answers.reference.moments import Window
 from xavi_dialogue.explain.answers.reference.naming import first_look
 from xavi_dialogue.explain.answers.suppositions import supposing
 from xavi_dialogue.explain.answers.suppositions.undone import is_present
-from xavi_dialogue.explain.causes.plans.options import of_trace, situations
+from xavi_dialogue.explain.causes.plans.options import GOING, ONWARD, of_trace, situations
 from xavi_dialogue.explain.causes.plans.premise import Premise
 from xavi_dialogue.explain.causes.plans.terms import RISK
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
-
-ONWARD = frozenset(("continue", "exit-straight"))
 
 
 def what_if(question: WhatIf, asked: Asked) -> Answer:
@@ -82,12 +80,16 @@ def _weighed(event: Event, asked: Asked) -> tuple[PlanTrace, OptionValue] | None
     """Find the option that an event names, and the last decision that weighed it, if lately."""
     at = asked.now if is_present(event, asked) else asked.moment
     at = event.time.at if isinstance(event.time, At) else at
-    names = set(names_of(event)) | (ONWARD if event.action in ONWARD else set())
+    onward = event.action in ONWARD | GOING
+    names = set(names_of(event)) | (ONWARD if onward else set())
     for trace in reversed(asked.ride.traces):
         if at - EARLIER <= trace.sim_time <= at:
-            for option in of_trace(asked.ride, trace):
-                if option.action in names:
-                    return trace, option
+            rows = of_trace(asked.ride, trace)
+            named = [row for row in rows if row.action in names]
+            if event.action == "go":  # as we do, or straight on
+                named += [row for row in rows if row.chosen and row.action != "stop"]
+            if named:
+                return trace, max(named, key=lambda row: row.collision)
     return None
 
 

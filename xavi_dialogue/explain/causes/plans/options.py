@@ -14,7 +14,7 @@ from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.plans.contrast import alternatives, factual
 from xavi_dialogue.explain.causes.plans.lateness import exceeds
 from xavi_dialogue.explain.causes.plans.premise import Premise
-from xavi_dialogue.explain.causes.plans.terms import differences
+from xavi_dialogue.explain.causes.plans.terms import RISK, differences
 from xavi_dialogue.explain.causes.vehicles.actions import same
 from xavi_dialogue.explain.facts.plans import last_choice
 from xavi_dialogue.explain.history.deeds import Deed
@@ -22,6 +22,9 @@ from xavi_dialogue.explain.history.ride import Ride, Unanswered, enough, planned
 
 #: Going on, without saying which way.
 GOING = frozenset[ActionName](("continue", "go", "move", "keep-lane", "speed-up"))
+
+#: Going on, as decisions call it.
+ONWARD = frozenset[Action](("continue", "exit-straight"))
 
 
 def free(ride: Ride, found: Premise) -> Premise:
@@ -99,6 +102,13 @@ def of_trace(ride: Ride, trace: PlanTrace) -> tuple[OptionValue, ...]:
     rows = [] if here is None else [_chosen(plan[0], here, base)]
     rows += [_option(model, action, there, here, base) for action, there in others]
     return tuple(sorted(rows, key=lambda row: (not row.chosen, -(row.value or 0.0))))
+
+
+def risky_onward(ride: Ride) -> OptionValue | None:
+    """Return driving straight on, if the latest decision did not choose it for its risk."""
+    rows = of_trace(ride, ride.latest) if ride.traces else ()
+    onward = (row for row in rows if row.action in ONWARD and not row.chosen)
+    return next((row for row in onward if row.collision >= RISK), None)
 
 
 def weighed(ride: Ride, found: Premise) -> tuple[OptionValue, ...]:

@@ -6,7 +6,7 @@ from xavi_dialogue.domain.answers import Closeness, Comfort, Priority
 from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.terms import Ego, Vehicle, Vehicles
 from xavi_dialogue.nlg.content.clauses.agreement import verbs
-from xavi_dialogue.nlg.content.clauses.facts import episode_message
+from xavi_dialogue.nlg.content.clauses.facts import RISK, episode_message
 from xavi_dialogue.nlg.content.clauses.measures import measure_message
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.tenses import PRESENT
@@ -206,12 +206,14 @@ def _lead(answer: Closeness) -> str | None:
         return None
     tight = (metres is not None and metres < NEAR) or (left is not None and left < URGENT)
     tight = tight or risk >= RISKY
+    if answer.asked in ("safe", "dangerous") and not tight and risk >= RISK:
+        return None  # its figure tells
     near = metres is not None and metres < CLOSE
     match answer.asked:
         case "hit":
             if answer.past:
                 return "yes, we touched" if metres is not None and metres <= 0.0 else "no"
-            return "there is a risk" if risk >= RISKY else "I do not expect that"
+            return "there is a risk" if risk >= RISK else "I do not expect that"
         case "close":
             return "yes, that was close" if near and answer.past else "yes" if near else "no"
         case "dangerous":

@@ -22,7 +22,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import events
-from xavi_dialogue.nlu.grounding.context import Grounder
+from xavi_dialogue.nlu.grounding.context import Grounder, Mode
 from xavi_dialogue.nlu.grounding.salience import FRESH, vehicles_of
 
 STATES: Final = frozenset(("dangerous", "safe"))
@@ -61,6 +61,14 @@ def threatened(spoken: Is, g: Grounder) -> Is:
             known = spoken_of(g)
             return spoken if known is None else replace(spoken, thing=known)
     return spoken
+
+
+def mode_of(event: Event, spoken: Is) -> Mode:
+    """Tell what is taken for granted of an event in a state: what we may do now is made up."""
+    if event.tense == "past":
+        return "presupposed"
+    weighed = spoken.state in STATES and event.actor == Ego() and event.tense == "present"
+    return "supposed" if weighed else "asked"
 
 
 def _is_vague(thing: Thing | None) -> bool:

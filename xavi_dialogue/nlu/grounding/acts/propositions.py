@@ -41,7 +41,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     WholeRide,
 )
-from xavi_dialogue.nlu.grounding.acts.dangers import PERILS, fresh_event, is_of_undone, threatened
+from xavi_dialogue.nlu.grounding.acts import dangers
 from xavi_dialogue.nlu.grounding.acts.measuring import just_named, measured, of_ride, spoken_of
 from xavi_dialogue.nlu.grounding.acts.recasting import of_nobody, something_wrong, within_limit
 from xavi_dialogue.nlu.grounding.acts.restating import restated
@@ -246,7 +246,7 @@ def _exists(spoken: Exists, g: Grounder, outer: Window | None) -> Exists:
 
 
 def _is(spoken: Is, g: Grounder, mode: Mode, outer: Window | None) -> Is:
-    spoken = _of_event(threatened(spoken, g), g)
+    spoken = _of_event(dangers.threatened(spoken, g), g)
     spoken = spoken if spoken_of(g) else of_ride(spoken)
     if spoken.thing is None and spoken.event is None and spoken.state in _NEAR:
         spoken = replace(spoken, thing=just_named(g))
@@ -256,7 +256,7 @@ def _is(spoken: Is, g: Grounder, mode: Mode, outer: Window | None) -> Is:
         g.notes.cost += UNHEARD_OF
     window = outer
     if event is not None:
-        event = g.event(event, "presupposed" if event.tense == "past" else "asked", outer)
+        event = g.event(event, dangers.mode_of(event, spoken), outer)
         when = interval(event)
         if when is not None and isinstance(spoken.time, Unsaid):
             window = inferred(when, g)
@@ -283,10 +283,10 @@ def _of_event(spoken: Is, g: Grounder) -> Is:
     if spoken.state == "close" and spoken.tense == "present" and near is not None:
         g.notes.leaned = True
         return replace(spoken, thing=Vehicle(near))  # "that's tight, isn't it?"
-    if isinstance(spoken.time, WholeRide) or is_of_undone(spoken, g):
+    if isinstance(spoken.time, WholeRide) or dangers.is_of_undone(spoken, g):
         return replace(spoken, thing=None)  # "would you do anything differently?"
-    if spoken.state in PERILS and spoken.tense == "past":
-        known = fresh_event(g)
+    if spoken.state in dangers.PERILS and spoken.tense == "past":
+        known = dangers.fresh_event(g)
     elif spoken.state in _ONLY_EVENTS or spoken.tense == "past":
         known = discussed(g.context, real=spoken.tense == "past")
     else:
