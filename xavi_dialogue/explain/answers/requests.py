@@ -4,6 +4,7 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import (
     Answer,
+    ChoiceReason,
     Declined,
     Measures,
     MotionCause,
@@ -12,7 +13,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Request
-from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Now, Vehicle
 from xavi_dialogue.domain.vocabulary import BEYOND, GENTLE, ActionName
 from xavi_dialogue.explain.answers.expectations.foreseen import (
     HALTS,
@@ -26,7 +27,7 @@ from xavi_dialogue.explain.answers.expectations.plans import foreseen, plan_ahea
 from xavi_dialogue.explain.answers.measuring.durations import remaining_wait, stands
 from xavi_dialogue.explain.answers.measuring.nearing import past_leader
 from xavi_dialogue.explain.answers.propositions.happenings import activity
-from xavi_dialogue.explain.answers.reasons import motions, refraining
+from xavi_dialogue.explain.answers.reasons import choices, motions, refraining
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import known
 from xavi_dialogue.explain.answers.reference.naming import number
@@ -78,7 +79,26 @@ def request(act: Request, asked: Asked) -> Answer:
     cause = _cause(asked) if able and hurried and soon is None else None
     facts = _instead(asked, event) if cause is None else ()
     already = already and cause is None
-    return Declined(act, able, ahead, now, already, cannot, soon=soon, facts=facts, cause=cause)
+    decided = soon is not None or cannot is not None or cause is not None
+    reason = _against(asked, event) if able and not already and not decided else None
+    return Declined(act, able, ahead, now, already, cannot, soon, facts, cause, reason)
+
+
+def _against(asked: Asked, event: Event) -> ChoiceReason | None:
+    """Return what speaks against a request that the decision in force weighed.
+
+    Raises:
+        Unanswered: rollouts are needed.
+    """
+    if not macros(event) or event.action in ENDING:
+        return None
+    try:
+        found = choices.why_not(replace(event, actor=Ego(), time=Now(), tense="present"), asked)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    return found if isinstance(found, ChoiceReason) else None
 
 
 def _asks_manner(act: Request) -> bool:

@@ -10,6 +10,7 @@ from xavi_dialogue.nlg.content.clauses.measures import SOON
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.observed.conduct import plan_ahead
 from xavi_dialogue.nlg.content.reasons.driven import motion_cause
+from xavi_dialogue.nlg.content.reasons.reasons import plan_choice
 from xavi_dialogue.nlg.content.talk.refusals import reason_in_words
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
@@ -69,8 +70,9 @@ def plan_declined(answer: Declined, context: SpeechContext) -> Plan:
     why = answer.cannot
     slots["reason"] = None if why is None else reason_in_words(why, past=False)
     slots["fact"] = fact
-    slots["anyway"] = _anyway(answer, context)
-    return Plan((Message("DECLINED_VERB", slots),))
+    slots["anyway"] = _anyway(answer, context) if answer.reason is None else None
+    against = () if answer.reason is None else plan_choice(answer.reason, context).core
+    return Plan((Message("DECLINED_VERB", slots), *against))
 
 
 def _anyway(answer: Declined, context: SpeechContext) -> Message | None:
