@@ -148,7 +148,7 @@ class GoReason(Value, frozen=True):
 #: whether we could do it, when we would arrive, whether it is better, safer, slower and so on.
 Asking: TypeAlias = Literal[
     "what-if", "crash", "chance", "could", "arrival", "quicker", "better", "safe", "safer",
-    "slower", "worse", "riskier", "dangerous",
+    "slower", "worse", "riskier", "dangerous", "likely",
 ]  # fmt: skip
 
 

@@ -6,11 +6,12 @@ from msgspec.structs import replace
 
 from planner.record.trace import PlanTrace, Rollout
 from xavi_dialogue.causal.model import plan_of
-from xavi_dialogue.domain.answers import Answer, Identified, Options
+from xavi_dialogue.domain.answers import Answer, Identified, Options, SupposedOfUs
 from xavi_dialogue.domain.facts import OptionValue
-from xavi_dialogue.domain.meaning import WhatIf, Which
+from xavi_dialogue.domain.meaning import HowSure, WhatIf, Which
 from xavi_dialogue.domain.terms import At, Ego, Event, Happens
 from xavi_dialogue.explain.answers.measuring.closeness import closeness
+from xavi_dialogue.explain.answers.reasons import knowing
 from xavi_dialogue.explain.answers.reasons.against import EARLIER
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import Window
@@ -29,7 +30,27 @@ def what_if(question: WhatIf, asked: Asked) -> Answer:
     Raises:
         Unanswered: it cannot be supposed; or it is what was; or rollouts are needed.
     """
+    if question.then == HowSure():
+        return _likelihood(question, asked)
     return _met_by(question, asked) or supposing.what_if(question, asked)
+
+
+def _likelihood(question: WhatIf, asked: Asked) -> Answer:
+    """Return how likely that is which an option would lead to, else how sure the choice is.
+
+    Raises:
+        Unanswered: it cannot be supposed; or it is what was; or rollouts are needed.
+    """
+    crash = HowSure(Happens(Event("collide", modal="would")))
+    found = supposing.what_if(replace(question, then=crash), asked)
+    if not isinstance(found, SupposedOfUs) or found.done is not None:
+        return found
+    ends = found.contrast.outcome
+    if found.contrast.collision >= RISK or ends is None:
+        return found
+    if ends.name != "done":
+        return replace(found, form="likely")
+    return knowing.how_sure(HowSure(question.supposed), asked)
 
 
 def who(question: Which, scene: Asked) -> Answer:

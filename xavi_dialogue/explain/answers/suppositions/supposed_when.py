@@ -45,7 +45,8 @@ def imagined(event: Event, then: Question | None, scene: Asked) -> tuple[Event, 
     over = scene.past is not None and scene.past.end < scene.ride.latest.sim_time
     said = scene.past is not None and (scene.past.said or (over and not _of_now(then)))
     open_ = event.tense == "past" and event.modal is None and not said
-    if not open_ or event.action in GOING or not choices.is_choice(event):
+    onward = event.action in GOING and event.side is None
+    if not open_ or onward or not choices.is_choice(event):
         return event, scene
     return replace(event, tense="present"), dataclasses.replace(scene, span=None)
 

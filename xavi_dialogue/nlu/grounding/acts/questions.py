@@ -119,6 +119,8 @@ def _supposed_question(spoken: Question, g: Grounder) -> Question:
             return replace(spoken, of=g.proposition(of, "supposed"))
         case Doing(actor=None, time=Unsaid()) | HowMuch(Measured("delay", Ego(), time=Unsaid())):
             return spoken  # what would happen is at no time of the ride
+        case HowSure(of=None):
+            return spoken  # "how likely is that?": what would happen
     return question(spoken, g)
 
 

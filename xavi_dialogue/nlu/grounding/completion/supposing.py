@@ -108,6 +108,9 @@ def subordinate(spoken: Question, g: Grounder) -> Question:
     if _asks_whom(spoken):
         g.notes.leaned = g.notes.leaned or earlier is not None
         return whom_struck(earlier)
+    if _asks_chance(spoken, g) and isinstance(earlier, Happens):
+        g.notes.leaned = True
+        return WhatIf(earlier, spoken)
     option = _of_its_time(spoken, earlier, g)
     if earlier is not None and (risk := _risk_of(spoken, g)) is not None:
         g.notes.leaned = True
@@ -138,6 +141,18 @@ def _asks_whom(spoken: Question) -> bool:
             return True
         case Which(such=Related(relation="with", thing=Pronoun(), to=Wanted())):
             return True
+    return False
+
+
+def _asks_chance(spoken: Question, g: Grounder) -> bool:
+    """Tell whether it is asked how likely that is which an option of ours would lead to."""
+    if not isinstance(spoken, HowSure) or spoken.of is not None or spoken.changed:
+        return False
+    match g.context.discourse.question:
+        case WhatIf(supposed=Happens(event=Event(actor=Ego()))):
+            return True
+        case Whether():
+            return g.context.discourse.option is not None
     return False
 
 
