@@ -33,6 +33,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import (
+    HINDERED,
     affirmed,
     asserted,
     events,
@@ -105,7 +106,8 @@ def _saved(of: Measured, g: Grounder) -> Question:
 
     Of another choice it is asked what else there was to choose.
     """
-    known = next((e for e in events(g.context.discourse, real=True) if e.actor == Ego()), None)
+    spoken_of = (e for e in events(g.context.discourse, real=True) if e.actor == Ego())
+    known = next((e for e in spoken_of if e.action not in HINDERED), None)  # no halt saves time
     if known is None:
         changed = Event("change-lane", tense="perfect")
         done = g.context.holds(changed, g.context.begin, g.context.now)

@@ -169,7 +169,7 @@ def last_deed(context: Context) -> Event | None:
 
 
 #: What we do because somebody or something hinders us.
-_HINDERED: Final = frozenset(
+HINDERED: Final = frozenset(
     ("brake", "slow-down", "stop", "stand", "wait", "give-way", "let-go", "follow", "swerve",
      "avoid", "keep-distance", "collide", "nearly-collide")
 )  # fmt: skip
@@ -181,10 +181,10 @@ def hindrance(context: Context) -> Event | None:
     What was spoken of comes first, then what is in focus, then the last such action.
     """
     for event in events(context.discourse):
-        if event.action in _HINDERED and event.actor == Ego() and event.time != Unsaid():
+        if event.action in HINDERED and event.actor == Ego() and event.time != Unsaid():
             return event
     deeds = context.deeds(Ego(), context.begin, context.now)
-    hindered = [e for e in deeds if e.action in _HINDERED]
+    hindered = [e for e in deeds if e.action in HINDERED]
     focus = context.discourse.episode
     if focus is not None:
         near = [e for e in hindered if e.begin <= focus[1] and (e.end or context.now) >= focus[0]]
@@ -199,7 +199,7 @@ def beside_road(context: Context) -> Event | None:
     if not (free or isinstance(known, Exists | Related)):
         return None
     since = context.discourse.asked_at or context.begin
-    begun = [e for e in context.deeds(Ego(), since, context.now) if e.action in _HINDERED]
+    begun = [e for e in context.deeds(Ego(), since, context.now) if e.action in HINDERED]
     fresh = [e for e in begun if e.begin > since]
     return event_of(fresh[-1], context.now) if fresh else hindrance(context)
 
