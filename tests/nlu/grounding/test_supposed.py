@@ -42,6 +42,7 @@ from xavi_dialogue.domain.terms import (
     Not,
     Now,
     Pronoun,
+    Related,
     Relative,
     That,
     Vehicle,
@@ -198,6 +199,33 @@ def test_a_risk_is_that_of_the_option_spoken_of(spoken: Question) -> None:
     weighed = Discourse(option=option, decided=Event("continue", tense="present"))
     assert subordinate(spoken, grounder(discourse=weighed)) == WhatIf(Happens(option), COLLIDES)
     assert subordinate(spoken, grounder(discourse=Discourse())) == spoken
+
+
+@pytest.mark.parametrize(
+    "spoken",
+    [
+        Which(Wanted(), Is("dangerous", Wanted())),
+        Which(Wanted(), Related("with", Pronoun("that"), Wanted())),
+    ],
+)
+def test_who_is_the_danger_is_asked_of_the_option_spoken_of(spoken: Question) -> None:
+    option = Event("change-left", tense="present")
+    whom = Which(
+        Wanted(), Happens(Event("collide", object=Wanted(), tense="present", modal="might"))
+    )
+    weighed = Discourse(option=option)
+    assert subordinate(spoken, grounder(discourse=weighed)) == WhatIf(Happens(option), whom)
+    assert subordinate(spoken, grounder(discourse=Discourse())) == whom
+
+
+def test_how_likely_that_is_is_asked_of_what_was_supposed() -> None:
+    option = Event("change-left", tense="present")
+    supposed = Discourse(option=option, question=WhatIf(Happens(option)))
+    asked = subordinate(HowSure(), grounder(discourse=supposed))
+    assert asked == WhatIf(Happens(option), HowSure())
+    assert ground_question(asked, grounder(discourse=supposed)).then == HowSure()
+    chosen = Discourse(option=option, question=Why(Not(Happens(option))))
+    assert subordinate(HowSure(), grounder(discourse=chosen)) == HowSure()
 
 
 def test_that_for_which_we_do_not_is_what_was_told_of_us() -> None:

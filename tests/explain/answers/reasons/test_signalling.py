@@ -7,6 +7,7 @@ import pytest
 from msgspec.structs import replace
 
 from planner.record.events import Event as Recorded
+from planner.record.trace import HeldUp
 from tests.explain.answers.given import NOW, Given, Told, deed, option, plan, refused
 from tests.explain.answers.imagined import Drive, decided
 from xavi_dialogue.domain.answers import DidNotHappen, Evidence, Options, OwnSignal
@@ -16,9 +17,11 @@ from xavi_dialogue.domain.meaning import Doing, WhatIf, Which, Why
 from xavi_dialogue.domain.terms import (
     At,
     Between,
+    Ego,
     Event,
     Exists,
     Happens,
+    Is,
     Not,
     Vehicle,
     Wanted,
@@ -229,6 +232,44 @@ def test_whom_an_option_would_have_struck_is_counted_in_its_drives(
     straight = what_if(monkeypatch, "continue")
     assert (straight.options[0].action, straight.hits, straight.drives) == ("continue", 0, 0)
     assert what_if(monkeypatch, "exit-straight").options[0].action == "continue"
+
+
+def test_whom_we_may_hit_is_asked_of_the_plan_then_of_the_riskiest_option(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    trace = decided((TURN, "continue"), *(Drive(0.5) for _ in range(2)))
+    struck = tuple(replace(r, collided_with=2) for r in trace.rollouts)
+    rows = [option(TURN, chosen=True), option("continue", collision=0.3, collided_with=4)]
+    monkeypatch.setattr(risks, "of_trace", lambda ride, found: rows)
+    monkeypatch.setattr(risks, "situations", lambda found: Evidence(rollouts=7))
+    monkeypatch.setattr(risks, "closeness", lambda *args, **more: Told("near"))
+
+    def who(**more: Any) -> Any:
+        given = Given(traces=(replace(trace, **more),)).asked()
+        return risks.who(Which(Wanted(), Is("dangerous", Wanted())), given)
+
+    assert who(rollouts=struck).options[0].action == TURN
+    assert who().options[0].collided_with == 4
+    rows.pop()
+    assert who() == Told("near")
+
+
+def test_who_would_be_in_our_way_holds_an_option_up_longest(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    held = (HeldUp(4, 0.0, 1.0, "leader", 9.0, 8.0), HeldUp(6, 1.0, 9.0, "leader", 9.0, 8.0))
+    trace = decided((TURN,), Drive(1.0))
+    told = tuple(replace(r, held_up=held, weight=1.0) for r in trace.rollouts)
+    monkeypatch.setattr(risks, "of_trace", lambda ride, found: (option(TURN),))
+    monkeypatch.setattr(risks, "situations", lambda found: Evidence(rollouts=7))
+    monkeypatch.setattr(risks, "first_look", lambda asked, vehicle, at: vehicle)
+    given = Given(traces=(replace(trace, rollouts=told),)).asked()
+    block = Which(Wanted(), Happens(Event("block", Wanted(), Ego(), modal="would")))
+    found: Any = risks.what_if(WhatIf(Happens(Event(TURN, tense="present")), block), given)
+    assert (found.looks, found.none) == ((6,), False)
+    free: Any = Given(traces=(trace,)).asked()
+    found = risks.what_if(WhatIf(Happens(Event(TURN, tense="present")), block), free)
+    assert (found.looks, found.none) == ((), True)
 
 
 def test_what_is_not_asked_or_not_known_is_supposed_as_ever(

@@ -75,7 +75,12 @@ def _met_by(question: WhatIf, asked: Asked) -> Options | Identified | None:
     match question:
         case WhatIf(
             supposed=Happens(event=Event(actor=Ego()) as event),
-            then=Which(such=Happens(event=Event(action="collide" | "block" as how))),
+            then=Which(
+                such=Happens(
+                    event=Event(action="collide" as how, actor=Ego())
+                    | Event(action="block" as how, object=Ego())
+                )
+            ),
         ):
             pass
         case _:
