@@ -19,6 +19,7 @@ from xavi_dialogue.domain.answers import (
     Cause,
     ChoiceReason,
     Contrast,
+    Declined,
     DidNotHappen,
     Grounds,
     Happenings,
@@ -26,6 +27,7 @@ from xavi_dialogue.domain.answers import (
     Method,
     MotionCause,
     MotionReason,
+    Options,
     OtherReason,
     PeakMoment,
     PlanAhead,
@@ -115,6 +117,11 @@ def _weighed(turn: Turn, before: Discourse) -> tuple[Event | None, Event | None]
     for part in reversed(turn.parts):
         asked = None if part.act is None else part.act.act
         option = _option_in(asked.question) if isinstance(asked, Ask) else None
+        match part.result:
+            case Options(risk=True, options=(told,)) if option is None:
+                option = Event(told.action, tense="present")
+            case Declined(reason=ChoiceReason(), request=Request(event=event)):
+                option = replace(event, actor=Ego(), tense="present")
         against = next(parts(part.result, Contrast), None)
         if option is None or isinstance(part.result, get_args(Refusal)):
             continue

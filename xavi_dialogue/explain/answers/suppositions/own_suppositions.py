@@ -52,6 +52,7 @@ from xavi_dialogue.explain.answers.suppositions.undone import (
     GOING,
     is_halted,
     is_present,
+    straight,
 )
 from xavi_dialogue.explain.causes.driving.blocking import blocking
 from xavi_dialogue.explain.causes.plans.chances import chances
@@ -204,7 +205,7 @@ def of_us(
         Unanswered: it cannot be done; or rollouts are needed.
     """
     past = is_past(scene, event) or event.modal == "would"
-    asked, event = event, _staying(event, scene)
+    asked, event = event, straight(_staying(event, scene), scene, form)
     if asked.action == "wait" and event.action == "keep-lane":
         scene = replace(scene, span=None)  # the end of a duration is not when it was chosen
     if event.action in SQUEEZING and scene.world.episodes(Ego(), ("give-way",)):

@@ -2,13 +2,17 @@
 
 from dataclasses import replace
 
+from msgspec import structs
+
 from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import Ego, Event
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.foils import MANOEUVRES
 from xavi_dialogue.explain.answers.reference.naming import is_us
 from xavi_dialogue.explain.answers.reference.occasions import occasion
+from xavi_dialogue.explain.causes.plans.options import risky_onward
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
 from xavi_dialogue.explain.causes.vehicles.when import ROUNDING
 from xavi_dialogue.explain.history.ride import planned
@@ -46,6 +50,19 @@ def is_present(event: Event, asked: Asked) -> bool:
 def stops(asked: Asked) -> bool:
     """Check whether the decision in force is to stop."""
     return bool(asked.ride.traces) and "stop" in planned(asked.ride.latest)[:1]
+
+
+def straight(event: Event, asked: Asked, form: Asking) -> Event:
+    """Read going on as going straight on: where it says so, or only that has a risk."""
+    risky = form in ("crash", "chance", "safe", "dangerous") and not stops(asked)
+    onward = event.side == "straight" or (
+        risky and event.side is None and "fast" not in event.manner
+    )
+    if event.action not in GOING or not onward or not asked.ride.traces:
+        return event
+    if event.side is None and risky_onward(asked.ride) is None:
+        return event
+    return structs.replace(event, action="exit-straight", side=None)
 
 
 def is_halted(asked: Asked) -> bool:

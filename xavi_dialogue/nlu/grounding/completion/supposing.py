@@ -141,6 +141,8 @@ def _asks_whom(spoken: Question) -> bool:
             return True
         case Which(such=Related(relation="with", thing=Pronoun(), to=Wanted())):
             return True
+        case Which(such=Happens(event=Event("collide", Wanted(), Ego(), modal=modal))):
+            return modal in ("would", "might", "could")  # "who might hit us?"
     return False
 
 
@@ -151,7 +153,7 @@ def _asks_chance(spoken: Question, g: Grounder) -> bool:
     match g.context.discourse.question:
         case WhatIf(supposed=Happens(event=Event(actor=Ego()))):
             return True
-        case Whether():
+        case Whether() | Which() | None:
             return g.context.discourse.option is not None
     return False
 
