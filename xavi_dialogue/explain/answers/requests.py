@@ -85,18 +85,12 @@ def request(act: Request, asked: Asked) -> Answer:
 
 
 def _against(asked: Asked, event: Event) -> ChoiceReason | None:
-    """Return what speaks against a request that the decision in force weighed.
-
-    Raises:
-        Unanswered: rollouts are needed.
-    """
+    """Return what speaks against a request, if the record shows that without further rollouts."""
     if not macros(event) or event.action in ENDING:
         return None
     try:
         found = choices.why_not(replace(event, actor=Ego(), time=Now(), tense="present"), asked)
-    except Unanswered as unanswered:
-        if isinstance(unanswered.result, NeedRollout):
-            raise
+    except Unanswered:
         return None
     return found if isinstance(found, ChoiceReason) else None
 
