@@ -156,6 +156,7 @@ class Beliefs(Value, frozen=True):
     besides: tuple[Expectation, ...] = ()  # what else was likely at that time
     knew: bool = False  # the question is whether we knew it; `since`: held without a break
     before: float | None = None  # the probability before that
+    denied: bool = False  # `probability` is that of the conduct not coming
 
 
 class Options(Value, frozen=True):

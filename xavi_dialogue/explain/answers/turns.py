@@ -38,6 +38,7 @@ from xavi_dialogue.explain.answers.propositions.reasons import why
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, is_past
 from xavi_dialogue.explain.answers.reference.naming import number, somebodies
+from xavi_dialogue.explain.answers.ride.crossings import meets_ahead, passes_by
 from xavi_dialogue.explain.answers.ride.priority import priority_at
 
 GOING: Final = frozenset[ActionName](("go", "move", "enter", "cross", "turn", "continue", "pass"))
@@ -170,6 +171,7 @@ def _in_order(
         look
         for fact in road.priority
         if fact.who == who_goes and (not only or fact.vehicle in only)
+        if not (meets_ahead(asked, fact.vehicle) and passes_by(asked, fact.vehicle))
         if (look := asked.world.look(fact.vehicle, asked.now)) is not None and look.in_view
     ]
     return tuple(sorted(found, key=lambda look: (look.distance, look.vehicle)))

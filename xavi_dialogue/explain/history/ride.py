@@ -23,6 +23,7 @@ from xavi_dialogue.explain.history.joining import Joined, Seen, joined
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.explain.history.thresholds import STANDING
+from xavi_dialogue.explain.history.turning import by_turns
 
 #: Evidence is enough if the samples behind it cover this share of the prior mass: then what they
 #: all agree on is the likeliest result, however few they are ...
@@ -341,4 +342,5 @@ def planned(trace: PlanTrace) -> Actions:
 
 def prediction(trace: PlanTrace, vehicle: int) -> VehiclePrediction | None:
     """Return what a decision expects of a vehicle."""
-    return next((p for p in trace.predictions if p.vehicle == vehicle), None)
+    found = next((p for p in trace.predictions if p.vehicle == vehicle), None)
+    return None if found is None else by_turns(found)

@@ -45,7 +45,8 @@ def test_what_is_believed_of_conduct_is_its_history() -> None:
         found = sure(of, **STEADY)
         assert isinstance(found, Beliefs)
         assert found.of == TURN
-        assert found.probability == pytest.approx(0.9)
+        assert found.denied == isinstance(getattr(of, "content", None), Not)
+        assert found.probability == pytest.approx(0.1 if found.denied else 0.9)
     found = sure(Happens(Event("exit-left", ONE, time=At(3.0))), **STEADY)
     assert (found.time, found.probability) == (2.0, pytest.approx(0.6))
     found = sure(Happens(Event("exit-left", ONE, time=At(3.0))), At(9.0), **STEADY)

@@ -9,11 +9,16 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
-from planner.record.trace import SAMPLE_PERIOD, TrajectoryPrediction
+from planner.record.trace import (
+    SAMPLE_PERIOD,
+    GoalPrediction,
+    TrajectoryPrediction,
+    VehiclePrediction,
+)
 from tests.explain.answers.given import plan
 from tests.explain.answers.imagined import Drive, decided
 from xavi_dialogue.explain.answers.expectations import precedence
-from xavi_dialogue.explain.answers.expectations.precedence import first, into_our_road
+from xavi_dialogue.explain.answers.expectations.precedence import first, into_our_road, is_apart
 
 OURS = decided(("continue",), Drive(1.0, (10.0,) * 31))
 
@@ -133,3 +138,38 @@ def test_a_place_is_as_far_as_the_nearest_point_of_a_line(place: Any, apart: flo
     assert slanted == pytest.approx(math.sqrt(8.0))
     away = precedence._apart((1.0, 2.0), (5.0, 2.0), (3.0, 5.0))
     assert away == pytest.approx(3.0)
+
+
+def expecting(*ways: Any) -> Any:
+    """Our decision, with the equally probable ways of a vehicle."""
+    goals = tuple(
+        GoalPrediction("continue", "the road", "edge", 1.0, 1.0, 1.0 / len(ways), (way,))
+        for way in ways
+    )
+    return replace(OURS, predictions=(VehiclePrediction(1, goals),))
+
+
+@pytest.mark.parametrize(
+    ("ways", "apart"),
+    [
+        ((crossing(80.0, 10.0),), True),  # beyond our line
+        ((crossing(40.0, 10.0),), False),
+        ((crossing(40.0, 10.0), crossing(80.0, 10.0)), False),
+        ((crossing(40.0, 10.0), *[crossing(80.0, 10.0)] * 11), True),  # 8 %
+        ((crossing(80.0, 0.4),), False),  # it stands: where it goes then is not known
+    ],
+)
+def test_whose_ways_hardly_meet_ours_passes_by(ways: Any, apart: bool) -> None:
+    assert is_apart(expecting(*ways), 1) is apart
+
+
+def test_who_drives_ahead_on_our_line_has_joined_it_already() -> None:
+    line = tuple((30.0 + 2.0 * k, 0.5) for k in range(31))
+    ahead = TrajectoryPrediction(1.0, ("continue",), line, (10.0,) * 31)
+    assert is_apart(expecting(ahead), 1)
+    back = replace(ahead, path=line[::-1])
+    assert not is_apart(expecting(back), 1)
+
+
+def test_nobody_is_apart_without_a_prediction() -> None:
+    assert not is_apart(OURS, 1)

@@ -51,7 +51,8 @@ def how_sure(question: HowSure, asked: Asked) -> Answer:
     while isinstance(of, Believed):
         of = of.content
     if isinstance(of, Not):
-        of = of.content
+        found = how_sure(replace(question, of=of.content), asked)
+        return denied(found) if isinstance(found, Beliefs) else found
     time = question.time if not isinstance(question.time, Unsaid) else time_of(of)
     match of:
         case Happens(event=event) if number(event.actor) is not None:
@@ -76,6 +77,13 @@ def how_sure(question: HowSure, asked: Asked) -> Answer:
     if vehicle is None:
         raise Unanswered(NotRecorded("not-recorded", about="probability"))
     return history_of(asked, vehicle, None, time)
+
+
+def denied(found: Beliefs) -> Beliefs:
+    """Turn how probable conduct is into how probable it is that it does not come."""
+    if found.of is None or found.probability is None:
+        return found
+    return replace(found, probability=1.0 - found.probability, denied=True, besides=())
 
 
 def ruled(asked: Asked, of: Related) -> Priority | None:

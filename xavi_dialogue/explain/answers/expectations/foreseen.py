@@ -66,7 +66,7 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
     event = _alongside(asked, event, vehicle, at)
     trace = asked.ride.at(at, vehicle)
     known = None if trace is None else prediction(trace, vehicle)
-    if trace is None or known is None or _ignored(known, event):
+    if trace is None or known is None or not considers(known, event):
         return None
     total, any_known = 0.0, False
     for goal in known.goals:
@@ -103,6 +103,16 @@ def unconsidered(asked: Asked, event: Event, at: float) -> Bound | None:
 def is_behind(asked: Asked, event: Event, at: float) -> bool:
     """Check whether an event is asked about as past, or is no longer predicted."""
     return event.tense == "past" or chance(asked, event, at) is None
+
+
+def considers(known: VehiclePrediction, event: Event) -> bool:
+    """Check whether a prediction bears on an event.
+
+    It does not on turns that it leaves out, nor on going ahead of one whose way it does not meet.
+    """
+    if event.action not in CROSSING or not isinstance(event.object, Vehicle):
+        return not _ignored(known, event)
+    return any(_yields(w.held_up, event) for goal in known.goals for w in goal.trajectories)
 
 
 def _ignored(known: VehiclePrediction, event: Event) -> bool:
@@ -296,6 +306,8 @@ def simulated(asked: Asked, at: float, vehicle: int | None = None) -> tuple[int,
 
 
 def _yields(stretches: tuple[HeldUp, ...], event: Event) -> bool:
-    """Check whether a vehicle gives way in some stretches: to the object, or by default to us."""
-    whom = EGO if event.object is None or is_us(event.object) else number(event.object)
-    return any(s.how == "right-of-way" and s.vehicle == whom for s in stretches)
+    """Check whether a vehicle goes after the object in some stretches, by default after us."""
+    other = None if event.object is None else number(event.object)
+    hows = ("right-of-way",) if other is None else ("right-of-way", "cut-in")
+    whom = EGO if event.object is None or is_us(event.object) else other
+    return any(s.how in hows and s.vehicle == whom for s in stretches)

@@ -2,15 +2,16 @@
 
 import math
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from typing import Final, Literal, TypeAlias
 
 from planner.record.places import RoadFacts
 from planner.record.trace import SAMPLE_PERIOD, PlanTrace, TrajectoryPrediction
 from sim.scene import EGO, Point
+from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.explain.causes.vehicles.course import lines
 from xavi_dialogue.explain.history.motion import Motion
-from xavi_dialogue.explain.history.ride import planned
+from xavi_dialogue.explain.history.ride import planned, prediction
 
 MEETING: Final = 2.0  # [m] within which two lines meet
 MOVING: Final = 0.5  # [m/s] above which a vehicle moves along its line
@@ -18,6 +19,9 @@ TURNED: Final = math.radians(35.0)  # [rad] maximum difference of directions tha
 BESIDE: Final = 9.0  # [m] maximum offset sideways of a vehicle on our road
 SHORTLY: Final = 4.0  # [s] maximum time before us at which a vehicle passes in front of us
 SAME_PLACE: Final = 3.0  # [m] maximum difference of the distances of a junction and its light
+BESIDE_LINE: Final = 4.0  # [m] within which a vehicle is on our line
+KNOWN: Final = 0.5  # minimum probability of ways that do not meet ours
+RARE: Final = 0.1  # maximum probability of those that do
 AHEAD: Final = 15.0  # [m] length of our way that gives the direction of our road
 
 First: TypeAlias = Literal["we", "they", "nobody"]
@@ -35,6 +39,38 @@ def first(trace: PlanTrace, way: TrajectoryPrediction) -> First | None:
         if there is not None:
             return "they" if trace.sim_time + k * SAMPLE_PERIOD <= there else "we"
     return "nobody"
+
+
+def is_apart(trace: PlanTrace, vehicle: int) -> bool:
+    """Check whether hardly any predicted way of a vehicle crosses or joins ours.
+
+    It is not if that is not known, as where our line or theirs ends too soon. A vehicle that drives
+    ahead on our way has joined it already.
+    """
+    known, ours = prediction(trace, vehicle), planned_line(trace)
+    step = trace.road.route[0] if trace.road is not None and trace.road.route else None
+    length = 0.0 if ours is None or not ours.arc else ours.arc[-1]
+    if known is None or ours is None or (step is not None and length < step.distance + AHEAD):
+        return False
+    shares = {True: 0.0, False: 0.0}
+    for goal in known.goals:
+        for way in goal.trajectories:
+            goes = bool(way.path) and way.speed[-1:] > (MOVING,)  # it does not end in a halt
+            if goes and math.dist(way.path[0], way.path[-1]) >= AHEAD:
+                meets = first(trace, way) != "nobody" and not _leads(ours, way)
+                shares[meets] += goal.probability * way.probability
+    return shares[False] >= KNOWN and shares[True] < RARE
+
+
+def _leads(ours: Motion, way: TrajectoryPrediction) -> bool:
+    """Check whether a way begins on our line, in its direction."""
+    k = min(range(len(ours.position)), key=lambda k: math.dist(ours.position[k], way.path[0]))
+    if k == 0 or math.dist(ours.position[k], way.path[0]) > BESIDE_LINE:
+        return False
+    along, theirs = _direction(ours.position[k : k + 3]), _direction(way.path[:2])
+    if along is None or theirs is None:
+        return False
+    return abs(math.remainder(theirs - along, math.tau)) <= TURNED
 
 
 def before_us(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
@@ -65,15 +101,22 @@ def into_our_road(trace: PlanTrace, way: TrajectoryPrediction) -> bool | None:
 
 
 def planned_line(trace: PlanTrace) -> Motion | None:
-    """Return the longest line among the rollouts that begin as planned."""
-    plan, known = planned(trace)[:1], lines(trace)
+    """Return the line of the rollout that follows the plan furthest, best to the destination."""
+    plan, known = planned(trace), lines(trace)
     fitting = [
-        known[r.index]
+        (_common(plan, tuple(a.action for a in r.actions)), r.outcome == "done", known[r.index])
         for r in trace.rollouts
-        if r.index in known and tuple(a.action for a in r.actions[:1]) == plan
+        if r.index in known and tuple(a.action for a in r.actions[:1]) == plan[:1]
     ]
-    fitting = [line for line in fitting if len(line.position) > 1]
-    return max(fitting, key=lambda line: line.arc[-1] if line.arc else 0.0, default=None)
+    fitting = [one for one in fitting if len(one[2].position) > 1]
+    best = max(fitting, key=lambda one: (*one[:2], one[2].arc[-1:]), default=None)
+    return None if best is None else best[2]
+
+
+def _common(plan: Actions, done: Actions) -> int:
+    """Return how many actions two sequences begin with in common."""
+    same = takewhile(lambda pair: pair[0] == pair[1], zip(plan, done, strict=False))
+    return len(tuple(same))
 
 
 def _reached(ours: Motion, place: Point) -> float | None:

@@ -19,11 +19,12 @@ from xavi_dialogue.domain.facts import Belief, Episode
 from xavi_dialogue.domain.meaning import HowDecide, HowKnow, HowSure
 from xavi_dialogue.domain.terms import Ego, Event, Happens, Now, Proposition, Related, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.answers.events.beliefs import ruled, since_when
+from xavi_dialogue.explain.answers.events.beliefs import denied, ruled, since_when
 from xavi_dialogue.explain.answers.expectations.foreseen import (
     besides,
     chance,
     collision_chance,
+    considers,
     is_behind,
     unconsidered,
 )
@@ -53,7 +54,6 @@ from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, EXITS, HALTS,
 from xavi_dialogue.explain.causes.vehicles.conduct import (
     belief_of,
     conduct_names,
-    last_with,
     probability,
 )
 from xavi_dialogue.explain.causes.vehicles.grounds import grounds
@@ -121,15 +121,12 @@ def how_sure(question: HowSure, scene: Asked) -> Answer:
     if vehicle is not None:
         of_it = event is not None and event.action != "do"
         asked_of = None if event is None else replace(event, actor=Vehicle(vehicle))
-        left_out = None if asked_of is None else unconsidered(scene, asked_of, scene.moment)
+        found = beliefs(scene, vehicle, event if of_it else None)
+        at = scene.moment if found.time is None else found.time
+        left_out = None if asked_of is None else unconsidered(scene, asked_of, at)
         if left_out is not None:
             return left_out
-        found = beliefs(scene, vehicle, event if of_it else None)
-        off = negated and event is not None and event.action in ("go", "move")
-        if off and found.probability is not None:  # "that it would not move off"
-            stays = replace(event, action="stand") if event is not None else None
-            found = replace(found, of=stays, probability=1.0 - found.probability, besides=())
-        return replace(found, changed=question.changed)
+        return replace(denied(found) if negated else found, changed=question.changed)
     if event is not None and event.action in ("collide", "nearly-collide"):
         struck = vehicle_in(event.object)
         share = collision_chance(scene, scene.moment, struck)
@@ -203,12 +200,15 @@ def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
     if not known:
         raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=at))
     event = None if event is None else replace(event, actor=Vehicle(vehicle))
+    if event is not None and (event.modal == "would" or isinstance(event.object, Vehicle)):
+        met = [t for t in known if (p := prediction(t, vehicle)) and considers(p, event)]
+        known = met or known
     names = () if event is None else conduct_names(event)
     done = () if event is None else _done(scene, event)
     if event is not None and (event.modal == "would" or (done and is_behind(scene, event, at))):
         entered = [t for t in entries(scene) if max(known[0].sim_time, at - LATELY) <= t <= at]
         at = min(at, done[-1].begin - BEFORE) if done else entered[-1] if entered else at
-    trace = last_with(ride, vehicle, at) if known[0].sim_time <= at else known[0]
+    trace = next((t for t in reversed(known) if t.sim_time <= at), known[0])
     rows = [belief_of(ride, t, vehicle) for t in known]
     current = belief_of(ride, trace, vehicle)
     chances = [0.0 if event is None else _held(scene, vehicle, event, t) for t in known]
@@ -228,8 +228,10 @@ def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
 
 
 def _done(scene: Asked, event: Event) -> tuple[Episode, ...]:
-    """Return the episodes of an event; if there are none, those with any object."""
+    """Return the episodes of an event; without another vehicle, else those with any object."""
     found = scene.world.holds(event, 0.0, scene.now)
+    if isinstance(event.object, Vehicle):
+        return found
     return found or scene.world.holds(replace(event, object=None), 0.0, scene.now)
 
 

@@ -7,6 +7,7 @@ from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode, Somebody
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.expectations.precedence import at_ring, is_apart, on_ring
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window
 from xavi_dialogue.explain.answers.reference.naming import number
@@ -32,6 +33,28 @@ def crossing_now(asked: Asked) -> int | None:
     return min(found)[-1] if found else None
 
 
+def meets_ahead(asked: Asked, vehicle: int | None) -> bool:
+    """Check whether a vehicle's way may meet ours at a junction that we have not come to."""
+    road = asked.world.road(asked.now)
+    place = None if road is None else road.places.get(EGO)
+    if road is None or place is None or (place.in_junction and not place.roundabout):
+        return False
+    facts = [fact for fact in road.priority if fact.vehicle == vehicle]
+    return any(fact.who == "ego" or not place.roundabout for fact in facts)
+
+
+def passes_by(asked: Asked, vehicle: int | None) -> bool:
+    """Check whether the predicted ways of a vehicle do not meet ours.
+
+    One that comes along a road with priority keeps it, whichever way it is expected to go.
+    """
+    trace, road = asked.ride.at(asked.now), asked.world.road(asked.now)
+    if vehicle is None or trace is None or road is None:
+        return False
+    owed = any(fact.vehicle == vehicle and fact.who != "ego" for fact in road.priority)
+    return (at_ring(road) or not owed) and is_apart(trace, vehicle)
+
+
 def went_first(
     asked: Asked, vehicle: int | None, near: Window, waited: Episode | None
 ) -> Somebody | None:
@@ -48,6 +71,8 @@ def went_first(
         return None if ours[-1][1] and ours[-1][0] >= asked.now - SHORT else Ego()
     if not entered and _left(asked, vehicle, near) is not None:
         return Vehicle(vehicle)
+    if entered and on_ring(asked.world.road(asked.now)):  # and it is not ahead of us there
+        return Vehicle(vehicle) if passes_by(asked, vehicle) else Ego()
     over = waited is not None and waited.end is not None and waited.standing
     return Vehicle(vehicle) if over else None
 

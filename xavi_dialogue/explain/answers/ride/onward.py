@@ -29,6 +29,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.precedence import SAME_PLACE, on_ring
+from xavi_dialogue.explain.answers.expectations.steering import as_planned
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import SHORT, instant, is_past, window
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
@@ -51,9 +52,10 @@ def steps_ahead(asked: Asked) -> tuple[WayStep, ...]:
         raise Unanswered(NotRecorded("not-recorded", about="route"))
     place = road.places.get(EGO)
     inside = place is not None and place.roundabout
+    route = as_planned(asked, junctions_ahead(asked.ride, asked.now))
     return tuple(
         _step(step, rank, inside and rank == 1 and step.kind == "roundabout")
-        for rank, step in enumerate(junctions_ahead(asked.ride, asked.now), start=1)
+        for rank, step in enumerate(route, start=1)
     )
 
 
@@ -94,7 +96,7 @@ def next_halt(asked: Asked) -> Course:
     trace = asked.ride.at(asked.now)
     lights = () if road is None or trace is None else road.lights
     red = [still_to(asked.ride, light.distance, asked.now) for light in lights]
-    for way, step in zip(steps_ahead(asked), junctions_ahead(asked.ride, asked.now), strict=True):
+    for way, step in zip(steps_ahead(asked), junctions_ahead(asked.ride, asked.now), strict=False):
         light = any(abs(far - step.distance) < SAME_PLACE for far in red)
         if light or (step.rule != "priority" and not way.inside):
             return course(asked, "halt", (replace(way, rule=step.rule, light=light),))

@@ -19,7 +19,7 @@ from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.precedence import at_ring, on_ring, red_ahead
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import Finding
-from xavi_dialogue.explain.answers.reference.moments import Window, window
+from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, window
 from xavi_dialogue.explain.answers.reference.naming import known, number, somebodies
 from xavi_dialogue.explain.answers.reference.occasions import PLAIN, occasion, overlaps
 from xavi_dialogue.explain.answers.ride.comfort import HARD, stretch
@@ -27,7 +27,9 @@ from xavi_dialogue.explain.answers.ride.crossings import (
     NEAR,
     crossing_now,
     entries,
+    meets_ahead,
     met_about,
+    passes_by,
     stood,
     went_first,
 )
@@ -130,11 +132,14 @@ def priority_at(
     rule = rule if met is None else met[1]
     if rule == "none" and vehicle is not None:
         rule = _changing(asked, vehicle, about) or rule
+    ahead = about.end >= asked.now - SHORT and meets_ahead(asked, vehicle)
+    if ahead and rule in ("priority", "give-way") and passes_by(asked, vehicle):
+        rule = "none"
     rule = _walks_first(asked, vehicle, about, waited) or rule
     if rule is None and not blame:
         raise Unanswered(NotRecorded("not-recorded", about="right-of-way", since=time))
     crossing = rule in ("priority", "give-way", "equal", "depends")
-    first = went_first(asked, vehicle, near, waited) if crossing else None
+    first = went_first(asked, vehicle, near, waited) if crossing and not ahead else None
     return Priority(
         time, rule or "none", vehicle, first, waited, blame,
         conflict=_conflict(asked, vehicle, near) if blame else None,
@@ -204,7 +209,8 @@ def rule_between(asked: Asked, vehicle: int, about: Window) -> tuple[float, Rule
 
 def _changing(asked: Asked, vehicle: int, about: Window) -> Rule | None:
     """Return which of the two changed lanes about then, or is about to."""
-    near = about.widened(NEAR)
+    now = about.instant and about.end >= asked.now - 0.1
+    near = about if now else about.widened(NEAR)
     for who, rule in ((Ego(), "we-change"), (Vehicle(vehicle), "it-changes")):
         found = asked.world.episodes(actor=who, actions=CHANGES)
         if any(overlaps(asked, e, near) for e in found):

@@ -34,6 +34,7 @@ IN_LANE = frozenset[ActionName](("stop", "brake", "slow-down", "stand", "go", "m
 STARTING = frozenset[ActionName](("go", "move", "enter", "cross"))
 HALTING = frozenset[ActionName](("stop", "brake", "slow-down", "avoid", "swerve"))
 COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
+WAITS: tuple[ActionName, ...] = ("give-way", "wait")
 LOOK_BACK = 15.0  # [s] before the question, in which the worst time is searched
 STEP = 0.5  # [s]
 
@@ -101,7 +102,10 @@ def reaction(
     """
     action = None if event is None or negated else event.action
     in_lane = action in IN_LANE
-    if past and not (scene.past is not None and scene.past.said):
+    waited = _waited(scene, vehicle) if negated and event is not None else None
+    if past and waited is not None:
+        time = waited
+    elif past and not (scene.past is not None and scene.past.said):
         ahead = _closest(scene, vehicle, scene.now, in_lane=in_lane)
         if ahead is None and action in STARTING:  # it stood next to our way, not on it
             in_lane = False
@@ -127,6 +131,13 @@ def reaction(
         negated=negated,
         asked=asks(then),
     )
+
+
+def _waited(scene: Asked, vehicle: int) -> float | None:
+    """Return when [s] a vehicle last began to wait for us, when it could have gone on instead."""
+    found = scene.world.episodes(Vehicle(vehicle), actions=WAITS, object=Ego())
+    begun = [e.begin for e in found if e.begin <= scene.now]
+    return begun[-1] if begun else None
 
 
 def _closest(scene: Asked, vehicle: int, last: float, *, in_lane: bool) -> float | None:

@@ -115,6 +115,8 @@ def event_clause(
     target = event.object
     if told in ("present", "future") and not negated and _is_meeting(event):
         target = None  # the turn is what is expected, not the one it meets
+    if event.action == "leave" and isinstance(target, Junction) and event.actor != Ego():
+        target = msgspec.structs.replace(target, rank=None)  # the one that it is in
     verb, rest = verb_phrase(event.action, event.actor, target, event.side, time=at)
     if negated:
         rest = tuple(map(denied, rest))

@@ -19,6 +19,7 @@ from xavi_dialogue.domain.facts import (
 from xavi_dialogue.domain.terms import Ego, Event, Related, Vehicle
 from xavi_dialogue.domain.traffic_lights import Crossed, Foreseen, Shown
 from xavi_dialogue.nlg.content.clauses.clauses import doing, episode_clause
+from xavi_dialogue.nlg.content.clauses.manoeuvres import MOST_PASSED
 from xavi_dialogue.nlg.content.clauses.measures import measure_message
 from xavi_dialogue.nlg.content.clauses.propositions import clause_of
 from xavi_dialogue.nlg.content.clauses.tenses import since, tense_at
@@ -36,7 +37,6 @@ RISK = 0.01  # minimum probability of a collision that is stated
 CHANGED = 1.4  # [m/s] minimum change of speed that is stated
 TOLD = 0.1  # minimum probability of an alternative that is named
 BESIDES = 2  # maximum of likely alternatives that are stated
-MOST_PASSED = 2  # maximum of roundabout exits that are counted
 LONG = 1.5  # [s] minimum time of standing or waiting that is stated
 LASTING = frozenset(("stand", "wait", "block", "follow"))
 

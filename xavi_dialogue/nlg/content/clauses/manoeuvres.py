@@ -8,11 +8,14 @@ from xavi_dialogue.domain.terms import Ego
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlg.content.clauses.clauses import doing, episode_clause
 from xavi_dialogue.nlg.surface.message import Message
+from xavi_dialogue.nlg.surface.tables import word
 from xavi_dialogue.nlg.surface.values import Clause, Moment, Tense, Who
 
 CHANGES = frozenset(("change-left", "change-right", "overtake"))
 EXITS = frozenset(("exit-left", "exit-right", "exit-straight"))
+MOST_PASSED = 2  # maximum of roundabout exits that are counted
 _NEXT = "continue-next-exit"
+_RING = "passed-exits-"  # before the number of exits of a roundabout that are passed
 _BACK = {"change-left": "change-right", "change-right": "change-left"}
 
 
@@ -34,13 +37,23 @@ def own_verbs(actions: Iterable[str], against: Iterable[str] = ()) -> tuple[Clau
         actions: the actions in order.
         against: alternative actions; next to a lane change, going on is staying in the lane.
     """
-    row, other = plain(actions), tuple(against)
+    row, other = plain(_ringed(tuple(actions))), tuple(against)
     return _row(row, other, ego=True)
+
+
+def _ringed(actions: tuple[str, ...]) -> tuple[str, ...]:
+    """Replace passing exits of a roundabout and leaving it then by their number."""
+    first = next((k for k, action in enumerate(actions) if action == _NEXT), len(actions))
+    last = next((k for k in range(first, len(actions)) if actions[k] != _NEXT), len(actions))
+    if last == len(actions) or actions[last] not in EXITS:
+        return actions
+    passed = min(last - first, MOST_PASSED)
+    return (*actions[:first], f"{_RING}{passed}", *actions[last + 1 :])
 
 
 def other_verbs(actions: Iterable[str]) -> tuple[Clause, ...]:
     """Return actions of another vehicle as verb phrases to be inflected."""
-    row = plain(actions)
+    row = plain(_ringed(tuple(actions)))
     telling = tuple(action for action in row if action != "continue")
     return _row(telling or row, (), ego=False)
 
@@ -51,9 +64,7 @@ def _row(row: tuple[str, ...], other: tuple[str, ...], *, ego: bool) -> tuple[Cl
     phrases: list[str] = []
     for rank, action in enumerate(row):
         phrase = _phrase(action, ego=ego, lanes=lanes)
-        if action in EXITS and _NEXT in row[max(rank - 1, 0) : rank]:
-            phrase = "leave there"
-        elif past_exit and action in EXITS and rank == 0:
+        if past_exit and action in EXITS and rank == 0:
             phrase = "leave the roundabout right away"
         elif ego and rank and _BACK.get(action) == row[rank - 1]:
             phrases[-1] += " and back again"
@@ -66,6 +77,8 @@ def _row(row: tuple[str, ...], other: tuple[str, ...], *, ego: bool) -> tuple[Cl
 
 
 def _phrase(action: str, *, ego: bool, lanes: bool) -> str:
+    if action.startswith(_RING):
+        return str(word("doings", "leaving", action.removeprefix(_RING)))
     if action == "continue" and lanes:
         return doing("keep-lane", ego=ego)
     return doing(action, ego=ego)  # type: ignore[arg-type]

@@ -57,6 +57,7 @@ def plan_beliefs(answer: Beliefs, context: SpeechContext) -> Plan:
             who=Who(vehicle, at if past else None),
             of=clause,
             chance=Chance(answer.probability),
+            denied=answer.denied,
             **besides_of(answer.besides, past=past),
         )
         return Plan((first,), details, more)
@@ -89,7 +90,7 @@ def _knew(answer: Beliefs, share: float, context: SpeechContext) -> Message:
 
 def _moved(answer: Beliefs, context: SpeechContext) -> Message | None:
     """Return the largest change of the belief, and what the vehicle did meanwhile."""
-    if answer.turning is None or len(answer.history) < 2:
+    if answer.turning is None or answer.denied or len(answer.history) < 2:
         return None
     begin, end = answer.turning
     before = max((b for b in answer.history if b.time <= begin), key=_when, default=None)

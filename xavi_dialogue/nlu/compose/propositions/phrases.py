@@ -188,6 +188,10 @@ class Phrases(Adjuncts):
         if leaf.key == "by" and forced and is_named(sem):
             clause.because = sem  # "were you forced to stop by the bus"
             return
+        lacked = getattr(sem, "described", None)  # "would you have braked with no bus there?"
+        if leaf.key == "with" and clause.modal == "would" and lacked is not None:
+            clause.without = lacked
+            return
         shown = on_light(leaf.key, sem, leaves_of(node))
         clause.complements.append(Complement(leaf.key, shown, node))
 

@@ -186,6 +186,8 @@ def _without(sem: Sem) -> Proposition | None:
     if isinstance(sem, Event):
         return Not(Happens(sem))
     thing = as_thing(sem)
+    if isinstance(thing, Described) and thing.bearing == "there":
+        thing = structs.replace(thing, bearing=None, definite=True)  # "with no bus there"
     return None if thing is None else Not(Exists(thing))
 
 

@@ -278,6 +278,11 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
             return _anchored(Relative(time.relation, light), tense, g)
         case Event() as event:
             return _of_event(event, tense, g)
+        case Road(which="side") | Junction() | Exit() | Feature(kind="line") if tense in (
+            "present",
+            "future",
+        ) and time.relation in ("before", "until"):
+            return None  # "how sure are you that it leaves before our entry?"
         case Road(which="side"):  # where it meets ours
             return _of_visits(visits(g.context), ahead=tense != "past")
         case Junction() as spoken:

@@ -90,7 +90,9 @@ class Search:
         found = [looks.bearing_cost(bearing, look)]
         if not look.in_view:
             found[0] = max(found[0], 0.4)
-        for time in (context.now, *(() if deed is None else (deed.begin, deed.end))):
+        here = self.described.plural and look.in_view  # "all these on the right have stopped"
+        deeds = () if deed is None or here else (deed.begin, deed.end)
+        for time in (context.now, *deeds):
             then = None if time is None or time == look.time else context.look(vehicle, time)
             if then is not None and then.in_view:
                 found.append(0.05 + looks.bearing_cost(bearing, then))

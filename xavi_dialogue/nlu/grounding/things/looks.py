@@ -10,6 +10,7 @@ from xavi_dialogue.domain.vocabulary import Bearing, Kind
 
 WRONG: Final = 1.0
 NEARLY: Final = 0.3
+PASSED: Final = 0.2  # of somebody on one side whom we have passed
 BIG: Final = 6.0  # [m] length from which a vehicle is big
 SMALL: Final = 4.0  # [m] length up to which one is small
 HERE: Final = 30.0  # [m]
@@ -117,7 +118,7 @@ def origin_cost(wanted: Bearing, looks: tuple[Look, ...]) -> float:
 
 def _aside(wanted: str, look: Look) -> float:
     if look.bearing.endswith(f"-{wanted}"):
-        return 0.0
+        return PASSED if look.bearing.startswith("behind") else 0.0
     left = look.left if wanted == "left" else -look.left
     if left < ASIDE:
         return WRONG
