@@ -143,7 +143,7 @@ def test_what_somebody_is_expected_to_do() -> None:
     aims = {
         1: (
             Aim("continue", 0.5, (Way(("continue",), 0.8), Way(("stop",), 0.2))),
-            Aim("exit-left", 0.3, (Way(("continue",)),)),
+            Aim("continue", 0.3, (Way(("continue",)),)),
             Aim("stop", 0.2, (Way(("stop",)),)),
         )
     }

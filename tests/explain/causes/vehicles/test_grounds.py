@@ -200,7 +200,7 @@ def test_how_much_better_its_path_fits(
 def test_the_likeliest_goals_are_set_against_each_other() -> None:
     """Two by which it turns left, of which one may also go on, and two by which it does not."""
     known = (
-        Aim("exit-left", 0.15, (Way(("exit-left",), 0.5), Way(("continue",), 0.5))),
+        Aim("exit-left", 0.15, (Way(("exit-left",), 0.5), Way(("change-left", "continue"), 0.5))),
         Aim(
             "exit-left",
             0.35,

@@ -63,8 +63,8 @@ def how_sure(question: HowSure, asked: Asked) -> Answer:
             at = instant(asked, time)
             return Verdict(of, None, probability=collision_chance(asked, at))
         case Happens(event=event):
-            found = foreseen(asked, event)
-            share = None if found is None else found.share
+            expected = foreseen(asked, event)
+            share = None if expected is None else expected.share
             return Verdict(of, None if share is None else share >= 0.5, probability=share)
         case Related(relation="has-priority-over") if (rule := ruled(asked, of)) is not None:
             return rule

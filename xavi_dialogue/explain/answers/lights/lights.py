@@ -76,7 +76,7 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
             return _asked(lights_ahead.how_sure)
         case When(of) if lights_ahead.is_to_come(of, scene):
             return _asked(lights_ahead.when)
-        case HowLong(of) if lights_ahead.is_to_come(of, scene):
+        case HowLong(of) if not isinstance(of, Event) and lights_ahead.is_to_come(of, scene):
             return _asked(lights_ahead.staying)
         case HowMuch(Measured("duration", Feature(kind="light"), tense=tense)):
             past = tense in ("past", "perfect")

@@ -71,11 +71,11 @@ def when(question: When, scene: Asked) -> Answer:
 def staying(question: HowLong | HowMuch, scene: Asked) -> Answer:
     """Return how long a light is expected to show what it shows: when it changes next."""
     of = question.of
-    that: Any = Has("colour", None, of.thing) if isinstance(of, Measured) else of
+    that: Any = Has("colour", "", of.thing) if isinstance(of, Measured) else of
     light, wanted = wanted_of(that)
     one = shown_at(scene.ride, light, scene.now)
     stays = one is not None and wanted == one.colour
-    return _forecast(Has("colour", None, light) if stays else that, scene, "when")
+    return _forecast(Has("colour", "", light) if stays else that, scene, "when")
 
 
 def coming(question: Whether, scene: Asked) -> Answer:

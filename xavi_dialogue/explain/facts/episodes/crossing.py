@@ -7,7 +7,7 @@ from xavi_dialogue.explain.facts.states import States
 
 LATELY = 8.0  # [s] after which somebody who crossed, or was let go first, is no longer meant
 EXPECTED = 0.4  # chance of crossing from which somebody counts as about to
-DEEDS = frozenset(("cross", "give-way"))
+DEEDS: happening.Names = frozenset(("cross", "give-way"))
 
 
 def crossing(states: States, t: float) -> tuple[int, ...]:

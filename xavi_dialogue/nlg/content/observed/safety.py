@@ -180,8 +180,8 @@ def plan_closeness(answer: Closeness, context: SpeechContext) -> Plan:
         and (vehicle is not None or answer.giving)
     ):
         of = answer.planned if answer.risk >= RISKY else None
-        at = None if of is None else Moment(of)
-        details.append(message("RISK", risk=Chance(answer.risk), past=answer.past, at=at))
+        when = None if of is None else Moment(of)
+        details.append(message("RISK", risk=Chance(answer.risk), past=answer.past, at=when))
     return Plan((first,), tuple(details))
 
 

@@ -21,7 +21,7 @@ _CHOSEN: Final = frozenset[ActionName](
 def is_danger(sem: object) -> bool:
     """Say whether a thing is called a danger or a risk: "who is the threat?"."""
     if isinstance(sem, Noun):
-        return sem.key == "problem"
+        return sem.key in ("problem", "danger")
     crash = sem.of.event if isinstance(sem, Measure) and sem.of.attribute == "probability" else None
     return crash is not None and crash.action == "collide" and crash.object is None
 

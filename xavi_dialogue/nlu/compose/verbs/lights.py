@@ -19,6 +19,7 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Wanted,
 )
+from xavi_dialogue.domain.vocabulary import Bearing
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Complement
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, Specified, as_thing
@@ -37,7 +38,7 @@ def colour_of(sem: object) -> str | None:
     """Tell the colour of a noun phrase that is a colour of lights: "on red", "on red here"."""
     if not isinstance(sem, Described) or sem.colour not in LIT:
         return None
-    here = "here" if sem.bearing == "here" else None
+    here: Bearing | None = "here" if sem.bearing == "here" else None
     plain = Described(colour=sem.colour, definite=sem.definite, bearing=here)
     return sem.colour if sem == plain else None
 

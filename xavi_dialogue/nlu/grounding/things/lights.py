@@ -63,11 +63,11 @@ def _meant(part: Any, g: Grounder) -> Any:
         ):  # "what happens when it turns green?"
             return Doing(Ego(), rewrite(part.time, lambda inner: _meant(inner, g)), "future")
         case HowLong(
-            of=Event(action=action, actor=Pronoun() | Feature() as thing, object=None)
+            of=Event(action=action, actor=Pronoun() | Feature() as thing, object=None) as event
         ) if (
             action in HELD and (light := _light(_spoken(thing, g))) is not None
         ):  # "how long will it stay like that?"
-            return HowLong(Happens(replace(part.of, action="show", actor=light)))
+            return HowLong(Happens(replace(event, action="show", actor=light)))
         case Where(of=Pronoun() as thing):
             return replace(part, of=_spoken(thing, g))
         case Identify(thing=thing) | Exists(thing=thing):
