@@ -10,7 +10,11 @@ RED, ROLLING, ROUND = 20.0, 14.0, 34.5  # [s] in the ride `junction-0`
 @pytest.mark.parametrize(
     ("at", "text", "reply"),
     [
-        (ROLLING, "are you waiting for those people?", "No, not because of the four pedestrians:"),
+        (
+            ROLLING,
+            "are you waiting for those people?",
+            "No, not because of the pedestrian coming from the right (vehicle 8)",
+        ),
         (ROLLING, "can we go now?", "Not yet: the traffic light"),
         (RED, "will you stop for those people?", "We are standing still, because"),
         (RED, "are we going to be here forever?", "We should drive on in about"),

@@ -418,4 +418,19 @@ CASES: tuple[Answer, ...] = (
     ),
     SupposedOfUs(replace(LATER, fact_collision=0.3, verdict="close", told=())),
     SupposedOfUs(replace(LATER, fact_collision=0.3)),
+    *(
+        Options(
+            (replace(OPTIONS[1], outcome=outcome, collision=risk, collided_with=2),),
+            2.0,
+            Evidence(),
+            risk=True,
+            earlier=earlier,
+        )
+        for outcome, risk in (("collision", 0.9), ("done", 0.2))
+        for earlier in (True, False)
+    ),
+    *(
+        ChoiceReason("why-not", None, replace(LONG, foil=("exit-left",), way=True), past=past)
+        for past in (True, False)
+    ),
 )

@@ -25,7 +25,7 @@ from xavi_dialogue.domain.meaning import (
     Which,
     Why,
 )
-from xavi_dialogue.domain.terms import Believed, Feature, Has, Measured
+from xavi_dialogue.domain.terms import Believed, Event, Feature, Has, Measured
 from xavi_dialogue.explain.answers.lights import (
     lights_ahead,
     lights_seen,

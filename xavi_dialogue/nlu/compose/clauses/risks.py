@@ -4,8 +4,8 @@ from typing import Any, Final, cast
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Question, Whether
-from xavi_dialogue.domain.terms import Ego, Event, Is, Lane, Measured, Pronoun, Tense, Thing
+from xavi_dialogue.domain.meaning import Question, Whether, Which
+from xavi_dialogue.domain.terms import Ego, Event, Is, Lane, Measured, Pronoun, Tense, Thing, Wanted
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, Sem
@@ -24,6 +24,12 @@ def is_danger(sem: object) -> bool:
         return sem.key in ("problem", "danger")
     crash = sem.of.event if isinstance(sem, Measure) and sem.of.attribute == "probability" else None
     return crash is not None and crash.action == "collide" and crash.object is None
+
+
+def who_endangers(clause: Clause) -> Question:
+    """Read "who is the threat?" as the question who is dangerous."""
+    state = Is("dangerous", Wanted(), time=clause.time, tense=cast(Any, clause.tense))
+    return Which(Wanted(), state)
 
 
 def risk_of(key: str, of: Sem | None, event: Event | None, side: str | None) -> Measure | None:

@@ -48,7 +48,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import adopted, with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.clauses.nominal import asked_of, deed_of, propose
-from xavi_dialogue.nlu.compose.clauses.risks import is_danger, risk_beside
+from xavi_dialogue.nlu.compose.clauses.risks import is_danger, risk_beside, who_endangers
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of, words_of
 from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
@@ -110,8 +110,7 @@ class What:
         if isinstance(subject, Noun) and subject.key == "rival":
             return rivals(clause)
         if wh.kind == "who" and is_danger(subject):
-            tense = cast(Any, clause.tense)
-            return Which(Wanted(), Is("dangerous", Wanted(), time=clause.time, tense=tense))
+            return who_endangers(clause)
         found = risk_beside(clause, subject) or asked_of(subject, clause.time, clause.tense)
         return _person(wh, found or Identify(as_thing(subject) or Pronoun("that")))
 
@@ -301,10 +300,8 @@ _SOUGHT = frozenset({"wait", "look", "head", "stand", "give way", "yield", "chec
 def purpose(clause: Clause) -> bool:
     """Say whether "what ... for" asks for the reason: "what did you brake for"."""
     stranded = {phrase.key for phrase in clause.complements if _is_stranded(phrase)}
-    deed = clause.verb is None and (
-        deed_of(clause.subject) is not None or isinstance(clause.subject, Pronoun)
-    )
-    deed = deed or going_on(clause)
+    named = deed_of(clause.subject) is not None or isinstance(clause.subject, Pronoun)
+    deed = (clause.verb is None and named) or going_on(clause)
     about = any(leaf.words == ("about",) for leaf in clause.particles)
     alone = "for" in stranded or (deed and (about or "about" in stranded))
     return alone and (clause.verb is None or clause.verb.key not in _SOUGHT)

@@ -76,8 +76,7 @@ UNASKED: Final = 0.2  # cost of taking somebody for the cause where no cause was
 
 def question(spoken: Question, g: Grounder) -> Question:
     """Ground a question."""
-    meant = recast(spoken, g)
-    found: Question = _HANDLERS[type(meant)](meant, g)
+    found: Question = _HANDLERS[type(meant := recast(spoken, g))](meant, g)
     return found
 
 
@@ -117,10 +116,10 @@ def _supposed_question(spoken: Question, g: Grounder) -> Question:
             return replace(spoken, that=g.proposition(that, "supposed"))
         case When(of=of) | Why(of=of):
             return replace(spoken, of=g.proposition(of, "supposed"))
-        case Doing(actor=None, time=Unsaid()) | HowMuch(Measured("delay", Ego(), time=Unsaid())):
+        case HowMuch(Measured("delay", Ego(), time=Unsaid())) | HowSure(of=None):
             return spoken  # what would happen is at no time of the ride
-        case HowSure(of=None):
-            return spoken  # "how likely is that?": what would happen
+        case Doing(actor=None, time=Unsaid()):
+            return spoken
     return question(spoken, g)
 
 
@@ -210,9 +209,7 @@ def _whither(spoken: Whither, g: Grounder) -> Whither:
 def _doing(spoken: Doing, g: Grounder) -> Doing:
     window = timed(spoken.time, spoken.tense, g, None)
     actor = None if spoken.actor is None else g.thing(spoken.actor, window)
-    besides = spoken.besides
-    if besides is not None:
-        besides = g.proposition(besides, "asked")
+    besides = None if spoken.besides is None else g.proposition(spoken.besides, "asked")
     time = window.term
     if spoken.time == Unsaid() and isinstance(time, Between) and time.begin == time.end:
         time = WholeRide()  # what it did, and not how it was at one moment

@@ -24,7 +24,6 @@ from xavi_dialogue.domain.terms import (
     Road,
     Start,
     Tense,
-    Thing,
     Time,
     Unsaid,
     Vehicle,
@@ -281,10 +280,11 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
         case Road(which="side") | Junction() | Exit() | Feature(kind="line") if tense in (
             "present",
             "future",
-        ) and time.relation in ("before", "until"):
-            return None  # "how sure are you that it leaves before our entry?"
-        case Road(which="side"):  # where it meets ours
-            return _of_visits(visits(g.context), ahead=tense != "past")
+        ) and time.relation in (
+            "before",
+            "until",
+        ):  # "how sure are you that it leaves before our entry?"
+            return None
         case Junction() as spoken:
             place = g.thing(spoken, unsaid(tense, g.context))
             visit = visit_of(g.context, place) if isinstance(place, Junction) else None
@@ -293,7 +293,7 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
             return _of_visits(visits(g.context, "roundabout"), ahead=tense != "past")
         case Destination():
             return None
-        case Feature(kind="line"):  # where a junction begins
+        case Road(which="side") | Feature(kind="line"):  # where a junction begins
             return _of_visits(visits(g.context), ahead=tense != "past")
         case Feature(kind="light") as light:
             held = g.context.holds(Event("wait", Ego(), light), *whole.search)
@@ -306,7 +306,8 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
             seen = isinstance(found, Vehicle) and found.number in g.context.world.in_view(whole.end)
             if seen and tense != "past" and time.relation == "after":
                 return None  # "once the orange car is past"
-            return _of_thing(found, g.context)
+            present = presence(g.context, found) if isinstance(found, Vehicle) else None
+            return () if present is None else (present,)
 
 
 def _of_ours(g: Grounder) -> tuple[Interval, ...]:
@@ -345,8 +346,3 @@ def _of_visits(found: tuple[Visit, ...], ahead: bool) -> tuple[Interval, ...] | 
     if not found:
         return None if ahead else ()
     return tuple((visit.begin, visit.end) for visit in found)
-
-
-def _of_thing(thing: Thing, context: Context) -> tuple[Interval, ...]:
-    present = presence(context, thing) if isinstance(thing, Vehicle) else None
-    return () if present is None else (present,)

@@ -90,9 +90,9 @@ class Search:
         found = [looks.bearing_cost(bearing, look)]
         if not look.in_view:
             found[0] = max(found[0], 0.4)
-        here = self.described.plural and look.in_view  # "all these on the right have stopped"
-        deeds = () if deed is None or here else (deed.begin, deed.end)
-        for time in (context.now, *deeds):
+        if self.described.plural and look.in_view:
+            deed = None  # "all these on the right have stopped"
+        for time in (context.now, *(() if deed is None else (deed.begin, deed.end))):
             then = None if time is None or time == look.time else context.look(vehicle, time)
             if then is not None and then.in_view:
                 found.append(0.05 + looks.bearing_cost(bearing, then))
@@ -222,8 +222,7 @@ def _goes_first(search: Search, vehicle: int) -> bool:
 def _comes(thing: Described) -> bool:
     """Tell whether somebody is described as coming now, which is to be seen."""
     event = thing.doing
-    coming = event is not None and event.action in ("come", "approach")
-    return coming and event is not None and event.tense == "present"
+    return event is not None and event.action in ("come", "approach") and event.tense == "present"
 
 
 def _catches_up(search: Search, look: Look) -> bool:
