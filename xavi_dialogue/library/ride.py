@@ -52,6 +52,7 @@ class Ride:
     known: tuple[Known, ...]  # what answers rest on, in order of time
     again: Replan  # plans again what the record does not hold
     network: Network | None = None  # the roads, where they are known
+    digest: str | None = None  # SHA-256 of the file that it was read from
 
     @property
     def scenario(self) -> str:

@@ -1,6 +1,7 @@
 """The sources of rides: driven here, saved, recorded, or plan traces of any planner."""
 
 import gzip
+import hashlib
 import tempfile
 import warnings
 from collections.abc import Iterator, Sequence
@@ -88,7 +89,13 @@ def open_ride(path: str | Path, scenario: str | Path | None = None, car: str | N
         return _saved(file, scenario)
 
 
-def _ride(scenario: str, seed: int, known: list[Known], network: Network | None) -> Ride:
+def _ride(
+    scenario: str,
+    seed: int,
+    known: list[Known],
+    network: Network | None,
+    digest: str | None = None,
+) -> Ride:
     """Return the ride that is told by inputs of the dialogue."""
     inputs = [one for _, one in known]
     record = RecordedRide(
@@ -100,7 +107,7 @@ def _ride(scenario: str, seed: int, known: list[Known], network: Network | None)
         ended=next((one.at for one in inputs if isinstance(one, RideEnded)), None),
     )
     scenes = tuple(one.scene for one in inputs if isinstance(one, SceneSeen))
-    return Ride(record, scenes, tuple(known), _plans_on(network), network)
+    return Ride(record, scenes, tuple(known), _plans_on(network), network, digest)
 
 
 def _saved(file: Path, scenario: str | Path | None) -> Ride:
@@ -110,7 +117,7 @@ def _saved(file: Path, scenario: str | Path | None) -> Ride:
     known = sorted(((_time(one), one) for one in inputs_of(record)), key=lambda pair: pair[0])
     scenes = tuple(Scene(trace.sim_time, trace.scene) for trace in record.traces)
     network = _roads(record, scenario)
-    return Ride(record, scenes, tuple(known), _plans_on(network), network)
+    return Ride(record, scenes, tuple(known), _plans_on(network), network, _digest(file))
 
 
 def _read(file: Path) -> RecordedRide:
@@ -180,7 +187,14 @@ def _plans_nothing(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
 def _recorded(file: Path, recorded: RecordedMessages) -> Ride:
     first = recorded.scene(0)
     known = list(_inputs(recorded))
-    return _ride(first.scenario or str(file), first.seed or 0, known, _roads_in(recorded))
+    network = _roads_in(recorded)
+    return _ride(first.scenario or str(file), first.seed or 0, known, network, _digest(file))
+
+
+def _digest(file: Path) -> str:
+    """Return the SHA-256 of a file that could be read, in hexadecimal."""
+    with file.open("rb") as content:
+        return hashlib.file_digest(content, "sha256").hexdigest()
 
 
 def _inputs(recorded: RecordedMessages) -> Iterator[Known]:

@@ -1,0 +1,64 @@
+"""What was believed of those involved, and how it moved."""
+
+from planner.record.trace import Action
+from xavi_dialogue.explain.history.ride import prediction
+from xavi_dialogue.report.content import BeliefPoint, Beliefs, GoalBelief
+from xavi_dialogue.report.parties import of_trace
+from xavi_dialogue.report.ridden import Ridden
+
+LEAST = 0.01  # probability that a goal reaches somewhere in the window to be listed
+
+Name = tuple[Action, str | None]  # of a goal: its kind and its edge
+
+
+def beliefs(ridden: Ridden, vehicle: int, window: tuple[float, float]) -> Beliefs:
+    """Return the goals that the decisions of a window [s] ascribed to a road user."""
+    points: dict[Name, list[BeliefPoint]] = {}
+    places: dict[Name, str] = {}
+    without = []
+    for trace in ridden.between(*window):
+        known = prediction(trace, vehicle)
+        if known is None:
+            without += [trace.decision] if vehicle in trace.scene else []
+            continue
+        at = trace.predictions.index(known)
+        for k, goal in enumerate(known.goals):
+            source = of_trace(trace, f"predictions[{at}].goals[{k}].probability")
+            name = (goal.kind, goal.edge)
+            places.setdefault(name, goal.place)
+            point = BeliefPoint(trace.sim_time, goal.probability, source)
+            points.setdefault(name, []).append(point)
+    listed = {name: row for name, row in points.items() if _most(row) >= LEAST}
+    taken = _taken(ridden, vehicle, listed)
+    ranked = sorted(listed.items(), key=lambda item: (-_most(item[1]), item[0][0]))
+    goals = tuple(
+        GoalBelief(
+            kind=kind,
+            place=places[kind, edge],
+            edge=edge,
+            points=tuple(row),
+            came=None if not taken or edge is None else edge in taken,
+        )
+        for (kind, edge), row in ranked
+    )
+    return Beliefs(vehicle, goals, tuple(without))
+
+
+def _most(row: list[BeliefPoint]) -> float:
+    return max(point.probability for point in row)
+
+
+def _taken(ridden: Ridden, vehicle: int, listed: dict[Name, list[BeliefPoint]]) -> set[str]:
+    """Return those edges of goals that a road user drove on later, in the whole record."""
+    begin = min((row[0].time for row in listed.values()), default=0.0)
+    edges = {edge for _, edge in listed if edge is not None}
+    here: str | None = None
+    taken: set[str] = set()
+    for trace in ridden.between(begin, ridden.end):
+        place = None if trace.road is None else trace.road.places.get(vehicle)
+        if place is None:
+            continue
+        here = here or place.edge
+        if place.edge != here and place.edge in edges:
+            taken.add(place.edge)
+    return taken

@@ -1,0 +1,98 @@
+"""What was observed: speeds, gaps, lights on the car's way, and who goes first."""
+
+from planner.record.places import LightAhead
+from sim.scene import EGO
+from xavi_dialogue.report.content import Course, Gaps, LightSpan, Precedence
+from xavi_dialogue.report.figures import Figure, rounded
+from xavi_dialogue.report.parties import of_trace
+from xavi_dialogue.report.ridden import Ridden
+from xavi_dialogue.report.tracks import Tracks
+
+DIGITS = 3  # of lists of samples
+
+
+def course(tracks: Tracks, vehicle: int, window: tuple[float, float]) -> Course:
+    """Return the motion of a road user in a window [s]."""
+    motion = tracks.motion(vehicle)
+    inside = motion.within(*window)
+    return Course(
+        vehicle=vehicle,
+        time=tuple(rounded(motion.time[k], DIGITS) for k in inside),
+        speed=tuple(rounded(motion.speed[k], DIGITS) for k in inside),
+        rate=tuple(rounded(motion.rate[k], DIGITS) for k in inside),
+        source=tracks.source("speed", vehicle),
+    )
+
+
+def gaps(tracks: Tracks, vehicle: int, window: tuple[float, float]) -> Gaps:
+    """Return the distance of a road user from the car in a window [s]."""
+    known = [
+        (time, gap)
+        for time in tracks.times(EGO, *window)
+        if (gap := tracks.gap(vehicle, time)) is not None
+    ]
+    closing = []
+    for k in range(len(known)):
+        (t0, g0), (t1, g1) = known[max(k - 1, 0)], known[min(k + 1, len(known) - 1)]
+        closing.append((g0 - g1) / (t1 - t0) if 0.0 < t1 - t0 < 1.0 else 0.0)
+    return Gaps(
+        vehicle=vehicle,
+        time=tuple(rounded(time, DIGITS) for time, _ in known),
+        distance=tuple(rounded(gap, DIGITS) for _, gap in known),
+        closing=tuple(rounded(rate, DIGITS) for rate in closing),
+        source=tracks.source("position", EGO, vehicle, how="least distance of the bodies"),
+    )
+
+
+def lights(ridden: Ridden, window: tuple[float, float]) -> tuple[LightSpan, ...]:
+    """Return what the traffic lights on the car's way showed in a window [s]."""
+    found: dict[tuple[str, int], list[LightSpan]] = {}
+    for trace in ridden.between(*window):
+        for k, light in enumerate(() if trace.road is None else trace.road.lights[:1]):
+            spans = found.setdefault((light.controller, light.place), [])
+            source = of_trace(trace, f"road.lights[{k}].distance")
+            far = Figure(light.distance, "m", source)
+            if spans and spans[-1].state == light.state:
+                last = spans.pop()
+                spans.append(_span(light, last.since, trace.sim_time, far, seen=last.change_seen))
+            else:
+                if spans and light.change_seen:
+                    spans.append(_lasting(spans.pop(), light.since))
+                since = max(light.since, window[0])
+                spans.append(_span(light, since, trace.sim_time, far, seen=light.change_seen))
+    return tuple(sorted((s for spans in found.values() for s in spans), key=lambda s: s.since))
+
+
+def _span(light: LightAhead, since: float, until: float, far: Figure, *, seen: bool) -> LightSpan:
+    return LightSpan(light.controller, light.place, light.state, since, until, seen, far)
+
+
+def _lasting(span: LightSpan, until: float) -> LightSpan:
+    """Return a span that lasted until a change that was seen."""
+    end = max(until, span.since)
+    return LightSpan(span.controller, span.place, span.state, span.since, end,
+                     span.change_seen, span.distance)  # fmt: skip
+
+
+def precedence(ridden: Ridden, window: tuple[float, float]) -> tuple[Precedence, ...]:
+    """Return the right of way by each decision of a window [s], where it changes."""
+    found: list[Precedence] = []
+    for trace in ridden.between(*window):
+        road = trace.road
+        if road is None:
+            continue
+        step = road.route[0] if road.route else None
+        far = None
+        if step is not None:
+            far = Figure(step.distance, "m", of_trace(trace, "road.route[0].distance"))
+        now = Precedence(
+            decision=trace.decision,
+            time=trace.sim_time,
+            rule=None if step is None else step.rule,
+            distance=far,
+            first={fact.vehicle: fact.who for fact in road.priority},
+            source=of_trace(trace, "road.priority"),
+        )
+        if not found or (found[-1].rule, found[-1].first) != (now.rule, now.first):
+            found.append(now)
+    return tuple(found)

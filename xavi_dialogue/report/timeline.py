@@ -1,0 +1,163 @@
+"""The timeline: events, decisions, what was done, lights and beliefs, in order of time."""
+
+from collections.abc import Iterator, Sequence
+
+from planner.record.trace import PlanTrace
+from sim.scene import EGO
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.facts.actions import somebody
+from xavi_dialogue.explain.history.ride import planned
+from xavi_dialogue.report.content import Beliefs, Chosen, Entry, LightSpan
+from xavi_dialogue.report.figures import Figure, Source, rounded
+from xavi_dialogue.report.parties import of_trace
+from xavi_dialogue.report.ridden import Inquiry, Ridden
+from xavi_dialogue.report.tracks import Tracks
+
+#: What is told of those involved, as it was seen.
+SEEN: tuple[ActionName, ...] = (
+    "brake", "slow-down", "speed-up", "stop", "go", "change-left", "change-right", "exit-left",
+    "exit-right", "exit-straight", "cut-in", "pull-out", "cross", "overtake", "signal", "appear",
+    "disappear",
+)  # fmt: skip
+FROM_EVENTS = ("action-committed", "gave-way", "stopped-at-light", "arrived", "collided", "ended")
+
+
+def timeline(
+    inquiry: Inquiry,
+    tracks: Tracks,
+    moment: Chosen,
+    window: tuple[float, float],
+    lights: Sequence[LightSpan],
+    beliefs: Sequence[Beliefs],
+) -> tuple[Entry, ...]:
+    """Return what happened in a window [s], in order of time.
+
+    Args:
+        inquiry: the record.
+        tracks: where everybody was.
+        moment: what the report is about.
+        window: [s] begin and end.
+        lights: what lights on the car's way showed.
+        beliefs: of those involved.
+    """
+    involved = [known.vehicle for known in beliefs]
+    found = [
+        *_events(inquiry.ridden, window),
+        *_decisions(inquiry.ridden, window),
+        *_episodes(inquiry, tracks, window, involved),
+        *_lights(lights),
+        *(entry for known in beliefs for entry in _beliefs(known)),
+        *_moment(moment),
+    ]
+    return tuple(sorted(found, key=lambda one: one.time))
+
+
+def _moment(moment: Chosen) -> Iterator[Entry]:
+    if moment.kind in ("hardest-braking", "closest-approach"):
+        name = "deceleration" if moment.kind == "hardest-braking" else "gap"
+        figure = moment.figures[name]
+        yield Entry(moment.time, "peak", figure.source, EGO, moment.kind, moment.vehicle,
+                    figures={name: figure})  # fmt: skip
+
+
+def _events(ridden: Ridden, window: tuple[float, float]) -> Iterator[Entry]:
+    for k, event in enumerate(ridden.record.events):
+        if window[0] <= event.sim_time <= window[1] and event.kind in FROM_EVENTS:
+            source = Source("event", "kind", k, event.sim_time)
+            yield Entry(event.sim_time, event.kind, source, EGO, event.action or "", event.vehicle)
+
+
+def _decisions(ridden: Ridden, window: tuple[float, float]) -> Iterator[Entry]:
+    """Yield the decisions that chose another first action than the one before."""
+    traces = ridden.record.traces
+    for k, trace in enumerate(traces):
+        inside = window[0] <= trace.sim_time <= window[1]
+        before = planned(traces[k - 1])[:1] if k else ()
+        if inside and planned(trace)[:1] != before and trace.under_way is None:
+            yield Entry(
+                time=trace.sim_time,
+                kind="decision",
+                source=of_trace(trace, "plan"),
+                vehicle=EGO,
+                plan=planned(trace),
+                figures=_value(trace),
+            )
+
+
+def _value(trace: PlanTrace) -> dict[str, Figure]:
+    if not trace.plan:
+        return {}
+    return {"value": Figure(trace.plan[0].value, "s", of_trace(trace, "plan[0].value"))}
+
+
+def _episodes(
+    inquiry: Inquiry, tracks: Tracks, window: tuple[float, float], involved: Sequence[int]
+) -> Iterator[Entry]:
+    """Yield what the car and those involved were seen to do."""
+    seen = inquiry.world.episodes((EGO, *involved), SEEN, *window)
+    for episode in seen:
+        who = somebody(episode.actor)
+        known = who is not None and len(who) == 1
+        if not known or not window[0] <= episode.begin <= window[1]:
+            continue
+        vehicle = next(iter(who or ()))
+        whom = somebody(episode.object)
+        if vehicle not in (EGO, *involved) or _is_event(inquiry, vehicle, episode):
+            continue
+        yield Entry(
+            time=rounded(episode.begin, 2),
+            kind="episode",
+            source=tracks.source("speed", vehicle, how="seen in the motion"),
+            vehicle=vehicle,
+            what=episode.action,
+            other=next(iter(whom)) if whom is not None and len(whom) == 1 else None,
+            until=None if episode.end is None else rounded(episode.end, 2),
+            figures=_figures(tracks, vehicle, episode),
+        )
+
+
+def _is_event(inquiry: Inquiry, vehicle: int, episode: Episode) -> bool:
+    """Check whether the events tell of an action of the car."""
+    named = episode.action.startswith(("change-", "exit-"))
+    told = inquiry.ridden.record.events
+    return vehicle == EGO and named and any(event.action == episode.action for event in told)
+
+
+def _figures(tracks: Tracks, vehicle: int, episode: Episode) -> dict[str, Figure]:
+    """Return the speeds and the deceleration of an episode."""
+    source = tracks.source("speed", vehicle, how=f"from {episode.begin:.1f} s")
+    known = (
+        ("from", episode.speed_from, "m/s"),
+        ("to", episode.speed_to, "m/s"),
+        ("peak", episode.peak, "m/s2"),
+    )
+    return {
+        name: Figure(rounded(value), unit, source)
+        for name, value, unit in known
+        if value is not None
+    }
+
+
+def _lights(lights: Sequence[LightSpan]) -> Iterator[Entry]:
+    for span in lights:
+        yield Entry(span.since, "light", span.distance.source, None, span.state,
+                    figures={"distance": span.distance} if not span.change_seen else {})  # fmt: skip
+
+
+def _beliefs(known: Beliefs) -> Iterator[Entry]:
+    """Yield when the likeliest goal of a road user changed."""
+    times = sorted({point.time for goal in known.goals for point in goal.points})
+    last: tuple[str, str] | None = None
+    for time in times:
+        rows = [
+            (point.probability, goal, point)
+            for goal in known.goals
+            for point in goal.points
+            if point.time == time
+        ]
+        chance, goal, point = max(rows, key=lambda row: row[0])
+        if (goal.kind, goal.place) != last:
+            last = (goal.kind, goal.place)
+            yield Entry(time, "belief", point.source, known.vehicle, f"{goal.kind}: {goal.place}",
+                        figures={"probability": Figure(chance, "", point.source)})  # fmt: skip
