@@ -5,7 +5,9 @@ often enough. An option is judged twice: by its rollouts, as it was believed the
 against the other as it really drove.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+
+from msgspec.structs import replace
 
 from planner.record.trace import ACTIONS, Action, PlanTrace, Rollout
 from xavi_dialogue.causal.model import CausalModel, Intervention
@@ -46,7 +48,6 @@ def avoidability(
         for trace in inquiry.ridden.between(since, moment.time)
         if trace.sim_time < moment.time - 1e-6
     ]
-    open_at = [one.number for one in found if any(way.avoids for way in one.ways)]
     braked = moment.vehicle is not None and kind == "collide"
     return Avoidability(
         mishap=kind,
@@ -54,11 +55,32 @@ def avoidability(
         at=moment.time,
         vehicle=moment.vehicle,
         chances=tuple(found),
-        last=open_at[-1] if open_at else None,
+        last=_last(found, lost=True),
+        last_on_route=_last(found, lost=False),
         emergency=emergencies(tracks, moment.vehicle, moment.time)
         if braked and moment.vehicle is not None
         else (),
     )
+
+
+def _last(found: Sequence[Chance], *, lost: bool) -> int | None:
+    """Return the last decision with an option that avoids the mishap.
+
+    Args:
+        found: the decisions, oldest first.
+        lost: options that lose the way to the goal count, too.
+    """
+    open_at = [
+        chance.number
+        for chance in found
+        if any(way.avoids and (lost or keeps_route(way)) for way in chance.ways)
+    ]
+    return open_at[-1] if open_at else None
+
+
+def keeps_route(way: Way) -> bool:
+    """Check whether an option probably keeps to the way to the goal."""
+    return way.off_route is None or way.off_route.value <= 0.5
 
 
 def _mishap(moment: Chosen) -> tuple[Mishap, float | None] | None:
@@ -130,7 +152,12 @@ class _Case:
             believed=self._believed(ground, plan, drawn),
             replayed=touched,
             clearance=nearest,
-            braking=hardest(ground, rows, "rollouts[*]"),
+            braking=hardest(ground, rows, f"of the rollouts that begin with {action}, by weight"),
+            off_route=Figure(
+                rounded(min(plan.outcomes["dead"], 1.0)),
+                "",
+                ground.source("rollouts[*].outcome", "share of dead by weight"),
+            ),
             planned=again,
             avoids=None,
         )
@@ -140,7 +167,7 @@ class _Case:
     ) -> Figure | None:
         """Return the probability of the mishap by the rollouts."""
         if self.threshold is None:
-            return collision(ground, plan)
+            return collision(ground, plan, f"of the rollouts that begin with {plan.plan[0]}")
         rows = [
             (brakes(line.until(self.moment.time + LEEWAY)) >= self.threshold, weight)
             for one, weight in weighed_by(plan)
@@ -150,7 +177,10 @@ class _Case:
         if mass <= 0.0:
             return None
         share = min(sum(weight for hard, weight in rows if hard) / mass, 1.0)
-        how = f"share by weight that brake at {self.threshold:g} m/s2 or more"
+        how = (
+            f"share of the rollouts that begin with {plan.plan[0]}, by weight, that brake at "
+            f"{self.threshold:g} m/s2 or more"
+        )
         return Figure(rounded(share), "", ground.source("rollouts[*].speed", how))
 
     def _replay(
@@ -192,20 +222,15 @@ class _Case:
         if self.kind == "collide":
             replay = None if way.replayed is None else way.replayed.value <= SELDOM
             avoids = seldom if replay is None else seldom and replay
-            return _with(way, avoids=avoids)
+            return replace(way, avoids=avoids)
         if own is None or own.believed is None:
             return way
         if own.believed.value <= SELDOM and not way.chosen:
             return way  # it was not foreseen, so nothing was to be avoided
         better = seldom and own.believed.value - way.believed.value >= LESS
-        return way if way.chosen and seldom else _with(way, avoids=better)
+        return way if way.chosen and seldom else replace(way, avoids=better)
 
 
 def _line_of(rollout: Rollout) -> int:
     """Return the number of the rollout that has the line of another."""
     return rollout.index if rollout.same_as is None else rollout.same_as
-
-
-def _with(way: Way, *, avoids: bool) -> Way:
-    return Way(way.action, way.chosen, way.believed, way.replayed, way.clearance, way.braking,
-               way.planned, avoids)  # fmt: skip

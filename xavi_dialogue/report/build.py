@@ -1,10 +1,12 @@
 """Building the content of a report from a ride. The same ride and moment give the same content."""
 
 import hashlib
+from itertools import pairwise
 
 from planner.record.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue import __version__
+from xavi_dialogue.explain.history.ride import planned
 from xavi_dialogue.process.program import program_hash
 from xavi_dialogue.report.avoiding import avoidability
 from xavi_dialogue.report.believed import beliefs
@@ -13,6 +15,7 @@ from xavi_dialogue.report.content import (
     SCHEMA,
     Avoidability,
     Chosen,
+    Examined,
     Hashes,
     Report,
     Subject,
@@ -55,11 +58,8 @@ def build(ridden: Ridden, at: float | str | None = None) -> Report:
     lit = lights(ridden, window)
     believed = tuple(beliefs(ridden, vehicle, window) for vehicle in others)
     avoided = avoidability(inquiry, tracks, moment, since)
-    here = ridden.decision_at(moment.time)
-    tested = tuple(
-        cases(inquiry, trace, others[:SUPPOSED])
-        for trace in _examined(ridden, here, moment, avoided)
-    )
+    examined = _examined(ridden, moment, avoided)
+    tested = tuple(cases(inquiry, trace, others[:SUPPOSED]) for trace, _ in examined)
     traces = ridden.record.traces
     return Report(
         schema=SCHEMA,
@@ -81,7 +81,7 @@ def build(ridden: Ridden, at: float | str | None = None) -> Report:
             for k, trace in enumerate(traces)
             if since <= trace.sim_time <= until
         ),
-        decided=None if here is None else decided(here),
+        decided=tuple(decided(trace, why) for trace, why in examined),
         cases=tested,
         avoidability=avoided,
         limits=limitations(inquiry, moment.time, window, others, tested),
@@ -90,16 +90,24 @@ def build(ridden: Ridden, at: float | str | None = None) -> Report:
 
 
 def _examined(
-    ridden: Ridden, here: PlanTrace | None, moment: Chosen, avoided: Avoidability | None
-) -> list[PlanTrace]:
-    """Return the decisions at which the world is changed: the one in force, and the turning point.
+    ridden: Ridden, moment: Chosen, avoided: Avoidability | None
+) -> list[tuple[PlanTrace, tuple[Examined, ...]]]:
+    """Return the decisions that are examined in full, oldest first, with the reasons.
 
-    That is the last one from which the mishap could still be avoided.
+    They are the one in force, the last one before with another first action than the one before
+    it, and the last one from which the mishap could still be avoided on the way to the goal.
     """
-    found = [] if here is None else [here]
-    last = None if avoided is None else avoided.last
-    found += [t for t in ridden.record.traces if t.decision == last and t is not here]
-    return sorted(found, key=lambda trace: trace.sim_time)
+    found: dict[int, list[Examined]] = {}
+    known = ridden.between(moment.time - BEFORE, moment.time)
+    if known:
+        found.setdefault(known[-1].decision, []).append("in-force")
+    changed = [b for a, b in pairwise(known) if planned(a)[:1] != planned(b)[:1]]
+    if changed:
+        found.setdefault(changed[-1].decision, []).append("changed")
+    last = None if avoided is None else avoided.last_on_route
+    if last is not None:
+        found.setdefault(last, []).append("last-chance")
+    return [(t, tuple(found[t.decision])) for t in known if t.decision in found]
 
 
 def _bystanders(

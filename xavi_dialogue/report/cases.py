@@ -14,10 +14,10 @@ from xavi_dialogue.report.figures import Figure, rounded
 from xavi_dialogue.report.ridden import Inquiry
 from xavi_dialogue.report.weighed import (
     Ground,
+    arrival,
     chosen_plan,
     collision,
     hardest,
-    spread,
     weighed_by,
 )
 
@@ -37,23 +37,19 @@ def cases(inquiry: Inquiry, trace: PlanTrace, vehicles: Sequence[int]) -> Cases:
     model = CausalModel(trace)
     here, ground = chosen_plan(model), Ground(trace)
     rows = () if here is None else weighed_by(here)
-    time = spread(ground, rows, lambda one: one.components.get("time"), "s", _TIME)
     return Cases(
         decision=trace.decision,
         time=trace.sim_time,
         plan=planned(trace),
         collision=None if here is None else collision(ground, here),
-        braking=hardest(ground, rows, "rollouts[*]"),
-        arrival=time,
+        braking=hardest(ground, rows),
+        arrival=arrival(ground, rows),
         held=() if here is None else tuple(_held(ground, here)),
         tested=tuple(
             _tested(inquiry, trace, supposed, need)
             for supposed, need in _suppositions(trace, vehicles)
         ),
     )
-
-
-_TIME = "rollouts[*].components.time"
 
 
 def _suppositions(
@@ -107,8 +103,8 @@ def _tested(inquiry: Inquiry, trace: PlanTrace, supposed: Supposed, need: NeedRo
         plan=planned(made),
         same=planned(made)[:1] == planned(trace)[:1],
         collision=None if there is None else collision(ground, there),
-        braking=hardest(ground, rows, "rollouts[*]"),
-        time=spread(ground, rows, lambda one: one.components.get("time"), "s", _TIME),
+        braking=hardest(ground, rows),
+        time=arrival(ground, rows),
         trace=made.trace_id,
     )
 

@@ -20,6 +20,7 @@ MomentKind = Literal["collision", "hardest-braking", "closest-approach", "red-li
 Role = Literal[
     "collided", "near", "gave-way", "held-up", "leader", "right-of-way", "follower"
 ]  # fmt: skip
+Examined = Literal["in-force", "changed", "last-chance"]
 Mishap = Literal["collide", "brake"]
 Limit = Literal[
     "no-roads", "other-roads", "no-scenes", "ends-early", "begins-late", "lost", "lacks",
@@ -60,6 +61,7 @@ class Entry(msgspec.Struct, frozen=True, omit_defaults=True):
     source: Source
     vehicle: int | None = None  # the actor; None: what the road or a light does
     what: str = ""  # action, light state or goal
+    place: str = ""  # of a goal, in words
     other: int | None = None
     until: float | None = None  # [s]
     plan: tuple[Action, ...] = ()
@@ -200,6 +202,7 @@ class Decided(msgspec.Struct, frozen=True):
     """One decision, in full."""
 
     number: int
+    why: tuple[Examined, ...]  # why it is examined
     time: float  # [s]
     trace: str
     plan: tuple[Action, ...]
@@ -282,6 +285,7 @@ class Way(msgspec.Struct, frozen=True):
     replayed: Figure | None  # share of its lines that touch the others as they drove
     clearance: Figure | None  # [m] least distance to them, in its likeliest line
     braking: Figure | None  # [m/s2] hardest
+    off_route: Figure | None  # probability that it loses the way to the goal
     planned: bool  # whether rollouts were added by planning again
     avoids: bool | None
 
@@ -313,7 +317,8 @@ class Avoidability(msgspec.Struct, frozen=True):
     at: float  # [s] of the mishap
     vehicle: int | None
     chances: tuple[Chance, ...]  # oldest first
-    last: int | None  # the last decision with an option that avoids it
+    last: int | None  # the last decision with an option that avoids it ...
+    last_on_route: int | None  # ... and does not lose the way to the goal
     emergency: tuple[Emergency, ...]  # of collisions
 
 
@@ -378,8 +383,8 @@ class Report(msgspec.Struct, frozen=True):
     precedence: tuple[Precedence, ...]
     beliefs: tuple[Beliefs, ...]
     decisions: tuple[DecisionRow, ...]
-    decided: Decided | None
-    cases: tuple[Cases, ...]
+    decided: tuple[Decided, ...]  # those that are examined, oldest first
+    cases: tuple[Cases, ...]  # of the same
     avoidability: Avoidability | None
     limits: tuple[Limitation, ...]
     hashes: Hashes

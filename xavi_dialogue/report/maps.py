@@ -32,9 +32,11 @@ def strip(
         window: [s] the report's.
         involved: whose tracks are drawn.
     """
-    times = [rounded(moment + by, 3) for by in MOMENTS]
-    times = [t for t in times if window[0] - 1e-6 <= t <= window[1] + 1e-6]
-    centre, reach = _view(tracks, times, moment, involved)
+    seen = tracks.times(EGO, *window)
+    last = seen[-1] if seen else moment
+    times = [min(rounded(moment + by, 3), last) if by <= 0.0 else moment + by for by in MOMENTS]
+    times = [t for t in dict.fromkeys(times) if window[0] - 1e-6 <= t <= last + 1e-6]
+    centre, reach = _view(tracks, times, min(moment, last), involved)
     known = ridden.network if ridden.network is not None and _fits(ridden) else None
     return Map(
         centre=centre,

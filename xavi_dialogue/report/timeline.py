@@ -57,15 +57,24 @@ def _moment(moment: Chosen) -> Iterator[Entry]:
     if moment.kind in ("hardest-braking", "closest-approach"):
         name = "deceleration" if moment.kind == "hardest-braking" else "gap"
         figure = moment.figures[name]
-        yield Entry(moment.time, "peak", figure.source, EGO, moment.kind, moment.vehicle,
-                    figures={name: figure})  # fmt: skip
+        yield Entry(
+            time=moment.time,
+            kind="peak",
+            source=figure.source,
+            vehicle=EGO,
+            what=moment.kind,
+            other=moment.vehicle,
+            figures={name: figure},
+        )
 
 
 def _events(ridden: Ridden, window: tuple[float, float]) -> Iterator[Entry]:
     for k, event in enumerate(ridden.record.events):
         if window[0] <= event.sim_time <= window[1] and event.kind in FROM_EVENTS:
             source = Source("event", "kind", k, event.sim_time)
-            yield Entry(event.sim_time, event.kind, source, EGO, event.action or "", event.vehicle)
+            yield Entry(
+                event.sim_time, event.kind, source, EGO, event.action or "", other=event.vehicle
+            )
 
 
 def _decisions(ridden: Ridden, window: tuple[float, float]) -> Iterator[Entry]:
@@ -141,8 +150,8 @@ def _figures(tracks: Tracks, vehicle: int, episode: Episode) -> dict[str, Figure
 
 def _lights(lights: Sequence[LightSpan]) -> Iterator[Entry]:
     for span in lights:
-        yield Entry(span.since, "light", span.distance.source, None, span.state,
-                    figures={"distance": span.distance} if not span.change_seen else {})  # fmt: skip
+        far = {} if span.change_seen else {"distance": span.distance}
+        yield Entry(span.since, "light", span.distance.source, what=span.state, figures=far)
 
 
 def _beliefs(known: Beliefs) -> Iterator[Entry]:
@@ -159,5 +168,5 @@ def _beliefs(known: Beliefs) -> Iterator[Entry]:
         chance, goal, point = max(rows, key=lambda row: row[0])
         if (goal.kind, goal.place) != last:
             last = (goal.kind, goal.place)
-            yield Entry(time, "belief", point.source, known.vehicle, f"{goal.kind}: {goal.place}",
+            yield Entry(time, "belief", point.source, known.vehicle, goal.kind, goal.place,
                         figures={"probability": Figure(chance, "", point.source)})  # fmt: skip

@@ -9,18 +9,19 @@ from planner.record.trace import ACTIONS, OUTCOMES, Action, PlanTrace, RewardTer
 from sim.scene import EGO
 from xavi_dialogue.causal.effects import HIGH, LOW, quantile
 from xavi_dialogue.causal.model import CausalError, CausalModel, Intervention
+from xavi_dialogue.dashboard.views.labels import refusals
 from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.plans.terms import differences
 from xavi_dialogue.explain.causes.vehicles.course import brakes, lines
-from xavi_dialogue.explain.history.motion import EPSILON
 from xavi_dialogue.explain.history.ride import planned
-from xavi_dialogue.report.content import Choice, Decided, DecisionRow
+from xavi_dialogue.report.content import Choice, Decided, DecisionRow, Examined
 from xavi_dialogue.report.figures import Figure, Place, Source, rounded
 from xavi_dialogue.report.parties import of_trace
 from xavi_dialogue.report.ridden import Ridden
 
 Weighed = Sequence[tuple[Rollout, float]]  # rollouts with their weights
 RANGE = "5 to 95 % of the weight"
+OF_PLAN = "of the rollouts of the plan, by weight"
 BETWEEN_ERRORS = "two standard errors to either side"
 
 
@@ -65,8 +66,8 @@ def chosen_plan(model: CausalModel) -> Intervention | None:
         return None
 
 
-def decided(trace: PlanTrace) -> Decided:
-    """Return a decision in full."""
+def decided(trace: PlanTrace, why: tuple[Examined, ...]) -> Decided:
+    """Return a decision in full, with why it is examined."""
     model, plan = CausalModel(trace), planned(trace)
     weights = _by_weights(trace)
     rows = weights or _by_model(model)
@@ -78,12 +79,15 @@ def decided(trace: PlanTrace) -> Decided:
     found.sort(key=lambda one: (not one.chosen, -one.value.value, ACTIONS.index(one.action)))
     return Decided(
         number=trace.decision,
+        why=why,
         time=trace.sim_time,
         trace=trace.trace_id,
         plan=plan,
         under_way=None if trace.under_way is None else trace.under_way.action,
         choices=tuple(found),
-        ruled_out={one.action: one.reason for one in trace.not_applicable if not one.node},
+        ruled_out=dict(
+            refusals(((n.action, n.reason) for n in trace.not_applicable if not n.node), rows)
+        ),
         costs=trace.reckoned,
         by_weights=bool(weights),
     )
@@ -117,10 +121,11 @@ def _choice(
     model: CausalModel, action: Action, rows: Weighed, here: Intervention | None, *, chosen: bool
 ) -> Choice:
     ground = Ground(model.trace)
-    where = f"rollouts[{','.join(str(one.index) for one, _ in rows)}]"
+    where = "rollouts[*]"
+    of = f"of those compared that begin with {action}, by weight"
     shares = {o: sum(w for one, w in rows if one.outcome == o) for o in OUTCOMES}
     there = model.intervene((action,))
-    mean = "mean by weight"
+    mean = f"mean {of}"
     return Choice(
         action=action,
         chosen=chosen,
@@ -131,31 +136,31 @@ def _choice(
         ),
         chances={
             outcome: Figure(
-                rounded(min(share, 1.0)), "", ground.source(f"{where}.outcome", "share by weight")
+                rounded(min(share, 1.0)), "", ground.source(f"{where}.outcome", f"share {of}")
             )
             for outcome, share in shares.items()
             if share > 0.0
         },
-        told=None if there is None else collision(ground, there, calibrated=True),
-        time=spread(
-            ground, rows, lambda one: one.components.get("time"), "s", f"{where}.components.time"
-        ),
-        braking=hardest(ground, rows, where),
-        terms=_terms(ground, rows, where),
+        told=None
+        if there is None
+        else collision(ground, there, f"of the rollouts that begin with {action}", calibrated=True),
+        time=arrival(ground, rows, of),
+        braking=hardest(ground, rows, of),
+        terms=_terms(ground, rows, of),
         behind=None if chosen or here is None or there is None else _behind(model, there, here),
         samples=len({(one.samples, one.lights, one.phantoms) for one, _ in rows}),
         rollouts=len(rows),
     )
 
 
-def _terms(ground: Ground, rows: Weighed, where: str) -> dict[RewardTerm, Figure]:
+def _terms(ground: Ground, rows: Weighed, of: str) -> dict[RewardTerm, Figure]:
     """Return the expected cost [s] of each term of the reward, largest first."""
     found: dict[RewardTerm, float] = {}
     for one, weight in rows:
         for term, cost in one.terms.items():
             found[term] = found.get(term, 0.0) + weight * cost
     return {
-        term: Figure(rounded(cost), "s", ground.source(f"{where}.terms.{term}", "mean by weight"))
+        term: Figure(rounded(cost), "s", ground.source(f"rollouts[*].terms.{term}", f"mean {of}"))
         for term, cost in sorted(found.items(), key=lambda item: -item[1])
     }
 
@@ -174,23 +179,29 @@ def _behind(model: CausalModel, there: Intervention, here: Intervention) -> Figu
     )
 
 
-def collision(ground: Ground, plan: Intervention, *, calibrated: bool = False) -> Figure:
+def collision(
+    ground: Ground,
+    plan: Intervention,
+    of: str = "of the rollouts of the plan",
+    *,
+    calibrated: bool = False,
+) -> Figure:
     """Return the probability of a collision under a plan, by its rollouts or as answers tell it."""
     share = min(plan.outcomes["collision"], 1.0)
     if calibrated:
-        how = "share by weight, with the error of the model (ranges.json)"
+        how = f"share {of}, by weight, with the error of the model (ranges.json)"
         return Figure(
             rounded(chances(plan).collision), "", ground.source("rollouts[*].outcome", how)
         )
     low, high = max(share - plan.error, 0.0), min(share + plan.error, 1.0)
-    source = ground.source("rollouts[*].outcome", "share of rollouts of the plan, by weight")
-    if plan.error <= EPSILON:
+    source = ground.source("rollouts[*].outcome", f"share {of}, by weight")
+    if rounded(low) == rounded(high):
         return Figure(rounded(share), "", source)
     bound = "bound for what was not sampled, at 95 %"
     return Figure(rounded(share), "", source, rounded(low), rounded(high), bound)
 
 
-def hardest(ground: Ground, rows: Weighed, where: str) -> Figure | None:
+def hardest(ground: Ground, rows: Weighed, of: str = OF_PLAN) -> Figure | None:
     """Return the hardest braking [m/s2] in rollouts: mean and range."""
     known = lines(ground.trace)
 
@@ -198,28 +209,42 @@ def hardest(ground: Ground, rows: Weighed, where: str) -> Figure | None:
         line = known.get(one.index)
         return None if line is None else brakes(line)
 
-    return spread(ground, rows, braking, "m/s2", f"{where}.speed")
+    return _spread(ground, rows, braking, "m/s2", ("rollouts[*].speed", of))
 
 
-def spread(
+def arrival(ground: Ground, rows: Weighed, of: str = OF_PLAN) -> Figure | None:
+    """Return the time [s] to the goal in the rollouts that reach it: mean and range."""
+    field = "rollouts[*].components.time"
+    return _spread(ground, rows, lambda one: one.components.get("time"), "s", (field, of))
+
+
+def _spread(
     ground: Ground,
     rows: Weighed,
     read: Callable[[Rollout], float | None],
     unit: str,
-    field: str,
+    source: tuple[str, str],
 ) -> Figure | None:
-    """Return the mean of something in rollouts with its range; None where none of them has it."""
+    """Return the mean of something in rollouts with its range; None where none of them has it.
+
+    Args:
+        ground: the decision.
+        rows: its rollouts with their weights.
+        read: what is read of each.
+        unit: of it.
+        source: the field, and of which rollouts.
+    """
     known = [(value, weight) for one, weight in rows if (value := read(one)) is not None]
     mass = sum(weight for _, weight in known)
     if mass <= 0.0:
         return None
     values, weights = np.array([v for v, _ in known]), np.array([w for _, w in known])
-    share = mass / sum(weight for _, weight in rows)
-    of = "mean by weight" if share > 0.999 else f"mean by weight of the {share:.0%} that have it"
+    share, (field, of) = mass / sum(weight for _, weight in rows), source
+    part = "" if share > 0.999 else f", the {share:.0%} that have it"
     return Figure(
         rounded(sum(v * w for v, w in known) / mass),
         unit,
-        ground.source(field, of),
+        ground.source(field, f"mean {of}{part}"),
         rounded(quantile(values, weights, LOW)),
         rounded(quantile(values, weights, HIGH)),
         RANGE,

@@ -1,0 +1,1 @@
+"""Rendering of report contents as one HTML file that prints well."""

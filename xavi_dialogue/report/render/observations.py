@@ -1,0 +1,282 @@
+"""Sections on what was observed: who is involved, the timeline, maps, speeds, lights, priority."""
+
+from dataclasses import dataclass
+
+from sim.scene import EGO
+from xavi_dialogue.report.content import Entry, LightSpan, Report
+from xavi_dialogue.report.render.charts import Axes, Line, bands, chart
+from xavi_dialogue.report.render.colours import LIGHTS, colour, stroke
+from xavi_dialogue.report.render.drawings import strip
+from xavi_dialogue.report.render.markup import EMPTY, Markup, joined, table, tag
+from xavi_dialogue.report.render.notes import KMH, Notes, told
+from xavi_dialogue.report.render.words import (
+    Names,
+    action_words,
+    capital,
+    chain,
+    goal,
+    phrase,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """A report on its way to HTML."""
+
+    report: Report
+    names: Names
+    notes: Notes
+
+    @property
+    def axes(self) -> Axes:
+        """The time axis of all charts."""
+        report = self.report
+        decisions = tuple((row.number, row.time) for row in report.decisions)
+        return Axes(report.since, report.until, report.moment.time, decisions)
+
+    def by(self, time: float) -> str:
+        """Return a time relative to the moment: "−2.0 s"."""
+        by = time - self.report.moment.time
+        return "±0 s" if abs(by) < 0.05 else f"{by:+.1f} s".replace("-", "\N{MINUS SIGN}")
+
+
+def involved(page: Page) -> Markup:
+    """Return who is involved."""
+    report, names = page.report, page.names
+    rows = [
+        (
+            names.shown(one.vehicle),
+            "; ".join(phrase("role", role) for role in one.roles),
+            joined((f"{one.length:.1f} × {one.width:.1f} m", page.notes.ref(one.source))),
+            page.notes.figure(one.nearest),
+            "–" if one.nearest_at is None else f"{one.nearest_at:.1f} s",
+        )
+        for one in report.involved
+    ]
+    known = (
+        table(("Road user", "Role", "Size", "Least distance", "at"), rows)
+        if rows
+        else tag("p", "No other road user is involved.")
+    )
+    others = ", ".join(map(str, report.bystanders))
+    rest = tag("p", f"Also in view in these seconds: {others}.", class_="muted") if others else None
+    own = tag("p", names.shown(EGO), ", number 0, is the car that made the record.")
+    return joined((own, known, rest))
+
+
+def timeline(page: Page) -> Markup:
+    """Return the events in order of time."""
+    rows = (
+        (
+            f"{one.time:.1f} s",
+            page.by(one.time),
+            joined((_entry(page, one), page.notes.ref(one.source))),
+        )
+        for one in page.report.timeline
+    )
+    return table(("Time", "Relative", "What happened"), rows, "long")
+
+
+def _entry(page: Page, one: Entry) -> Markup:
+    names, figures = page.names, one.figures
+    whom = names.of(one.other) if one.other is not None else "somebody"
+    match one.kind:
+        case "decision":
+            return joined((tag("b", f"Decision {one.source.number}: "), f"{chain(one.plan)}."))
+        case "light":
+            here = figures.get("distance")
+            state = phrase("light", one.what)
+            if here is None:
+                return joined((f"The light ahead turns {state}.",))
+            far = page.notes.figure(here)
+            return joined(("The light ahead, in ", far, f", shows {state} when first seen."))
+        case "belief":
+            chance = page.notes.figure(figures["probability"])
+            what = f"{capital(names.of(one.vehicle))} most likely {_goal(one)}"
+            return joined(("Belief: ", what, ", ", chance, "."))
+        case "peak":
+            value = page.notes.figure(next(iter(figures.values())))
+            text = phrase("peak", one.what).format("", whom)
+            return joined((tag("b", text), ": ", value, "."))
+        case "episode":
+            return _episode(page, one, whom)
+    text = phrase("event", one.kind)
+    doing = action_words(one.what) if one.what else ""  # type: ignore[arg-type]
+    return joined((tag("b", text.format(doing, whom)),))
+
+
+def _goal(one: Entry) -> str:
+    return goal(one.what, one.place)  # type: ignore[arg-type]
+
+
+def _episode(page: Page, one: Entry, whom: str) -> Markup:
+    """Return what a road user was seen to do."""
+    who = capital(page.names.of(one.vehicle))
+    deed = phrase("deed", one.what).format(whom)
+    parts: list[Markup | str] = [f"{who} {deed}"]
+    known = one.figures
+    if "from" in known and "to" in known and one.what not in ("stop",):
+        parts.append(f", from {told(known['from'])} to {told(known['to'])}")
+    if "peak" in known:
+        parts.append(f", up to {told(known['peak'])}")
+    if one.until is not None and one.until - one.time > 0.15:
+        parts.append(f", until {one.until:.1f} s")
+    return joined((*parts, "."))
+
+
+def maps(page: Page) -> Markup:
+    """Return the strip of maps."""
+    shown, report = page.report.map, page.report
+    text = "Boxes are true to scale, with their front in white; thin lines are the ways driven."
+    if not shown.roads:
+        text += " The roads are not at hand."
+    source = page.notes.ref(shown.frames[0].source) if shown.frames else EMPTY
+    return joined(
+        (
+            tag("p", text, f" North is up. Roads: network {report.hashes.network}.", source),
+            strip(shown, report.moment.time, page.names.order),
+        )
+    )
+
+
+def motions(page: Page) -> Markup:
+    """Return speeds, accelerations and gaps over time, and a table of them."""
+    report, names, axes = page.report, page.names, page.axes
+    order = names.order
+    speeds = [
+        Line(
+            names.short(one.vehicle),
+            tuple((t, v * KMH) for t, v in zip(one.time, one.speed, strict=True)),
+            colour(one.vehicle, order),
+            stroke(one.vehicle, order),
+        )
+        for one in report.motions
+    ]
+    rates = [
+        Line(
+            names.short(one.vehicle),
+            tuple(zip(one.time, one.rate, strict=True)),
+            colour(one.vehicle, order),
+            stroke(one.vehicle, order),
+        )
+        for one in report.motions
+    ]
+    gaps = [
+        Line(
+            names.short(one.vehicle),
+            tuple(zip(one.time, one.distance, strict=True)),
+            colour(one.vehicle, order),
+            stroke(one.vehicle, order),
+        )
+        for one in report.gaps
+    ]
+    legend = tag("p", "Dashed line: the moment. Triangles: decisions, with their numbers.")
+    return joined(
+        (
+            legend,
+            chart(axes, "Speed [km/h]", speeds),
+            chart(axes, "Change of speed [m/s²]: below zero, it slows", rates, low=None),
+            chart(axes, "Distance from this car, body to body [m]", gaps) if gaps else None,
+            _motion_table(page),
+        )
+    )
+
+
+def _motion_table(page: Page) -> Markup:
+    """Return speeds and gaps at whole seconds from the moment."""
+    report, names, notes = page.report, page.names, page.notes
+    head: list[Markup | str] = ["Time"]
+    head += [
+        joined((f"Speed of {names.short(one.vehicle)}", notes.ref(one.source)))
+        for one in report.motions
+    ]
+    head += [
+        joined((f"Distance of {names.short(one.vehicle)}", notes.ref(one.source)))
+        for one in report.gaps
+    ]
+    rows = []
+    moment = report.moment.time
+    for by in range(-7, 8):
+        time = moment + by
+        if not report.since - 1e-6 <= time <= report.until + 1e-6:
+            continue
+        cells = [f"{time:.1f} s ({page.by(time)})"]
+        for one in report.motions:
+            speed = _at(time, one.time, one.speed)
+            cells.append("–" if speed is None else f"{speed * KMH:.1f} km/h")
+        for gap in report.gaps:
+            far = _at(time, gap.time, gap.distance)
+            cells.append("–" if far is None else f"{far:.1f} m")
+        rows.append(cells)
+    return tag("div", table(head, rows, "long"), class_="wide")
+
+
+def _at(time: float, times: tuple[float, ...], values: tuple[float, ...]) -> float | None:
+    """Return the value of the sample nearest to a time [s], if it is within 0.15 s."""
+    near = min(range(len(times)), key=lambda k: abs(times[k] - time), default=None)
+    return None if near is None or abs(times[near] - time) > 0.15 else values[near]
+
+
+def lights(page: Page) -> Markup:
+    """Return what the traffic lights on the way showed, and who goes first."""
+    report = page.report
+    parts: list[Markup] = [tag("h3", "Traffic lights on this car's way")]
+    if report.lights:
+        parts += [_bands(page), _light_table(page)]
+    else:
+        parts.append(tag("p", "There was none in view on this car's way in these seconds."))
+    parts.append(tag("h3", "Right of way at the next junction"))
+    rows = [
+        (
+            f"{one.time:.1f} s",
+            f"{one.decision}",
+            "–" if one.rule is None else f"this car {phrase('rule', one.rule)}",
+            page.notes.figure(one.distance),
+            joined((_first(page, one.first), page.notes.ref(one.source))),
+        )
+        for one in report.precedence
+    ]
+    head = ("From", "Decision", "The way of this car", "Distance", "Who goes first")
+    text = (
+        "As the roads have it, by the decisions at which it changed. Only those are listed whose "
+        "way may cross or join this car's."
+    )
+    none = tag("p", "The record has no junction ahead in these seconds.")
+    parts += [tag("p", text), table(head, rows)] if rows else [none]
+    return joined(parts)
+
+
+def _first(page: Page, first: dict[int, str]) -> Markup:
+    if not first:
+        return joined(("nobody whose way crosses",))
+    order = sorted(first, key=lambda v: (v not in page.names.order, v))
+    told_of = [f"{page.names.short(v)}: {phrase('first', first[v])}" for v in order]
+    return joined(("; ".join(told_of),))
+
+
+def _bands(page: Page) -> Markup:
+    rows: dict[str, list[tuple[float, float, str, str]]] = {}
+    for one in page.report.lights:
+        fill = LIGHTS.get(one.state, "#888")
+        rows.setdefault(_light_name(one), []).append(
+            (one.since, one.until, fill, phrase("light", one.state).split(",")[0])
+        )
+    return bands(page.axes, "Light on this car's way", tuple(rows.items()))
+
+
+def _light_table(page: Page) -> Markup:
+    rows = (
+        (
+            f"{one.since:.1f} to {one.until:.1f} s",
+            _light_name(one),
+            phrase("light", one.state),
+            "seen to change" if one.change_seen else "came into view so",
+            page.notes.figure(one.distance),
+        )
+        for one in page.report.lights
+    )
+    return table(("Seen", "Light", "State", "Begin", "Distance, at the last decision"), rows)
+
+
+def _light_name(one: LightSpan) -> str:
+    return f"{one.controller}, place {one.place}"

@@ -1,0 +1,307 @@
+"""Sections on what was believed and decided, what it hangs on, and whether it was avoidable."""
+
+from xavi_dialogue.report.content import (
+    Avoidability,
+    Beliefs,
+    Cases,
+    Chance,
+    Choice,
+    Decided,
+    Holding,
+    Tested,
+    Way,
+)
+from xavi_dialogue.report.render.charts import Line, chart
+from xavi_dialogue.report.render.colours import OTHERS, STROKES
+from xavi_dialogue.report.render.markup import Markup, joined, listed, table, tag
+from xavi_dialogue.report.render.notes import percent
+from xavi_dialogue.report.render.observations import Page
+from xavi_dialogue.report.render.words import (
+    action_words,
+    capital,
+    chain,
+    goal,
+    phrase,
+    supposed_words,
+)
+
+MOST = 5  # goals of one road user that are drawn
+
+
+def beliefs(page: Page) -> Markup:
+    """Return what was believed of those involved, and how it moved."""
+    text = (
+        "The probability of each goal in each decision. It follows from how well the motion so "
+        "far fits driving to that goal."
+    )
+    parts = [tag("p", text)]
+    for known in page.report.beliefs:
+        parts.append(tag("h3", page.names.shown(known.vehicle)))
+        parts += _beliefs(page, known)
+    if not page.report.beliefs:
+        parts.append(tag("p", "Nobody else is involved."))
+    return joined(parts)
+
+
+def _beliefs(page: Page, known: Beliefs) -> list[Markup]:
+    if not known.goals:
+        return [tag("p", "No decision of these seconds predicted it.")]
+    drawn = [
+        Line(
+            f"{k + 1}",
+            tuple((p.time, 100.0 * p.probability) for p in one.points),
+            OTHERS[k % len(OTHERS)],
+            STROKES[k % len(STROKES)] or None,
+            dots=True,
+        )
+        for k, one in enumerate(known.goals[:MOST])
+    ]
+    came = {True: "yes", False: "no", None: "not seen"}
+    rows = []
+    for k, one in enumerate(known.goals):
+        first, last = one.points[0], one.points[-1]
+        ends = [
+            joined((f"{percent(p.probability)} (D{p.source.number})", page.notes.ref(p.source)))
+            for p in (first, last)
+        ]
+        rows.append((f"{k + 1}: {goal(one.kind, one.place)}", *ends, came[one.came]))
+    head = ("Goal", "First in the window", "Last in the window", "Took that road later")
+    return [chart(page.axes, "Probability of its goals [%]", drawn, high=100.0), table(head, rows)]
+
+
+def decisions(page: Page) -> Markup:
+    """Return all decisions of the window, and the one in force in full."""
+    report = page.report
+    rows = (
+        (
+            f"D{one.number}",
+            f"{one.time:.1f} s ({page.by(one.time)})",
+            joined((capital(chain(one.plan)), tag("b", " (changed)") if one.changed else None)),
+            page.notes.figure(one.speed),
+            page.notes.figure(one.collision),
+            page.notes.figure(one.value),
+        )
+        for one in report.decisions
+    )
+    head = ("", "Time", "Plan", "Speed then", "Collision expected", "Expected reward")
+    short = table(head, rows, "long")
+    whole = tag("p", "No decision was in force.") if report.decided is None else _decided(page)
+    return joined((tag("h3", "All decisions of these seconds"), short, whole))
+
+
+def _decided(page: Page) -> Markup:
+    one = page.report.decided
+    assert one is not None
+    begun = "" if one.under_way is None else (
+        f" It had to finish first what was under way: {action_words(one.under_way)}."
+    )  # fmt: skip
+    weighed = (
+        "Figures are those that the decision went by."
+        if one.by_weights
+        else "The record has no weights; figures are those that answers rest on."
+    )
+    cost = ", ".join(f"{phrase('outcome', k)} {v:g} s" for k, v in one.costs.penalties.items())
+    parts = [
+        tag("h3", f"Decision {one.number}, in force at the moment"),
+        tag("p", f"Taken at {one.time:.1f} s ({page.by(one.time)}), trace {one.trace}: ",
+            tag("b", chain(one.plan)), f".{begun} {weighed} The reward counts lost seconds; "
+            f"penalties: {cost}."),
+        _options(page, one) if one.choices else tag("p", "It had nothing to choose from."),
+        _terms(page, one) if any(choice.terms for choice in one.choices) else None,
+    ]  # fmt: skip
+    if one.ruled_out:
+        barred = (f"{capital(action_words(a))}: {why}." for a, why in one.ruled_out.items())
+        parts += [tag("p", "Not possible then:"), listed(barred)]
+    return joined(parts)
+
+
+def _options(page: Page, one: Decided) -> Markup:
+    rows = [
+        (
+            joined((capital(action_words(c.action)), tag("b", " (chosen)") if c.chosen else None)),
+            page.notes.figure(c.value),
+            _outcomes(page, c),
+            page.notes.figure(c.told),
+            page.notes.figure(c.time),
+            page.notes.figure(c.braking),
+            page.notes.figure(c.behind),
+        )
+        for c in one.choices
+    ]
+    head = (
+        "Option", "Expected reward", "Outcomes", "Collision, as the car would tell it",
+        "Time to the goal", "Hardest braking", "Worse than the chosen one by",
+    )  # fmt: skip
+    return tag("div", table(head, rows), class_="wide")
+
+
+def _outcomes(page: Page, one: Choice) -> Markup:
+    told = [
+        joined((f"{phrase('outcome', name)} ", page.notes.figure(figure)))
+        for name, figure in one.chances.items()
+    ]
+    return joined(told, ", ")
+
+
+def _terms(page: Page, one: Decided) -> Markup:
+    """Return the terms of the reward, by option."""
+    terms = list(dict.fromkeys(term for choice in one.choices for term in choice.terms))
+    head = ("Expected cost by term", *(capital(phrase("term", term)) for term in terms))
+    rows = (
+        (
+            capital(action_words(choice.action)),
+            *(page.notes.figure(choice.terms.get(term), "0") for term in terms),
+        )
+        for choice in one.choices
+    )
+    return tag("div", table(head, rows), class_="wide")
+
+
+def causes(page: Page) -> Markup:
+    """Return what removing or changing others does to decisions."""
+    text = (
+        "The decision was planned again, with one thing changed at a time and the beliefs about "
+        "all others kept. A change that alters neither plan nor outcome is no cause of them."
+    )
+    parts = [tag("p", text)]
+    for case in page.report.cases:
+        parts.append(tag("h3", f"Decision {case.decision} at {case.time:.1f} s "
+                         f"({page.by(case.time)})"))  # fmt: skip
+        parts += _case(page, case)
+    return joined(parts)
+
+
+def _case(page: Page, case: Cases) -> list[Markup]:
+    held = [_holding(page, one) for one in case.held]
+    what = tag("p", "Expected to hold this car up under its plan:") if held else tag(
+        "p", "Nobody and nothing was expected to hold this car up under its plan."
+    )  # fmt: skip
+    own = (
+        tag("b", "as it was"),
+        capital(chain(case.plan)),
+        "",
+        page.notes.figure(case.collision),
+        page.notes.figure(case.braking),
+        page.notes.figure(case.arrival),
+    )
+    head = ("Changed", "Plan then", "Decision", "Collision", "Hardest braking", "Time to the goal")
+    rows = [own, *(_tested(page, one) for one in case.tested)]
+    return [what, *([listed(held)] if held else []), tag("div", table(head, rows), class_="wide")]
+
+
+def _holding(page: Page, one: Holding) -> Markup:
+    who = "" if one.vehicle is None else f"{capital(page.names.of(one.vehicle))}, "
+    parts: list[Markup | str] = [
+        f"{who}{phrase('held', one.how)}: ",
+        page.notes.figure(one.expected),
+    ]
+    parts += [" in the mean, with a probability of ", page.notes.figure(one.share)]
+    if one.speeds is not None:
+        first, least = (3.6 * speed for speed in one.speeds)
+        parts.append(f"; its speed then {first:.0f} km/h, at the lowest {least:.0f} km/h")
+    return joined((*parts, "."))
+
+
+def _tested(page: Page, one: Tested) -> tuple[Markup | str, ...]:
+    what = capital(supposed_words(page.names, one.supposed))
+    prior = one.supposed.prior
+    supposed = joined((what, ", believed ", page.notes.figure(prior))) if prior else joined((what,))
+    if one.trace is None:
+        return supposed, f"not planned again: {one.refused}", "–", "–", "–", "–"
+    return (
+        supposed,
+        capital(chain(one.plan)),
+        "the same" if one.same else tag("b", "another"),
+        page.notes.figure(one.collision),
+        page.notes.figure(one.braking),
+        page.notes.figure(one.time),
+    )
+
+
+def avoidance(page: Page) -> Markup:
+    """Return from when it could have been avoided, and how."""
+    known = page.report.avoidability
+    if known is None:
+        return tag("p", "There was no collision and no hard braking at this moment, so there is "
+                   "nothing to be avoided.")  # fmt: skip
+    what = "the collision" if known.mishap == "collide" else (
+        f"braking at {known.threshold:g} m/s² or more"
+    )  # fmt: skip
+    parts = [
+        tag("p", f"Examined is {what} at {known.at:.1f} s, at every decision of the seconds "
+            "before. An option is judged by its rollouts, as it was believed then. ",
+            "For a collision its lines are also laid against the other as it really drove. "
+            "An option avoids it if both give it a probability of at most 25 %."
+            if known.mishap == "collide" else
+            "An option avoids it if its rollouts brake so with a probability of at most 25 %, "
+            "and at least 25 % less often than what was chosen."),
+        tag("p", tag("b", last_chance(known))),
+        *(tag("p", text) for text in _emergencies(page, known)),
+        tag("div", _ways(page, known), class_="wide"),
+    ]  # fmt: skip
+    return joined(parts)
+
+
+def last_chance(known: Avoidability) -> str:
+    """Return the last decision with a way out."""
+    if known.last is None:
+        return "No decision of these seconds had an option that the record shows to avoid it."
+    chance = next(one for one in known.chances if one.number == known.last)
+    ways = [way for way in chance.ways if way.avoids]
+    told = " or ".join(f"to {action_words(way.action)}{_cost(way)}" for way in ways)
+    return (
+        f"The last decision with an option that avoids it is decision {chance.number}, "
+        f"{known.at - chance.time:.1f} s before: {told}."
+    )
+
+
+def _cost(way: Way) -> str:
+    lost = way.off_route is not None and way.off_route.value > 0.5
+    return " (off the route to the goal)" if lost else ""
+
+
+def _emergencies(page: Page, known: Avoidability) -> list[Markup]:
+    found = []
+    for one in known.emergency:
+        note = page.notes.ref(one.source)
+        if one.latest is None:
+            text = (
+                f"Braking at {one.rate:g} m/s² from {one.looked_from:.1f} s on, or from any later "
+                "sample, would not have avoided contact with the other as it drove"
+            )
+        else:
+            text = (
+                f"Braking at {one.rate:g} m/s² on its own line, begun at {one.latest:.1f} s "
+                f"({one.before:.1f} s before) or earlier, "
+                "would have kept this car clear of the other as it drove"
+            )
+        found.append(joined((text, note, ".")))
+    return found
+
+
+def _ways(page: Page, known: Avoidability) -> Markup:
+    crash = known.mishap == "collide"
+    rows = [_way(page, chance, way, crash=crash) for chance in known.chances for way in chance.ways]
+    head = ("Decision", "Option", "As believed then")
+    if crash:
+        head = (*head, "Touches the other as it drove", "Least distance")
+    return table((*head, "Hardest braking", "Avoids it"), rows, "long")
+
+
+def _way(page: Page, chance: Chance, way: Way, *, crash: bool) -> tuple[Markup | str, ...]:
+    verdict = {True: tag("b", "yes"), False: "no", None: "not shown"}[way.avoids]
+    name = capital(action_words(way.action)) + _cost(way)
+    marks = [
+        tag("b", " (chosen)") if way.chosen else None,
+        " (more rollouts)" if way.planned else "",
+    ]
+    figures = [page.notes.figure(way.believed)]
+    if crash:
+        figures += [page.notes.figure(way.replayed), page.notes.figure(way.clearance)]
+    return (
+        f"D{chance.number}, {page.by(chance.time)}",
+        joined((name, *marks)),
+        *figures,
+        page.notes.figure(way.braking),
+        verdict,
+    )

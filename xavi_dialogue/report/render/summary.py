@@ -1,0 +1,203 @@
+"""The summary: what the figures of a report come to, each sentence with its source."""
+
+from collections.abc import Iterator
+
+from xavi_dialogue.report.content import Choice, Tested
+from xavi_dialogue.report.figures import Figure, Source
+from xavi_dialogue.report.render.markup import Markup, Part, joined, listed
+from xavi_dialogue.report.render.notes import KMH, percent
+from xavi_dialogue.report.render.observations import Page
+from xavi_dialogue.report.render.reasons import last_chance
+from xavi_dialogue.report.render.words import (
+    action_words,
+    capital,
+    chain,
+    goal,
+    phrase,
+    supposed_words,
+)
+
+SHIFT = 0.1  # probability of a collision by which a change counts
+BRAKES = 1.0  # [m/s2] of the hardest braking by which a change counts
+SOONER = 1.0  # [s] by which a change counts
+
+
+def summary(page: Page) -> Markup:
+    """Return what the figures of a report come to."""
+    return listed(
+        [
+            *_what(page),
+            *_speeds(page),
+            *_priority(page),
+            *_light(page),
+            *_believed(page),
+            *_decided(page),
+            *_hangs_on(page),
+            *_avoidable(page),
+        ]
+    )
+
+
+def _what(page: Page) -> Iterator[Markup]:
+    moment, names = page.report.moment, page.names
+    if moment.kind == "collision":
+        time = moment.figures["time"]
+        other = names.of(moment.vehicle)
+        yield joined(("This car and ", other, " touched at ", page.notes.figure(time), "."))
+    elif moment.kind == "red-light":
+        time = moment.figures["time"]
+        yield joined(("This car stopped at a traffic light, or in the queue before it, at ",
+                      page.notes.figure(time), "."))  # fmt: skip
+    braking = _peak_braking(page)
+    if moment.kind == "hardest-braking":
+        value = page.notes.figure(moment.figures["deceleration"])
+        yield joined((f"At {moment.time:.1f} s this car braked with ", value, "."))
+    elif braking is not None:
+        rate, time, course = braking
+        note = page.notes.ref(course)
+        yield joined((f"The hardest braking of this car in these seconds was {rate:.1f} m/s², at "
+                      f"{time:.1f} s", note, "."))  # fmt: skip
+    if moment.kind == "closest-approach":
+        value = page.notes.figure(moment.figures["gap"])
+        who = capital(names.of(moment.vehicle))
+        yield joined((f"{who} came as close as ", value, f" at {moment.time:.1f} s."))
+
+
+def _peak_braking(page: Page) -> tuple[float, float, Source] | None:
+    own = page.report.motions[0]
+    if len(own.rate) < 3:
+        return None
+    k = min(range(len(own.rate)), key=lambda j: own.rate[j])
+    return None if own.rate[k] > -0.5 else (-own.rate[k], own.time[k], own.source)
+
+
+def _speeds(page: Page) -> Iterator[Markup]:
+    """Yield the speeds at the moment of this car, and of the first of those involved."""
+    moment = page.report.moment.time
+    parts: list[Part] = []
+    for course in page.report.motions[:3]:
+        known = [k for k, t in enumerate(course.time) if abs(t - moment) <= 0.25]
+        if known:
+            near = min(known, key=lambda k: (abs(course.time[k] - moment), k))
+            who = page.names.of(course.vehicle)
+            speed = f"{who} {course.speed[near] * KMH:.1f} km/h"
+            parts += [", " if parts else None, speed, page.notes.ref(course.source)]
+    if parts:
+        yield joined((f"Speeds at {moment:.1f} s: ", *parts, "."))
+
+
+def _priority(page: Page) -> Iterator[Markup]:
+    """Yield who was to go first, of those involved, by the last decision that says so."""
+    moment = page.report.moment.time
+    for party in page.report.involved:
+        rows = [
+            row
+            for row in page.report.precedence
+            if party.vehicle in row.first and row.time <= moment + 1e-6
+        ]
+        if rows:
+            row = rows[-1]
+            first = phrase("first", row.first[party.vehicle])
+            who = page.names.of(party.vehicle)
+            text = f"Right of way between this car and {who}: {first} (decision {row.decision})"
+            yield joined((text, page.notes.ref(row.source), "."))
+
+
+def _light(page: Page) -> Iterator[Markup]:
+    moment = page.report.moment.time
+    for span in page.report.lights:
+        if span.since <= moment + 1e-6 and span.until >= moment - 1.0:
+            state = phrase("light", span.state)
+            seen = "turned so then" if span.change_seen else "came into view so"
+            yield joined((f"The light ahead showed {state} from {span.since:.1f} s on ({seen}), "
+                          f"seen until {span.until:.1f} s", page.notes.ref(span.distance.source),
+                          "."))  # fmt: skip
+
+
+def _believed(page: Page) -> Iterator[Markup]:
+    """Yield what was last believed of those involved before the moment."""
+    moment = page.report.moment.time
+    for known in page.report.beliefs:
+        rows = [
+            (point.time, point.probability, one, point)
+            for one in known.goals
+            for point in one.points
+            if point.time <= moment + 1e-6
+        ]
+        if not rows:
+            continue
+        last = max(time for time, *_ in rows)
+        now = [row for row in rows if row[0] == last]
+        _, chance, one, point = max(now, key=lambda row: row[1])
+        came = {True: ", which it did later", False: ", which it did not do", None: ""}[one.came]
+        who = capital(page.names.of(known.vehicle))
+        yield joined((f"{who} was believed to do this with {percent(chance)}: "
+                      f"{goal(one.kind, one.place)}{came} (decision {point.source.number})",
+                      page.notes.ref(point.source), "."))  # fmt: skip
+
+
+def _decided(page: Page) -> Iterator[Markup]:
+    one = page.report.decided
+    if one is None:
+        return
+    chosen = next((choice for choice in one.choices if choice.chosen), None)
+    other = next((choice for choice in one.choices if not choice.chosen), None)
+    parts: list[Part] = [f"Decision {one.number}, in force then, was to {chain(one.plan)}"]
+    if chosen is not None:
+        parts += [", with ", _expected(page, chosen)]
+    if other is not None:
+        parts += [f"; the best other option, to {action_words(other.action)}, with "]
+        parts += [_expected(page, other)]
+    elif chosen is not None:
+        parts.append("; there was no other option")
+    yield joined((*parts, "."))
+
+
+def _expected(page: Page, choice: Choice) -> Markup:
+    """Return what was expected of an option."""
+    crash = choice.chances.get("collision")
+    parts: list[Part] = ["an expected reward of ", page.notes.figure(choice.value)]
+    if crash is not None:
+        parts += [" and a collision in ", page.notes.figure(crash), " of the rollouts"]
+    return joined(parts)
+
+
+def _hangs_on(page: Page) -> Iterator[Markup]:
+    """Yield the changes that make a difference to the decisions that were examined."""
+    for case in page.report.cases:
+        told = [
+            (supposed_words(page.names, one.supposed), effect)
+            for one in case.tested
+            if (effect := _effect(one, (case.collision, case.braking, case.arrival))) is not None
+        ]
+        at = f"decision {case.decision} ({page.by(case.time)})"
+        if not told and case.tested:
+            yield joined((f"None of the changes that were tested makes a difference to {at}.",))
+        for what, effect in told:
+            yield joined((f"{capital(what)}, {at} would have come to {effect}.",))
+
+
+def _effect(one: Tested, own: tuple[Figure | None, Figure | None, Figure | None]) -> str | None:
+    """Return what a change makes of a decision, if it makes a difference."""
+    if one.trace is None:
+        return None
+    found = [] if one.same else [f"another action: to {chain(one.plan)}"]
+    pairs = zip((one.collision, one.braking, one.time), own, strict=True)
+    names = ("a collision in {} of the rollouts", "a hardest braking of {}", "a drive of {}")
+    for name, least, (there, here) in zip(names, (SHIFT, BRAKES, SOONER), pairs, strict=True):
+        if there is not None and here is not None and abs(there.value - here.value) >= least:
+            after, before = (_plain(figure) for figure in (there, here))
+            found.append(f"{name.format(after)} instead of {before}")
+    return "; ".join(found) or None
+
+
+def _plain(figure: Figure) -> str:
+    if figure.unit == "":
+        return percent(figure.value)
+    return f"{figure.value:.1f} {figure.unit.replace('m/s2', 'm/s²')}"
+
+
+def _avoidable(page: Page) -> Iterator[Markup]:
+    known = page.report.avoidability
+    if known is not None:
+        yield joined((last_chance(known),))
