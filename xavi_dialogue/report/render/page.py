@@ -63,7 +63,8 @@ def html(report: Report) -> str:
 
 def _title(report: Report) -> str:
     kind = phrase("title", report.moment.kind)
-    return f"{kind} at {report.moment.time:.1f} s: {report.subject.scenario}"
+    scenario = report.subject.scenario.rstrip("/").rpartition("/")[2]
+    return f"{kind} at {report.moment.time:.1f} s: {scenario}"
 
 
 def _head(page: Page) -> Markup:

@@ -1,5 +1,6 @@
 """Sections on what was believed and decided, what it hangs on, and whether it was avoidable."""
 
+from xavi_dialogue.report.avoiding import keeps_route
 from xavi_dialogue.report.content import (
     Avoidability,
     Beliefs,
@@ -85,24 +86,22 @@ def decisions(page: Page) -> Markup:
     )
     head = ("", "Time", "Plan", "Speed then", "Collision expected", "Expected reward")
     short = table(head, rows, "long")
-    whole = tag("p", "No decision was in force.") if report.decided is None else _decided(page)
-    return joined((tag("h3", "All decisions of these seconds"), short, whole))
+    whole = [_decided(page, one) for one in report.decided]
+    return joined((tag("h3", "All decisions of these seconds"), short, *whole))
 
 
-def _decided(page: Page) -> Markup:
-    one = page.report.decided
-    assert one is not None
+def _decided(page: Page, one: Decided) -> Markup:
     begun = "" if one.under_way is None else (
         f" It had to finish first what was under way: {action_words(one.under_way)}."
     )  # fmt: skip
     weighed = (
         "Figures are those that the decision went by."
         if one.by_weights
-        else "The record has no weights; figures are those that answers rest on."
+        else "Nothing was weighed; figures are those that answers rest on."
     )
     cost = ", ".join(f"{phrase('outcome', k)} {v:g} s" for k, v in one.costs.penalties.items())
     parts = [
-        tag("h3", f"Decision {one.number}, in force at the moment"),
+        tag("h3", f"Decision {one.number}: {reasons_why(one)}"),
         tag("p", f"Taken at {one.time:.1f} s ({page.by(one.time)}), trace {one.trace}: ",
             tag("b", chain(one.plan)), f".{begun} {weighed} The reward counts lost seconds; "
             f"penalties: {cost}."),
@@ -113,6 +112,11 @@ def _decided(page: Page) -> Markup:
         barred = (f"{capital(action_words(a))}: {why}." for a, why in one.ruled_out.items())
         parts += [tag("p", "Not possible then:"), listed(barred)]
     return joined(parts)
+
+
+def reasons_why(one: Decided) -> str:
+    """Return why a decision is examined."""
+    return "; ".join(phrase("examined", why) for why in one.why)
 
 
 def _options(page: Page, one: Decided) -> Markup:
@@ -246,18 +250,23 @@ def last_chance(known: Avoidability) -> str:
     """Return the last decision with a way out."""
     if known.last is None:
         return "No decision of these seconds had an option that the record shows to avoid it."
-    chance = next(one for one in known.chances if one.number == known.last)
-    ways = [way for way in chance.ways if way.avoids]
-    told = " or ".join(f"to {action_words(way.action)}{_cost(way)}" for way in ways)
-    return (
-        f"The last decision with an option that avoids it is decision {chance.number}, "
-        f"{known.at - chance.time:.1f} s before: {told}."
+    text = f"The last decision with an option that avoids it is {_open_at(known, known.last)}."
+    if known.last_on_route not in (None, known.last):
+        text += f" Of those that keep to the route, it is {_open_at(known, known.last_on_route)}."
+    return text
+
+
+def _open_at(known: Avoidability, number: int | None) -> str:
+    """Return a decision with the options that avoid the mishap."""
+    chance = next(one for one in known.chances if one.number == number)
+    told = " or ".join(
+        f"to {action_words(way.action)}{_cost(way)}" for way in chance.ways if way.avoids
     )
+    return f"decision {chance.number}, {known.at - chance.time:.1f} s before: {told}"
 
 
 def _cost(way: Way) -> str:
-    lost = way.off_route is not None and way.off_route.value > 0.5
-    return " (off the route to the goal)" if lost else ""
+    return "" if keeps_route(way) else " (off the route to the goal)"
 
 
 def _emergencies(page: Page, known: Avoidability) -> list[Markup]:
@@ -281,7 +290,11 @@ def _emergencies(page: Page, known: Avoidability) -> list[Markup]:
 
 def _ways(page: Page, known: Avoidability) -> Markup:
     crash = known.mishap == "collide"
-    rows = [_way(page, chance, way, crash=crash) for chance in known.chances for way in chance.ways]
+    rows = [
+        _way(page, chance, way, crash=crash)
+        for chance in known.chances
+        for way in sorted(chance.ways, key=lambda way: not way.chosen)
+    ]
     head = ("Decision", "Option", "As believed then")
     if crash:
         head = (*head, "Touches the other as it drove", "Least distance")

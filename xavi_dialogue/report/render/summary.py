@@ -7,7 +7,7 @@ from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.render.markup import Markup, Part, joined, listed
 from xavi_dialogue.report.render.notes import KMH, percent
 from xavi_dialogue.report.render.observations import Page
-from xavi_dialogue.report.render.reasons import last_chance
+from xavi_dialogue.report.render.reasons import last_chance, reasons_why
 from xavi_dialogue.report.render.words import (
     action_words,
     capital,
@@ -137,20 +137,20 @@ def _believed(page: Page) -> Iterator[Markup]:
 
 
 def _decided(page: Page) -> Iterator[Markup]:
-    one = page.report.decided
-    if one is None:
-        return
-    chosen = next((choice for choice in one.choices if choice.chosen), None)
-    other = next((choice for choice in one.choices if not choice.chosen), None)
-    parts: list[Part] = [f"Decision {one.number}, in force then, was to {chain(one.plan)}"]
-    if chosen is not None:
-        parts += [", with ", _expected(page, chosen)]
-    if other is not None:
-        parts += [f"; the best other option, to {action_words(other.action)}, with "]
-        parts += [_expected(page, other)]
-    elif chosen is not None:
-        parts.append("; there was no other option")
-    yield joined((*parts, "."))
+    """Yield what was decided by the decisions that are examined."""
+    for one in page.report.decided:
+        chosen = next((choice for choice in one.choices if choice.chosen), None)
+        other = next((choice for choice in one.choices if not choice.chosen), None)
+        at = f"Decision {one.number} ({page.by(one.time)}, {reasons_why(one)})"
+        parts: list[Part] = [f"{at} was to {chain(one.plan)}"]
+        if chosen is not None:
+            parts += [", with ", _expected(page, chosen)]
+        if other is not None:
+            parts += [f"; the best other option, to {action_words(other.action)}, with "]
+            parts += [_expected(page, other)]
+        elif chosen is not None:
+            parts.append("; there was no other option")
+        yield joined((*parts, "."))
 
 
 def _expected(page: Page, choice: Choice) -> Markup:
@@ -166,15 +166,20 @@ def _hangs_on(page: Page) -> Iterator[Markup]:
     """Yield the changes that make a difference to the decisions that were examined."""
     for case in page.report.cases:
         told = [
-            (supposed_words(page.names, one.supposed), effect)
+            f"{supposed_words(page.names, one.supposed)}{_prior(one)}: {effect}"
             for one in case.tested
             if (effect := _effect(one, (case.collision, case.braking, case.arrival))) is not None
         ]
         at = f"decision {case.decision} ({page.by(case.time)})"
-        if not told and case.tested:
-            yield joined((f"None of the changes that were tested makes a difference to {at}.",))
-        for what, effect in told:
-            yield joined((f"{capital(what)}, {at} would have come to {effect}.",))
+        if told:
+            yield joined((f"Changes that alter {at}: {'. '.join(map(capital, told))}.",))
+        elif case.tested:
+            yield joined((f"None of the changes that were tested alters {at}.",))
+
+
+def _prior(one: Tested) -> str:
+    prior = one.supposed.prior
+    return "" if prior is None else f" (believed {percent(prior.value)})"
 
 
 def _effect(one: Tested, own: tuple[Figure | None, Figure | None, Figure | None]) -> str | None:
@@ -183,7 +188,7 @@ def _effect(one: Tested, own: tuple[Figure | None, Figure | None, Figure | None]
         return None
     found = [] if one.same else [f"another action: to {chain(one.plan)}"]
     pairs = zip((one.collision, one.braking, one.time), own, strict=True)
-    names = ("a collision in {} of the rollouts", "a hardest braking of {}", "a drive of {}")
+    names = ("a collision in {} of the rollouts", "hardest braking {}", "time to the goal {}")
     for name, least, (there, here) in zip(names, (SHIFT, BRAKES, SOONER), pairs, strict=True):
         if there is not None and here is not None and abs(there.value - here.value) >= least:
             after, before = (_plain(figure) for figure in (there, here))
