@@ -19,6 +19,7 @@ from xavi_dialogue.cli.commands import (
     doctor,
     keys,
     record,
+    report,
     serve,
     sessions,
     traces,
@@ -181,7 +182,8 @@ def _note(text: str) -> None:
 
 
 SHELL = Streams(_errors, _write, _note, _lines)
-for room in (chat, dashboard, serve, record, looking, traces, sessions, keys, doctor):
+ROOMS = (chat, dashboard, serve, record, report, looking, traces, sessions, keys, doctor)
+for room in ROOMS:
     room.add(app, SHELL)
 
 

@@ -10,6 +10,7 @@ from xavi_dialogue.library.connection import Car, connect, connect_async
 from xavi_dialogue.library.curves import Curves
 from xavi_dialogue.library.decisions import Belief, Decision
 from xavi_dialogue.library.pictures import Picture
+from xavi_dialogue.library.reports import Report
 from xavi_dialogue.library.ride import Conversation, Ride
 from xavi_dialogue.library.sources import drive
 from xavi_dialogue.library.sources import open_ride as open  # noqa: A004 - as in PIL.Image
@@ -26,6 +27,7 @@ __all__ = [
     "Evidence",
     "Option",
     "Picture",
+    "Report",
     "Ride",
     "Scene",
     "Trajectory",

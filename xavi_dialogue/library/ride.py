@@ -17,7 +17,7 @@ from xavi_dialogue.dialogue.manager import fold
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.events import Input
-from xavi_dialogue.dialogue.state.state import EPSILON
+from xavi_dialogue.dialogue.state.state import EPSILON, Dialogue
 from xavi_dialogue.library import html
 from xavi_dialogue.library.answers import Answer, answer
 from xavi_dialogue.library.curves import Curves, curves
@@ -25,9 +25,12 @@ from xavi_dialogue.library.decisions import Decision
 from xavi_dialogue.library.errors import LibraryError, translated
 from xavi_dialogue.library.html import element
 from xavi_dialogue.library.pictures import Picture, drawn
+from xavi_dialogue.library.reports import Report, report_of
 from xavi_dialogue.library.tables import TableName, table
 from xavi_dialogue.library.trajectories import compared
 from xavi_dialogue.nlg.context import Style
+from xavi_dialogue.report.build import build
+from xavi_dialogue.report.ridden import Ridden
 from xavi_dialogue.service import in_process
 from xavi_dialogue.service.in_process import Replan, make_pipeline
 from xavi_dialogue.storage import ride_file
@@ -146,6 +149,23 @@ class Ride:
         file = ride_file.named(Path(path))
         ride_file.save(self.record, file)
         return file
+
+    def report(self, at: float | str | None = None) -> Report:
+        """Report what the record shows of an incident.
+
+        Args:
+            at: a time [s], or "collision", "hardest braking", "closest approach" or "red light".
+                Default: the most remarkable moment.
+
+        Raises:
+            XaviError: there is no such moment.
+        """
+        again = keeping(self.again, self.record)
+        inputs = [one for _, one in self.known]
+        gaps = fold(make_pipeline(), inputs, Dialogue()).gaps
+        ridden = Ridden(self.record, self.scenes, again, self.network, self.digest, gaps)
+        with translated():
+            return report_of(build(ridden, at))
 
     @cached_property
     def default_time(self) -> float:

@@ -52,7 +52,7 @@ def build(ridden: Ridden, at: float | str | None = None) -> Report:
     since = max(moment.time - BEFORE, ridden.begin)
     until = min(moment.time + AFTER, ridden.end)
     window, inquiry = (since, until), Inquiry(ridden, until)
-    tracks = tracks_of(ridden, until)
+    tracks = tracks_of(ridden, _next_decision(ridden, until))
     involved = parties(inquiry, tracks, moment, window)
     others = tuple(party.vehicle for party in involved)
     lit = lights(ridden, window)
@@ -87,6 +87,11 @@ def build(ridden: Ridden, at: float | str | None = None) -> Report:
         limits=limitations(inquiry, moment.time, window, others, tested),
         hashes=_hashes(ridden, window),
     )
+
+
+def _next_decision(ridden: Ridden, until: float) -> float:
+    """Return when [s] the next decision knows what was seen up to a time."""
+    return next((t.sim_time for t in ridden.record.traces if t.sim_time >= until), until)
 
 
 def _examined(

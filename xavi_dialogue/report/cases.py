@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from planner.record.light_record import GREENS, LightSupposed
 from planner.record.trace import PlanTrace
+from sim.scene import EGO
 from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.domain.answers import NeedRollout
@@ -18,6 +19,7 @@ from xavi_dialogue.report.weighed import (
     chosen_plan,
     collision,
     hardest,
+    reward,
     weighed_by,
 )
 
@@ -41,6 +43,7 @@ def cases(inquiry: Inquiry, trace: PlanTrace, vehicles: Sequence[int]) -> Cases:
         decision=trace.decision,
         time=trace.sim_time,
         plan=planned(trace),
+        reward=None if here is None else reward(ground, here),
         collision=None if here is None else collision(ground, here),
         braking=hardest(ground, rows),
         arrival=arrival(ground, rows),
@@ -61,6 +64,9 @@ def _suppositions(
     for vehicle in here:
         yield Supposed("absent", vehicle), NeedRollout(trace_id=of, removed=vehicle)
         yield from _goals(trace, vehicle)
+    everybody = tuple(sorted(set(trace.scene) - {EGO}))
+    if len(everybody) > 1:
+        yield Supposed("empty"), NeedRollout(trace_id=of, removed=everybody)
     for light in () if trace.road is None else trace.road.lights[:1]:
         state = RED if light.state in GREENS else GREEN
         places = [light.place]
@@ -94,7 +100,7 @@ def _tested(inquiry: Inquiry, trace: PlanTrace, supposed: Supposed, need: NeedRo
     made = inquiry.plan(need)
     if made is None:
         why = inquiry.reasons[need]
-        return Tested(supposed, trace.decision, (), None, None, None, None, None, why)
+        return Tested(supposed, trace.decision, (), None, None, None, None, None, None, why)
     ground, there = Ground(made, "replan"), chosen_plan(CausalModel(made))
     rows = () if there is None else weighed_by(there)
     return Tested(
@@ -102,6 +108,7 @@ def _tested(inquiry: Inquiry, trace: PlanTrace, supposed: Supposed, need: NeedRo
         decision=trace.decision,
         plan=planned(made),
         same=planned(made)[:1] == planned(trace)[:1],
+        reward=None if there is None else reward(ground, there),
         collision=None if there is None else collision(ground, there),
         braking=hardest(ground, rows),
         time=arrival(ground, rows),

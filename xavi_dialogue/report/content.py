@@ -142,7 +142,8 @@ class LightSpan(msgspec.Struct, frozen=True):
     since: float  # [s]
     until: float  # [s] as far as it was seen
     change_seen: bool  # whether it was seen to change to this at `since`
-    distance: Figure  # [m] to the junction
+    decision: int  # the first that has it so in the window
+    distance: Figure  # [m] from the car to the junction, then
 
 
 class Precedence(msgspec.Struct, frozen=True):
@@ -230,7 +231,7 @@ class DecisionRow(msgspec.Struct, frozen=True):
 class Supposed(msgspec.Struct, frozen=True, omit_defaults=True):
     """One change of the world: a vehicle is away or does something else, a light differs."""
 
-    kind: Literal["absent", "goal", "light", "in-view"]
+    kind: Literal["absent", "empty", "goal", "light", "in-view"]
     vehicle: int | None = None
     goal: Action | None = None
     place: str = ""  # of the goal, in words
@@ -246,6 +247,7 @@ class Tested(msgspec.Struct, frozen=True):
     decision: int
     plan: tuple[Action, ...]  # () if it could not be planned
     same: bool | None  # whether the first action stays the same
+    reward: Figure | None  # [s] expected
     collision: Figure | None
     braking: Figure | None  # [m/s2] hardest
     time: Figure | None  # [s] to the goal
@@ -269,6 +271,7 @@ class Cases(msgspec.Struct, frozen=True):
     decision: int
     time: float  # [s]
     plan: tuple[Action, ...]
+    reward: Figure | None  # [s] expected
     collision: Figure | None
     braking: Figure | None
     arrival: Figure | None  # [s] to the goal

@@ -1,6 +1,7 @@
 """What was observed: speeds, gaps, lights on the car's way, and who goes first."""
 
-from planner.record.places import LightAhead
+from msgspec.structs import replace
+
 from sim.scene import EGO
 from xavi_dialogue.report.content import Course, Gaps, LightSpan, Precedence
 from xavi_dialogue.report.figures import Figure, rounded
@@ -45,33 +46,29 @@ def gaps(tracks: Tracks, vehicle: int, window: tuple[float, float]) -> Gaps:
 
 
 def lights(ridden: Ridden, window: tuple[float, float]) -> tuple[LightSpan, ...]:
-    """Return what the traffic lights on the car's way showed in a window [s]."""
+    """Return what the next traffic light on the car's way showed in a window [s]."""
     found: dict[tuple[str, int], list[LightSpan]] = {}
     for trace in ridden.between(*window):
         for k, light in enumerate(() if trace.road is None else trace.road.lights[:1]):
             spans = found.setdefault((light.controller, light.place), [])
-            source = of_trace(trace, f"road.lights[{k}].distance")
-            far = Figure(light.distance, "m", source)
             if spans and spans[-1].state == light.state:
-                last = spans.pop()
-                spans.append(_span(light, last.since, trace.sim_time, far, seen=last.change_seen))
-            else:
-                if spans and light.change_seen:
-                    spans.append(_lasting(spans.pop(), light.since))
-                since = max(light.since, window[0])
-                spans.append(_span(light, since, trace.sim_time, far, seen=light.change_seen))
+                spans[-1] = replace(spans[-1], until=trace.sim_time)
+                continue
+            if spans and light.change_seen:
+                spans[-1] = replace(spans[-1], until=max(light.since, spans[-1].since))
+            far = Figure(light.distance, "m", of_trace(trace, f"road.lights[{k}].distance"))
+            span = LightSpan(
+                controller=light.controller,
+                place=light.place,
+                state=light.state,
+                since=light.since,
+                until=trace.sim_time,
+                change_seen=light.change_seen,
+                decision=trace.decision,
+                distance=far,
+            )
+            spans.append(span)
     return tuple(sorted((s for spans in found.values() for s in spans), key=lambda s: s.since))
-
-
-def _span(light: LightAhead, since: float, until: float, far: Figure, *, seen: bool) -> LightSpan:
-    return LightSpan(light.controller, light.place, light.state, since, until, seen, far)
-
-
-def _lasting(span: LightSpan, until: float) -> LightSpan:
-    """Return a span that lasted until a change that was seen."""
-    end = max(until, span.since)
-    return LightSpan(span.controller, span.place, span.state, span.since, end,
-                     span.change_seen, span.distance)  # fmt: skip
 
 
 def precedence(ridden: Ridden, window: tuple[float, float]) -> tuple[Precedence, ...]:

@@ -101,8 +101,10 @@ def _all_roles(
         if inside and event.kind in ("collided", "gave-way"):
             assert event.vehicle is not None
             yield event.vehicle, "collided" if event.kind == "collided" else "gave-way"
+    here = inquiry.ridden.decision_at(moment.time)
     for trace in inquiry.ridden.between(moment.time - RECENT, moment.time):
-        yield from ((vehicle, "held-up") for vehicle in holding_up(inquiry, trace))
+        held = holding_up(inquiry, trace)
+        yield from ((one, "held-up") for one in held if here is not None and one in here.scene)
     for trace in inquiry.ridden.between(moment.time - WAYS, moment.time):
         facts = () if trace.road is None else trace.road.priority
         yield from ((fact.vehicle, "right-of-way") for fact in facts if fact.who == "vehicle")

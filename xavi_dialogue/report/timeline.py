@@ -20,6 +20,8 @@ SEEN: tuple[ActionName, ...] = (
     "exit-right", "exit-straight", "cut-in", "pull-out", "cross", "overtake", "signal", "appear",
     "disappear",
 )  # fmt: skip
+AGAIN = 3.0  # [s] after giving way to somebody for which that is not told again
+SOON = 0.6  # [s] between the beginnings of two accounts of one thing
 FROM_EVENTS = ("action-committed", "gave-way", "stopped-at-light", "arrived", "collided", "ended")
 
 
@@ -46,7 +48,7 @@ def timeline(
         *_events(inquiry.ridden, window),
         *_decisions(inquiry.ridden, window),
         *_episodes(inquiry, tracks, window, involved),
-        *_lights(lights),
+        *_lights(lights, window[0]),
         *(entry for known in beliefs for entry in _beliefs(known)),
         *_moment(moment),
     ]
@@ -69,8 +71,14 @@ def _moment(moment: Chosen) -> Iterator[Entry]:
 
 
 def _events(ridden: Ridden, window: tuple[float, float]) -> Iterator[Entry]:
+    waited: dict[int | None, float] = {}
     for k, event in enumerate(ridden.record.events):
         if window[0] <= event.sim_time <= window[1] and event.kind in FROM_EVENTS:
+            if event.kind == "gave-way":
+                before = waited.get(event.vehicle, -AGAIN)
+                waited[event.vehicle] = event.sim_time
+                if event.sim_time - before < AGAIN:
+                    continue
             source = Source("event", "kind", k, event.sim_time)
             yield Entry(
                 event.sim_time, event.kind, source, EGO, event.action or "", other=event.vehicle
@@ -106,6 +114,8 @@ def _episodes(
     """Yield what the car and those involved were seen to do."""
     seen = inquiry.world.episodes((EGO, *involved), SEEN, *window)
     for episode in seen:
+        if episode.action == "speed-up" and any(_sets_off(other, episode) for other in seen):
+            continue
         who = somebody(episode.actor)
         known = who is not None and len(who) == 1
         if not known or not window[0] <= episode.begin <= window[1]:
@@ -124,6 +134,12 @@ def _episodes(
             until=None if episode.end is None else rounded(episode.end, 2),
             figures=_figures(tracks, vehicle, episode),
         )
+
+
+def _sets_off(other: Episode, episode: Episode) -> bool:
+    """Check whether speeding up is also told as setting off."""
+    near = abs(other.begin - episode.begin) <= SOON
+    return other.action == "go" and other.actor == episode.actor and near
 
 
 def _is_event(inquiry: Inquiry, vehicle: int, episode: Episode) -> bool:
@@ -148,10 +164,12 @@ def _figures(tracks: Tracks, vehicle: int, episode: Episode) -> dict[str, Figure
     }
 
 
-def _lights(lights: Sequence[LightSpan]) -> Iterator[Entry]:
+def _lights(lights: Sequence[LightSpan], since: float) -> Iterator[Entry]:
     for span in lights:
-        far = {} if span.change_seen else {"distance": span.distance}
-        yield Entry(span.since, "light", span.distance.source, what=span.state, figures=far)
+        begun = span.change_seen and span.since >= since
+        far = {} if begun else {"distance": span.distance}
+        time = max(span.since, since)
+        yield Entry(time, "light", span.distance.source, what=span.state, figures=far)
 
 
 def _beliefs(known: Beliefs) -> Iterator[Entry]:

@@ -20,7 +20,7 @@ from xavi_dialogue.report.parties import of_trace
 from xavi_dialogue.report.ridden import Ridden
 
 Weighed = Sequence[tuple[Rollout, float]]  # rollouts with their weights
-RANGE = "5 to 95 % of the weight"
+RANGE = "5 to 95 % of the weight, widened to hold the mean"
 OF_PLAN = "of the rollouts of the plan, by weight"
 BETWEEN_ERRORS = "two standard errors to either side"
 
@@ -201,6 +201,11 @@ def collision(
     return Figure(rounded(share), "", source, rounded(low), rounded(high), bound)
 
 
+def reward(ground: Ground, plan: Intervention) -> Figure:
+    """Return the expected reward [s] of a plan."""
+    return Figure(rounded(plan.value), "s", ground.source("rollouts[*].reward", f"mean {OF_PLAN}"))
+
+
 def hardest(ground: Ground, rows: Weighed, of: str = OF_PLAN) -> Figure | None:
     """Return the hardest braking [m/s2] in rollouts: mean and range."""
     known = lines(ground.trace)
@@ -241,11 +246,12 @@ def _spread(
     values, weights = np.array([v for v, _ in known]), np.array([w for _, w in known])
     share, (field, of) = mass / sum(weight for _, weight in rows), source
     part = "" if share > 0.999 else f", the {share:.0%} that have it"
+    mean = sum(v * w for v, w in known) / mass
     return Figure(
-        rounded(sum(v * w for v, w in known) / mass),
+        rounded(mean),
         unit,
         ground.source(field, f"mean {of}{part}"),
-        rounded(quantile(values, weights, LOW)),
-        rounded(quantile(values, weights, HIGH)),
+        rounded(min(quantile(values, weights, LOW), mean)),
+        rounded(max(quantile(values, weights, HIGH), mean)),
         RANGE,
     )

@@ -10,6 +10,7 @@ WIDE, HIGH = 600.0, 130.0  # [px] plotting area
 LEFT, RIGHT, TOP, BELOW = 52.0, 128.0, 20.0, 34.0  # [px] around it
 STEPS = (1.0, 2.0, 5.0, 10.0, 20.0, 25.0, 50.0, 100.0, 200.0)
 TICKS = 5
+APART = 20.0  # [px] between the labels of decisions
 GREY = "#666"
 
 
@@ -100,10 +101,13 @@ def _framed(axes: Axes, title: str, high: float, body: Sequence[Markup], legend:
         x = axes.across(float(time))
         parts.append(_rule(x, floor, x, floor + 4.0, GREY))
         parts.append(_text(x, floor + 15.0, f"{time}", "middle"))
+    labelled = -math.inf
     for number, time in axes.decisions:
         x = axes.across(time)
         parts.append(tag("path", d=f"M{x:.1f},{floor + 18.0:.1f} l3,6 l-6,0 z", fill=GREY))
-        parts.append(_text(x, floor + 32.0, f"D{number}", "middle", size="8"))
+        if x - labelled >= APART:
+            parts.append(_text(x, floor + 32.0, f"D{number}", "middle", size="8"))
+            labelled = x
     x = axes.across(axes.moment)
     parts.append(tag("line", x1=x, y1=TOP - 4.0, x2=x, y2=floor, stroke="#000",
                      stroke_width="1.5", stroke_dasharray="3 2"))  # fmt: skip

@@ -8,6 +8,7 @@ from sim.scene import EGO, Point
 from xavi_dialogue.report.content import Body, Frame, Map
 from xavi_dialogue.report.render.colours import LIGHTS, colour, stroke
 from xavi_dialogue.report.render.markup import Markup, tag
+from xavi_dialogue.report.render.words import seconds
 
 SIDE = 240.0  # [px] of one map
 BARS = (5.0, 10.0, 20.0, 50.0)  # [m] lengths of a scale
@@ -28,7 +29,7 @@ def _figure(shown: Map, frame: Frame, moment: float, involved: Sequence[int]) ->
     return tag(
         "figure",
         _map(shown, frame, involved),
-        tag("figcaption", tag("b", f"{frame.time:.1f} s"), f" ({sign} s)"),
+        tag("figcaption", tag("b", seconds(frame.time)), f" ({sign} s)"),
     )
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from planner.record.places import First
 from sim.scene import EGO
 from xavi_dialogue.report.content import Entry, LightSpan, Report
 from xavi_dialogue.report.render.charts import Axes, Line, bands, chart
@@ -16,7 +17,10 @@ from xavi_dialogue.report.render.words import (
     chain,
     goal,
     phrase,
+    seconds,
 )
+
+LISTED = 20  # bystanders that are listed
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +53,7 @@ def involved(page: Page) -> Markup:
             "; ".join(phrase("role", role) for role in one.roles),
             joined((f"{one.length:.1f} × {one.width:.1f} m", page.notes.ref(one.source))),
             page.notes.figure(one.nearest),
-            "–" if one.nearest_at is None else f"{one.nearest_at:.1f} s",
+            "–" if one.nearest_at is None else seconds(one.nearest_at),
         )
         for one in report.involved
     ]
@@ -58,7 +62,9 @@ def involved(page: Page) -> Markup:
         if rows
         else tag("p", "No other road user is involved.")
     )
-    others = ", ".join(map(str, report.bystanders))
+    others = ", ".join(map(str, report.bystanders[:LISTED]))
+    if len(report.bystanders) > LISTED:
+        others += f" and {len(report.bystanders) - LISTED} more"
     rest = tag("p", f"Also in view in these seconds: {others}.", class_="muted") if others else None
     own = tag("p", names.shown(EGO), ", number 0, is the car that made the record.")
     return joined((own, known, rest))
@@ -68,13 +74,20 @@ def timeline(page: Page) -> Markup:
     """Return the events in order of time."""
     rows = (
         (
-            f"{one.time:.1f} s",
+            seconds(one.time),
             page.by(one.time),
-            joined((_entry(page, one), page.notes.ref(one.source))),
+            joined((_entry(page, one), _entry_source(page, one))),
         )
         for one in page.report.timeline
     )
     return table(("Time", "Relative", "What happened"), rows, "long")
+
+
+def _entry_source(page: Page, one: Entry) -> Markup | None:
+    """Return the number of an entry's note, unless a figure in it has the same."""
+    shown = one.kind in ("belief", "peak", "light") and one.figures
+    same = any(figure.source == one.source for figure in one.figures.values())
+    return None if shown and same else page.notes.ref(one.source)
 
 
 def _entry(page: Page, one: Entry) -> Markup:
@@ -89,7 +102,7 @@ def _entry(page: Page, one: Entry) -> Markup:
             if here is None:
                 return joined((f"The light ahead turns {state}.",))
             far = page.notes.figure(here)
-            return joined(("The light ahead, in ", far, f", shows {state} when first seen."))
+            return joined(("The light ahead, in ", far, f", shows {state}."))
         case "belief":
             chance = page.notes.figure(figures["probability"])
             what = f"{capital(names.of(one.vehicle))} most likely {_goal(one)}"
@@ -242,16 +255,24 @@ def lights(page: Page) -> Markup:
         "way may cross or join this car's."
     )
     none = tag("p", "The record has no junction ahead in these seconds.")
-    parts += [tag("p", text), table(head, rows)] if rows else [none]
+    parts += [tag("p", text), table(head, rows, "long")] if rows else [none]
     return joined(parts)
 
 
-def _first(page: Page, first: dict[int, str]) -> Markup:
+def _first(page: Page, first: dict[int, First]) -> Markup:
+    """Return who goes first, those involved in bold."""
     if not first:
-        return joined(("nobody whose way crosses",))
-    order = sorted(first, key=lambda v: (v not in page.names.order, v))
-    told_of = [f"{page.names.short(v)}: {phrase('first', first[v])}" for v in order]
-    return joined(("; ".join(told_of),))
+        return joined(("nobody's way crosses",))
+    told_of = []
+    for who in ("vehicle", "depends", "ego"):
+        those = [vehicle for vehicle in first if first[vehicle] == who]
+        names = [
+            tag("b", page.names.short(v)) if v in page.names.order else f"{v}"
+            for v in sorted(those, key=lambda v: (v not in page.names.order, v))
+        ]
+        if names:
+            told_of.append(joined((f"{phrase('first', who)}: ", joined(names, ", "))))
+    return joined(told_of, "; ")
 
 
 def _bands(page: Page) -> Markup:
@@ -267,7 +288,7 @@ def _bands(page: Page) -> Markup:
 def _light_table(page: Page) -> Markup:
     rows = (
         (
-            f"{one.since:.1f} to {one.until:.1f} s",
+            f"{seconds(one.since)} to {seconds(one.until)}",
             _light_name(one),
             phrase("light", one.state),
             "seen to change" if one.change_seen else "came into view so",
@@ -275,7 +296,7 @@ def _light_table(page: Page) -> Markup:
         )
         for one in page.report.lights
     )
-    return table(("Seen", "Light", "State", "Begin", "Distance, at the last decision"), rows)
+    return table(("Seen", "Light", "State", "Begin", "Distance, when first seen so"), rows)
 
 
 def _light_name(one: LightSpan) -> str:

@@ -9,7 +9,7 @@ from xavi_dialogue.report.render.markup import Markup, joined, tag
 from xavi_dialogue.report.render.notes import Notes
 from xavi_dialogue.report.render.observations import Page
 from xavi_dialogue.report.render.summary import summary
-from xavi_dialogue.report.render.words import Names, phrase
+from xavi_dialogue.report.render.words import Names, phrase, seconds
 
 SECTIONS: tuple[tuple[str, str, Callable[[Page], Markup]], ...] = (
     ("summary", "Summary", summary),
@@ -64,7 +64,7 @@ def html(report: Report) -> str:
 def _title(report: Report) -> str:
     kind = phrase("title", report.moment.kind)
     scenario = report.subject.scenario.rstrip("/").rpartition("/")[2]
-    return f"{kind} at {report.moment.time:.1f} s: {scenario}"
+    return f"{kind} at {seconds(report.moment.time)}: {scenario}"
 
 
 def _head(page: Page) -> Markup:

@@ -66,7 +66,7 @@ def _beliefs(page: Page, known: Beliefs) -> list[Markup]:
             for p in (first, last)
         ]
         rows.append((f"{k + 1}: {goal(one.kind, one.place)}", *ends, came[one.came]))
-    head = ("Goal", "First in the window", "Last in the window", "Took that road later")
+    head = ("Goal", "First in the window", "Last in the window", "Took that road later in the ride")
     return [chart(page.axes, "Probability of its goals [%]", drawn, high=100.0), table(head, rows)]
 
 
@@ -99,18 +99,23 @@ def _decided(page: Page, one: Decided) -> Markup:
         if one.by_weights
         else "Nothing was weighed; figures are those that answers rest on."
     )
+    horizon = page.report.subject.settings.horizon
     cost = ", ".join(f"{phrase('outcome', k)} {v:g} s" for k, v in one.costs.penalties.items())
     parts = [
         tag("h3", f"Decision {one.number}: {reasons_why(one)}"),
         tag("p", f"Taken at {one.time:.1f} s ({page.by(one.time)}), trace {one.trace}: ",
             tag("b", chain(one.plan)), f".{begun} {weighed} The reward counts lost seconds; "
-            f"penalties: {cost}."),
+            f"penalties: {cost}. Out of time means not at its goal within the "
+            f"{horizon:g} s that rollouts look ahead."),
         _options(page, one) if one.choices else tag("p", "It had nothing to choose from."),
         _terms(page, one) if any(choice.terms for choice in one.choices) else None,
     ]  # fmt: skip
     if one.ruled_out:
-        barred = (f"{capital(action_words(a))}: {why}." for a, why in one.ruled_out.items())
-        parts += [tag("p", "Not possible then:"), listed(barred)]
+        barred: dict[str, list[str]] = {}
+        for action, why in one.ruled_out.items():
+            barred.setdefault(action_words(action), []).append(why)
+        told = (f"{capital(words)}: {'; '.join(why)}." for words, why in barred.items())
+        parts += [tag("p", "Not possible then:"), listed(told)]
     return joined(parts)
 
 
@@ -184,11 +189,15 @@ def _case(page: Page, case: Cases) -> list[Markup]:
         tag("b", "as it was"),
         capital(chain(case.plan)),
         "",
+        page.notes.figure(case.reward),
         page.notes.figure(case.collision),
         page.notes.figure(case.braking),
         page.notes.figure(case.arrival),
     )
-    head = ("Changed", "Plan then", "Decision", "Collision", "Hardest braking", "Time to the goal")
+    head = (
+        "Changed", "Plan then", "Decision", "Expected reward", "Collision", "Hardest braking",
+        "Time to the goal",
+    )  # fmt: skip
     rows = [own, *(_tested(page, one) for one in case.tested)]
     return [what, *([listed(held)] if held else []), tag("div", table(head, rows), class_="wide")]
 
@@ -211,11 +220,12 @@ def _tested(page: Page, one: Tested) -> tuple[Markup | str, ...]:
     prior = one.supposed.prior
     supposed = joined((what, ", believed ", page.notes.figure(prior))) if prior else joined((what,))
     if one.trace is None:
-        return supposed, f"not planned again: {one.refused}", "–", "–", "–", "–"
+        return supposed, f"not planned again: {one.refused}", "–", "–", "–", "–", "–"
     return (
         supposed,
         capital(chain(one.plan)),
         "the same" if one.same else tag("b", "another"),
+        page.notes.figure(one.reward),
         page.notes.figure(one.collision),
         page.notes.figure(one.braking),
         page.notes.figure(one.time),
@@ -302,7 +312,8 @@ def _ways(page: Page, known: Avoidability) -> Markup:
 
 
 def _way(page: Page, chance: Chance, way: Way, *, crash: bool) -> tuple[Markup | str, ...]:
-    verdict = {True: tag("b", "yes"), False: "no", None: "not shown"}[way.avoids]
+    unknown = "not recorded" if way.believed is None else "was not foreseen"
+    verdict = unknown if way.avoids is None else tag("b", "yes") if way.avoids else "no"
     name = capital(action_words(way.action)) + _cost(way)
     marks = [
         tag("b", " (chosen)") if way.chosen else None,

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator
 
-from xavi_dialogue.report.content import Choice, Tested
+from xavi_dialogue.report.content import Cases, Choice, Tested
 from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.render.markup import Markup, Part, joined, listed
-from xavi_dialogue.report.render.notes import KMH, percent
+from xavi_dialogue.report.render.notes import KMH, number, percent
 from xavi_dialogue.report.render.observations import Page
 from xavi_dialogue.report.render.reasons import last_chance, reasons_why
 from xavi_dialogue.report.render.words import (
@@ -14,12 +14,13 @@ from xavi_dialogue.report.render.words import (
     chain,
     goal,
     phrase,
+    seconds,
     supposed_words,
 )
 
 SHIFT = 0.1  # probability of a collision by which a change counts
 BRAKES = 1.0  # [m/s2] of the hardest braking by which a change counts
-SOONER = 1.0  # [s] by which a change counts
+COUNTS = 2.0  # [s] of the expected reward by which a change counts
 
 
 def summary(page: Page) -> Markup:
@@ -51,7 +52,7 @@ def _what(page: Page) -> Iterator[Markup]:
     braking = _peak_braking(page)
     if moment.kind == "hardest-braking":
         value = page.notes.figure(moment.figures["deceleration"])
-        yield joined((f"At {moment.time:.1f} s this car braked with ", value, "."))
+        yield joined((f"At {seconds(moment.time)} this car braked with ", value, "."))
     elif braking is not None:
         rate, time, course = braking
         note = page.notes.ref(course)
@@ -83,7 +84,7 @@ def _speeds(page: Page) -> Iterator[Markup]:
             speed = f"{who} {course.speed[near] * KMH:.1f} km/h"
             parts += [", " if parts else None, speed, page.notes.ref(course.source)]
     if parts:
-        yield joined((f"Speeds at {moment:.1f} s: ", *parts, "."))
+        yield joined((f"Speeds at {seconds(moment)}: ", *parts, "."))
 
 
 def _priority(page: Page) -> Iterator[Markup]:
@@ -108,9 +109,9 @@ def _light(page: Page) -> Iterator[Markup]:
     for span in page.report.lights:
         if span.since <= moment + 1e-6 and span.until >= moment - 1.0:
             state = phrase("light", span.state)
-            seen = "turned so then" if span.change_seen else "came into view so"
-            yield joined((f"The light ahead showed {state} from {span.since:.1f} s on ({seen}), "
-                          f"seen until {span.until:.1f} s", page.notes.ref(span.distance.source),
+            seen = "seen to change" if span.change_seen else "came into view so"
+            yield joined((f"The light ahead showed {state} from {seconds(span.since)} ({seen}) "
+                          f"to {seconds(span.until)}", page.notes.ref(span.distance.source),
                           "."))  # fmt: skip
 
 
@@ -129,11 +130,11 @@ def _believed(page: Page) -> Iterator[Markup]:
         last = max(time for time, *_ in rows)
         now = [row for row in rows if row[0] == last]
         _, chance, one, point = max(now, key=lambda row: row[1])
-        came = {True: ", which it did later", False: ", which it did not do", None: ""}[one.came]
-        who = capital(page.names.of(known.vehicle))
-        yield joined((f"{who} was believed to do this with {percent(chance)}: "
-                      f"{goal(one.kind, one.place)}{came} (decision {point.source.number})",
-                      page.notes.ref(point.source), "."))  # fmt: skip
+        came = {True: "; it did so later", False: "; it did not do so", None: ""}[one.came]
+        who = page.names.of(known.vehicle)
+        text = f"Last belief about {who}: {goal(one.kind, one.place)}, {percent(chance)}"
+        note = page.notes.ref(point.source)
+        yield joined((f"{text} (decision {point.source.number}){came}", note, "."))
 
 
 def _decided(page: Page) -> Iterator[Markup]:
@@ -168,7 +169,7 @@ def _hangs_on(page: Page) -> Iterator[Markup]:
         told = [
             f"{supposed_words(page.names, one.supposed)}{_prior(one)}: {effect}"
             for one in case.tested
-            if (effect := _effect(one, (case.collision, case.braking, case.arrival))) is not None
+            if (effect := _effect(one, case)) is not None
         ]
         at = f"decision {case.decision} ({page.by(case.time)})"
         if told:
@@ -182,24 +183,27 @@ def _prior(one: Tested) -> str:
     return "" if prior is None else f" (believed {percent(prior.value)})"
 
 
-def _effect(one: Tested, own: tuple[Figure | None, Figure | None, Figure | None]) -> str | None:
+def _effect(one: Tested, case: Cases) -> str | None:
     """Return what a change makes of a decision, if it makes a difference."""
     if one.trace is None:
         return None
-    found = [] if one.same else [f"another action: to {chain(one.plan)}"]
-    pairs = zip((one.collision, one.braking, one.time), own, strict=True)
-    names = ("a collision in {} of the rollouts", "hardest braking {}", "time to the goal {}")
-    for name, least, (there, here) in zip(names, (SHIFT, BRAKES, SOONER), pairs, strict=True):
+    found = [] if one.same else [f"another action, to {chain(one.plan)}"]
+    pairs = (
+        ("expected reward", COUNTS, one.reward, case.reward),
+        ("a collision in", SHIFT, one.collision, case.collision),
+        ("hardest braking", BRAKES, one.braking, case.braking),
+    )
+    for name, least, there, here in pairs:
         if there is not None and here is not None and abs(there.value - here.value) >= least:
             after, before = (_plain(figure) for figure in (there, here))
-            found.append(f"{name.format(after)} instead of {before}")
+            found.append(f"{name} {after} instead of {before}")
     return "; ".join(found) or None
 
 
 def _plain(figure: Figure) -> str:
     if figure.unit == "":
         return percent(figure.value)
-    return f"{figure.value:.1f} {figure.unit.replace('m/s2', 'm/s²')}"
+    return f"{number(figure.value, figure.unit)} {figure.unit.replace('m/s2', 'm/s²')}"
 
 
 def _avoidable(page: Page) -> Iterator[Markup]:

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from importlib.resources import files
 
-from planner.record.trace import Action
+from planner.record.trace import ON_FOOT, Action
 from sim.scene import EGO
 from xavi_dialogue.dashboard.views.labels import deed, does, plan_words
 from xavi_dialogue.report.content import Party, Supposed
@@ -20,12 +20,19 @@ def phrase(kind: str, name: str) -> str:
     return _table()[kind].get(name, name)
 
 
+def seconds(time: float) -> str:
+    """Return a time, with up to two decimals: "21.65 s"."""
+    text = f"{time:.2f}"
+    return f"{text[:-1] if text.endswith('0') else text} s"
+
+
 class Names:
     """The names of road users in one report."""
 
     def __init__(self, involved: Sequence[Party]) -> None:
         """Names with the looks of those involved."""
         self._looks = {one.vehicle: _look(one) for one in involved}
+        self._people = {one.vehicle: one.kind for one in involved if one.kind in ON_FOOT}
         self.order = tuple(self._looks)
 
     def of(self, vehicle: int | None) -> str:
@@ -35,11 +42,14 @@ class Names:
         if vehicle == EGO:
             return OURS
         look = self._looks.get(vehicle)
-        return f"vehicle {vehicle}" + (f" ({look})" if look else "")
+        if vehicle in self._people or not look:
+            return self.short(vehicle)
+        return f"{self.short(vehicle)} ({look})"
 
     def short(self, vehicle: int) -> str:
         """Return a road user's name without its look."""
-        return OURS if vehicle == EGO else f"vehicle {vehicle}"
+        kind = self._people.get(vehicle, "vehicle")
+        return OURS if vehicle == EGO else f"{kind} {vehicle}"
 
     def shown(self, vehicle: int) -> Markup:
         """Return a road user's name with its colour in the drawings."""
@@ -69,12 +79,15 @@ def chain(plan: Iterable[Action]) -> str:
 
 def goal(kind: Action, place: str) -> str:
     """Return a goal of another: "turns left (the road to the left)"."""
-    return f"{does((kind,))} ({place})" if place else does((kind,))
+    told = phrase("goal", kind) if kind in _table()["goal"] else does((kind,))
+    return f"{told} ({place})" if place else told
 
 
 def supposed_words(names: Names, one: Supposed) -> str:
     """Return what is supposed."""
     match one.kind:
+        case "empty":
+            return "without all others"
         case "absent":
             return f"without {names.of(one.vehicle)}"
         case "goal":
