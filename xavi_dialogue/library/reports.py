@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from xavi_dialogue.library.errors import LibraryError
-from xavi_dialogue.report import content
+from xavi_dialogue.report.content import Incident, MomentKind, encode
 from xavi_dialogue.report.render.page import html
 
 
@@ -12,8 +12,8 @@ from xavi_dialogue.report.render.page import html
 class Report:
     """What the record of a ride shows of one moment."""
 
-    content: content.Report = field(repr=False)  # all that it says, as frozen values
-    kind: content.MomentKind  # collision, hardest-braking, closest-approach, red-light or time
+    content: Incident = field(repr=False)  # all that it says, as frozen values
+    kind: MomentKind  # collision, hardest-braking, closest-approach, red-light or time
     time: float  # [s] the moment
 
     def html(self) -> str:
@@ -22,7 +22,7 @@ class Report:
 
     def json(self) -> str:
         """Return its content as JSON."""
-        return content.encode(self.content).decode()
+        return encode(self.content).decode()
 
     def save(self, path: str | Path, *, as_json: bool = False) -> Path:
         """Write it to a file, as HTML or as JSON.
@@ -38,6 +38,6 @@ class Report:
         return file
 
 
-def report_of(found: content.Report) -> Report:
+def report_of(found: Incident) -> Report:
     """Return a report by its content."""
     return Report(found, found.moment.kind, found.moment.time)

@@ -17,7 +17,7 @@ from xavi_dialogue.report.content import (
     Chosen,
     Examined,
     Hashes,
-    Report,
+    Incident,
     Subject,
     TraceHash,
 )
@@ -35,7 +35,7 @@ from xavi_dialogue.storage.ride_file import RecordedRide, dump
 SUPPOSED = 3  # of those involved, in how many the world is changed
 
 
-def build(ridden: Ridden, at: float | str | None = None) -> Report:
+def build(ridden: Ridden, at: float | str | None = None) -> Incident:
     """Make the report of a moment.
 
     Args:
@@ -61,7 +61,7 @@ def build(ridden: Ridden, at: float | str | None = None) -> Report:
     examined = _examined(ridden, moment, avoided)
     tested = tuple(cases(inquiry, trace, others[:SUPPOSED]) for trace, _ in examined)
     traces = ridden.record.traces
-    return Report(
+    return Incident(
         schema=SCHEMA,
         subject=_subject(ridden),
         moment=moment,

@@ -368,7 +368,7 @@ class Subject(msgspec.Struct, frozen=True):
     settings: Settings
 
 
-class Report(msgspec.Struct, frozen=True):
+class Incident(msgspec.Struct, frozen=True):
     """An incident report."""
 
     schema: str
@@ -393,6 +393,6 @@ class Report(msgspec.Struct, frozen=True):
     hashes: Hashes
 
 
-def encode(report: Report) -> bytes:
+def encode(report: Incident) -> bytes:
     """Return a report as JSON; the same report gives the same bytes."""
     return msgspec.json.encode(report)

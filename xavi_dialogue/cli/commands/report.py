@@ -32,8 +32,8 @@ def _report(shell: Streams) -> Callable[..., None]:
             typer.Option(metavar="FILE", help="File to write. Default: named after ride and time."),
         ] = None,
         as_json: Annotated[
-            bool, typer.Option("--json", help="Print the content as JSON instead; with --out: "
-                               "write it.")
+            bool,
+            typer.Option("--json", help="Print the content as JSON instead; with --out: write it."),
         ] = False,
         scenario: Annotated[
             str | None,

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from planner.record.places import First
 from sim.scene import EGO
-from xavi_dialogue.report.content import Entry, LightSpan, Report
+from xavi_dialogue.report.content import Entry, Incident, LightSpan
 from xavi_dialogue.report.render.charts import Axes, Line, bands, chart
 from xavi_dialogue.report.render.colours import LIGHTS, colour, stroke
 from xavi_dialogue.report.render.drawings import strip
@@ -27,7 +27,7 @@ LISTED = 20  # bystanders that are listed
 class Page:
     """A report on its way to HTML."""
 
-    report: Report
+    report: Incident
     names: Names
     notes: Notes
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from importlib.resources import files
 
-from xavi_dialogue.report.content import Report
+from xavi_dialogue.report.content import Incident
 from xavi_dialogue.report.render import closing, observations, reasons
 from xavi_dialogue.report.render.markup import Markup, joined, tag
 from xavi_dialogue.report.render.notes import Notes
@@ -32,7 +32,7 @@ CAUTION = (
 )
 
 
-def html(report: Report) -> str:
+def html(report: Incident) -> str:
     """Return a report as an HTML document."""
     page = Page(report, Names(report.involved), Notes())
     parts = [
@@ -61,7 +61,7 @@ def html(report: Report) -> str:
     return f"<!doctype html>\n{tag('html', head, body, lang='en')}\n"
 
 
-def _title(report: Report) -> str:
+def _title(report: Incident) -> str:
     kind = phrase("title", report.moment.kind)
     scenario = report.subject.scenario.rstrip("/").rpartition("/")[2]
     return f"{kind} at {seconds(report.moment.time)}: {scenario}"

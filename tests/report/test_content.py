@@ -1,0 +1,468 @@
+"""What reports say against the record, read and computed by other ways."""
+
+import hashlib
+import math
+
+import msgspec
+import pytest
+
+import xavi_dialogue as xavi
+from planner.record.trace import SAMPLE_PERIOD, PlanTrace
+from sim.boxes import overlap
+from sim.scene import EGO, VehicleState
+from tests.report.records import (
+    BRAKING,
+    LIGHT,
+    UNHEEDED,
+    figures,
+    incident,
+    looked_up,
+    report,
+    ride,
+    sources,
+    traces,
+)
+from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.report.content import Incident, encode
+from xavi_dialogue.report.figures import Figure
+
+CASES = [(UNHEEDED, "collision"), (BRAKING, "hardest braking"), (LIGHT, "red light")]
+every_case = pytest.mark.parametrize(("path", "at"), CASES, ids=lambda x: getattr(x, "stem", x))
+
+
+def history(path: object, vehicle: int) -> dict[float, float]:
+    """Return the speeds [m/s] of a road user by time, from all histories."""
+    found: dict[float, float] = {}
+    for trace in ride(path).record.traces:  # type: ignore[arg-type]
+        track = trace.history.get(vehicle)
+        for k, speed in enumerate(() if track is None else track.speed):
+            assert track is not None
+            found[round(track.start + k * SAMPLE_PERIOD, 3)] = speed
+    return dict(sorted(found.items()))
+
+
+# --- every figure ---------------------------------------------------------------------------------
+
+
+@every_case
+def test_what_is_stated_as_it_stands_in_a_decision_stands_there(path, at) -> None:
+    known, plain = traces(path), 0
+    for figure in figures(incident(path, at)):
+        source = figure.source
+        if source.place == "decision":
+            assert source.number is not None
+            trace = known[source.number]
+            assert (source.time, source.trace) == (trace.sim_time, trace.trace_id)
+            if not source.how:
+                assert figure.value == looked_up(trace, source.field)
+                plain += 1
+    assert plain > 10
+
+
+@every_case
+def test_every_source_names_a_field_that_is_there(path, at) -> None:
+    known = traces(path)
+    for source in sources(incident(path, at)):
+        assert source.field
+        if source.place == "decision":
+            assert source.number is not None
+            if "*" not in source.field:
+                looked_up(known[source.number], source.field)
+        if source.place == "event":
+            event = ride(path).events[source.number or 0]
+            assert event.sim_time == source.time
+
+
+@every_case
+def test_intervals_hold_their_values_and_say_what_they_are(path, at) -> None:
+    wide = 0
+    for one in figures(incident(path, at)):
+        assert math.isfinite(one.value)
+        assert (one.low is None) == (one.high is None) == (not one.interval)
+        if one.low is not None and one.high is not None:
+            assert one.low <= one.value <= one.high
+            wide += one.low < one.high
+        if one.unit == "":
+            assert 0.0 <= one.value <= 1.0
+    assert wide > 3
+
+
+@every_case
+def test_the_same_ride_and_moment_give_the_same_bytes(path, at) -> None:
+    scenario = None if path != UNHEEDED else path.parent / "worlds" / "unheeded"
+    again = xavi.open(path, scenario=scenario).report(at)
+    assert again.json() == report(path, at).json()
+    assert again.html() == report(path, at).html()
+
+
+@every_case
+def test_the_json_holds_the_whole_content(path, at) -> None:
+    found = incident(path, at)
+    assert msgspec.json.decode(encode(found), type=Incident) == found
+
+
+# --- moments --------------------------------------------------------------------------------------
+
+
+def test_a_collision_is_the_most_remarkable_moment() -> None:
+    found = report(UNHEEDED)
+    event = next(one for one in ride(UNHEEDED).events if one.kind == "collided")
+    assert (found.kind, found.time) == ("collision", event.sim_time)
+    assert found.content.moment.vehicle == event.vehicle == 1
+    assert (found.content.since, found.content.until) == (event.sim_time - 7.0, event.sim_time)
+
+
+def test_the_hardest_braking_is_that_of_the_histories() -> None:
+    speeds = list(history(BRAKING, EGO).items())
+    rates = [
+        ((b - a) / (t1 - t0), t)
+        for (t0, a), (t, _), (t1, b) in zip(speeds, speeds[1:], speeds[2:], strict=False)
+    ]
+    rate, time = min(rates)
+    found = report(BRAKING, "hardest braking")
+    assert found.time == pytest.approx(time)
+    assert found.content.moment.figures["deceleration"].value == pytest.approx(-rate, abs=1e-3)
+
+
+def test_a_stop_at_a_light_is_found_by_its_event() -> None:
+    event = next(one for one in ride(LIGHT).events if one.kind == "stopped-at-light")
+    assert report(LIGHT, "red light").time == event.sim_time
+
+
+@pytest.mark.parametrize(
+    ("at", "told"),
+    [
+        ("tea", "'tea' names no moment; give a time .* collision"),
+        ("collision", "the ride has no collision; give a time"),
+        (1e6, "no moment 1e.06 s; give one from 0 to"),
+        (-1, "no moment -1 s"),
+        (math.nan, "no moment nan s"),
+    ],
+)
+def test_a_moment_that_is_not_there_is_refused(at: object, told: str) -> None:
+    with pytest.raises(xavi.XaviError, match=told):
+        ride(BRAKING).report(at)  # type: ignore[arg-type]
+
+
+# --- what was observed ----------------------------------------------------------------------------
+
+
+@every_case
+def test_speeds_are_those_of_the_histories(path, at) -> None:
+    found = incident(path, at)
+    for course in found.motions:
+        known = history(path, course.vehicle)
+        inside = [t for t in known if found.since - 1e-6 <= t <= found.until + 1e-6]
+        assert set(course.time) >= {round(t, 3) for t in inside}
+        for time, speed in zip(course.time, course.speed, strict=True):
+            if time in known:
+                assert speed == pytest.approx(known[time], abs=1e-3)
+    assert found.motions[0].vehicle == EGO
+
+
+def test_gaps_are_between_the_bodies() -> None:
+    found = incident(UNHEEDED)
+    gaps = found.gaps[0]
+    assert gaps.vehicle == 1
+    last = traces(UNHEEDED)[11].scene
+    assert gaps.distance[gaps.time.index(11.0)] == pytest.approx(
+        least(last[EGO], last[1]), abs=0.06
+    )
+
+
+def least(a: VehicleState, b: VehicleState) -> float:
+    """Return the distance [m] between two bodies by points on their edges."""
+    return min(math.dist(p, q) for p in edge(a) for q in edge(b))
+
+
+def edge(state: VehicleState) -> list[tuple[float, float]]:
+    x, y = state.position
+    cos, sin = math.cos(state.heading), math.sin(state.heading)
+    found = []
+    for k in range(101):
+        share = k / 100.0
+        for along, aside in (
+            (-state.length * share, state.width / 2),
+            (-state.length * share, -state.width / 2),
+            (0.0, state.width * (share - 0.5)),
+            (-state.length, state.width * (share - 0.5)),
+        ):
+            found.append((x + along * cos - aside * sin, y + along * sin + aside * cos))
+    return found
+
+
+@every_case
+def test_right_of_way_is_that_of_the_decisions(path, at) -> None:
+    known, found = traces(path), incident(path, at)
+    assert found.precedence
+    for row in found.precedence:
+        road = known[row.decision].road
+        assert road is not None
+        assert row.first == {fact.vehicle: fact.who for fact in road.priority}
+        assert row.rule == (road.route[0].rule if road.route else None)
+
+
+def test_the_light_is_told_as_decisions_saw_it() -> None:
+    found = incident(LIGHT, "red light")
+    assert [span.state for span in found.lights][:1] == ["r"]
+    for span in found.lights:
+        road = traces(LIGHT)[span.decision].road
+        assert road is not None
+        seen = road.lights[0]
+        assert (span.controller, span.state, span.since) == (
+            seen.controller, seen.state, seen.since,
+        )  # fmt: skip
+        assert span.until >= span.since
+    moment = found.moment.time
+    assert any(s.state == "r" and s.since <= moment <= s.until for s in found.lights)
+
+
+@every_case
+def test_events_of_the_window_are_in_the_timeline(path, at) -> None:
+    found = incident(path, at)
+    times = [one.time for one in found.timeline]
+    assert times == sorted(times)
+    told = {(one.kind, one.time) for one in found.timeline}
+    for event in ride(path).events:
+        inside = found.since <= event.sim_time <= found.until
+        if inside and event.kind in ("collided", "stopped-at-light", "action-committed"):
+            assert (event.kind, event.sim_time) in told
+
+
+@every_case
+def test_beliefs_of_a_decision_add_up(path, at) -> None:
+    for known in incident(path, at).beliefs:
+        sums: dict[float, float] = {}
+        for goal in known.goals:
+            for point in goal.points:
+                sums[point.time] = sums.get(point.time, 0.0) + point.probability
+        for total in sums.values():
+            assert 0.9 < total <= 1.0 + 1e-6
+
+
+def test_where_a_vehicle_went_in_the_end_is_told() -> None:
+    goals = {goal.edge: goal.came for goal in incident(UNHEEDED).beliefs[0].goals}
+    assert goals["north_out"] is True
+    assert goals["east_out"] is False
+
+
+def test_maps_show_everybody_where_they_were() -> None:
+    found = incident(UNHEEDED)
+    assert found.map.roads
+    frame = next(one for one in found.map.frames if one.time == found.moment.time - 1.0)
+    before, after = (traces(UNHEEDED)[n].scene[1].position for n in (10, 11))
+    (x, y) = next(body.position for body in frame.bodies if body.vehicle == 1)
+    assert min(before[1], after[1]) <= y <= max(before[1], after[1])
+    assert x == pytest.approx(before[0], abs=0.3)
+
+
+# --- what was decided -----------------------------------------------------------------------------
+
+
+@every_case
+def test_options_are_valued_as_the_decision_did(path, at) -> None:
+    for one in incident(path, at).decided:
+        trace = traces(path)[one.number]
+        for choice in one.choices:
+            rows = [
+                r for r in trace.rollouts if r.weight is not None and r.actions[0].action == choice.action
+            ]  # fmt: skip
+            if not one.by_weights:
+                assert not any(r.weight is not None for r in trace.rollouts)
+                continue
+            value = sum((r.weight or 0.0) * r.reward for r in rows)
+            assert choice.value.value == pytest.approx(value, abs=1e-3)
+            assert sum(f.value for f in choice.terms.values()) == pytest.approx(-value, abs=0.02)
+            assert sum(f.value for f in choice.chances.values()) == pytest.approx(1.0, abs=1e-3)
+        assert [c.action for c in one.choices if c.chosen] == [one.plan[0]]
+
+
+def test_the_decisions_that_matter_are_examined() -> None:
+    found = incident(UNHEEDED)
+    assert [(one.number, one.why) for one in found.decided] == [
+        (9, ("changed", "last-chance")),
+        (11, ("in-force",)),
+    ]
+    assert [case.decision for case in found.cases] == [9, 11]
+
+
+def test_removing_the_other_removes_the_collision() -> None:
+    case = next(one for one in incident(UNHEEDED).cases if one.decision == 11)
+    assert case.collision is not None
+    assert case.collision.value == 1.0
+    absent = next(one for one in case.tested if one.supposed.kind == "absent")
+    assert absent.supposed.vehicle == 1
+    assert absent.collision is not None
+    assert absent.collision.value == 0.0
+
+
+@every_case
+def test_what_is_planned_again_is_what_the_planner_gives(path, at) -> None:
+    tested = [one for case in incident(path, at).cases for one in case.tested if one.trace]
+    absent = [one for one in tested if one.supposed.kind == "absent"]
+    assert tested
+    for one in absent[:1]:
+        trace = traces(path)[one.decision]
+        need = NeedRollout(trace_id=trace.trace_id, removed=one.supposed.vehicle)
+        made = ride(path).again(trace, need)
+        assert one.trace == made.trace_id
+        assert one.plan == tuple(step.action for step in made.plan)
+        assert one.same == (one.plan[:1] == (trace.plan[0].action,))
+
+
+def test_a_light_that_is_green_instead_is_tested() -> None:
+    found = incident(LIGHT, "red light")
+    lit = [one for case in found.cases for one in case.tested if one.supposed.kind == "light"]
+    assert {one.supposed.lights[0].state for one in lit} == {"G"}
+    for case in found.cases:
+        for one in case.tested:
+            if one.supposed.kind == "light":
+                assert one.reward is not None
+                assert case.reward is not None
+                assert one.reward.value > case.reward.value
+
+
+# --- from when it could have been avoided ---------------------------------------------------------
+
+
+def touches(trace: PlanTrace, rollout: int, vehicle: int, until: float) -> bool:
+    """Check whether the line of a rollout touches a vehicle as it really drove, sample by sample."""
+    known = trace.rollouts[rollout]
+    line = known if known.path else trace.rollouts[known.same_as or 0]
+    assert line.path is not None
+    where: dict[float, VehicleState] = {}
+    for later in traces(UNHEEDED).values():
+        track, shape = later.history[vehicle], later.scene[vehicle]
+        for k, place in enumerate(track.position):
+            time = round(track.start + k * SAMPLE_PERIOD, 3)
+            where[time] = msgspec_state(shape, place, track.heading[k])
+    last = max(where)
+    final, speed = where[last], traces(UNHEEDED)[11].scene[vehicle].speed
+    for k in range(1, len(line.path)):
+        time = round(trace.sim_time + k * SAMPLE_PERIOD, 3)
+        there = where.get(time)
+        if there is None and time > last:
+            x, y = final.position
+            way = speed * (time - last)
+            place = (x + way * math.cos(final.heading), y + way * math.sin(final.heading))
+            there = msgspec_state(final, place, final.heading)
+        (x0, y0), (x1, y1) = line.path[k - 1], line.path[k]
+        heading = math.atan2(y1 - y0, x1 - x0) if (x0, y0) != (x1, y1) else 0.0
+        here = msgspec_state(trace.scene[EGO], line.path[k], heading)
+        if there is not None and time <= until and overlap(here, there):
+            return True
+    return False
+
+
+def msgspec_state(shape: VehicleState, place: tuple[float, float], heading: float) -> VehicleState:
+    return VehicleState(place, heading, 0.0, 0.0, shape.length, shape.width)
+
+
+def test_stopping_at_the_ninth_decision_would_have_avoided_it() -> None:
+    known = incident(UNHEEDED).avoidability
+    assert known is not None
+    assert known.last_on_route == 9
+    trace = traces(UNHEEDED)[9]
+    first = {r.index: r.actions[0].action for r in trace.rollouts if r.actions}
+    lined = [r.index for r in trace.rollouts if r.path or r.same_as is not None]
+    stops = [touches(trace, k, 1, 15.1) for k in lined if first.get(k) == "stop"]
+    goes = [touches(trace, k, 1, 15.1) for k in lined if first.get(k) == "continue"]
+    assert stops
+    assert not any(stops)
+    assert goes
+    assert all(goes)
+    chance = next(one for one in known.chances if one.number == 9)
+    ways = {way.action: way for way in chance.ways}
+    assert (ways["stop"].avoids, ways["continue"].avoids) == (True, False)
+    assert ways["continue"].chosen
+    assert replay(ways["continue"].replayed) == 1.0
+    assert replay(ways["stop"].replayed) == 0.0
+
+
+def replay(figure: Figure | None) -> float:
+    assert figure is not None
+    return figure.value
+
+
+def test_of_options_that_avoid_it_both_judgements_do() -> None:
+    known = incident(UNHEEDED).avoidability
+    assert known is not None
+    for chance in known.chances:
+        assert sum(way.chosen for way in chance.ways) <= 1
+        for way in chance.ways:
+            both = (way.believed, way.replayed)
+            if None not in both:
+                assert way.avoids == all(f is not None and f.value <= 0.25 for f in both)
+
+
+def test_the_last_moment_to_brake_comes_before_that_of_braking_harder() -> None:
+    known = incident(UNHEEDED).avoidability
+    assert known is not None
+    firm, emergency = known.emergency
+    assert firm.rate < emergency.rate
+    assert firm.latest is not None
+    assert emergency.latest is not None
+    assert firm.latest < emergency.latest < known.at
+    assert emergency.before == pytest.approx(known.at - emergency.latest)
+
+
+def test_braking_is_avoided_only_by_what_brakes_less_often() -> None:
+    known = incident(BRAKING, "hardest braking").avoidability
+    assert known is not None
+    assert known.mishap == "brake"
+    for chance in known.chances:
+        own = next((way.believed for way in chance.ways if way.chosen), None)
+        for way in chance.ways:
+            if way.avoids:
+                assert own is not None
+                assert way.believed is not None
+                assert own.value - way.believed.value >= 0.25
+
+
+# --- what the record cannot show, and what it was made from ---------------------------------------
+
+
+def test_the_hashes_are_those_of_file_and_traces() -> None:
+    known = incident(UNHEEDED).hashes
+    assert known.file == hashlib.sha256(UNHEEDED.read_bytes()).hexdigest()
+    for one in known.traces:
+        assert one.trace == traces(UNHEEDED)[one.number].trace_id
+    assert len(known.program) == 64
+    assert known.network == traces(UNHEEDED)[0].network
+
+
+def test_the_end_of_the_record_is_named() -> None:
+    kinds = {one.kind: one for one in incident(UNHEEDED).limits}
+    assert kinds["ends-early"].time == 11.1
+    assert kinds["no-scenes"].time == 11.0
+    assert "no-roads" not in kinds
+
+
+def test_without_its_roads_a_ride_is_reported_from_the_record_alone() -> None:
+    alone = xavi.open(UNHEEDED) if not UNHEEDED.is_absolute() else bare()
+    found = alone.report("collision").content
+    assert found.map.roads == ()
+    assert "no-roads" in {one.kind for one in found.limits}
+    tested = [one for case in found.cases for one in case.tested]
+    assert tested
+    assert all(one.trace is None and one.refused == "planner-unavailable" for one in tested)
+    told = incident(UNHEEDED)
+    assert found.timeline == told.timeline
+    assert found.hashes.ride == told.hashes.ride
+
+
+def bare() -> xavi.Ride:
+    """Return the ride without its roads."""
+    found = ride(UNHEEDED)
+    record = msgspec.json.decode(msgspec.json.encode(found.record.traces), type=list[PlanTrace])
+    known = type(found.record)("elsewhere", 0, found.record.halt, record, found.record.events,
+                               found.record.ended)  # fmt: skip
+    from xavi_dialogue.library.sources import _plans_nothing
+
+    return xavi.Ride(known, found.scenes, found.known, _plans_nothing, None, None)
+
+
+@every_case
+def test_what_holds_of_every_report_is_said(path, at) -> None:
+    kinds = {one.kind for one in incident(path, at).limits}
+    assert kinds >= {"model", "others-inside", "perfect-sight", "simulated"}
