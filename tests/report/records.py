@@ -15,7 +15,7 @@ from xavi_dialogue.report.figures import Figure, Source
 HERE = Path(__file__).parent
 UNHEEDED = HERE / "unheeded-0.ride.jsonl.gz"  # a van drives into our way, and does not give way
 RIDES = HERE.parents[1] / "transcripts" / "rides"
-BRAKING = RIDES / "s4-0.ride.jsonl.gz"
+BRAKING = RIDES / "s2-2.ride.jsonl.gz"
 LIGHT = RIDES / "junction-0.ride.jsonl.gz"
 
 

@@ -24,6 +24,7 @@ from xavi_dialogue.report.weighed import (
 )
 
 POSSIBLE = 0.05  # probability from which a goal of another is supposed
+SURE = 0.95  # ... and up to which: supposing what is believed anyway shows nothing
 GOALS = 3  # of one road user that are supposed
 RED, GREEN = "r", "G"
 
@@ -67,11 +68,12 @@ def _suppositions(
     everybody = tuple(sorted(set(trace.scene) - {EGO}))
     if len(everybody) > 1:
         yield Supposed("empty"), NeedRollout(trace_id=of, removed=everybody)
-    for light in () if trace.road is None else trace.road.lights[:1]:
+    lights = () if trace.road is None else trace.road.lights
+    for light in lights[:1]:
         state = RED if light.state in GREENS else GREEN
         places = [light.place]
         if state == GREEN:
-            places += [x.place for x in trace.road.lights[1:] if x.controller == light.controller]
+            places += [x.place for x in lights[1:] if x.controller == light.controller]
         shown = tuple(LightSupposed(light.controller, place, state) for place in places)
         yield Supposed("light", lights=shown), NeedRollout(trace_id=of, lights=shown)
     if any(one.held_by_hidden for one in trace.rollouts):
@@ -87,7 +89,7 @@ def _goals(trace: PlanTrace, vehicle: int) -> Iterator[tuple[Supposed, NeedRollo
     at = trace.predictions.index(known)
     ranked = sorted(enumerate(known.goals), key=lambda pair: -pair[1].probability)
     for k, goal in ranked[:GOALS]:
-        if goal.probability < POSSIBLE:
+        if not POSSIBLE <= goal.probability <= SURE:
             continue
         source = Ground(trace).source(f"predictions[{at}].goals[{k}].probability")
         prior = Figure(goal.probability, "", source)

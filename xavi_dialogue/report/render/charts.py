@@ -97,10 +97,10 @@ def _framed(axes: Axes, title: str, high: float, body: Sequence[Markup], legend:
     """Return a drawing with the time axis, the moment, and ticks of decisions."""
     floor = TOP + high
     parts = [_text(LEFT, 13.0, title, "start", weight="bold"), *body]
-    for time in range(math.ceil(axes.since - 1e-9), math.floor(axes.until + 1e-9) + 1):
-        x = axes.across(float(time))
+    for second in range(math.ceil(axes.since - 1e-9), math.floor(axes.until + 1e-9) + 1):
+        x = axes.across(float(second))
         parts.append(_rule(x, floor, x, floor + 4.0, GREY))
-        parts.append(_text(x, floor + 15.0, f"{time}", "middle"))
+        parts.append(_text(x, floor + 15.0, f"{second}", "middle"))
     labelled = -math.inf
     for number, time in axes.decisions:
         x = axes.across(time)

@@ -305,10 +305,9 @@ def _ways(page: Page, known: Avoidability) -> Markup:
         for chance in known.chances
         for way in sorted(chance.ways, key=lambda way: not way.chosen)
     ]
-    head = ("Decision", "Option", "As believed then")
-    if crash:
-        head = (*head, "Touches the other as it drove", "Least distance")
-    return table((*head, "Hardest braking", "Avoids it"), rows, "long")
+    of_crash = ("Touches the other as it drove", "Least distance") if crash else ()
+    head = ("Decision", "Option", "As believed then", *of_crash, "Hardest braking", "Avoids it")
+    return table(head, rows, "long")
 
 
 def _way(page: Page, chance: Chance, way: Way, *, crash: bool) -> tuple[Markup | str, ...]:

@@ -42,13 +42,12 @@ def summary(page: Page) -> Markup:
 def _what(page: Page) -> Iterator[Markup]:
     moment, names = page.report.moment, page.names
     if moment.kind == "collision":
-        time = moment.figures["time"]
-        other = names.of(moment.vehicle)
-        yield joined(("This car and ", other, " touched at ", page.notes.figure(time), "."))
+        when = page.notes.figure(moment.figures["time"])
+        yield joined(("This car and ", names.of(moment.vehicle), " touched at ", when, "."))
     elif moment.kind == "red-light":
-        time = moment.figures["time"]
-        yield joined(("This car stopped at a traffic light, or in the queue before it, at ",
-                      page.notes.figure(time), "."))  # fmt: skip
+        when = page.notes.figure(moment.figures["time"])
+        text = "This car stopped at a traffic light, or in the queue before it, at "
+        yield joined((text, when, "."))
     braking = _peak_braking(page)
     if moment.kind == "hardest-braking":
         value = page.notes.figure(moment.figures["deceleration"])

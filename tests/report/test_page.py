@@ -1,0 +1,164 @@
+"""The page: one file, escaped, with a source for every figure."""
+
+import re
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import pytest
+from msgspec.structs import replace
+
+from tests.report.records import BRAKING, LIGHT, UNHEEDED, incident, report
+from xavi_dialogue.report.content import Incident
+from xavi_dialogue.report.figures import Figure, Source
+from xavi_dialogue.report.render.markup import Markup, joined, tag
+from xavi_dialogue.report.render.notes import Notes, percent, told
+from xavi_dialogue.report.render.page import CAUTION, html
+from xavi_dialogue.report.render.words import decisions_words, seconds
+
+EVIL = "<script>alert('x')</script>"
+CASES = [(UNHEEDED, None), (BRAKING, "hardest braking"), (LIGHT, "red light")]
+every_case = pytest.mark.parametrize(("path", "at"), CASES, ids=lambda x: getattr(x, "stem", x))
+
+
+class Reader(HTMLParser):
+    """Checks that elements are closed in order, and collects what they refer to."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.ids: list[str] = []
+        self.links: list[str] = []
+        self.names: set[str] = set()
+        self.text = ""
+
+    def handle_starttag(self, name: str, attributes: list[tuple[str, str | None]]) -> None:
+        self.names.add(name)
+        known = dict(attributes)
+        self.ids += [known["id"] or ""] if "id" in known else []
+        self.links += [known["href"] or ""] if "href" in known else []
+        if name != "meta":
+            self.open.append(name)
+
+    def handle_endtag(self, name: str) -> None:
+        assert self.open.pop() == name
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+
+
+def read(text: str) -> Reader:
+    reader = Reader()
+    reader.feed(text)
+    assert reader.open == []
+    return reader
+
+
+@every_case
+def test_it_is_whole_and_needs_no_other_file(path, at) -> None:
+    page = report(path, at).html()
+    reader = read(page)
+    assert not reader.names & {"script", "link", "img", "iframe", "object", "form"}
+    outside = re.findall(r"https?://[^\s\"<]+", page)
+    assert set(outside) <= {"http://www.w3.org/2000/svg"}
+    assert "url(" not in page
+    assert all(link.startswith("#") for link in reader.links)
+    assert len(reader.ids) == len(set(reader.ids))
+    assert {link[1:] for link in reader.links} <= set(reader.ids)
+
+
+@every_case
+def test_every_note_is_listed_and_used(path, at) -> None:
+    page = report(path, at).html()
+    listed = re.findall(r'id="source-(\d+)"', page)
+    used = re.findall(r'href="#source-(\d+)"', page)
+    assert listed == [str(k + 1) for k in range(len(listed))]
+    assert set(used) == set(listed)
+    assert len(listed) > 30
+
+
+@every_case
+def test_drawings_are_well_formed(path, at) -> None:
+    drawings = re.findall(r"<svg.*?</svg>", report(path, at).html(), re.DOTALL)
+    assert len(drawings) >= 6
+    for one in drawings:
+        root = ElementTree.fromstring(one)
+        for element in root.iter():
+            assert "nan" not in "".join(element.attrib.values())
+
+
+@every_case
+def test_nobody_is_found_at_fault(path, at) -> None:
+    text = read(report(path, at).html()).text
+    assert CAUTION in text
+    rest = text.replace(CAUTION, "").lower()
+    for word in ("fault", "guilt", "blame", "liable", "negligen", "violat", "complian", "unlawful"):
+        assert word not in rest
+
+
+def test_whatever_was_recorded_is_escaped() -> None:
+    found = incident(UNHEEDED)
+    decided = tuple(replace(one, ruled_out={"stop": EVIL}) for one in found.decided)
+    beliefs = tuple(
+        replace(known, goals=tuple(replace(goal, place=EVIL) for goal in known.goals))
+        for known in found.beliefs
+    )
+    forged = replace(
+        found,
+        subject=replace(found.subject, scenario=EVIL, car=EVIL),
+        involved=tuple(replace(one, colour=EVIL, kind=EVIL) for one in found.involved),
+        decided=decided,
+        beliefs=beliefs,
+        hashes=replace(found.hashes, network=EVIL),
+    )
+    page = html(forged)
+    assert "<script" not in page
+    assert page.count("&lt;script&gt;") >= 8
+    read(page)
+
+
+def test_what_the_summary_says_stands_in_the_content() -> None:
+    text = read(report(UNHEEDED).html()).text
+    assert "This car and vehicle 1 (blue truck) touched at 11.1 s" in text
+    assert "this car goes first (decision 11)" in text
+    assert "decision 9, 2.1 s before: to stop" in text.replace("\n", " ")
+    light = read(report(LIGHT, "red light").html()).text
+    assert "The light ahead, in " in light
+    assert "The light ahead turns " in light
+
+
+def test_a_report_of_another_moment_differs() -> None:
+    assert isinstance(incident(UNHEEDED), Incident)
+    other = report(UNHEEDED, "8.5").html()
+    assert "Moment at 8.5 s" in other
+    assert "vehicle 1" in other
+
+
+def test_plain_text_is_escaped_and_markup_is_not() -> None:
+    assert joined(("a < b", Markup("<b>"), None)) == "a &lt; b<b>"
+    assert tag("p", 'say "x"', title='"') == '<p title="&quot;">say &quot;x&quot;</p>'
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(0.0, "0 %"), (0.0004, "<0.1 %"), (0.0123, "1.2 %"), (0.5, "50 %"), (0.987, "98.7 %"),
+     (0.99999, ">99.9 %"), (1.0, "100 %")],
+)  # fmt: skip
+def test_probabilities_are_told_apart_from_certainty(value: float, text: str) -> None:
+    assert percent(value) == text
+
+
+def test_figures_are_told_with_unit_and_interval() -> None:
+    source = Source("ride", "x")
+    assert told(Figure(10.0, "m/s", source)) == "36.0 km/h"
+    assert told(Figure(-2.0, "s", source, -3.0, 1.0, "range")) == (
+        "\N{MINUS SIGN}2.0 s (\N{MINUS SIGN}3.0 to 1.0)"
+    )
+    notes = Notes()
+    first, same, other = (notes.ref(Source("ride", f)) for f in ("x", "x", "y"))
+    assert first == same != other
+
+
+def test_numbers_of_decisions_and_times_are_told_shortly() -> None:
+    assert decisions_words((3, 4, 5, 8)) == "decisions 3 to 5 and 8"
+    assert decisions_words((3,)) == "decision 3"
+    assert [seconds(t) for t in (21.65, 11.1, 3.0)] == ["21.65 s", "11.1 s", "3.0 s"]
