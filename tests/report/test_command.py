@@ -68,9 +68,8 @@ def test_the_commands_of_the_page_work(
     root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     page = (root / "docs" / "report.md").read_text(encoding="utf-8")
-    lines = [
-        line for block in re.findall(r"```sh\n(.*?)```", page, re.DOTALL) for line in block.split("\n")
-    ]  # fmt: skip
+    blocks = re.findall(r"```sh\n(.*?)```", page, re.DOTALL)
+    lines = [line for block in blocks for line in block.splitlines()]
     commands = [shlex.split(line, comments=True) for line in lines if line.startswith("xavi ")]
     assert len(commands) >= 3
     (tmp_path / "transcripts").symlink_to(root / "transcripts")

@@ -151,11 +151,10 @@ def test_speeds_are_those_of_the_histories(path, at) -> None:
     found = incident(path, at)
     for course in found.motions:
         known = history(path, course.vehicle)
-        inside = [t for t in known if found.since - 1e-6 <= t <= found.until + 1e-6]
-        assert set(course.time) >= {round(t, 3) for t in inside}
         for time, speed in zip(course.time, course.speed, strict=True):
-            if time in known:
-                assert speed == pytest.approx(known[time], abs=1e-3)
+            assert speed == pytest.approx(known[time], abs=1e-3)
+        steps = [b - a for a, b in zip(course.time, course.time[1:], strict=False)]
+        assert max(steps) <= SAMPLE_PERIOD + 1e-6 or course.vehicle != EGO
     assert found.motions[0].vehicle == EGO
 
 
@@ -236,7 +235,7 @@ def test_beliefs_of_a_decision_add_up(path, at) -> None:
             for point in goal.points:
                 sums[point.time] = sums.get(point.time, 0.0) + point.probability
         for total in sums.values():
-            assert 0.9 < total <= 1.0 + 1e-6
+            assert 0.9 < total <= 1.0 + 1e-4
 
 
 def test_where_a_vehicle_went_in_the_end_is_told() -> None:
@@ -333,6 +332,8 @@ def touches(trace: PlanTrace, rollout: int, vehicle: int, until: float) -> bool:
     assert line.path is not None
     where: dict[float, VehicleState] = {}
     for later in traces(UNHEEDED).values():
+        if vehicle not in later.history:
+            continue
         track, shape = later.history[vehicle], later.scene[vehicle]
         for k, place in enumerate(track.position):
             time = round(track.start + k * SAMPLE_PERIOD, 3)
@@ -455,7 +456,7 @@ def bare() -> xavi.Ride:
     """Return the ride without its roads."""
     found = ride(UNHEEDED)
     record = msgspec.json.decode(msgspec.json.encode(found.record.traces), type=list[PlanTrace])
-    known = type(found.record)("elsewhere", 0, found.record.halt, record, found.record.events,
+    known = type(found.record)(found.record.scenario, 0, found.record.halt, record, found.record.events,
                                found.record.ended)  # fmt: skip
 
     def none(trace: PlanTrace, need: NeedRollout) -> PlanTrace:

@@ -123,7 +123,7 @@ def test_what_the_summary_says_stands_in_the_content() -> None:
     assert "decision 9, 2.1 s before: to stop" in text.replace("\n", " ")
     light = read(report(LIGHT, "red light").html()).text
     assert "The light ahead, in " in light
-    assert "The light ahead turns " in light
+    assert "The light ahead showed red from " in light
 
 
 def test_a_report_of_another_moment_differs() -> None:

@@ -10,7 +10,7 @@ from xavi_dialogue.report.figures import rounded
 from xavi_dialogue.report.ridden import Ridden
 from xavi_dialogue.report.tracks import Tracks
 
-MOMENTS = (-6.0, -4.0, -2.0, -1.0, 0.0, 2.0)  # [s] of the maps, relative to the moment
+MOMENTS = (-4.0, -3.0, -2.0, -1.0, 0.0, 2.0)  # [s] of the maps, relative to the moment
 LEAST, MOST = 25.0, 60.0  # [m] from the centre of a map to its edges
 MARGIN = 8.0  # [m] around what is shown
 CENTIMETRES = 2  # decimals of positions

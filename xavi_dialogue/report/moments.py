@@ -2,7 +2,7 @@
 
 Errors:
 
-    XaviError
+    UsageFault
     └── ReportError   there is no such moment; the message says which there are
 """
 
@@ -10,7 +10,7 @@ import math
 
 from planner.record.events import Event
 from sim.scene import EGO
-from xavi_dialogue.errors import XaviError
+from xavi_dialogue.process.exit_status import UsageFault
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.thresholds import CLOSE, HARD, MOVING
 from xavi_dialogue.report.content import Chosen
@@ -31,7 +31,7 @@ NAMES = {
 OFFERED = "a time [s], collision, hardest braking, closest approach, red light"
 
 
-class ReportError(XaviError):
+class ReportError(UsageFault):
     """A report that cannot be made."""
 
 

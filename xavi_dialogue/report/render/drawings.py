@@ -3,6 +3,8 @@
 import math
 from collections.abc import Callable, Sequence
 
+from msgspec.structs import replace
+
 from sim.boxes import corners
 from sim.scene import EGO, Point
 from xavi_dialogue.report.content import Body, Frame, Map
@@ -11,25 +13,34 @@ from xavi_dialogue.report.render.markup import Markup, tag
 from xavi_dialogue.report.render.words import seconds
 
 SIDE = 240.0  # [px] of one map
-BARS = (5.0, 10.0, 20.0, 50.0)  # [m] lengths of a scale
+CLOSE = 12.0  # [m] to the edges of the enlarged map
+BARS = (2.0, 5.0, 10.0, 20.0, 50.0)  # [m] lengths of a scale
 
 
 def strip(shown: Map, moment: float, involved: Sequence[int]) -> Markup:
     """Return the maps side by side."""
-    return tag(
-        "div",
-        *(_figure(shown, frame, moment, involved) for frame in shown.frames),
-        class_="strip",
-    )
+    figures = [_figure(shown, frame, moment, involved) for frame in shown.frames]
+    at = [frame for frame in shown.frames if frame.time <= moment + 1e-6]
+    if at:
+        figures.append(_figure(_enlarged(shown, at[-1]), at[-1], moment, involved, ", enlarged"))
+    return tag("div", *figures, class_="strip")
 
 
-def _figure(shown: Map, frame: Frame, moment: float, involved: Sequence[int]) -> Markup:
+def _enlarged(shown: Map, frame: Frame) -> Map:
+    """Return a map of the surroundings of the car alone."""
+    own = next((body.position for body in frame.bodies if body.vehicle == EGO), shown.centre)
+    return replace(shown, centre=own, reach=CLOSE)
+
+
+def _figure(
+    shown: Map, frame: Frame, moment: float, involved: Sequence[int], note: str = ""
+) -> Markup:
     by = frame.time - moment
     sign = "±0" if abs(by) < 1e-6 else f"{by:+.1f}".replace("-", "\N{MINUS SIGN}")
     return tag(
         "figure",
         _map(shown, frame, involved),
-        tag("figcaption", tag("b", seconds(frame.time)), f" ({sign} s)"),
+        tag("figcaption", tag("b", seconds(frame.time)), f" ({sign} s){note}"),
     )
 
 

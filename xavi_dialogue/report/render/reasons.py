@@ -262,15 +262,18 @@ def last_chance(known: Avoidability) -> str:
         return "No decision of these seconds had an option that the record shows to avoid it."
     text = f"The last decision with an option that avoids it is {_open_at(known, known.last)}."
     if known.last_on_route not in (None, known.last):
-        text += f" Of those that keep to the route, it is {_open_at(known, known.last_on_route)}."
+        kept = _open_at(known, known.last_on_route, lost=False)
+        text += f" Of those that keep to the route, it is {kept}."
     return text
 
 
-def _open_at(known: Avoidability, number: int | None) -> str:
-    """Return a decision with the options that avoid the mishap."""
+def _open_at(known: Avoidability, number: int | None, *, lost: bool = True) -> str:
+    """Return a decision with the options that avoid the mishap; `lost`: off the route, too."""
     chance = next(one for one in known.chances if one.number == number)
     told = " or ".join(
-        f"to {action_words(way.action)}{_cost(way)}" for way in chance.ways if way.avoids
+        f"to {action_words(way.action)}{_cost(way)}"
+        for way in chance.ways
+        if way.avoids and (lost or keeps_route(way))
     )
     return f"decision {chance.number}, {known.at - chance.time:.1f} s before: {told}"
 

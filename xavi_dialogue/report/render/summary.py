@@ -157,7 +157,9 @@ def _expected(page: Page, choice: Choice) -> Markup:
     """Return what was expected of an option."""
     crash = choice.chances.get("collision")
     parts: list[Part] = ["an expected reward of ", page.notes.figure(choice.value)]
-    if crash is not None:
+    if crash is None:
+        parts.append(" and a collision in none of the rollouts")
+    else:
         parts += [" and a collision in ", page.notes.figure(crash), " of the rollouts"]
     return joined(parts)
 
