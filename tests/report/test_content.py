@@ -26,6 +26,7 @@ from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.report.content import Incident, encode
 from xavi_dialogue.report.figures import Figure
 from xavi_dialogue.service.in_process import NoPlan
+from xavi_dialogue.storage.ride_file import RecordedRide
 
 CASES = [(UNHEEDED, "collision"), (BRAKING, "hardest braking"), (LIGHT, "red light")]
 every_case = pytest.mark.parametrize(("path", "at"), CASES, ids=lambda x: getattr(x, "stem", x))
@@ -154,7 +155,7 @@ def test_speeds_are_those_of_the_histories(path, at) -> None:
         for time, speed in zip(course.time, course.speed, strict=True):
             assert speed == pytest.approx(known[time], abs=1e-3)
         steps = [b - a for a, b in zip(course.time, course.time[1:], strict=False)]
-        assert max(steps) <= SAMPLE_PERIOD + 1e-6 or course.vehicle != EGO
+        assert max(steps) <= 1.6 * SAMPLE_PERIOD or course.vehicle != EGO
     assert found.motions[0].vehicle == EGO
 
 
@@ -455,14 +456,19 @@ def test_without_its_roads_a_ride_is_reported_from_the_record_alone() -> None:
 def bare() -> xavi.Ride:
     """Return the ride without its roads."""
     found = ride(UNHEEDED)
-    record = msgspec.json.decode(msgspec.json.encode(found.record.traces), type=list[PlanTrace])
-    known = type(found.record)(found.record.scenario, 0, found.record.halt, record, found.record.events,
-                               found.record.ended)  # fmt: skip
+    record = RecordedRide(
+        found.record.scenario,
+        found.record.seed,
+        found.record.halt,
+        found.record.traces,
+        found.record.events,
+        found.record.ended,
+    )
 
     def none(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
         raise NoPlan("planner-unavailable")
 
-    return xavi.Ride(known, found.scenes, found.known, none)
+    return xavi.Ride(record, found.scenes, found.known, none)
 
 
 @every_case

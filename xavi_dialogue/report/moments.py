@@ -10,9 +10,9 @@ import math
 
 from planner.record.events import Event
 from sim.scene import EGO
-from xavi_dialogue.process.exit_status import UsageFault
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.thresholds import CLOSE, HARD, MOVING
+from xavi_dialogue.process.exit_status import UsageFault
 from xavi_dialogue.report.content import Chosen
 from xavi_dialogue.report.figures import Figure, Source, rounded
 from xavi_dialogue.report.ridden import Ridden
