@@ -15,7 +15,8 @@ from xavi_dialogue.explain.causes.plans.avoidance import LEEWAY, LESS, SELDOM
 from xavi_dialogue.explain.causes.vehicles.course import brakes, lines
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import Ride, planned
-from xavi_dialogue.report.content import Avoidability, Chance, Chosen, Mishap, Way
+from xavi_dialogue.report.alternatives import Avoidability, Chance, Mishap, Way
+from xavi_dialogue.report.content import Chosen
 from xavi_dialogue.report.figures import Figure, rounded
 from xavi_dialogue.report.replayed import AFTER, clearance, emergencies
 from xavi_dialogue.report.ridden import Inquiry

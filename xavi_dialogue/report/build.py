@@ -8,12 +8,12 @@ from sim.scene import EGO
 from xavi_dialogue import __version__
 from xavi_dialogue.explain.history.ride import planned
 from xavi_dialogue.process.program import program_hash
+from xavi_dialogue.report.alternatives import Avoidability
 from xavi_dialogue.report.avoiding import avoidability
 from xavi_dialogue.report.believed import beliefs
 from xavi_dialogue.report.cases import cases
 from xavi_dialogue.report.content import (
     SCHEMA,
-    Avoidability,
     Chosen,
     Examined,
     Hashes,

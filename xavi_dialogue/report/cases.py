@@ -10,7 +10,7 @@ from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.explain.causes.vehicles.necessity import SOMETIMES
 from xavi_dialogue.explain.history.ride import planned, prediction
-from xavi_dialogue.report.content import Cases, Holding, Supposed, Tested
+from xavi_dialogue.report.alternatives import Cases, Holding, Supposed, Tested
 from xavi_dialogue.report.figures import Figure, rounded
 from xavi_dialogue.report.ridden import Inquiry
 from xavi_dialogue.report.weighed import (

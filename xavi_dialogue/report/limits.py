@@ -7,7 +7,8 @@ from sim.scene import EGO
 from xavi_dialogue.explain.causes.plans.ranges import table
 from xavi_dialogue.explain.history.ride import prediction
 from xavi_dialogue.inspection.completeness import gaps
-from xavi_dialogue.report.content import Cases, Limitation
+from xavi_dialogue.report.alternatives import Cases
+from xavi_dialogue.report.content import Limitation
 from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.ridden import Inquiry
 

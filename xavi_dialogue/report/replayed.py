@@ -12,7 +12,7 @@ from sim.boxes import overlap
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.explain.facts.bodies import at_least, distance
 from xavi_dialogue.explain.history.motion import Motion
-from xavi_dialogue.report.content import Emergency
+from xavi_dialogue.report.alternatives import Emergency
 from xavi_dialogue.report.figures import rounded
 from xavi_dialogue.report.tracks import Tracks
 

@@ -1,17 +1,8 @@
 """Sections on what was believed and decided, what it hangs on, and whether it was avoidable."""
 
+from xavi_dialogue.report.alternatives import Avoidability, Cases, Chance, Holding, Tested, Way
 from xavi_dialogue.report.avoiding import keeps_route
-from xavi_dialogue.report.content import (
-    Avoidability,
-    Beliefs,
-    Cases,
-    Chance,
-    Choice,
-    Decided,
-    Holding,
-    Tested,
-    Way,
-)
+from xavi_dialogue.report.content import Beliefs, Choice, Decided
 from xavi_dialogue.report.render.charts import Line, chart
 from xavi_dialogue.report.render.colours import OTHERS, STROKES
 from xavi_dialogue.report.render.markup import Markup, joined, listed, table, tag

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from xavi_dialogue.report.content import Cases, Choice, Tested
+from xavi_dialogue.report.alternatives import Cases, Tested
+from xavi_dialogue.report.content import Choice
 from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.render.markup import Markup, Part, joined, listed
 from xavi_dialogue.report.render.notes import KMH, number, percent
