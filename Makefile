@@ -4,6 +4,7 @@
 PYTHON ?= python3
 ARGS ?=
 RUNS ?= 200000
+SEEDS ?= 1000
 BIN := .venv/bin
 
 export PYTHON
@@ -12,7 +13,7 @@ export PYTHON
 export PYTHONDONTWRITEBYTECODE :=
 
 .DEFAULT_GOAL := help
-.PHONY: help chat dashboard test drills mutants lint format schema diagram bench fuzz clean \
+.PHONY: help chat dashboard test drills storm planted mutants lint format schema diagram bench fuzz clean \
         runtime develop browser test-browser screenshots
 
 help: ## show this list
@@ -34,6 +35,12 @@ test: develop ## everything that must hold: lint, types, tests
 
 drills: develop ## what goes wrong between real processes, tried out (docs/drills.md)
 	@$(BIN)/python -m pytest tests/drills -n 2 --dist worksteal $(ARGS)
+
+storm: develop ## SEEDS runs of the simulated world in which things go wrong (docs/simulated.md)
+	@$(BIN)/python -m tests.simulated --seeds $(SEEDS) $(ARGS)
+
+planted: develop ## plant faults that the simulated world has to notice (docs/simulated.md)
+	@$(BIN)/python -m tests.simulated.planted $(ARGS)
 
 # It takes half an hour or more; ARGS="--seed 7 --count 400" chooses other faults.
 mutants: develop ## plant one-line faults and count those that tests notice (docs/mutants.md)

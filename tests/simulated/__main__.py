@@ -1,0 +1,92 @@
+"""Run seeds of the simulated world; a seed that fails is run again, shrunk, and shown."""
+
+import argparse
+import multiprocessing
+import sys
+import time
+from collections.abc import Iterator
+
+from tests.simulated.plan import Plan, plan_of
+from tests.simulated.shrink import shrink
+from tests.simulated.world import Outcome, run
+
+SHOWN = 600  # characters of a problem
+
+
+def main() -> int:
+    """Run the command; 0 where all seeds hold."""
+    asked = _parser().parse_args()
+    if asked.seed is not None:
+        return _show(plan_of(asked.seed))
+    began, failed, exempt = time.monotonic(), [], 0
+    seeds = range(asked.begin, asked.begin + asked.seeds)
+    for number, (seed, outcome) in enumerate(_outcomes(seeds, asked.jobs), 1):
+        exempt += bool(outcome.exempt)
+        if outcome.problems:
+            failed.append(seed)
+            _say(f"seed {seed} fails: {outcome.problems[0][:SHOWN]}")
+        if number % 500 == 0:
+            _say(f"{number} seeds, {len(failed)} failed, {time.monotonic() - began:.0f} s")
+    _say(
+        f"{len(seeds)} seeds in {time.monotonic() - began:.0f} s: {len(failed)} failed;"
+        f" in {exempt} something was lost that may be lost"
+    )
+    for seed in failed[:3]:
+        _show(plan_of(seed))
+    return 1 if failed else 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m tests.simulated", description=__doc__)
+    add = parser.add_argument
+    add("--seeds", type=int, default=1000, help="how many are run")
+    add("--begin", type=int, default=0, help="the first of them")
+    add("--jobs", type=int, default=2, help="processes that run them")
+    add("--seed", type=int, help="run this one alone, and shrink it if it fails")
+    return parser
+
+
+def _outcomes(seeds: range, jobs: int) -> Iterator[tuple[int, Outcome]]:
+    if jobs == 1:
+        yield from map(_one, seeds)
+        return
+    context = multiprocessing.get_context("spawn")
+    # Greenlets of crashed processes may leave cycles behind; a process ends before they matter.
+    with context.Pool(jobs, maxtasksperchild=400) as pool:
+        yield from pool.imap_unordered(_one, seeds, chunksize=5)
+
+
+def _one(seed: int) -> tuple[int, Outcome]:
+    return seed, run(plan_of(seed))
+
+
+def _show(plan: Plan) -> int:
+    """Run one plan, and show it, or the shortest one that fails likewise."""
+    outcome = run(plan)
+    if not outcome.problems:
+        _say(_told(plan, outcome))
+        return 0
+    again = run(plan)
+    if again.digest != outcome.digest:
+        _say(f"seed {plan.seed} does not replay: {outcome.digest}, then {again.digest}")
+    shorter, outcome = shrink(plan, run)
+    _say(f"shrunk from {len(plan.faults)} to {len(shorter.faults)} faults:")
+    _say(_told(shorter, outcome))
+    return 1
+
+
+def _told(plan: Plan, outcome: Outcome) -> str:
+    figures = ", ".join(f"{value:.0f} {name}" for name, value in outcome.figures.items())
+    lines = [f"seed {plan.seed}, story {plan.story}: {figures}; digest {outcome.digest}"]
+    lines += [f"  {fault}" for fault in plan.faults] or ["  nothing goes wrong"]
+    lines += [f"  ! {problem}" for problem in outcome.problems]
+    return "\n".join(lines)
+
+
+def _say(text: str) -> None:
+    sys.stdout.write(f"{text}\n")
+    sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

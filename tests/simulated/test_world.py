@@ -1,0 +1,19 @@
+"""Seeds of the simulated world, in which all must hold."""
+
+import pytest
+
+from tests.simulated.plan import plan_of
+from tests.simulated.world import run
+
+SEEDS = 60
+GROUP = 10  # seeds of one test
+
+
+@pytest.mark.parametrize("begin", range(0, SEEDS, GROUP))
+def test_what_must_hold_holds_whatever_goes_wrong(begin: int) -> None:
+    failed = {}
+    for seed in range(begin, begin + GROUP):
+        outcome = run(plan_of(seed))
+        if outcome.problems:
+            failed[seed] = outcome.problems
+    assert failed == {}, "python -m tests.simulated --seed N shows and shrinks one"
