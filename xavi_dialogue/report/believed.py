@@ -1,10 +1,9 @@
 """What was believed of those involved, and how it moved."""
 
 from planner.record.trace import Action
-from xavi_dialogue.explain.history.ride import prediction
 from xavi_dialogue.report.content import BeliefPoint, Beliefs, GoalBelief
 from xavi_dialogue.report.parties import of_trace
-from xavi_dialogue.report.ridden import Ridden
+from xavi_dialogue.report.ridden import Ridden, predicted
 
 LEAST = 0.01  # probability that a goal reaches somewhere in the window to be listed
 
@@ -17,11 +16,11 @@ def beliefs(ridden: Ridden, vehicle: int, window: tuple[float, float]) -> Belief
     places: dict[Name, str] = {}
     without = []
     for trace in ridden.between(*window):
-        known = prediction(trace, vehicle)
-        if known is None:
+        found = predicted(trace, vehicle)
+        if found is None:
             without += [trace.decision] if vehicle in trace.scene else []
             continue
-        at = trace.predictions.index(known)
+        at, known = found
         for k, goal in enumerate(known.goals):
             source = of_trace(trace, f"predictions[{at}].goals[{k}].probability")
             name = (goal.kind, goal.edge)

@@ -9,10 +9,10 @@ from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.explain.causes.vehicles.necessity import SOMETIMES
-from xavi_dialogue.explain.history.ride import planned, prediction
+from xavi_dialogue.explain.history.ride import planned
 from xavi_dialogue.report.alternatives import Cases, Holding, Supposed, Tested
 from xavi_dialogue.report.figures import Figure, rounded
-from xavi_dialogue.report.ridden import Inquiry
+from xavi_dialogue.report.ridden import Inquiry, predicted
 from xavi_dialogue.report.weighed import (
     Ground,
     arrival,
@@ -83,10 +83,10 @@ def _suppositions(
 
 def _goals(trace: PlanTrace, vehicle: int) -> Iterator[tuple[Supposed, NeedRollout]]:
     """Yield the goals that a road user may have, each as if it were certain."""
-    known = prediction(trace, vehicle)
-    if known is None or len(known.goals) < 2:
+    found = predicted(trace, vehicle)
+    if found is None or len(found[1].goals) < 2:
         return
-    at = trace.predictions.index(known)
+    at, known = found
     ranked = sorted(enumerate(known.goals), key=lambda pair: -pair[1].probability)
     for k, goal in ranked[:GOALS]:
         if not POSSIBLE <= goal.probability <= SURE:

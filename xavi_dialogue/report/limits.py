@@ -5,12 +5,11 @@ from collections.abc import Iterator, Sequence
 from planner.record.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.explain.causes.plans.ranges import table
-from xavi_dialogue.explain.history.ride import prediction
 from xavi_dialogue.inspection.completeness import gaps
 from xavi_dialogue.report.alternatives import Cases
 from xavi_dialogue.report.content import Limitation
 from xavi_dialogue.report.figures import Figure, Source
-from xavi_dialogue.report.ridden import Inquiry
+from xavi_dialogue.report.ridden import Inquiry, predicted
 
 AFTER = 7.0  # [s] after the moment up to which a report goes
 BEFORE = 7.0  # [s] before it, from which on it begins
@@ -63,7 +62,7 @@ def _of_decisions(
                          f"decisions); so not: {gap.answers}")  # fmt: skip
     for vehicle in involved:
         seen = [t for t in traces if vehicle in t.scene and vehicle != EGO]
-        without = [t.decision for t in seen if prediction(t, vehicle) is None]
+        without = [t.decision for t in seen if predicted(t, vehicle) is None]
         if without:
             yield Limitation("not-predicted", vehicles=(vehicle,), decisions=tuple(without))
         hidden = [t.decision for t in seen if vehicle in t.unseen]

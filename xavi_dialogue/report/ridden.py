@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TypeVar
 
 from planner.counterfactuals.whatif import WhatIfError
-from planner.record.trace import PlanTrace
+from planner.record.trace import PlanTrace, VehiclePrediction
 from sim.roads.network import Network
 from sim.scene import Scene
 from xavi_dialogue.domain.answers import NeedRollout
@@ -128,3 +128,9 @@ class Inquiry:
             self._record = replace(record, extra=(*record.extra, made))
         self._ride = Ride(self._record)
         return made
+
+
+def predicted(trace: PlanTrace, vehicle: int) -> tuple[int, VehiclePrediction] | None:
+    """Return the prediction of a road user as it is recorded, with its index in the trace."""
+    known = enumerate(trace.predictions)
+    return next(((k, one) for k, one in known if one.vehicle == vehicle), None)
