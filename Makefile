@@ -13,8 +13,8 @@ export PYTHON
 export PYTHONDONTWRITEBYTECODE :=
 
 .DEFAULT_GOAL := help
-.PHONY: help chat dashboard test drills storm planted mutants lint format schema diagram bench fuzz clean \
-        runtime develop browser test-browser screenshots
+.PHONY: help chat dashboard test drills storm planted mutants lint format schema diagram bench fuzz \
+        clean runtime develop docs-tools browser test-browser screenshots docs
 
 help: ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
@@ -61,6 +61,10 @@ format: develop ## put the code in its standard form
 	@$(BIN)/python -m ruff check --fix
 	@$(BIN)/python -m ruff format
 
+docs: docs-tools ## build the documentation site in build/site; runs the notebooks of examples/
+	@$(BIN)/python -m sphinx -q -W --keep-going -b html -c docs/site . build/site $(ARGS)
+	@echo "build/site/docs/index.html"
+
 schema: develop ## write docs/plan_trace.schema.json, docs/messages/ and the page's types anew
 	@$(BIN)/python -m xavi_dialogue.bus.schema docs
 	@$(BIN)/python -m xavi_dialogue.dashboard.web.page_types
@@ -77,6 +81,9 @@ fuzz: runtime ## try RUNS random texts on the parser
 clean: ## remove the environment and every cache
 	rm -rf .venv .setup.lock build dist *.egg-info .mypy_cache .ruff_cache .pytest_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+docs-tools:
+	@sh scripts/setup.sh docs
 
 runtime develop browser:
 	@sh scripts/setup.sh $@

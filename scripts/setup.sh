@@ -5,6 +5,7 @@
 #     scripts/setup.sh develop    that, netconvert and the tools of `make test`
 #     scripts/setup.sh browser    that, and the Chromium of `make test-browser`; XAVI_CHROMIUM
 #                                 names another one
+#     scripts/setup.sh docs       what `make docs` needs
 #
 # Quick when there is nothing to do. Safe to interrupt: the next run repairs what was half made.
 # Standard input and output belong to the passenger, so all notes go to standard error.
@@ -22,15 +23,18 @@ say() { echo "xavi: $*"; }
 fail() { say "$*"; exit 1; }
 
 case $level in
-    runtime | develop) ;;
+    runtime | develop | docs) ;;
     browser) level=develop browser=wanted ;;
-    *) fail "unknown level '$level': runtime or develop or browser" ;;
+    *) fail "unknown level '$level': runtime or develop or docs or browser" ;;
 esac
 
 # What a finished environment was made of: where it lies, and every file that decides its content.
 recipe() { pwd; cat pyproject.toml constraints.txt scripts/setup.sh; }
 finished() { [ -f "$venv/finished-$1" ] && recipe | cmp -s - "$venv/finished-$1"; }
-ready() { finished develop || { [ "$level" = runtime ] && finished runtime; }; }
+ready() {
+    finished "$level" && return
+    [ "$level" = runtime ] && { finished develop || finished docs; }
+}
 
 # Install Debian packages where this is permitted, else print the command that does.
 system_install() {
@@ -82,6 +86,7 @@ install() {
     pip_install setuptools
     case $level in
         runtime) pip_install --no-build-isolation --editable '.[dashboard]' ;;
+        docs) pip_install --no-build-isolation --editable '.[dashboard,docs,tables,viewers]' ;;
         develop) pip_install --no-build-isolation --editable '.[browser,dashboard,dev,maps,tables,viewers]' ;;
     esac
     rm "$venv/unfinished"

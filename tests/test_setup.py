@@ -122,6 +122,18 @@ def test_what_serves_the_passenger_is_not_enough_for_the_developer(checkout: Che
     assert "pip install" in checkout.log
 
 
+def test_the_site_has_a_level_of_its_own_that_serves_the_passenger_too(checkout: Checkout) -> None:
+    checkout.setup("docs")
+    assert "--editable .[dashboard,docs,tables,viewers]" in checkout.log
+    checkout.setup("runtime")
+    assert checkout.log == ""
+    checkout.setup("develop")
+    assert "--editable .[browser,dashboard,dev,maps,tables,viewers]" in checkout.log
+    for level in ("docs", "develop"):
+        checkout.setup(level)
+        assert checkout.log == ""
+
+
 def test_the_planner_is_compiled_once(checkout: Checkout) -> None:
     checkout.setup()
     assert "-m xavi_dialogue.vehicle.compile_kernels" in checkout.log
@@ -195,7 +207,7 @@ def test_a_python_that_is_not_there(checkout: Checkout) -> None:
 def test_an_unknown_level(checkout: Checkout) -> None:
     done = checkout.setup("everything")
     assert done.returncode == 1
-    assert "runtime or develop or browser" in done.stderr
+    assert "runtime or develop or docs or browser" in done.stderr
 
 
 def test_a_browser_is_installed_where_there_is_none(checkout: Checkout) -> None:

@@ -1,0 +1,39 @@
+"""The documentation site; `make docs` builds it.
+
+Its sources are the pages of this repository where they lie, so that their links lead the same ways
+here and there.
+"""
+
+project = "XAVI Dialogue"
+author = "the authors of XAVI Dialogue"
+root_doc = "docs/index"
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+include_patterns = [
+    "docs/**",
+    "examples/**",
+    "README.md",
+    "ARCHITECTURE.md",
+    "CHANGELOG.md",
+    "CONTRIBUTING.md",
+    "transcripts/README.md",
+]
+exclude_patterns = [".venv", "build", "docs/messages", "docs/site", "**/.ipynb_checkpoints"]
+
+html_theme = "furo"
+html_title = project
+html_show_sphinx = False
+html_show_copyright = False
+
+myst_heading_anchors = 4
+# Links to code and folders stay as they are; tests/test_repository.py checks that they lead somewhere.
+suppress_warnings = ["myst.xref_missing", "misc.highlighting_failure", "toc.not_included"]
+
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 600
+nb_merge_streams = True
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_class_signature = "separated"
+napoleon_numpy_docstring = False

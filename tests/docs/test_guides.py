@@ -1,0 +1,104 @@
+"""Every command line of the guides is run, and the site shows all pages and all public names."""
+
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import xavi_dialogue as xavi
+from tests.test_repository import targets
+
+ROOT = Path(__file__).parents[2]
+GUIDES = sorted((ROOT / "docs" / "guides").glob("*.md"))
+PATIENCE = 300.0  # [s] before a test gives up on what never ends
+#: Why some are not run here. The targets of make are looked up.
+ELSEWHERE = {
+    "xavi serve": "never ends; tests/chat/test_client_example.py and tests/library start it",
+    "xavi drive --connect": "needs the service; the same tests start it",
+    "xavi ask --connect": "needs the service; tests/drills ask there",
+    "xavi record": "needs the service; tests/drills/test_recordings.py records there",
+    "xavi replay": "talks; tests/drills/test_recordings.py replays",
+}
+#: Exit statuses other than 0 that a command is shown for.
+STATUSES = {"xavi trace check": {0, 1}, "xavi doctor": {0, 1}}
+
+
+def commands(page: Path) -> list[str]:
+    """The command lines of a guide, in order."""
+    blocks = re.findall(r"^```sh\n(.*?)^```", page.read_text(encoding="utf-8"), re.M | re.S)
+    return [line.strip() for block in blocks for line in block.splitlines() if line.strip()]
+
+
+def reason(command: str) -> str | None:
+    """Why a command is not run here; None if it is."""
+    words = command.split()
+    for known in ELSEWHERE:
+        begins, _, option = known.partition(" --")
+        if command.startswith(begins) and (not option or f"--{option}" in words):
+            return ELSEWHERE[known]
+    return None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", GUIDES, ids=lambda page: page.stem)
+def test_the_command_lines_of_a_guide_run(page: Path, tmp_path: Path) -> None:
+    """One after the other in one folder, so that files that one writes are there for the next."""
+    shutil.copytree(ROOT / "transcripts" / "rides", tmp_path / "transcripts" / "rides")
+    ran = 0
+    for command in commands(page):
+        program, *arguments = shlex.split(command)
+        if program == "make":
+            assert arguments[0] in targets(ROOT), command
+        elif reason(command) is None:
+            assert program == "xavi", command
+            done = subprocess.run(
+                [sys.executable, "-m", "xavi_dialogue", *arguments],
+                cwd=tmp_path,
+                stdin=subprocess.DEVNULL,
+                capture_output=True,
+                text=True,
+                timeout=PATIENCE,
+                check=False,
+            )
+            allowed = next((s for begins, s in STATUSES.items() if command.startswith(begins)), {0})
+            assert done.returncode in allowed, f"{command}\n{done.stdout}\n{done.stderr}"
+            assert done.stdout or "keys" in arguments or "drive" in arguments, command
+            ran += 1
+    assert ran >= 2
+
+
+@pytest.mark.parametrize("page", GUIDES, ids=lambda page: page.stem)
+def test_options_of_commands_that_are_not_run_exist(page: Path) -> None:
+    for command in filter(reason, commands(page)):
+        _, name, *arguments = shlex.split(command)
+        helped = subprocess.run(
+            [sys.executable, "-m", "xavi_dialogue", name, "--help"],
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for option in (one for one in arguments if one.startswith("--")):
+            assert re.search(rf"(?<!\S){option}\b", helped), command
+
+
+def test_every_page_is_in_the_site() -> None:
+    index = ROOT / "docs" / "index.md"
+    listed = set()
+    for block in re.findall(r"^```\{toctree\}\n(.*?)^```", index.read_text(), re.M | re.S):
+        names = [line for line in block.splitlines() if line and not line.startswith(":")]
+        listed |= {(index.parent / name).resolve() for name in names}
+    pages = {*(ROOT / "docs").glob("*.md"), *GUIDES, *(ROOT / "examples").glob("*.ipynb")} - {index}
+    assert {page.with_suffix("") for page in pages} <= listed
+    for page in listed:
+        assert any(page.with_suffix(ending).exists() for ending in (".md", ".ipynb")), page
+
+
+def test_the_reference_has_every_public_name() -> None:
+    page = (ROOT / "docs" / "reference.md").read_text(encoding="utf-8")
+    named = re.findall(r"^\.\. auto\w+:: (\w+)$", page, re.M)
+    assert sorted(named) == sorted(set(xavi.__all__) - {"__version__"})
+    assert all(getattr(xavi, name).__doc__ for name in named)
