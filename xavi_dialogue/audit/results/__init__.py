@@ -1,0 +1,1 @@
+"""What an audit found: tables, plots and a page."""

@@ -1,0 +1,154 @@
+"""Predictions that were wrong, and whether they mattered.
+
+Where a vehicle went is told by the roads on which later decisions saw it: the first that is the
+road of one of its predicted goals, other than the road it was on. A prediction is wrong if another
+goal was held more likely. It mattered if the same decision, planned again with the vehicle going
+where it went, chooses another first action.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+from planner.counterfactuals.whatif import WhatIfError
+from planner.record.trace import PlanTrace, VehiclePrediction
+from sim.scene import EGO
+from xavi_dialogue.audit.rides.choices import choice, value, weighed
+from xavi_dialogue.audit.values import Mistake
+from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.library.ride import Ride
+from xavi_dialogue.service.in_process import NoPlan
+
+
+@dataclass(frozen=True, slots=True)
+class _Goal:
+    """The goals of a prediction that end on the same road."""
+
+    edge: str
+    place: str
+    probability: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Wrong:
+    """One decision that expected a vehicle elsewhere than it went."""
+
+    trace: PlanTrace
+    vehicle: int
+    expected: _Goal
+    truth: _Goal
+    came_at: float  # [s]
+
+
+@dataclass(frozen=True, slots=True)
+class _Weight:
+    """What a decision would have been with the truth."""
+
+    mattered: bool | None
+    instead: str | None = None
+    gain: float | None = None  # [s]
+
+
+def mistakes(ride: Ride, known: World) -> tuple[Mistake, ...]:
+    """Return the wrong predictions of a ride, by vehicle and then by time."""
+    found = sorted(_wrong(ride.record.traces), key=lambda one: (one.vehicle, one.trace.decision))
+    groups = groupby(found, key=lambda one: (one.vehicle, one.expected.edge, one.truth.edge))
+    return tuple(_mistake(ride, known, list(group)) for _, group in groups)
+
+
+def _wrong(traces: Sequence[PlanTrace]) -> list[_Wrong]:
+    found = []
+    for k, trace in enumerate(traces):
+        for prediction in trace.predictions:
+            goals = _goals(prediction)
+            came = _came(trace, prediction.vehicle, goals, traces[k + 1 :])
+            if came is None:
+                continue
+            truth, at = came
+            best = max(goals.values(), key=lambda goal: goal.probability)
+            if best.probability > truth.probability:
+                found.append(_Wrong(trace, prediction.vehicle, best, truth, at))
+    return found
+
+
+def _goals(prediction: VehiclePrediction) -> dict[str, _Goal]:
+    """Return the goals of a vehicle by road."""
+    found: dict[str, _Goal] = {}
+    for goal in prediction.goals:
+        if goal.edge is not None and goal.kind != "cross":
+            before = found.get(goal.edge)
+            place = goal.place if before is None else before.place
+            chance = goal.probability + (0.0 if before is None else before.probability)
+            found[goal.edge] = _Goal(goal.edge, place, chance)
+    return found
+
+
+def _came(
+    trace: PlanTrace, vehicle: int, goals: dict[str, _Goal], later: Sequence[PlanTrace]
+) -> tuple[_Goal, float] | None:
+    """Return the goal that a vehicle reached, and when [s] it was seen there; None: unknown."""
+    here = _edge(trace, vehicle)
+    for one in later:
+        edge = _edge(one, vehicle)
+        if edge is not None and edge != here and edge in goals:
+            return goals[edge], one.sim_time
+    return None
+
+
+def _edge(trace: PlanTrace, vehicle: int) -> str | None:
+    if trace.road is None or vehicle not in trace.road.places:
+        return None
+    return trace.road.places[vehicle].edge
+
+
+def _mistake(ride: Ride, known: World, wrong: Sequence[_Wrong]) -> Mistake:
+    weights = [_weight(ride, one) for one in wrong]
+    order = sorted(range(len(wrong)), key=lambda k: (-_rank(weights[k]), k))
+    worst, weight = wrong[order[0]], weights[order[0]]
+    first, vehicle = wrong[0], worst.vehicle
+    look = known.look(vehicle, worst.trace.sim_time)
+    words = () if look is None else tuple(w for w in (look.colour, look.kind) if w)
+    taken = choice(worst.trace)
+    return Mistake(
+        vehicle=vehicle,
+        who=f"{' '.join(words) or 'vehicle'} {vehicle}",
+        begin=first.trace.sim_time,
+        end=wrong[-1].trace.sim_time,
+        expected=first.expected.place,
+        probability=round(max(one.expected.probability for one in wrong), 3),
+        came=first.truth.place,
+        given=round(min(one.truth.probability for one in wrong), 3),
+        came_at=first.came_at,
+        mattered=weight.mattered,
+        at=worst.trace.sim_time,
+        trace_id=worst.trace.trace_id,
+        chosen=None if taken is None else taken.chosen,
+        instead=weight.instead,  # type: ignore[arg-type]
+        gain=weight.gain,
+    )
+
+
+def _rank(weight: _Weight) -> float:
+    """Return how much a mistake matters; less than 0 if it cannot be told."""
+    if weight.mattered is None:
+        return -1.0
+    return 1.0 + max(weight.gain or 0.0, 0.0) if weight.mattered else 0.0
+
+
+def _weight(ride: Ride, wrong: _Wrong) -> _Weight:
+    """Plan a decision again with a vehicle going where it went."""
+    trace = wrong.trace
+    if choice(trace) is None or EGO not in trace.scene:
+        return _Weight(False)  # there was nothing to choose from
+    need = NeedRollout(trace.trace_id, vehicle=wrong.vehicle, goal=wrong.truth.edge)
+    try:
+        again = ride.again(trace, need)
+    except (WhatIfError, NoPlan):
+        return _Weight(None)
+    tried, before, now = weighed(again), trace.plan[0].action, again.plan[:1]
+    if not now or now[0].action == before:
+        return _Weight(False)
+    action = now[0].action
+    gain = value(tried[action]) - value(tried[before]) if {action, before} <= set(tried) else None
+    return _Weight(True, action, None if gain is None else round(gain, 3))
