@@ -87,7 +87,7 @@ install() {
     case $level in
         runtime) pip_install --no-build-isolation --editable '.[dashboard]' ;;
         docs) pip_install --no-build-isolation --editable '.[dashboard,docs,tables,viewers]' ;;
-        develop) pip_install --no-build-isolation --editable '.[browser,dashboard,dev,maps,tables,viewers]' ;;
+        develop) pip_install --no-build-isolation --editable '.[audit,browser,cluster,dashboard,dev,maps,tables,viewers]' ;;
     esac
     rm "$venv/unfinished"
 }

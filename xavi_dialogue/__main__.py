@@ -14,6 +14,7 @@ import typer
 from typer.core import TyperGroup
 
 from xavi_dialogue.cli.commands import (
+    audit,
     chat,
     dashboard,
     doctor,
@@ -182,7 +183,7 @@ def _note(text: str) -> None:
 
 
 SHELL = Streams(_errors, _write, _note, _lines)
-ROOMS = (chat, dashboard, serve, record, report, looking, traces, sessions, keys, doctor)
+ROOMS = (chat, dashboard, serve, record, report, looking, traces, audit, sessions, keys, doctor)
 for room in ROOMS:
     room.add(app, SHELL)
 

@@ -22,8 +22,10 @@ LIBRARIES: Final = (
 )
 #: What only shows rides, or starts what works on them: it decides nothing about results.
 APART: Final = (
-    *("xavi_dialogue/__main__.py", "xavi_dialogue/audit/audit.py", "xavi_dialogue/audit/results"),
-    *("xavi_dialogue/audit/running", "xavi_dialogue/audit/store.py", "xavi_dialogue/chat"),
+    *("xavi_dialogue/__main__.py", "xavi_dialogue/audit/audit.py"),
+    *("xavi_dialogue/audit/command.py", "xavi_dialogue/audit/report.py"),
+    *("xavi_dialogue/audit/results", "xavi_dialogue/audit/running"),
+    *("xavi_dialogue/audit/store.py", "xavi_dialogue/chat"),
     *("xavi_dialogue/cli", "xavi_dialogue/dashboard", "xavi_dialogue/terminal"),
 )
 LENGTH: Final = 16  # hexadecimal digits that are kept of a hash

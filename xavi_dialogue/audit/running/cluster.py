@@ -33,13 +33,13 @@ def run(tasks: Sequence[Task], address: str, lost: Callable[[], None]) -> Iterat
         AuditFailed: the cluster broke off.
     """
     with needing("cluster", "pip install distributed"):
-        import distributed
+        from distributed.comm import CommClosedError
     if not tasks:
         return
     client = _connect(address)
     try:
         yield from _results(client, tasks, lost)
-    except (OSError, distributed.CommClosedError) as error:
+    except (OSError, CommClosedError) as error:
         raise AuditFailed(f"the cluster at {address} broke off: {error}") from error
     finally:
         client.close()
