@@ -111,7 +111,7 @@ def test_a_change_of_what_is_needed_installs_anew(checkout: Checkout, file: str)
 
 def test_what_serves_the_developer_serves_the_passenger(checkout: Checkout) -> None:
     checkout.setup("develop")
-    assert "--editable .[browser,dashboard,dev,maps,tables,viewers]" in checkout.log
+    assert "--editable .[audit,browser,cluster,dashboard,dev,maps,tables,viewers]" in checkout.log
     checkout.setup("runtime")
     assert checkout.log == ""
 
@@ -128,7 +128,7 @@ def test_the_site_has_a_level_of_its_own_that_serves_the_passenger_too(checkout:
     checkout.setup("runtime")
     assert checkout.log == ""
     checkout.setup("develop")
-    assert "--editable .[browser,dashboard,dev,maps,tables,viewers]" in checkout.log
+    assert "--editable .[audit,browser,cluster,dashboard,dev,maps,tables,viewers]" in checkout.log
     for level in ("docs", "develop"):
         checkout.setup(level)
         assert checkout.log == ""

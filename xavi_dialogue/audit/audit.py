@@ -79,8 +79,9 @@ def run(
 
 def _known(store: Store, version: str, source: Source, questions: tuple[Question, ...]) -> bool:
     ride, answers = keys(version, source, questions)
-    there = source.seed is None or store.ride(ride).exists()
-    return there and store.facts(ride) is not None and store.answers(answers) is not None
+    facts = store.facts(ride)
+    there = facts is not None and (source.seed is None or store.whole(ride, facts))
+    return there and store.answers(answers) is not None
 
 
 def _collected(

@@ -6,7 +6,6 @@ One that cannot be read counts as not there.
 
 import gzip
 import hashlib
-import os
 import zlib
 from pathlib import Path
 from typing import Final, TypeVar
@@ -101,6 +100,13 @@ class Store:
         except OSError as error:
             raise AuditFailed(f"cannot write {self.folder / name}: {error.strerror}") from error
 
+    def whole(self, key: str, facts: Facts) -> bool:
+        """Check whether a ride is stored with the length that it had."""
+        try:
+            return self.ride(key).stat().st_size == facts.ride_bytes
+        except OSError:
+            return False
+
     def _ride_of(self, key: str, facts: Facts | None) -> bytes | None:
         """Return a ride that is stored whole."""
         try:
@@ -134,8 +140,5 @@ def _packed(value: object) -> bytes:
 
 def _write(path: Path, data: bytes) -> None:
     part = path.with_name(f"{path.name}.part")
-    with part.open("wb") as file:
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
+    part.write_bytes(data)
     part.replace(path)

@@ -18,7 +18,6 @@ from typing import Final
 
 import msgspec
 
-from xavi_dialogue.audit.errors import AuditError
 from xavi_dialogue.audit.program import program
 from xavi_dialogue.audit.questions import Question
 from xavi_dialogue.audit.rides.facts import look_through
@@ -140,14 +139,3 @@ def _quietly() -> Iterator[None]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
-
-
-def check_key(task: Task) -> None:
-    """Check that a task has what its parts need.
-
-    Raises:
-        AuditError: it has a stored ride without its facts, or the other way round.
-    """
-    driven = task.source.seed is not None
-    if driven and (task.ride is None) != (task.facts is None):
-        raise AuditError(f"{task.source.ride} is stored in part; delete its files and run again")

@@ -73,9 +73,7 @@ def changes(before: Earlier, audit: Audit) -> tuple[Change, ...]:
                     )
                 )  # fmt: skip
     if not common and audit.rides:
-        raise AuditError(
-            "the earlier audit has no ride with one of these questions; nothing to compare"
-        )
+        raise AuditError("the earlier audit asked no ride of this one any of these questions")
     return tuple(found)
 
 

@@ -1,13 +1,12 @@
 """The facts of a ride that deserve a look: hard braking, close calls, collisions."""
 
-from collections.abc import Iterator
-
 from sim.scene import EGO
 from xavi_dialogue.audit.rides.choices import choices
 from xavi_dialogue.audit.rides.mistakes import mistakes
+from xavi_dialogue.audit.rides.naming import name
 from xavi_dialogue.audit.values import Ending, Facts, Peak
-from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.domain.vocabulary import Attribute
 from xavi_dialogue.explain.facts.world import World, world_of
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.library.ride import Ride
@@ -49,13 +48,6 @@ def look_through(ride: Ride, ride_hash: str, size: int) -> Facts:
     )
 
 
-def name(known: World, vehicle: int, at: float) -> str:
-    """Return a vehicle in words, as it looked at a time [s]."""
-    look = known.look(vehicle, at)
-    words = () if look is None else tuple(w for w in (look.colour, look.kind) if w)
-    return f"{' '.join(words) or 'vehicle'} {vehicle}"
-
-
 def _ending(ride: Ride) -> Ending:
     kinds = {event.kind for event in ride.events}
     if "collided" in kinds:
@@ -80,22 +72,16 @@ def _braking(known: World) -> Peak | None:
     return Peak(found.value, round(found.time, 3)) if found.value else None
 
 
-def _least(known: World, attribute: str, most: float | None) -> Peak | None:
-    """Return the lowest value of an attribute towards any vehicle."""
-    found = [(m.value, m.time, v) for v, m in _each(known, attribute) if m.value is not None]
+def _least(known: World, attribute: Attribute, most: float | None) -> Peak | None:
+    """Return the lowest value of an attribute towards any vehicle, unless that is too high."""
+    span = (known.begin, known.now)
+    found = [
+        (measure.value, measure.time, vehicle)
+        for vehicle in known.vehicles
+        for measure in (known.extreme(attribute, Ego(), "lowest", *span, Vehicle(vehicle)),)
+        if measure.value is not None
+    ]
     if not found or (most is not None and min(found)[0] > most):
         return None
     value, at, vehicle = min(found)
     return Peak(round(value, 3), round(at, 3), vehicle, name(known, vehicle, at))
-
-
-def _each(known: World, attribute: str) -> Iterator[tuple[int, Measure]]:
-    for vehicle in known.vehicles:
-        to = Vehicle(vehicle)
-        if attribute == "distance":
-            yield vehicle, known.extreme("distance", Ego(), "lowest", known.begin, known.now, to)
-        else:
-            yield (
-                vehicle,
-                known.extreme("time-to-collision", Ego(), "lowest", known.begin, known.now, to),
-            )

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from planner.counterfactuals.whatif import WhatIfError
-from planner.record.trace import PlanTrace, VehiclePrediction
+from planner.record.trace import Action, PlanTrace, VehiclePrediction
 from sim.scene import EGO
 from xavi_dialogue.audit.rides.choices import choice, value, weighed
+from xavi_dialogue.audit.rides.naming import name
 from xavi_dialogue.audit.values import Mistake
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.explain.facts.world import World
@@ -46,7 +47,7 @@ class _Weight:
     """What a decision would have been with the truth."""
 
     mattered: bool | None
-    instead: str | None = None
+    instead: Action | None = None
     gain: float | None = None  # [s]
 
 
@@ -107,12 +108,10 @@ def _mistake(ride: Ride, known: World, wrong: Sequence[_Wrong]) -> Mistake:
     order = sorted(range(len(wrong)), key=lambda k: (-_rank(weights[k]), k))
     worst, weight = wrong[order[0]], weights[order[0]]
     first, vehicle = wrong[0], worst.vehicle
-    look = known.look(vehicle, worst.trace.sim_time)
-    words = () if look is None else tuple(w for w in (look.colour, look.kind) if w)
     taken = choice(worst.trace)
     return Mistake(
         vehicle=vehicle,
-        who=f"{' '.join(words) or 'vehicle'} {vehicle}",
+        who=name(known, vehicle, worst.trace.sim_time),
         begin=first.trace.sim_time,
         end=wrong[-1].trace.sim_time,
         expected=first.expected.place,
@@ -124,7 +123,7 @@ def _mistake(ride: Ride, known: World, wrong: Sequence[_Wrong]) -> Mistake:
         at=worst.trace.sim_time,
         trace_id=worst.trace.trace_id,
         chosen=None if taken is None else taken.chosen,
-        instead=weight.instead,  # type: ignore[arg-type]
+        instead=weight.instead,
         gain=weight.gain,
     )
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 PATIENCE: Final = 10.0  # [s] for which the scheduler and a first worker are waited for
 AHEAD: Final = 2  # tasks under way for each thread of the workers
+PREFIX: Final = "xavi-"  # of the names of tasks
 START: Final = "start them: dask scheduler, and dask worker ADDRESS --nthreads 1"
 
 
@@ -33,7 +34,7 @@ def run(tasks: Sequence[Task], address: str, lost: Callable[[], None]) -> Iterat
         AuditFailed: the cluster broke off.
     """
     with needing("cluster", "pip install distributed"):
-        from distributed.comm import CommClosedError
+        from distributed.comm.core import CommClosedError
     if not tasks:
         return
     client = _connect(address)
@@ -65,24 +66,24 @@ def _results(client: "Client", tasks: Sequence[Task], lost: Callable[[], None]) 
     from distributed import as_completed
 
     waiting, running = list(reversed(tasks)), dict[str, Task]()
-    known = _workers(client)
+    known, width = _workers(client)
     completed = as_completed([], loop=client.loop)
 
     def submit() -> None:
-        while waiting and len(running) < AHEAD * max(sum(client.ncores().values()), 1):
+        while waiting and len(running) < width:
             task = waiting.pop()
             running[task.key] = task
-            completed.add(client.submit(work, task, key=f"xavi-{task.key}", pure=False))
+            completed.add(client.submit(work, task, key=f"{PREFIX}{task.key}", pure=False))
 
     submit()
-    for future in completed:
-        task = running.pop(future.key.removeprefix("xavi-"))
+    for count, future in enumerate(completed, 1):
+        task = running.pop(future.key.removeprefix(PREFIX))
         yield task, _result(future)
         future.release()
-        now = _workers(client)
-        if known - now:
-            lost()
-        known = now
+        if count % len(known) == 0 or not running:  # seldom, as it asks the scheduler
+            before, (known, width) = known, _workers(client)
+            if before - known:
+                lost()
         submit()
 
 
@@ -97,5 +98,7 @@ def _result(future: Any) -> Any:
     raise error
 
 
-def _workers(client: "Client") -> set[str]:
-    return set(client.scheduler_info(n_workers=-1)["workers"])
+def _workers(client: "Client") -> tuple[set[str], int]:
+    """Return the workers, and how many tasks should be under way."""
+    found = client.scheduler_info(n_workers=-1)["workers"]
+    return set(found) or {""}, AHEAD * max(sum(one["nthreads"] for one in found.values()), 1)

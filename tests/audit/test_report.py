@@ -1,0 +1,143 @@
+"""The files of an audit: tables, page, what changed."""
+
+import hashlib
+import json
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from tests.audit.made import answered, audit, choice, facts, mistake
+from xavi_dialogue.audit.audit import Audit
+from xavi_dialogue.audit.errors import AuditError
+from xavi_dialogue.audit.report import LIST, PAGE, write
+from xavi_dialogue.audit.results.changes import earlier
+from xavi_dialogue.audit.results.tables import ANSWERS, CHANGES, FINDINGS, RIDES, read
+from xavi_dialogue.audit.store import Store
+
+HOSTILE = "<script>alert(1)</script> $x_{"
+
+
+def some() -> Audit:
+    found = facts(choices=(choice(2.0, 0.1),), mistakes=(mistake(1.5),))
+    return audit((found, answered()), (facts(), answered("I cannot say.", kind="refusal")))
+
+
+def test_tables_hold_rides_answers_and_findings(tmp_path: Path) -> None:
+    summary = write(some(), Store(tmp_path), 10, None)
+    rides = read(tmp_path / RIDES)
+    assert [row["ride"] for row in rides] == ["s1-0", "s1-1"]
+    assert [(row["close_decisions"], row["mattered"], row["refusals"]) for row in rides] == [
+        (1, 1, 0),
+        (0, 0, 1),
+    ]
+    assert rides[0]["braking"] == 2.0
+    assert rides[0]["collision_speed"] is None
+    assert [row["text"] for row in read(tmp_path / ANSWERS)] == ["Because.", "I cannot say."]
+    kinds = {row["kind"] for row in read(tmp_path / FINDINGS)}
+    assert kinds == {name for name, count in summary.findings.items() if count}
+    assert not (tmp_path / CHANGES).exists()
+
+
+def test_the_list_has_the_hash_of_every_file(tmp_path: Path) -> None:
+    write(some(), Store(tmp_path), 10, None)
+    listed = json.loads((tmp_path / LIST).read_bytes())["files"]
+    for name in (RIDES, ANSWERS, PAGE):
+        assert listed[name] == hashlib.sha256((tmp_path / name).read_bytes()).hexdigest()
+
+
+def test_the_same_audit_gives_the_same_bytes(tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        write(some(), Store(tmp_path / name), 10, None)
+    files = [path.relative_to(tmp_path / "a") for path in (tmp_path / "a").rglob("*.*")]
+    assert len(files) >= 7
+    for file in files:
+        assert (tmp_path / "a" / file).read_bytes() == (tmp_path / "b" / file).read_bytes(), file
+
+
+def test_changed_answers_are_shown(tmp_path: Path) -> None:
+    write(some(), Store(tmp_path / "old"), 10, None)
+    first, second = some().rides
+    other = replace(first, answers=(answered("For a reason."),))
+    driven = replace(second, facts=facts(ride_hash="bb"), answers=(answered("Well."),))
+    now = replace(some(), rides=(other, driven))
+    summary = write(now, Store(tmp_path / "new"), 10, earlier(tmp_path / "old"))
+    assert summary.findings["changed-answer"] == 2
+    rows = read(tmp_path / "new" / CHANGES)
+    assert [(r["ride"], r["before"], r["now"], r["ride_changed"]) for r in rows] == [
+        ("s1-0", "Because.", "For a reason.", False),
+        ("s1-1", "I cannot say.", "Well.", True),
+    ]
+
+
+def test_an_audit_without_changes_says_so(tmp_path: Path) -> None:
+    write(some(), Store(tmp_path / "old"), 10, None)
+    summary = write(some(), Store(tmp_path / "new"), 10, earlier(tmp_path / "old"))
+    assert summary.findings["changed-answer"] == 0
+
+
+def test_what_cannot_be_compared_is_said(tmp_path: Path) -> None:
+    with pytest.raises(AuditError, match="is no folder"):
+        earlier(tmp_path / "nothing")
+    with pytest.raises(AuditError, match=r"holds no audit: answers\.parquet is missing"):
+        earlier(tmp_path)
+    (tmp_path / ANSWERS).write_bytes(b"no table")
+    with pytest.raises(AuditError, match=r"answers\.parquet cannot be read"):
+        earlier(tmp_path)
+    other = msgspec.structs.replace(answered(), question="Why not?")
+    write(audit((facts(), other)), Store(tmp_path / "old"), 10, None)
+    with pytest.raises(AuditError, match="asked no ride"):
+        write(some(), Store(tmp_path / "new"), 10, earlier(tmp_path / "old"))
+
+
+class _Elements(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.ids: set[str] = set()
+        self.links: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        for name, value in attrs:
+            if name == "id" and value:
+                self.ids.add(value)
+            if name in ("href", "xlink:href", "src") and value:
+                self.links.append(value)
+
+
+def elements(page: Path) -> _Elements:
+    found = _Elements()
+    found.feed(page.read_text(encoding="utf-8"))
+    return found
+
+
+def test_the_page_stands_alone_and_its_links_lead_somewhere(tmp_path: Path) -> None:
+    write(some(), Store(tmp_path), 10, None)
+    found = elements(tmp_path / PAGE)
+    assert found.tags.count("svg") == 4
+    assert {"script", "link", "img", "iframe"}.isdisjoint(found.tags)
+    assert [link for link in found.links if link.startswith(("http", "//"))] == []
+    inner = {link[1:] for link in found.links if link.startswith("#")}
+    assert {"ride-0", "ride-1", "close-call"} <= inner <= found.ids
+    assert {"rides/0.gz", "rides/1.gz"} <= set(found.links)
+
+
+def test_what_was_recorded_cannot_become_markup(tmp_path: Path) -> None:
+    hostile = facts(scenario=HOSTILE, time_to_collision=None)
+    write(audit((hostile, answered(HOSTILE))), Store(tmp_path), 10, None)
+    assert "script" not in elements(tmp_path / PAGE).tags
+    assert "&lt;script&gt;" in (tmp_path / PAGE).read_text(encoding="utf-8")
+
+
+def test_the_page_shows_the_foremost_and_says_how_many_more(tmp_path: Path) -> None:
+    write(audit(*[(facts(), answered())] * 5), Store(tmp_path), 2, None)
+    text = (tmp_path / PAGE).read_text(encoding="utf-8")
+    assert text.count("3 more in findings.parquet") == 2  # close calls and hard braking
+
+
+def test_an_audit_of_nothing_has_a_page(tmp_path: Path) -> None:
+    write(Audit("program", (), (), ()), Store(tmp_path), 10, None)
+    assert "Audit of 0 rides" in (tmp_path / PAGE).read_text(encoding="utf-8")
