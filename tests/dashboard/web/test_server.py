@@ -393,7 +393,8 @@ def test_a_message_that_is_too_large_ends_the_connection(here: Running) -> None:
 
 def test_a_message_in_parts_is_no_way_around(here: Running) -> None:
     with browser(here) as one:
-        one.send(iter([" " * 1000] * (MAX_INCOMING // 1000 + 1)))
+        with suppress(ConnectionClosed):  # the server may close it before the last part is sent
+            one.send(iter([" " * 1000] * (MAX_INCOMING // 1000 + 1)))
         assert closed(one) == 1009
 
 
