@@ -86,7 +86,7 @@ def speech(now: Situation) -> SpeechContext:
         looks=now.pipeline.see(now.record),
         named=memory.named,
         detail=memory.detail,
-        turn=len(memory.turns),
+        turn=sum(not turn.turned_away for turn in memory.turns),
         told=memory.told,
         suggested=memory.suggested,
     )

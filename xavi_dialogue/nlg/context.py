@@ -24,7 +24,7 @@ class SpeechContext:
     named: frozenset[int] = frozenset()  # vehicles that this conversation has named already
     detail: Detail = "usual"
     then: bool = False  # the question named its time, which is in the past
-    turn: int = 0  # number of the turn: wording may vary with it
+    turn: int = 0  # how many turns were answered before: wording may vary with it
     repeated: bool = False  # the same answer was given to the same question before
     told: Told = frozenset()  # causes that were stated in this conversation
     suggested: frozenset[str] = frozenset()  # questions that recent replies suggested
