@@ -5,6 +5,7 @@ import multiprocessing
 import sys
 import time
 from collections.abc import Iterator
+from pathlib import Path
 
 from tests.simulated.plan import Plan, plan_of
 from tests.simulated.shrink import shrink
@@ -18,13 +19,19 @@ def main() -> int:
     asked = _parser().parse_args()
     if asked.seed is not None:
         return _show(plan_of(asked.seed))
-    began, failed, exempt = time.monotonic(), [], 0
-    seeds = range(asked.begin, asked.begin + asked.seeds)
+    began, exempt = time.monotonic(), 0
+    done = _done(asked.done)
+    failed = [seed for seed, held in done.items() if not held]
+    wanted = range(asked.begin, asked.begin + asked.seeds)
+    seeds = [seed for seed in wanted if seed not in done]
+    if len(seeds) < len(wanted):
+        _say(f"{len(wanted) - len(seeds)} seeds were run before, {len(failed)} failed")
     for number, (seed, outcome) in enumerate(_outcomes(seeds, asked.jobs), 1):
         exempt += bool(outcome.exempt)
         if outcome.problems:
             failed.append(seed)
             _say(f"seed {seed} fails: {outcome.problems[0][:SHOWN]}")
+        _note(asked.done, seed, held=not outcome.problems)
         if number % 500 == 0:
             _say(f"{number} seeds, {len(failed)} failed, {time.monotonic() - began:.0f} s")
     _say(
@@ -42,11 +49,26 @@ def _parser() -> argparse.ArgumentParser:
     add("--seeds", type=int, default=1000, help="how many are run")
     add("--begin", type=int, default=0, help="the first of them")
     add("--jobs", type=int, default=2, help="processes that run them")
+    add("--done", type=Path, metavar="FILE", help="notes what was run; that is not run again")
     add("--seed", type=int, help="run this one alone, and shrink it if it fails")
     return parser
 
 
-def _outcomes(seeds: range, jobs: int) -> Iterator[tuple[int, Outcome]]:
+def _done(file: Path | None) -> dict[int, bool]:
+    """Return the seeds that were run before, and whether all held."""
+    if file is None or not file.exists():
+        return {}
+    lines = file.read_text(encoding="ascii").split("\n")[:-1]
+    return {int(seed): held == "held" for seed, held in map(str.split, lines)}
+
+
+def _note(file: Path | None, seed: int, *, held: bool) -> None:
+    if file is not None:
+        with file.open("a", encoding="ascii") as written:
+            written.write(f"{seed} {'held' if held else 'failed'}\n")
+
+
+def _outcomes(seeds: list[int], jobs: int) -> Iterator[tuple[int, Outcome]]:
     if jobs == 1:
         yield from map(_one, seeds)
         return

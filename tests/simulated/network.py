@@ -9,6 +9,7 @@ checked against the table of roles.
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
 from types import TracebackType
 from typing import Any, Self
 
@@ -26,8 +27,10 @@ from xavi_dialogue.bus.interface import (
     Refused,
     TooLate,
     Watcher,
-    matches,
 )
+from xavi_dialogue.bus.interface import matches as _matches
+
+matches = cache(_matches)
 
 NEAR = (0.0002, 0.003)  # [s] least and greatest delay of a message in fair weather
 RECOVERED = (0.2, 0.6)  # [s] until a lost report that is kept is delivered after all

@@ -5,8 +5,8 @@ import pytest
 from tests.simulated.plan import plan_of
 from tests.simulated.world import run
 
-SEEDS = 60
-GROUP = 10  # seeds of one test
+SEEDS = 200
+GROUP = 20  # seeds of one test
 
 
 @pytest.mark.parametrize("begin", range(0, SEEDS, GROUP))

@@ -1,5 +1,6 @@
 """One run of the simulated world: everybody starts, things go wrong, and all heals again."""
 
+import gc
 import hashlib
 import logging
 from collections.abc import Callable, Iterator
@@ -15,6 +16,7 @@ from tests.simulated.disk import SimulatedDisk
 from tests.simulated.network import Bus, Network
 from tests.simulated.parts import SECRET, STORE, Person
 from tests.simulated.plan import HEALED, STORIES, Fault, Plan
+from tests.simulated.reading import read_once
 from tests.simulated.scheduler import OutOfHand, Process, Scheduler
 from xavi_dialogue.dashboard.controller import Controller
 from xavi_dialogue.runtime.system import behind_the_door
@@ -255,6 +257,8 @@ class World:
             stack.enter_context(behind_the_door(self.scheduler))
             stack.enter_context(on_disk(self.disk))
             stack.enter_context(self._listening())
+            stack.enter_context(read_once())
+            stack.enter_context(_uncollected())
             for starter in self.starters.values():
                 if starter.machine == "fresh":
                     continue
@@ -338,6 +342,18 @@ class _Listener(logging.Handler):
         if record.exc_info and alive:
             told = logging.Formatter().formatException(record.exc_info)
             self._world.problems.append(f"internal error, {record.name}:\n{told[-1500:]}")
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Leave garbage where it is within: no run depends on when it is collected."""
+    collecting = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collecting:
+            gc.enable()
 
 
 def run(plan: Plan) -> Outcome:
