@@ -67,14 +67,19 @@ class FakeService:
     refuses: bool = False
 
     def appear(self) -> None:
-        bus = self.hub.connect()
         handlers = {"ask": self.ask, "history": self.history, "forget": self.forget}
         for name, handler in handlers.items():
-            bus.serve(KEYS.of(f"@rpc/{name}"), partial(self.handle, handler))
+            self.instead(name, partial(self.handle, handler))
+
+    def instead(self, name: str, handler: Callable[[Call], None]) -> None:
+        """Let nobody else answer such requests any more."""
+        key = KEYS.of(f"@rpc/{name}")
+        self.hub.servers.pop(key, None)
+        self.hub.connect().serve(key, handler)
 
     def hang(self) -> None:
         for name in ("ask", "history", "forget"):
-            self.hub.connect().serve(KEYS.of(f"@rpc/{name}"), lambda call: call.drop())
+            self.instead(name, lambda call: call.drop())
 
     def vanish(self) -> None:
         self.hub.servers.clear()
@@ -245,7 +250,7 @@ def test_a_place_that_nobody_has_is_no_place_to_save(
 
 def test_forgetting_needs_no_history(client: Client, service: FakeService) -> None:
     client.ask("One?")
-    service.hub.connect().serve(KEYS.of("@rpc/history"), lambda call: call.refuse(b""))
+    service.instead("history", lambda call: call.refuse(b""))
     assert SessionHistory(client, "ada", HEADER).forget() == "Erased one question and its answer."
 
 
@@ -328,7 +333,7 @@ def test_tokens_go_with_all_that_is_asked_and_a_wrong_one_is_told_in_words(
         call.refuse(pack(Failure(reason="out-of-scope", detail=FOREIGN)))
 
     for name in ("ask", "history", "forget", "cancel"):
-        bus.serve(KEYS.of(f"@rpc/{name}"), refuse)
+        service.instead(name, refuse)
     client = Client(bus, KEYS, "ada", token="t" * 43, share=True)
     session_history = SessionHistory(client, "ada", HEADER)
     refused = client.ask("One?")
@@ -380,7 +385,7 @@ def test_a_question_that_is_refused_is_told_in_brackets(
 def test_a_service_that_talks_nonsense_ends_no_conversation(
     pipe: "Pipe", service: FakeService, answer: Callable[[Call], None]
 ) -> None:
-    service.hub.connect().serve(KEYS.of("@rpc/ask"), answer)
+    service.instead("ask", answer)
     assert pipe.say("One?")
     service.appear()
     assert pipe.say("Two?")

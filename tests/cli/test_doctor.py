@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import resource
 import socket
 import sqlite3
@@ -23,9 +24,10 @@ from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Keys
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import AliveReport, pack
+from xavi_dialogue.bus.shards import Claim, Shard
 from xavi_dialogue.bus.zenoh_bus import ZenohBus, host
 from xavi_dialogue.cli import bus_checks, host_checks
-from xavi_dialogue.cli.bus_checks import examine, keys, on_the_bus, port, roster, told
+from xavi_dialogue.cli.bus_checks import examine, keys, on_the_bus, port, roster, shards, told
 from xavi_dialogue.cli.host_checks import CheckedSystem, Finding
 from xavi_dialogue.process import kernel_cache
 from xavi_dialogue.storage.conversations import Store
@@ -336,3 +338,38 @@ def test_secret_keys_that_others_can_read(folder: Path) -> None:
 def test_a_certificate_that_is_none(folder: Path) -> None:
     (folder / "car.pem").write_text("no certificate")
     assert keys(folder, NOW).verdict == "fault"
+
+
+CARS = ("a", "b", "c", "d", "e", "f", "g", "h")
+
+
+def test_shards_that_share_a_fleet_are_well() -> None:
+    found = shards([Claim(1, "x", Shard(1, 2)), Claim(2, "y", Shard(2, 2))], CARS)
+    assert found.verdict == "ok"
+    sizes = re.fullmatch(r"1/2: (\d) cars; 2/2: (\d) cars", found.found)
+    assert sizes is not None
+    assert int(sizes[1]) + int(sizes[2]) == len(CARS)
+
+
+def test_a_shard_without_a_service_is_found() -> None:
+    found = shards([Claim(1, "x", Shard(1, 2))], CARS)
+    assert found.verdict == "fault"
+    assert "nobody for 2/2: " in found.found
+    assert found.advice == "start: xavi serve --shard 2/2"
+    assert shards([Claim(1, "x", Shard(1, 2))], ()).verdict == "fault"
+
+
+def test_a_shard_with_two_services_is_found() -> None:
+    claims = [Claim(1, "x", Shard(1, 1)), Claim(2, "y", Shard(1, 1))]
+    found = shards(claims, CARS)
+    assert (found.verdict, found.found) == (
+        "warning",
+        "1/1: 8 cars; 1/1: 0 cars; 1/1 more than once",
+    )
+
+
+def test_services_that_count_shards_differently_are_found() -> None:
+    claims = [Claim(1, "x", Shard(1, 2)), Claim(2, "y", Shard(1, 1))]
+    found = shards(claims, CARS)
+    assert found.verdict == "warning"
+    assert found.found.endswith("these overlap")

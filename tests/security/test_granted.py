@@ -13,9 +13,9 @@ import zenoh
 from sim.setup.scenario import load
 from tests.dialogue.scripted import scripted_pipeline
 from tests.security.test_provisioning import PATIENCE, until, world_of
-from xavi_dialogue.bus.access_control import ROLES
+from xavi_dialogue.bus.access_control import ROLES, Grant
 from xavi_dialogue.bus.catalogue import CAR_MESSAGES
-from xavi_dialogue.bus.interface import EVERY_CAR, Bus, Keys, NoAnswer, call
+from xavi_dialogue.bus.interface import EVERY_CAR, FLEET, Bus, Keys, NoAnswer, call
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.zenoh_bus import host, join
 from xavi_dialogue.chat.client import Client, ServiceLost
@@ -68,10 +68,16 @@ def on_a_bus_with_keys(folder: Path, role: str) -> Iterator[Watched]:
 
 def granted(role: str) -> list[tuple[str, zenoh.KeyExpr]]:
     return [
-        (grant.deed, zenoh.KeyExpr((CAR if grant.own else EVERY_CAR).of(tail)))
+        (grant.deed, zenoh.KeyExpr(_place(grant).of(tail)))
         for grant in ROLES[role].grants
         for tail in grant.tails
     ]
+
+
+def _place(grant: Grant) -> Keys:
+    if grant.fleet:
+        return FLEET
+    return CAR if grant.own else EVERY_CAR
 
 
 def beyond(role: str, done: set[tuple[str, str]]) -> list[tuple[str, str]]:

@@ -241,7 +241,7 @@ def test_nonsense_is_refused_with_its_reason(
     bench: Bench, data: bytes, at: str, detail: str
 ) -> None:
     came: list[Outcome] = []
-    handler = bench.hub.servers["xavi/v1/*/@rpc/evidence"][1]
+    handler = bench.hub.servers["xavi/v1/*/@rpc/evidence"][0][1]
     handler(Asked(at, data, came))
     bench.service.work()
     failure = refusal(came[0])

@@ -179,14 +179,33 @@ def test_a_service_shows_itself_at_every_car(bench: Bench) -> None:
     assert seen[1:] == ["xavi/v1/two/alive/service"]
 
 
+def test_of_cars_that_are_gone_the_latest_are_remembered(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(request_handler, "KEPT_GONE", 2)
+    bench.service.handler._room = 2
+    for name in ("one", "two", "three", "four"):
+        drive(bench, name, 1.0).close()
+        bench.service.work()
+    drive(bench, "five", 1.0)
+    assert {*bench.service.handler.vehicles} == {"three", "four", "five"}
+
+
+def test_cars_that_are_there_are_all_kept(bench: Bench) -> None:
+    cars = [f"car-{k}" for k in range(request_handler.KEPT_GONE + 10)]
+    for name in cars:
+        bench.hub.connect().appear(Keys(name).of("alive/car"))
+    bench.service.work()
+    assert {*bench.service.handler.vehicles} == {*cars}
+
+
 def test_no_more_cars_than_there_is_room_for(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(request_handler, "MAX_CARS", 2)
-    drive(bench, "one", 1.0).close()  # it is gone, and makes room
-    drive(bench, "two", 1.0)
-    drive(bench, "three", 1.0)
-    assert {*bench.service.handler.vehicles} == {"two", "three"}
-    drive(bench, "four", 1.0)
-    came = ask(bench, "answer", "four")
+    bench.service.handler._room = 2
+    for name in ("one", "two", "three"):
+        drive(bench, name, 1.0)
+    assert {*bench.service.handler.vehicles} == {"one", "two"}
+    came = ask(bench, "answer", "three")
     bench.service.work()
     assert replied(came).reason == "planner-unavailable"
 

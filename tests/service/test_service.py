@@ -249,7 +249,7 @@ class Gone:
 def test_who_asks_and_goes_harms_nobody(bench: Bench) -> None:
     bench.drive()
     asked = AskRequest(request="q0", session="ada", text="answer")
-    serve = bench.hub.servers[ASKED][1]
+    serve = bench.hub.servers[ASKED][0][1]
     serve(Gone(pack(asked)))
     serve(Gone(b"junk"))
     assert bench.ask("answer").kind == "answer"

@@ -16,6 +16,7 @@ from typing import Any, Self
 from tests.simulated.scheduler import Process, Scheduler
 from xavi_dialogue.bus.access_control import ROLES
 from xavi_dialogue.bus.interface import (
+    FLEET,
     ROOT,
     BusFailed,
     CallHandler,
@@ -90,6 +91,10 @@ class Subscription:
     handler: Handler
     kept: bool
     had: set[tuple[int, int]] = field(default_factory=set)  # publisher and number of a message
+
+    def withdraw(self) -> None:
+        if self in self.node.subscriptions:
+            self.node.subscriptions.remove(self)
 
 
 class Network:
@@ -308,9 +313,12 @@ class Network:
 
     def permitted(self, node: "Node", deed: str, key: str) -> None:
         """Note what a node does that its role may not."""
-        tail = key.removeprefix(f"{ROOT}/").partition("/")[2]
+        vehicle, _, tail = key.removeprefix(f"{ROOT}/").partition("/")
+        fleet = FLEET.vehicle == vehicle
         allowed = any(
-            grant.deed == deed and any(matches(one, tail) for one in grant.tails)
+            grant.deed == deed
+            and grant.fleet == fleet
+            and any(matches(one, tail) for one in grant.tails)
             for grant in ROLES[node.role].grants
         )
         if not allowed:
@@ -356,12 +364,13 @@ class Bus:
         self._step("publish", key)
         self._network.publish(self._node, key, payload, None)
 
-    def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> None:
+    def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> Subscription:
         self._step("subscribe-kept" if kept else "subscribe", key)
         one = Subscription(key, self._node, handler, kept)
         self._node.subscriptions.append(one)
         if kept:
             self._network.recover(one)
+        return one
 
     def serve(self, key: str, handler: CallHandler) -> None:
         self._step("serve", key)

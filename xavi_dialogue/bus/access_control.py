@@ -11,7 +11,7 @@ from typing import Literal, TypeAlias
 
 from xavi_dialogue.bus.catalogue import CAR_MESSAGES, MESSAGES
 from xavi_dialogue.bus.errors import BusError
-from xavi_dialogue.bus.interface import DEFAULT_VEHICLE, EVERY_CAR, VEHICLE_NAME, Keys
+from xavi_dialogue.bus.interface import DEFAULT_VEHICLE, EVERY_CAR, FLEET, VEHICLE_NAME, Keys
 
 Deed: TypeAlias = Literal[
     "publish",
@@ -42,6 +42,7 @@ class Grant:
     deed: Deed
     tails: tuple[str, ...]  # ends of keys
     own: bool = False  # True: only under the keys of the member's own car
+    fleet: bool = False  # True: under the keys of the fleet, and of no car
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +71,13 @@ class Member:
         return self.name or DEFAULT_VEHICLE
 
 
-_LOOKS = (Grant("watch", ("alive/*",)), Grant("ask", ("alive/*", "@schema/*")))
+CLAIMS = "service/*"  # of the fleet: which service answers about which cars
+_LOOKS = (
+    Grant("watch", ("alive/*",)),
+    Grant("watch", (CLAIMS,), fleet=True),
+    Grant("ask", ("alive/*", "@schema/*")),
+    Grant("ask", (CLAIMS,), fleet=True),
+)
 _SEES = (Grant("subscribe", ("scene",)), Grant("subscribe-kept", ("event",)))
 _READS = (*_SEES, Grant("subscribe-kept", ("trace",)))
 
@@ -109,6 +116,8 @@ ROLES: Mapping[str, Role] = {
                 ),
                 Grant("ask", ("@rpc/whatif",)),
                 Grant("appear", ("alive/service",)),
+                Grant("serve", (CLAIMS,), fleet=True),
+                Grant("appear", (CLAIMS,), fleet=True),
                 *_LOOKS,
             ),
         ),
@@ -216,10 +225,11 @@ def access_control(members: Iterable[Member]) -> dict[str, Json]:
 
 def _rules(grant: Grant, one: Member) -> list[dict[str, Json]]:
     # Outgoing messages are requested by others, possibly with one pattern for every car.
-    own = Keys(one.vehicle) if grant.own else EVERY_CAR
+    everywhere = FLEET if grant.fleet else EVERY_CAR
+    own = Keys(one.vehicle) if grant.own else everywhere
     found: list[dict[str, Json]] = []
     for ending, incoming, outgoing in PARTS[grant.deed]:
-        for flow, kinds, keys in (("ingress", incoming, own), ("egress", outgoing, EVERY_CAR)):
+        for flow, kinds, keys in (("ingress", incoming, own), ("egress", outgoing, everywhere)):
             places: list[Json] = [keys.of(tail + ending) for tail in grant.tails]
             if kinds:
                 what = f"{grant.deed}{ending} {' '.join(map(str, places))}: {flow}"
@@ -248,7 +258,12 @@ def table() -> str:
     lines = [f"| role | {' | '.join(titles)} |", "|---" * (len(titles) + 1) + "|"]
     for role in ROLES.values():
         cells = [
-            [tail for grant in role.grants if grant.deed in deeds for tail in grant.tails]
+            [
+                f"{FLEET.vehicle}/{tail}" if grant.fleet else tail
+                for grant in role.grants
+                if grant.deed in deeds
+                for tail in grant.tails
+            ]
             for deeds in titles.values()
         ]
         lines.append(f"| {role.name} | {' | '.join(map(_cell, cells))} |")

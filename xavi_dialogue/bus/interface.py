@@ -82,6 +82,7 @@ class Keys:
 
 
 EVERY_CAR = Keys("*")  # a pattern for the keys of every car
+FLEET = Keys("@fleet")  # the keys of what belongs to no car; no pattern of cars matches them
 
 
 def vehicle_in(key: str) -> str | None:
@@ -147,6 +148,13 @@ class Presence(Protocol):
         """End the sign of life; doing so twice has no effect."""
 
 
+class Subscription(Protocol):
+    """What receives the messages of a key."""
+
+    def withdraw(self) -> None:
+        """Receive no more; doing so twice has no effect."""
+
+
 Handler: TypeAlias = Callable[[str, bytes], None]  # key, payload
 CallHandler: TypeAlias = Callable[[Call], None]
 Watcher: TypeAlias = Callable[[str, bool], None]  # key, whether it is alive
@@ -175,7 +183,7 @@ class Bus(Protocol):
     def send(self, key: str, payload: bytes) -> None:
         """Send one message under a rarely used key; it may be dropped."""
 
-    def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> None:
+    def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> Subscription:
         """Receive the messages of a key; with `kept` also those kept for late joiners."""
 
     def serve(self, key: str, handler: CallHandler) -> None:

@@ -42,9 +42,12 @@ class Link:
         Args:
             listen: endpoint.
             connect: endpoints of routers of a fleet.
-            mode: peer or router; without a configuration, peer is taken.
+            mode: peer or router; without a configuration, peer is taken. A client joins a router,
+                and hosts no hub.
             config: a Zenoh configuration.
         """
+        if mode == "client":
+            return cls(mode, (), connect, config)
         if config is None:
             return cls(mode or "peer", (listen or DEFAULT_ENDPOINT,), connect)
         return cls(mode, () if listen is None else (listen,), connect, config)

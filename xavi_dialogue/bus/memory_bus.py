@@ -17,6 +17,7 @@ from xavi_dialogue.bus.interface import (
     Presence,
     Publisher,
     Refused,
+    Subscription,
     TooLate,
     Watcher,
     matches,
@@ -30,9 +31,9 @@ class MemoryHub:
     subscribers: dict[str, list[tuple[object, Handler]]] = field(
         default_factory=lambda: defaultdict(list)
     )
-    servers: dict[str, tuple[object, CallHandler]] = field(default_factory=dict)
+    servers: dict[str, list[tuple[object, CallHandler]]] = field(default_factory=dict)
     kept: dict[str, deque[bytes]] = field(default_factory=dict)
-    alive: dict[str, object] = field(default_factory=dict)
+    alive: dict[str, list[object]] = field(default_factory=dict)  # who shows a key
     watchers: dict[str, list[tuple[object, Watcher]]] = field(
         default_factory=lambda: defaultdict(list)
     )
@@ -40,6 +41,15 @@ class MemoryHub:
     def connect(self) -> "MemoryBus":
         """Return a new connection."""
         return MemoryBus(self)
+
+    def hide(self, key: str, owner: object) -> None:
+        """End a sign of life; it is gone with the last one that shows the key."""
+        owners = self.alive.get(key, [])
+        if owner in owners:
+            owners.remove(owner)
+            if not owners:
+                del self.alive[key]
+                self.tell(key, False)
 
     def tell(self, key: str, alive: bool) -> None:
         """Notify the watchers of a key."""
@@ -69,25 +79,48 @@ class _MemoryPresence:
     owner: object
 
     def withdraw(self) -> None:
-        if self.hub.alive.get(self.key) is self.owner:
-            del self.hub.alive[self.key]
-            self.hub.tell(self.key, False)
+        self.hub.hide(self.key, self.owner)
+
+
+@dataclass(frozen=True)
+class _MemorySubscription:
+    rows: list[tuple[object, Handler]]
+    row: tuple[object, Handler]
+
+    def withdraw(self) -> None:
+        if self.row in self.rows:
+            self.rows.remove(self.row)
+
+
+@dataclass
+class _Asked:
+    """A request to one server or several: the first reply counts."""
+
+    servers: int
+    done: Callable[[Outcome], None]
+    over: bool = False
+
+    def end(self, outcome: Outcome | None) -> None:
+        self.servers -= 1
+        if not self.over and (outcome is not None or not self.servers):
+            self.over = True
+            self.done(TooLate("no reply") if outcome is None else outcome)
 
 
 @dataclass
 class _MemoryCall:
     key: str
     payload: bytes
-    done: Callable[[Outcome], None]
+    asked: _Asked
 
     def reply(self, payload: bytes) -> None:
-        self.done(payload)
+        self.asked.end(payload)
 
     def refuse(self, payload: bytes) -> None:
-        self.done(Refused(payload))
+        self.asked.end(Refused(payload))
 
     def drop(self) -> None:
-        self.done(TooLate("no reply"))
+        self.asked.end(None)
 
 
 class MemoryBus:
@@ -106,32 +139,40 @@ class MemoryBus:
         """See Bus."""
         _MemoryPublisher(self._hub, key, 0).put(payload)
 
-    def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> None:
+    def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> Subscription:
         """See Bus."""
-        self._hub.subscribers[key].append((self, handler))
+        row = (self, handler)
+        self._hub.subscribers[key].append(row)
         for one, payloads in tuple(self._hub.kept.items()) if kept else ():
             for payload in tuple(payloads) if matches(key, one) else ():
                 handler(one, payload)
+        return _MemorySubscription(self._hub.subscribers[key], row)
 
     def serve(self, key: str, handler: CallHandler) -> None:
         """See Bus."""
-        self._hub.servers[key] = (self, handler)
+        self._hub.servers.setdefault(key, []).append((self, handler))
 
     def request(
         self, key: str, payload: bytes, timeout: float, done: Callable[[Outcome], None]
     ) -> None:
         """See Bus; the timeout is ignored."""
-        servers = (one for pattern, one in self._hub.servers.items() if matches(pattern, key))
-        server = next(servers, None)
-        if server is None:
+        servers = [
+            handler
+            for pattern, rows in tuple(self._hub.servers.items())
+            for _, handler in (rows if matches(pattern, key) else ())
+        ]
+        if not servers:
             done(NobodyThere(f"nobody serves {key}"))
-        else:
-            server[1](_MemoryCall(key, payload, done))
+        asked = _Asked(len(servers), done)
+        for handler in servers:
+            handler(_MemoryCall(key, payload, asked))
 
     def appear(self, key: str) -> Presence:
         """See Bus."""
-        self._hub.alive[key] = self
-        self._hub.tell(key, True)
+        owners = self._hub.alive.setdefault(key, [])
+        owners.append(self)
+        if len(owners) == 1:
+            self._hub.tell(key, True)
         return _MemoryPresence(self._hub, key, self)
 
     def watch(self, key: str, watcher: Watcher) -> None:
@@ -148,11 +189,12 @@ class MemoryBus:
             handlers[:] = [one for one in handlers if one[0] is not self]
         for watchers in hub.watchers.values():
             watchers[:] = [one for one in watchers if one[0] is not self]
-        for key in [key for key, (owner, _) in hub.servers.items() if owner is self]:
-            del hub.servers[key]
-        for key in [key for key, owner in hub.alive.items() if owner is self]:
-            del hub.alive[key]
-            hub.tell(key, False)
+        for key, rows in tuple(hub.servers.items()):
+            rows[:] = [one for one in rows if one[0] is not self]
+            if not rows:
+                del hub.servers[key]
+        for key in [key for key, owners in hub.alive.items() if self in owners]:
+            hub.hide(key, self)
 
     def __enter__(self) -> Self:
         return self

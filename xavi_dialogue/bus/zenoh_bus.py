@@ -30,6 +30,7 @@ from xavi_dialogue.bus.interface import (
     Presence,
     Publisher,
     Refused,
+    Subscription,
     TooLate,
     Watcher,
 )
@@ -61,7 +62,7 @@ class ZenohBus:
     def __init__(self, session: zenoh.Session, places: tuple[str, ...] = ()) -> None:
         self.places = places  # endpoints at which the hub listens
         self._session = session
-        self._declared: list[object] = []  # references that keep them alive for the session
+        self._declared: set[object] = set()  # references that keep them alive for the session
 
     def publisher(self, key: str, keep: int = 0) -> Publisher:
         """See Bus."""
@@ -85,7 +86,7 @@ class ZenohBus:
                 ),
                 publisher_detection=True,
             )
-        self._declared.append(publisher)
+        self._declared.add(publisher)
         return _ZenohPublisher(publisher)
 
     def send(self, key: str, payload: bytes) -> None:
@@ -100,7 +101,7 @@ class ZenohBus:
         """See Bus."""
         return bool(self._session.info.peers_zid() or self._session.info.routers_zid())
 
-    def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> None:
+    def subscribe(self, key: str, handler: Handler, *, kept: bool = False) -> Subscription:
         """See Bus."""
 
         def on_sample(sample: zenoh.Sample) -> None:
@@ -108,8 +109,7 @@ class ZenohBus:
 
         callback = Callback(on_sample, indirect=False)
         if not kept:
-            self._declared.append(self._session.declare_subscriber(key, callback))
-            return
+            return _Declared(self._declared, self._session.declare_subscriber(key, callback))
         subscriber = ext.declare_advanced_subscriber(
             self._session,
             key,
@@ -118,7 +118,7 @@ class ZenohBus:
             recovery=ext.RecoveryConfig(periodic_queries=None, heartbeat=True),
             subscriber_detection=True,
         )
-        self._declared.append(subscriber)
+        return _Declared(self._declared, subscriber)
 
     def serve(self, key: str, handler: CallHandler) -> None:
         """See Bus."""
@@ -126,9 +126,8 @@ class ZenohBus:
         def on_query(query: zenoh.Query) -> None:
             handler(_ZenohCall(query))
 
-        self._declared.append(
-            self._session.declare_queryable(key, Callback(on_query, indirect=False))
-        )
+        callback = Callback(on_query, indirect=False)
+        self._declared.add(self._session.declare_queryable(key, callback))
 
     def request(
         self, key: str, payload: bytes, timeout: float, done: Callable[[Outcome], None]
@@ -163,9 +162,7 @@ class ZenohBus:
 
     def appear(self, key: str) -> Presence:
         """See Bus."""
-        presence = _ZenohPresence(self._session.liveliness().declare_token(key))
-        self._declared.append(presence)
-        return presence
+        return _Declared(self._declared, self._session.liveliness().declare_token(key))
 
     def watch(self, key: str, watcher: Watcher) -> None:
         """See Bus."""
@@ -173,7 +170,7 @@ class ZenohBus:
         def on_change(sample: zenoh.Sample) -> None:
             watcher(str(sample.key_expr), sample.kind == SampleKind.PUT)
 
-        self._declared.append(
+        self._declared.add(
             self._session.liveliness().declare_subscriber(
                 key, Callback(on_change, indirect=False), history=True
             )
@@ -209,15 +206,17 @@ class _ZenohPublisher:
             self._publisher.put(payload)
 
 
-class _ZenohPresence:
-    """A sign of life."""
+class _Declared:
+    """A sign of life or a subscription, until it is withdrawn."""
 
-    def __init__(self, token: zenoh.LivelinessToken) -> None:
-        self._token = token
+    def __init__(self, among: set[object], thing: object) -> None:
+        self._among, self._thing = among, thing
+        among.add(thing)
 
     def withdraw(self) -> None:
+        self._among.discard(self._thing)
         with suppress(zenoh.ZError):  # a closed session has withdrawn it already
-            self._token.undeclare()  # type: ignore[no-untyped-call]
+            self._thing.undeclare()  # type: ignore[attr-defined]
 
 
 class _ZenohCall:

@@ -2,7 +2,7 @@
 
 import threading
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from datetime import datetime, timedelta
 from pathlib import Path
 from textwrap import TextWrapper
@@ -14,6 +14,7 @@ from xavi_dialogue.bus.interface import EVERY_CAR, Bus, TransportError, call, ve
 from xavi_dialogue.bus.link import Link
 from xavi_dialogue.bus.messages import AliveReport, unpack
 from xavi_dialogue.bus.sanitize import one_line
+from xavi_dialogue.bus.shards import CLAIMED, Claim, holder, missing
 from xavi_dialogue.bus.zenoh_bus import join
 from xavi_dialogue.cli.host_checks import CheckedSystem, Finding, on_this_machine, taken
 
@@ -26,6 +27,7 @@ MAX_SEEN = 100  # components that are asked for their health
 TROUBLE = ("rejected", "busy", "foreign", "dropped", "reports_dropped")  # counters best at 0
 WIDTH = 80  # columns
 NAMES = 28  # columns
+NAMED = 10  # cars that are listed
 
 SIGNS = {"ok": "ok", "warning": "warning", "fault": "FAULT"}
 
@@ -99,8 +101,13 @@ def on_the_bus(link: Link) -> Iterator[Finding]:
         return
     with bus:
         yield Finding("hub", "ok", "reachable")
+        seen: dict[str, bool] = {}
+        bus.watch(CLAIMED, seen.__setitem__)
         present = alive(bus)
+        claims = claimed(key for key, there in dict(seen).items() if there)
         yield roster(present)
+        if claims:
+            yield shards(claims, _cars(present))
         for key in present[:MAX_SEEN]:
             yield component(bus, key)
 
@@ -111,6 +118,54 @@ def alive(bus: Bus) -> list[str]:
     bus.watch(EVERY_CAR.of("alive/*"), seen.__setitem__)
     threading.Event().wait(SETTLED)
     return sorted(key for key, there in dict(seen).items() if there and vehicle_in(key))
+
+
+def claimed(keys: Iterable[str]) -> list[Claim]:
+    """Return what services answer for, by the keys that they show; the earliest first."""
+    return sorted(claim for claim in map(Claim.read, keys) if claim is not None)
+
+
+def shards(claims: Sequence[Claim], cars: Sequence[str]) -> Finding:
+    """Check whether there is one service for each car, and for each shard of the fleet.
+
+    Args:
+        claims: of the services, the earliest first; at least one.
+        cars: that are there.
+    """
+    found = "; ".join(
+        f"{one.shard}: {_many(sum(holder(claims, car) == one for car in cars), 'car')}"
+        for one in claims
+    )
+    gaps = [str(shard) for shard in missing(claims)]
+    alone = [car for car in cars if holder(claims, car) is None]
+    if alone or (gaps and len({one.shard.of for one in claims}) == 1):
+        found += f"; nobody for {', '.join(gaps)}"
+        found += f": {', '.join(alone[:NAMED])}" if alone else ""
+        found += f" and {len(alone) - NAMED} more" if len(alone) > NAMED else ""
+        return Finding("shards", "fault", found, f"start: xavi serve --shard {gaps[0]}")
+    if len({one.shard.of for one in claims}) > 1:
+        advice = "let all services have one number of shards; of two for a car the earlier answers"
+        return Finding("shards", "warning", f"{found}; these overlap", advice)
+    if len({one.shard for one in claims}) < len(claims):
+        twice = sorted({str(one.shard) for one in claims if _again(one, claims)})
+        found += f"; {', '.join(twice)} more than once"
+        advice = (
+            "the later one is silent until the earlier one is gone; end it if that is not meant"
+        )
+        return Finding("shards", "warning", found, advice)
+    return Finding("shards", "ok", found)
+
+
+def _again(claim: Claim, claims: Iterable[Claim]) -> bool:
+    return sum(one.shard == claim.shard for one in claims) > 1
+
+
+def _many(number: int, word: str) -> str:
+    return f"{number} {word}{'' if number == 1 else 's'}"
+
+
+def _cars(present: Iterable[str]) -> list[str]:
+    return sorted(str(vehicle_in(key)) for key in present if key.endswith("/alive/car"))
 
 
 def roster(present: Iterable[str]) -> Finding:

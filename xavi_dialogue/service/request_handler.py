@@ -36,7 +36,8 @@ from xavi_dialogue.service.vehicle_session import VehicleSession
 from xavi_dialogue.storage.turn_log import TurnLog
 
 _LOG = logging.getLogger(__name__)
-MAX_CARS = 64  # cars that are kept; the oldest of those that have left the bus is dropped first
+KEPT_GONE = 64  # cars that have left the bus and are remembered; the oldest are dropped first
+MAX_CARS = 10_000  # cars of one service, of which not even a fast machine follows so many
 MAX_AGAIN = 8  # times that a request may be repeated while it is open
 MAX_OPEN = 4  # open questions of a session
 MAX_EARLY = 500  # questions about one car that may wait for the record; they do not delay others
@@ -70,6 +71,9 @@ class RequestHandler:
     forgotten: Callable[[str], None]  # called with a session that was erased
     vehicles: dict[str, VehicleSession] = field(default_factory=dict)  # by car
     pace: float = 0.0  # [s] running average of the time per question
+    _active: dict[int, VehicleSession] = field(default_factory=dict)  # with something to be done
+    _changed: dict[int, VehicleSession] = field(default_factory=dict)  # since it was last idle
+    _room: int = KEPT_GONE  # number of cars at which it is looked for some to drop
 
     def __post_init__(self) -> None:
         self.nowhere = VehicleSession(
@@ -83,7 +87,7 @@ class RequestHandler:
             Rejection: there are too many cars.
         """
         if vehicle not in self.vehicles:
-            if len(self.vehicles) >= MAX_CARS:
+            if len(self.vehicles) >= self._room:
                 self._make_room()
             self.vehicles[vehicle] = VehicleSession(vehicle, self.pipeline)
         return self.vehicles[vehicle]
@@ -92,13 +96,33 @@ class RequestHandler:
         """Return the sessions of all cars, and the one for cars never heard of."""
         return [*self.vehicles.values(), self.nowhere]
 
+    def active(self) -> tuple[VehicleSession, ...]:
+        """Return the sessions of cars with open questions or missing reports."""
+        return tuple(self._active.values())
+
+    def changed(self) -> tuple[VehicleSession, ...]:
+        """Return the sessions of cars that were stirred since the last call."""
+        found = tuple(self._changed.values())
+        self._changed.clear()
+        return found
+
+    def stir(self, vehicle_session: VehicleSession) -> None:
+        """Note that something may have to be done about a car."""
+        self._active[id(vehicle_session)] = self._changed[id(vehicle_session)] = vehicle_session
+
+    def rest(self, vehicle_session: VehicleSession) -> None:
+        """Note that something was done about a car, unless more is to be done."""
+        reports = vehicle_session.reports
+        if not vehicle_session.scheduler.open and (reports is None or reports.missing is None):
+            self._active.pop(id(vehicle_session), None)
+
     def waiting(self) -> int:
         """Return the number of open questions."""
-        return sum(len(one.scheduler.open) for one in self.all_vehicles())
+        return sum(len(one.scheduler.open) for one in self.active())
 
     def ready(self) -> int:
         """Return the number of questions that only wait for their turn."""
-        return sum(one.scheduler.ready for one in self.all_vehicles())
+        return sum(one.scheduler.ready for one in self.active())
 
     def learn(self, taken: float) -> None:
         """Update the average time [s] of a question."""
@@ -136,6 +160,7 @@ class RequestHandler:
         self._know(vehicle_session, asked.session)
         self._claim(asked)
         vehicle_session.take(Question(call, asked, came))
+        self.stir(vehicle_session)
 
     def cancel(self, call: Call) -> None:
         """Drop a question.
@@ -166,6 +191,18 @@ class RequestHandler:
             forgotten=erased is not None,
         )
         call.reply(pack(reply))
+
+    def forget_too(self, call: Call) -> None:
+        """Erase a session of which another service is asked; that one replies."""
+        try:
+            _, wanted = self._admitted(call, ForgetRequest, erasing=True)
+            self.put_away(wanted.session)
+            self.memory.forget(wanted.session)
+            self.owners.release(wanted.session)
+        except Rejection:
+            pass
+        finally:
+            call.drop()
 
     def put_away(self, session: str) -> int:
         """Erase a session from memory; return the number of its turns."""
@@ -253,10 +290,8 @@ class RequestHandler:
 
     def _is_begun(self, session: str) -> bool:
         """Check whether anything of a session is in memory."""
-        vehicles = self.all_vehicles()
-        return any(
-            vehicle_session.past.get(session) or vehicle_session.scheduler.of(session)
-            for vehicle_session in vehicles
+        return any(one.past.get(session) for one in self.all_vehicles()) or any(
+            one.scheduler.of(session) for one in self.active()
         )
 
     def _know(self, vehicle_session: VehicleSession, session: str) -> None:
@@ -265,11 +300,17 @@ class RequestHandler:
             vehicle_session.resume(session, self.memory.recall(session))
 
     def _make_room(self) -> None:
-        for vehicle, vehicle_session in self.vehicles.items():
-            if not vehicle_session.car_alive and not vehicle_session.scheduler.open:
-                del self.vehicles[vehicle]
-                return
-        raise Rejection("busy", f"this service talks about {MAX_CARS} cars already")
+        """Drop the cars that left the bus first, but for the latest few."""
+        gone = [name for name, one in self.vehicles.items() if not one.car_alive]
+        for name in gone[: max(len(gone) - KEPT_GONE, 0)]:
+            if not self.vehicles[name].scheduler.open:
+                vehicle_session = self.vehicles.pop(name)
+                self._active.pop(id(vehicle_session), None)
+                self._changed.pop(id(vehicle_session), None)
+        if len(self.vehicles) >= MAX_CARS:
+            raise Rejection("busy", f"this service talks about {MAX_CARS} cars already")
+        there = sum(one.car_alive for one in self.vehicles.values())
+        self._room = min(there + KEPT_GONE, MAX_CARS)
 
 
 def latest(turns: Iterable[PastTurn], limit: int) -> tuple[PastTurn, ...]:

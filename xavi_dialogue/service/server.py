@@ -23,9 +23,7 @@ from xavi_dialogue.bus.interface import (
     EVERY_CAR,
     Bus,
     Call,
-    Keys,
     Outcome,
-    Presence,
     TransportError,
     vehicle_in,
 )
@@ -42,6 +40,7 @@ from xavi_dialogue.bus.messages import (
 from xavi_dialogue.bus.schema import schema_of
 from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.runtime import system
+from xavi_dialogue.service.membership import Membership, Place
 from xavi_dialogue.service.ownership import SessionOwners
 from xavi_dialogue.service.request_handler import Rejection, RequestHandler
 from xavi_dialogue.service.requests import Answer, PlanAgain, Task
@@ -65,15 +64,24 @@ _Heard: TypeAlias = type[TraceReport | EventReport | SceneReport]
 
 
 class Service:
-    """The service that answers questions about every car on the bus."""
+    """The service that answers questions about every car of its shard."""
 
-    def __init__(self, bus: Bus, pipeline: Pipeline, memory: TurnLog | None = None) -> None:
+    def __init__(
+        self,
+        bus: Bus,
+        pipeline: Pipeline,
+        memory: TurnLog | None = None,
+        place: Place | None = None,
+        note: Callable[[str], None] = lambda _: None,
+    ) -> None:
         """Begin to serve, once opened.
 
         Args:
             bus: of the cars and the passengers.
             pipeline: answers.
             memory: stores turns; None: they are lost when this process ends.
+            place: in a fleet; None: it answers about every car.
+            note: is called with messages for the operator.
         """
         self.alive = HealthReporter("service", COUNTERS)
         self._memory = TurnLog() if memory is None else memory
@@ -90,7 +98,12 @@ class Service:
         self._bus = bus
         self._inbox: system.Queue[_Job] = system.new_queue()
         self._held, self._room = 0, threading.Lock()  # bytes of the reports in the inbox
-        self._seen: dict[str, Presence] = {}  # signs of life of the service, by car
+        heard = (
+            ("trace", self._hearer(TraceReport), True),
+            ("event", self._hearer(EventReport), True),
+            ("scene", self._hearer(SceneReport), False),
+        )
+        self.membership = Membership(bus, place or Place(), heard, note)
 
     def vehicle_session(self, vehicle: str = DEFAULT_VEHICLE) -> VehicleSession:
         """Return the session of a vehicle."""
@@ -100,17 +113,14 @@ class Service:
         """Declare subscriptions and services on the bus."""
         bus, key, handler = self._bus, EVERY_CAR.of, self.handler
         bus.watch(key("alive/car"), lambda key, alive: self._post(self._on_car, key, alive))
-        bus.subscribe(key("trace"), self._hearer(TraceReport), kept=True)
-        bus.subscribe(key("event"), self._hearer(EventReport), kept=True)
-        bus.subscribe(key("scene"), self._hearer(SceneReport))
         requests = {
             "cancel": handler.cancel,
             "evidence": handler.evidence,
-            "forget": handler.forget,
             "history": self._history,
         }
         for name, handle in requests.items():
             bus.serve(key(f"@rpc/{name}"), partial(self._take, handle))
+        bus.serve(key("@rpc/forget"), self._take_erasing)
         bus.serve(key("@rpc/ask"), self._take_question)
         for name, message in MESSAGES.items():
             if name not in CAR_MESSAGES:
@@ -118,8 +128,8 @@ class Service:
         self.alive.gauge("cars", lambda: sum(d.car_alive for d in handler.all_vehicles()))
         self.alive.gauge("sessions", lambda: sum(len(d.past) for d in handler.all_vehicles()))
         self.alive.gauge("waiting", handler.waiting)
-        bus.serve(key("alive/service"), self.alive.answer)
-        self._show(DEFAULT_VEHICLE)
+        bus.serve(key("alive/service"), self._fares)
+        self.membership.join(self.alive.answer, lambda: self._post(self.membership.refresh))
 
     def run(self, stopped: Callable[[], bool]) -> None:
         """Serve until asked to stop."""
@@ -134,19 +144,22 @@ class Service:
         Questions are answered one at a time; reports that arrive meanwhile are recorded in between.
         When asked to stop, it leaves the remaining questions unanswered.
         """
+        handler = self.handler
         with contextlib.suppress(queue.Empty):
             wait = self._patience(patience)
             self._do(self._inbox.get(wait > 0.0, wait))
         while not stopped():
             self._empty_inbox()
-            for vehicle_session in self.handler.all_vehicles():
+            for vehicle_session in handler.active():
                 self._settle(vehicle_session)
-            if self._inbox.empty() and not self.handler.ready():
+                handler.rest(vehicle_session)
+            if self._inbox.empty() and not handler.ready():
                 break
-        idle = not self.handler.waiting()
+        idle = not handler.waiting()
         self._memory.tidy(system.wall(), idle=idle)
-        for vehicle_session in self.handler.all_vehicles() if idle else ():
-            self._run(vehicle_session, vehicle_session.foresee(system.monotonic()))
+        for vehicle_session in handler.changed() if idle else ():
+            if self.membership.answers(vehicle_session.vehicle):
+                self._run(vehicle_session, vehicle_session.foresee(system.monotonic()))
 
     def _do(self, job: _Job) -> None:
         """Run one action; an internal error in it does not stop the service."""
@@ -172,7 +185,7 @@ class Service:
 
     def _patience(self, patience: float) -> float:
         """Return how long [s] nothing needs to be done unless a message arrives."""
-        for vehicle_session in self.handler.all_vehicles():
+        for vehicle_session in self.handler.active():
             deadline = vehicle_session.scheduler.next_deadline()
             if deadline is not None:
                 patience = min(patience, max(deadline - system.monotonic(), 0.0))
@@ -184,7 +197,13 @@ class Service:
         self._inbox.put(partial(job, *arguments))
 
     def _take(self, handle: Callable[[Call], None], call: Call) -> None:
-        """Queue a request, or refuse it; called on a thread of the bus."""
+        """Queue a request, refuse it, or leave it to another service; called by the bus."""
+        if not self.membership.answers(vehicle_in(call.key)):
+            call.drop()
+        else:
+            self._queue(handle, call)
+
+    def _queue(self, handle: Callable[[Call], None], call: Call) -> None:
         if self._inbox.qsize() > MAX_INBOX:
             with contextlib.suppress(TransportError):  # the client has disconnected
                 call.refuse(pack(Failure(reason="busy", detail="too much comes in")))
@@ -194,6 +213,18 @@ class Service:
     def _take_question(self, call: Call) -> None:
         """Queue a question; its deadline counts from now on."""
         self._take(partial(self.handler.ask, came=system.monotonic()), call)
+
+    def _take_erasing(self, call: Call) -> None:
+        """Queue a request to erase; what another service was told of the session goes as well."""
+        here = self.membership.answers(vehicle_in(call.key))
+        self._queue(self.handler.forget if here else self.handler.forget_too, call)
+
+    def _fares(self, call: Call) -> None:
+        """Tell how this service fares, unless another one answers about the car."""
+        if self.membership.answers(vehicle_in(call.key)):
+            self.alive.answer(call)
+        else:
+            call.drop()
 
     def _handle(self, handle: Callable[[Call], None], call: Call) -> None:
         try:
@@ -240,6 +271,7 @@ class Service:
             self.alive.count("rejected")
             return
         vehicle_session.hear(report)
+        self.handler.stir(vehicle_session)
         self.alive.at(report.sim_time)
         if isinstance(report, EventReport):
             ride = ride_of(vehicle_session)
@@ -252,22 +284,17 @@ class Service:
 
     def _on_car(self, key: str, alive: bool) -> None:
         vehicle = vehicle_in(key)
-        if vehicle is None:
+        if vehicle is None or not self.membership.shard.has(vehicle):
             return
         with contextlib.suppress(Rejection):
             vehicle_session = self.vehicle_session(vehicle)
             vehicle_session.car_alive = alive
             vehicle_session.look()
             _LOG.info("a car appears" if alive else "a car is gone", extra={"vehicle": vehicle})
+            self.handler.stir(vehicle_session)
             if alive:
-                self._show(vehicle)
-
-    def _show(self, vehicle: str) -> None:
-        """Announce the service under the key of this car."""
-        for gone in self._seen.keys() - self.handler.vehicles.keys() - {DEFAULT_VEHICLE}:
-            self._seen.pop(gone).withdraw()
-        if vehicle not in self._seen:
-            self._seen[vehicle] = self._bus.appear(Keys(vehicle).of("alive/service"))
+                self.membership.keep(self.handler.vehicles)
+                self.membership.follow(vehicle)
 
     def _run(self, vehicle_session: VehicleSession, tasks: list[Task]) -> None:
         for task in tasks:
@@ -291,6 +318,7 @@ class Service:
         reason = result if isinstance(result, str) else None
         _LOG.info("a decision was planned again", extra={**known, "reason": reason})
         self._run(vehicle_session, vehicle_session.deliver(task, result))
+        self.handler.stir(vehicle_session)
 
 
 def _tell_schema(message: type[AnyMessage], call: Call) -> None:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -28,6 +28,9 @@ from xavi_dialogue.cli.commands.common import (
 )
 from xavi_dialogue.cli.commands.log_options import logged, own_name
 from xavi_dialogue.cli.commands.sessions import keeping_in
+
+if TYPE_CHECKING:
+    from xavi_dialogue.bus.shards import Shard
 
 
 def add(app: typer.Typer, shell: Streams) -> None:
@@ -113,8 +116,18 @@ def _serve(shell: Streams) -> Callable[..., None]:
             typer.Option(metavar="ENDPOINT", help="Routers of a fleet to join; repeatable."),
         ] = None,
         mode: Annotated[
-            Literal["peer", "router"] | None,
-            typer.Option(help="Default: peer; router: also forward messages between hubs."),
+            Literal["peer", "router", "client"] | None,
+            typer.Option(
+                help="Default: peer; router: also forward messages between hubs; client: join"
+                " a router, and be no hub."
+            ),
+        ] = None,
+        shard: Annotated[
+            str | None,
+            typer.Option(
+                metavar="K/N",
+                help="Answer about a part of the fleet's cars: 2/4 is the second of four.",
+            ),
         ] = None,
         zenoh: ZenohFile = None,
         store: StoreFile = None,
@@ -130,9 +143,19 @@ def _serve(shell: Streams) -> Callable[..., None]:
         with shell.errors():
             link = Link.of_hub(listen, tuple(connect or ()), mode, zenoh)
             check(link, "answer passengers")
+            part = _shard(shard or "1/1")
             memory = TurnLog(
                 keeping_in(store, keep_days), lambda text: shell.note(f"warning: {text}")
             )
-            serve(link, memory, shell.note, controlled=control)
+            serve(link, memory, shell.note, controlled=control, shard=part)
 
     return serve
+
+
+def _shard(text: str) -> "Shard":
+    from xavi_dialogue.bus.shards import Shard
+
+    try:
+        return Shard.read(text)
+    except ValueError as error:
+        raise typer.BadParameter(str(error), param_hint="--shard") from error
