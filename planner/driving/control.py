@@ -7,6 +7,7 @@ from functools import cached_property
 
 from planner.driving.memory import Memory
 from planner.driving.monitoring import shown_now
+from planner.driving.restraint import Controlled, Restraint, restraint_of
 from planner.driving.walkers import AROUND, passing_speed, with_walkers
 from planner.hidden_areas.caution import allowed_speed
 from planner.hidden_areas.phantoms import View
@@ -76,29 +77,31 @@ class Around:
         return road_users_in(self.scene)
 
 
-def control(driving: Driving, around: Around, dt: float) -> tuple[float, Keeping]:
+def control(driving: Driving, around: Around, dt: float) -> Controlled:
     """Keep behind what is seen, give way to what is predicted, and obey the lights.
 
     Returns:
-        Acceleration [m/s2] in the coming step of `dt` [s], and what is in the way.
+        The acceleration in the coming step of `dt` [s], and what it rests on.
     """
     path, ego, lights = driving.plan.path, around.scene.ego, shown_now(around.scene)
     seen = _seen(around)
     plan, walkers = with_walkers(driving.plan, around.roads, seen, ego)
     predicted = _predicted(driving, around, 0.0 if plan.lines else LIKELY)
     meeting = [motion for _, motion in predicted] if plan.lines else []
-    crossing = Traffic.of([*meeting, *walkers], lights)
+    crossing = occupancy(path, Traffic.of([*meeting, *walkers], lights), ego.width, 0, GAP_HORIZON)
     foreseen = Traffic.of([motion for probability, motion in predicted if probability >= LIKELY])
-    chosen = accelerate(
+    acceleration, keeping = accelerate(
         plan,
         driving.lane,
         driving.motion,
         occupancy(path, Traffic.of(seen, lights), ego.width, 0, 2),
-        occupancy(path, crossing, ego.width, 0, GAP_HORIZON),
+        crossing,
         occupancy(path, foreseen, ego.width, 0, FORESIGHT),
         ego.length,
         dt,
     )
+    restraint = restraint_of(plan, driving.lane, driving.motion, keeping, crossing, around.roads)
+    chosen = Controlled(acceleration, keeping, restraint)
     chosen = _at_the_end(driving, _beside(driving, around, chosen, dt), dt)
     return _clear(driving, around, _careful(driving, around, chosen, dt), dt)
 
@@ -112,9 +115,7 @@ def view_of(roads: Roads, memory: Memory, scene: Scene) -> View:
     return View(roads, scene.vehicles, scene.unseen, rate, shown_now(scene))
 
 
-def _careful(
-    driving: Driving, around: Around, chosen: tuple[float, Keeping], dt: float
-) -> tuple[float, Keeping]:
+def _careful(driving: Driving, around: Around, chosen: Controlled, dt: float) -> Controlled:
     """Approach a line slowly if a vehicle with priority may come from a hidden area."""
     if not around.scene.unseen:
         return chosen
@@ -124,12 +125,10 @@ def _careful(
     if allowed >= motion.speed + COMFORT * dt:
         return chosen
     braking = towards(motion.speed, motion.acceleration, allowed, FOLLOWING, dt)
-    return (min(chosen[0], braking), chosen[1])
+    return chosen.slowed(braking, Restraint("hidden"))
 
 
-def _at_the_end(
-    driving: Driving, chosen: tuple[float, Keeping], dt: float
-) -> tuple[float, Keeping]:
+def _at_the_end(driving: Driving, chosen: Controlled, dt: float) -> Controlled:
     """Brake as hard as necessary to stop before the end of the road."""
     motion = driving.motion
     needed = motion.speed**2 / (2.0 * max(driving.lane.end - motion.arc, LEAST))
@@ -137,25 +136,21 @@ def _at_the_end(
         return chosen
     wanted = max(motion.speed - needed * RELAXATION, 0.0)
     braking = towards(motion.speed, motion.acceleration, wanted, EMERGENCY, dt)
-    return (min(chosen[0], braking), chosen[1])
+    return chosen.slowed(braking, Restraint("road-end"))
 
 
-def _beside(
-    driving: Driving, around: Around, chosen: tuple[float, Keeping], dt: float
-) -> tuple[float, Keeping]:
+def _beside(driving: Driving, around: Around, chosen: Controlled, dt: float) -> Controlled:
     """Drive slowly past a vehicle that waits at a crossing on the lane beside."""
     motion = driving.motion
-    others = [s for v, s in around.scene.vehicles.items() if v != EGO]
-    allowed = passing_speed(driving.plan, motion, others) if driving.plan.crossings else math.inf
-    if allowed >= motion.speed + COMFORT * dt:
+    others = {v: s for v, s in around.scene.vehicles.items() if v != EGO}
+    found = passing_speed(driving.plan, motion, others) if driving.plan.crossings else None
+    if found is None or found[0] >= motion.speed + COMFORT * dt:
         return chosen
-    braking = towards(motion.speed, motion.acceleration, allowed, FOLLOWING, dt)
-    return (min(chosen[0], braking), chosen[1])
+    braking = towards(motion.speed, motion.acceleration, found[0], FOLLOWING, dt)
+    return chosen.slowed(braking, Restraint("beside-crossing", found[1]))
 
 
-def _clear(
-    driving: Driving, around: Around, chosen: tuple[float, Keeping], dt: float
-) -> tuple[float, Keeping]:
+def _clear(driving: Driving, around: Around, chosen: Controlled, dt: float) -> Controlled:
     """Stop before a vehicle that stands so near the path that the turning ego would touch it.
 
     Do not even set off if the ego would then stop inside a junction and block it.
@@ -173,9 +168,10 @@ def _clear(
     held = halted and any(line.clear > free for line in _crossing(driving))
     wanted = 0.0 if held else safe_speed(free - motion.arc, 0.0, FOLLOWING)
     braking = towards(motion.speed, motion.acceleration, wanted, EMERGENCY, dt)
-    if braking >= chosen[0]:
+    if braking >= chosen.acceleration:
         return chosen
-    return braking, Keeping(Hindrance(vehicle, "blocked", standing[vehicle].speed), None)
+    keeping = Keeping(Hindrance(vehicle, "blocked", standing[vehicle].speed), None)
+    return Controlled(braking, keeping, Restraint("blocked", vehicle))
 
 
 def _seen(around: Around) -> list[Obstacle]:

@@ -11,12 +11,13 @@ import msgspec
 from planner.driving.control import Around, Driving, Outlook, control, view_of
 from planner.driving.memory import Memory
 from planner.driving.monitoring import as_foreseen, changed, light_courses
+from planner.driving.restraint import Restraint
 from planner.errors import PlannerError
 from planner.hidden_areas.phantoms import around
 from planner.manoeuvres.actions import STANDING_TIME, ActionPlan, Situation, expand
 from planner.manoeuvres.indicators import lights
 from planner.motion.forward import DT, Keeping, Lane, Motion, advance
-from planner.record.events import Event, EventKind, LightPlace
+from planner.record.events import SETTLED, Event, EventKind, LightPlace
 from planner.record.hidden_record import Phantom
 from planner.record.light_record import LightPrediction
 from planner.record.trace import Action, EgoGoal, PlanTrace, Settings
@@ -83,6 +84,9 @@ class Driver:
         self._number = 0
         self._waiting_for: int | None = None
         self._stopped_at: Signal | None = None
+        self._restraint: Restraint | None = None  # of the last step
+        self._restrained = -math.inf  # [s] since when
+        self._told: Restraint | None = None  # the last one that lasted
         self._left: str | None = None  # the lane on which the last action ended
         self.finished = False
 
@@ -255,15 +259,16 @@ class Driver:
         )
         around = Around(self._frame.roads, self._memory, last, scene)
         driving = Driving(current.plan, current.lane, current.motion)
-        acceleration, keeping = control(driving, around, dt)
-        motion = advance(current.motion, acceleration, dt)
+        chosen = control(driving, around, dt)
+        motion = advance(current.motion, chosen.acceleration, dt)
         standing = current.standing + dt if motion.speed < 0.1 else 0.0
         current = replace(current, motion=motion, standing=standing)
         later = scene.time + dt
         if not current.committed and motion.arc >= current.plan.commit:
             current = replace(current, committed=True)
             events.append(_event("action-committed", later, current))
-        self._note_waiting(keeping, motion, later, current, events)
+        self._note_waiting(chosen.keeping, motion, later, current, events)
+        self._note_restraint(chosen.restraint, later, current, events)
         position, heading = current.plan.path.pose(motion.arc, scene.ego.length)
         self._current = self._close(current, later, events)
         shown = self._lights(current, motion, (motion.speed - scene.ego.speed) / dt)
@@ -310,6 +315,23 @@ class Driver:
                 events.append(_event("gave-way", time, current, hindrance.vehicle))
         elif motion.speed > 3.0:
             self._waiting_for = None
+
+    def _note_restraint(
+        self, found: Restraint, time: float, current: _Execution, events: list[Event]
+    ) -> None:
+        """Add an event when something else has kept the ego from driving faster for a while."""
+        if self.finished:
+            return
+        if found != self._restraint:
+            self._restraint, self._restrained = found, time
+        settled = self._told is None or time - self._restrained >= SETTLED - 1e-6
+        if found != self._told and settled:
+            self._told = found
+            events.append(
+                msgspec.structs.replace(
+                    _event("restrained", time, current, found.vehicle, found.light), by=found.by
+                )
+            )
 
 
 def _event(

@@ -1,7 +1,7 @@
 """People who walk on the road now, on crossings or not, and who must be let pass."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -53,23 +53,27 @@ def with_walkers(
     return replace(plan, manoeuvres=(*plan.manoeuvres, *lines)), found
 
 
-def passing_speed(plan: ActionPlan, motion: Motion, others: Sequence[VehicleState]) -> float:
-    """Return the speed [m/s] at which to pass a vehicle that waits at a crossing on another lane.
+def passing_speed(
+    plan: ActionPlan, motion: Motion, others: Mapping[int, VehicleState]
+) -> tuple[float, int] | None:
+    """Return the speed [m/s] at which to pass a vehicle that waits at a crossing, and its number.
 
-    It may hide people that it lets cross. The speed is infinite if no vehicle waits there, or if a
-    light controls the crossing.
+    It stands on another lane, and may hide people that it lets cross. None if no vehicle waits
+    there, or if a light controls the crossing.
     """
-    allowed = math.inf
+    found: tuple[float, int] | None = None
     for line in plan.crossings:
         gap = line.stop - motion.arc
         one = line.crossing
         signalled = one is not None and isinstance(one.control, Signal)
         if signalled or not line.first or not 0.0 < line.clear - motion.arc < AROUND:
             continue
-        if any(_waits_beside(plan, line, other) for other in others):
-            speed = math.sqrt(PASSING**2 + 2.0 * COMFORT * max(gap, 0.0))
-            allowed = min(allowed, speed)
-    return allowed
+        waits = (name for name, other in others.items() if _waits_beside(plan, line, other))
+        first = next(waits, None)
+        speed = math.sqrt(PASSING**2 + 2.0 * COMFORT * max(gap, 0.0))
+        if first is not None and (found is None or speed < found[0]):
+            found = speed, first
+    return found
 
 
 def _waits_beside(plan: ActionPlan, line: LetCross, other: VehicleState) -> bool:

@@ -32,13 +32,10 @@ LEAST = 0.2  # [m] the smallest gap in calculations
 BEYOND = 0.5  # [m] past the stopping place of a light, up to which the light still counts
 AT_LINE = 1.0  # [m] before a line within which a full stop counts
 STANDING = 0.1  # [m/s] below which a vehicle stands
-
 # What a light shows: go first; go by the rules; stop if that is comfortable; stop; stop, then go.
 FIRST, OPEN, AMBER, SHUT, HALT = -1, 0, 1, 2, 3
-
 # How a vehicle is held up, by index.
 LEADER, RIGHT_OF_WAY, CUT_IN, BLOCKED, NEWCOMER = 0, 1, 2, 3, 4
-
 _jit = njit(cache=True, error_model="numpy")
 _inline = njit(cache=True, error_model="numpy", inline="always")  # avoids reference counting
 
@@ -63,8 +60,7 @@ def towards(speed: float, acceleration: float, wanted: float, hardest: float, dt
 @_jit
 def _cap(caps: Floats, arc: float) -> float:
     """Return the highest speed [m/s] at an arc [m]; caps are given for every metre."""
-    k = int(arc)
-    return float(caps[k] if k < len(caps) else caps[-1])
+    return float(caps[min(int(arc), len(caps) - 1)])
 
 
 @_inline
@@ -96,7 +92,8 @@ def accelerate(
     """
     caps, lines = course.caps, course.lines
     arc, speed, acceleration = motion
-    free = min(_cap(caps, arc + speed * RELAXATION), _ready(arc, lines, crossing, firsts, step))
+    free = _cap(caps, arc + speed * RELAXATION)
+    free = min(free, stands_first(arc, lines, crossing, firsts, step)[0])
     wanted, hardest, who = _follow(motion, step, others, ignored, length, free)
     if course.halting > 0.0:
         free, wanted, who = 0.0, 0.0, -1
@@ -232,18 +229,21 @@ def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float
     return found if found >= 0 and others.speed[found, t] < JAM else -1
 
 
-@_inline
-def _ready(arc: float, lines: Floats, crossing: Stretches, firsts: Bools, step: int) -> float:
-    """Return the approach speed [m/s] to lines at which a vehicle with priority stands."""
-    speed, found = crossing.speed, math.inf
-    now, t = min(step, speed.shape[1] - 1), min(step, firsts.shape[2] - 1)
+@_jit
+def stands_first(
+    arc: float, lines: Floats, crossing: Stretches, firsts: Bools, step: int
+) -> tuple[float, int]:
+    """Return the speed [m/s] towards a line where one with priority stands, and who (-1: none)."""
+    found, who = math.inf, -1
+    now, t = min(step, crossing.speed.shape[1] - 1), min(step, firsts.shape[2] - 1)
     for line in range(len(lines)):
         gap = lines[line, 0] - arc
-        if gap > 0.0 and lines[line, 2] > 0.0:
-            for m in range(len(speed)):
-                if firsts[line, m, t] and speed[m, now] < JAM:
-                    found = min(found, math.sqrt(READY * READY + 2.0 * COMFORT * gap))
-    return found
+        ready = math.sqrt(READY * READY + 2.0 * COMFORT * max(gap, 0.0))
+        if gap > 0.0 and lines[line, 2] > 0.0 and ready < found:
+            for m in range(firsts.shape[1]):
+                if firsts[line, m, t] and crossing.speed[m, now] < JAM:
+                    found, who = ready, m
+    return found, who
 
 
 @_jit

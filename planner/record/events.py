@@ -7,6 +7,7 @@ import msgspec
 from planner.record.trace import Action
 
 SCHEMA = "xavi.event/1"
+SETTLED = 0.3  # [s] that a restraint lasts before it is recorded
 
 EventKind = Literal[
     "action-started",  # the ego begins a macro action; `decision` names the trace that chose it
@@ -14,9 +15,30 @@ EventKind = Literal[
     "action-ended",
     "gave-way",  # the ego slowed down or waited for `vehicle` at a junction
     "stopped-at-light",  # it came to a stop at `light`, or in a queue before it
+    "restrained",  # from now on `by` keeps the ego from driving faster
     "arrived",  # the goal is reached
     "collided",  # with `vehicle`
     "ended",  # the ride is over for another reason (duration)
+]
+
+
+#: What keeps the ego from driving faster in a step: another road user (`vehicle`), as in HoldUp ...
+RestraintKind = Literal[
+    "leader",
+    "right-of-way",
+    "cut-in",
+    "blocked",
+    "moves-in",  # `vehicle` is expected to come into the lane
+    "stands-first",  # `vehicle` stands at a junction ahead, and has the right of way
+    "beside-crossing",  # a vehicle waits on the next lane at a crossing, and may hide people
+    # ... or what is on the road, or was decided.
+    "light",  # `light`; with `vehicle`, the queue before it
+    "hidden",  # a part of the road that cannot be seen
+    "bend",  # a bend or a turn
+    "limit",  # the speed limit
+    "road-end",  # the lane ends
+    "stop",  # the macro action is to stop
+    "nothing",  # it speeds up freely
 ]
 
 
@@ -37,3 +59,4 @@ class Event(msgspec.Struct, frozen=True):
     vehicle: int | None = None
     schema: str = SCHEMA
     light: LightPlace | msgspec.UnsetType = msgspec.UNSET
+    by: RestraintKind | msgspec.UnsetType = msgspec.UNSET  # of "restrained"

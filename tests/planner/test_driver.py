@@ -170,8 +170,13 @@ def test_events_come_in_order(drive: Ride) -> None:
     assert [event.sim_time for event in events] == sorted(event.sim_time for event in events)
     current: str | None = None
     committed = False
+    restraint: tuple[object, ...] = ()
     for event in events:
         match event.kind:
+            case "restrained":
+                assert event.action == current
+                assert (event.by, event.vehicle, event.light) != restraint
+                restraint = (event.by, event.vehicle, event.light)
             case "action-started":
                 assert current is None
                 current, committed = event.action, False
@@ -190,6 +195,19 @@ def test_events_come_in_order(drive: Ride) -> None:
                 assert event is events[-1]
     assert current is None
     assert events[-1].kind == "arrived"
+
+
+def test_what_restrains_the_ego_is_recorded() -> None:
+    """By the speed that it drives: it is at the limit, or slower for what is named."""
+    cut_in = ride("s1", {1: slow_cutter()}, away=95.0, lasting=6.0)
+    assert ("cut-in", 1) in restraints(cut_in) or ("leader", 1) in restraints(cut_in)
+    crossing = ride("s2", {1: along("s2", "west_in_0", 70.0, 9.0)})
+    assert ("right-of-way", 1) in restraints(crossing)
+    assert {by for by, _ in restraints(ride("s1", {}))} <= {"nothing", "limit", "bend"}
+
+
+def restraints(done: Ride) -> set[tuple[object, int | None]]:
+    return {(e.by, e.vehicle) for e in done.events if e.kind == "restrained"}
 
 
 def test_events_name_the_decision_that_chose(drive: Ride) -> None:
@@ -302,7 +320,7 @@ def test_beyond_its_goal_the_car_drives_on_without_further_events() -> None:
     ego, kinds = VehicleState(*here, 10.0, 0.0, LENGTH, WIDTH), []
     for k in range(15):
         step = driver.step(Scene(round(k * STEP, 3), {EGO: ego}), STEP)
-        kinds += [event.kind for event in step.events]
+        kinds += [event.kind for event in step.events if event.kind != "restrained"]
         command = step.command
         ego = VehicleState(command.position, command.heading, command.speed, 0.0, LENGTH, WIDTH)
     assert driver.finished
@@ -329,7 +347,8 @@ def test_another_action_than_the_one_decided_on_can_be_carried_out() -> None:
         time = round(k * STEP, 3)
         ego = VehicleState(command.position, command.heading, command.speed, 0.0, LENGTH, WIDTH)
         step = driver.step(Scene(time, {EGO: ego}), STEP)
-        done += [(event.kind, event.action) for event in step.events]
+        told = [event for event in step.events if event.kind != "restrained"]
+        done += [(event.kind, event.action) for event in told]
         command = step.command
     assert done[:2] == [("action-ended", "change-left"), ("action-started", "continue")]
     assert command.position[1] - ego_at("s1", 95.0).position[1] == pytest.approx(3.5, abs=0.1)

@@ -235,11 +235,14 @@ def test_who_stands_beside_at_a_crossing_is_not_passed_fast() -> None:
     roads = zebra(lanes=2)
     plan, ego = before(roads, 20.0, 10.0), VehicleState((80.0, 0.0), 0.0, 10.0, 0.0, 4.8, 1.8)
     stood = replace(ego, position=(98.5, 3.2), speed=0.0)
-    assert passing_speed(plan, Motion(0.0, 10.0, 0.0), [stood]) < 10.0
+    found = passing_speed(plan, Motion(0.0, 10.0, 0.0), {1: stood})
+    assert found is not None
+    assert found[0] < 10.0
+    assert found[1] == 1
     for other in (
         replace(stood, speed=9.0),  # drives on
         replace(stood, heading=math.pi),  # comes towards us
         replace(stood, position=(80.0, 3.2)),  # far before the crossing
         replace(stood, position=(98.5, 0.0)),  # on our own lane: is followed
     ):
-        assert passing_speed(plan, Motion(0.0, 10.0, 0.0), [other]) == math.inf
+        assert passing_speed(plan, Motion(0.0, 10.0, 0.0), {1: other}) is None

@@ -115,7 +115,7 @@ class RideState:
             match one:
                 case TraceRecorded(trace=trace):
                     decisions.append(self._decide(trace))
-                case EventRecorded(event=event):
+                case EventRecorded(event=event) if event.kind != "restrained":
                     self.events.append(event)
                     events.append(happened(event))
         self.decisions += decisions

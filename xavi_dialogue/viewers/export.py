@@ -138,7 +138,8 @@ def _decisions(out: _Export, decisions: Iterable[Decision]) -> None:
 
 
 def _log(out: _Export, ride: Ride, answers: Iterable[Answer]) -> None:
-    for event in ride.events:
+    told = (event for event in ride.events if event.kind != "restrained")
+    for event in told:
         warning = event.kind in CAUTION
         out.say(event.sim_time, "event", event_words(event), warning=warning)
     for answer in answers:
