@@ -181,7 +181,7 @@ def test_each_verdict_has_its_words(contrast, form):
     if not contrast.foil or contrast.outcome is None:
         return
     text = say(ChoiceReason(form, CHANGED, contrast), CONTEXT).text
-    assert ("t was close: " in text) == (contrast.verdict == "close")
+    assert ("t was a close decision: " in text) == (contrast.verdict == "close")
     assert ("I now think that" in text) == (contrast.verdict == "worse")
 
 

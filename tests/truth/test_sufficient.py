@@ -74,7 +74,7 @@ def test_an_answer_that_tells_enough_passes() -> None:
         (LEFT + "would save us 2 seconds, but not enough to be worth a lane change.", "sign"),
         (LEFT + "would only save us 9 seconds, not enough to be worth a lane change.", "number"),
         (LEFT + "would save us 2 seconds, but not enough to be worth a lane change.", "risk"),
-        ("It is close: moving to the left lane would be about as good.", "sign"),
+        ("It is a close decision: moving to the left lane would be about as good.", "sign"),
         ("I now think that moving to the left lane would be better.", "sign"),
         (TOLD.replace(RISK, "31 %"), "number"),
         (TOLD.replace("2 seconds", "4 seconds"), "number"),

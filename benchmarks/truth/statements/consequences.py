@@ -103,7 +103,7 @@ def ride_of_foil(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
     r"ma(?:kes|de) little difference",
     r"(?:be|been) about as good",
     r"(?:come|came) to about the same",
-    r"\b[Ii]t (?:is|was) close\b",
+    r"\b[Ii]t (?:is|was) (?:close|a close decision)\b",
     r"no real difference",
 )
 def close(said: Said, match: re.Match[str]) -> Iterator[Fault | Told]:
