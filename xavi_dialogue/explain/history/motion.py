@@ -27,6 +27,7 @@ from xavi_dialogue.explain.history.thresholds import (
     CHANGED,
     LANE_SHIFT,
     LANE_TIME,
+    REBOUND,
     SLANT,
     STANDING,
     TREND,
@@ -143,7 +144,7 @@ class Motion:
         """Yield the stretches over which the speed grows, or falls if the sign is -1."""
         foot = start = best = 0  # reference sample; begin of the change; its end so far
         for k in range(1, len(self.speed) + 1):
-            if k == len(self.speed) or sign * (self.speed[k] - self.speed[best]) < -WAVER:
+            if k == len(self.speed) or sign * (self.speed[k] - self.speed[best]) < -REBOUND:
                 least = BEGINNING if k == len(self.speed) else CHANGED
                 if sign * (self.speed[best] - self.speed[foot]) >= least:
                     yield Sighting(action, self.time[start], self.time[best])

@@ -19,7 +19,7 @@ from xavi_dialogue.domain.evidence import Causation, Contrast
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.explain.answers.reasons import motions as room
-from xavi_dialogue.explain.causes.driving.driving import Reasons
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
 
 IT, US = Vehicle(1), Ego()
 SEEN = {1: look(1), 2: look(2)}

@@ -19,8 +19,8 @@ from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.explain.answers.reasons import motions as room
-from xavi_dialogue.explain.causes.driving.driving import Reasons
 from xavi_dialogue.explain.causes.driving.slowness import Slowness
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
 from xavi_dialogue.explain.history.nearing import speed_at
 
 IT, US = Vehicle(1), Ego()

@@ -12,8 +12,8 @@ from tests.traces import Actions
 from xavi_dialogue.domain.answers import Evidence, MotionCause, NotRecorded
 from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.terms import Vehicle
-from xavi_dialogue.explain.causes.driving.driving import Reasons
 from xavi_dialogue.explain.causes.driving.slowness import Slowness, slowness, with_nearest
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.ride import Unanswered
 

@@ -20,7 +20,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.explain.causes.driving import suppositions
-from xavi_dialogue.explain.causes.driving.driving import Reasons
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
 from xavi_dialogue.explain.causes.driving.suppositions import (
     compared,
     decision_for,

@@ -8,8 +8,11 @@ from xavi_dialogue.domain.terms import Ego, Event
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.reading import manner_of, vehicle_in
-from xavi_dialogue.explain.causes.driving.driving import Reasons
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
+from xavi_dialogue.explain.history.nearing import speed_at
 
+HALTING = 1.0  # [m/s]
+STILL = ("stop", "stand")
 SLOWING = ("slow-down", "brake", "stop", "stand")
 #: Kinds of reasons that do not say who kept us from going.
 UNKNOWN = frozenset(("limit", "plan", "starting", "turn", "picking-up"))
@@ -45,3 +48,15 @@ def going_on(scene: Asked, deed: Episode, rows: tuple[tuple[ActionName, ...], ..
     kinds = tuple(kind for row in rows for kind in row)
     now = (e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds and e.end is None)
     return max((e for e in now if e.action != "give-way"), key=lambda e: e.begin, default=deed)
+
+
+def coming_to(scene: Asked, deed: Episode, rows: tuple[tuple[ActionName, ...], ...]) -> Episode:
+    """Replace a standstill that is long over by the one that we are just coming to."""
+    said = scene.past is not None and scene.past.said
+    if said or deed.action not in STILL or deed.end is None:
+        return deed
+    kinds = tuple(kind for row in rows for kind in row)
+    speed = speed_at(scene.ride, scene.now)
+    halting = speed is not None and speed < HALTING
+    now = [e for e in scene.world.episodes(Ego(), kinds) if e.end is None and e.begin > deed.end]
+    return now[-1] if now and halting else deed

@@ -20,13 +20,13 @@ from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Compares, Ego, Event, Measured
 from xavi_dialogue.domain.vocabulary import ActionName, Manner
 from xavi_dialogue.explain.answers.expectations.plans import is_halting
-from xavi_dialogue.explain.answers.reasons.kept import going_on, peak, with_yielding
+from xavi_dialogue.explain.answers.reasons.kept import coming_to, going_on, peak, with_yielding
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import is_own, is_past, vehicle_in
-from xavi_dialogue.explain.causes.driving.driving import Reasons, as_of
 from xavi_dialogue.explain.causes.driving.freed import driven_for
 from xavi_dialogue.explain.causes.driving.roadside import limit_at, setting_off
 from xavi_dialogue.explain.causes.driving.slowness import AT_LIMIT, Slowness, slowness, with_nearest
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons, as_of
 from xavi_dialogue.explain.causes.plans.natural import stopping
 from xavi_dialogue.explain.causes.plans.premise import episode_of
 from xavi_dialogue.explain.causes.plans.terms import RISK
@@ -70,7 +70,7 @@ def motion(event: Event, scene: Asked, *, asked: ActionName | None = None) -> An
     for rank, kinds in enumerate(rows):
         deed = _episode(scene, event, kinds, present=present)
         if deed is not None:
-            deed = going_on(scene, deed, rows) if present else deed
+            deed = going_on(scene, deed, rows) if present else coming_to(scene, deed, rows)
             return _told(scene, event, deed, named, premise=rank == 0)
     if present and named != "speed-up":
         return _state(scene, event, named)

@@ -12,7 +12,7 @@ from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, ChoiceReason, MotionReason, NobodyElse, TooLittle
 from xavi_dialogue.explain.answers.reasons.suspects import blamed, causation_of
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
-from xavi_dialogue.explain.causes.driving.driving import Reasons
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
 from xavi_dialogue.explain.causes.driving.suppositions import happens_without, planned_without
 
 TRIED: Final = 3  # others that are tried one by one, the nearest first, if they matter together

@@ -7,7 +7,6 @@ was in the way, the road gives the reason: a turn, a line to give way at, the en
 
 import math
 from collections.abc import Collection
-from dataclasses import dataclass
 
 from msgspec.structs import replace
 
@@ -16,28 +15,27 @@ from planner.record.trace import PlanTrace
 from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.domain.answers import Cause, Evidence, Mechanism, MotionCause, NotRecorded
-from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.causes.driving.hidden_areas import hidden_causes
 from xavi_dialogue.explain.causes.driving.ready import given_up, next_move, ready_for
+from xavi_dialogue.explain.causes.driving.restrained import as_driven
 from xavi_dialogue.explain.causes.driving.roadside import road_causes
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons, as_of, motion_cause
 from xavi_dialogue.explain.causes.driving.traffic_lights import light_causes
 from xavi_dialogue.explain.causes.driving.yielding import close_leader, goes_first, kept, leads
 from xavi_dialogue.explain.causes.plans.contrast import evidence, factual
-from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, EXITS
 from xavi_dialogue.explain.causes.vehicles.hindsight import in_hindsight
 from xavi_dialogue.explain.causes.vehicles.involved import LIKELY, expected_actions, holding_up
 from xavi_dialogue.explain.causes.vehicles.necessity import proven
 from xavi_dialogue.explain.facts.episodes.light_waits import held_then
 from xavi_dialogue.explain.facts.world import World
-from xavi_dialogue.explain.history.nearing import speed_at, with_lowest, with_speeds
+from xavi_dialogue.explain.history.nearing import speed_at, with_lowest
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 
 BEFORE = 3.0  # [s] by which giving way may precede the standing or slowing that it explains
 JUST_OVER = 1.0  # [s] after its end for which an episode counts as still going on
-FASTER = 2.0  # [m/s] by which a leader may be faster and still be in the way
 MUCH = 0.8  # share of the longest hold-up; the last decision that reaches it is taken
 AHEAD = 0.5  # [s] by which a decision may come before the braking that it explains
 LEEWAY = 1.0  # [s] by which a hold-up may precede or follow the change of speed that it explains
@@ -47,27 +45,6 @@ SLOWING = frozenset[ActionName](("slow-down", "brake"))
 ROAD = frozenset(
     ("turn", "bend", "roundabout", "limit")
 )  # kinds of reasons that explain slowing even if somebody is in the way
-SINCE: tuple[ActionName, ...] = (*EXITS, *CHANGES, "stop")
-
-
-@dataclass(frozen=True, slots=True)
-class Reasons:
-    """Why the ego drove as it did in one episode."""
-
-    causes: tuple[MotionCause, ...]
-    causation: Causation | None  # None: nobody was suspected
-    evidence: Evidence
-    trace: PlanTrace
-
-    @property
-    def cleared(self) -> tuple[int, ...]:
-        """The vehicles that make no difference."""
-        return () if self.causation is None else self.causation.cleared
-
-    @property
-    def counted(self) -> tuple[int, ...]:
-        """The vehicles that the ego's driving depends on."""
-        return () if self.causation is None else self.causation.vehicles
 
 
 def reasons_for(ride: Ride, world: World, deed: Episode, at: float | None = None) -> Reasons:
@@ -83,8 +60,19 @@ def reasons_for(ride: Ride, world: World, deed: Episode, at: float | None = None
         Unanswered: the record lacks the decision; or rollouts are needed.
     """
     end = ride.now if deed.end is None else deed.end
-    wait = _waited(ride, world, deed, end)
     moment = (deed.begin + end) / 2.0 if at is None else min(max(at, deed.begin), end)
+    driven = as_driven(ride, world, deed, moment)
+    return _as_planned(ride, world, deed, moment) if driven is None else driven
+
+
+def _as_planned(ride: Ride, world: World, deed: Episode, moment: float) -> Reasons:
+    """Find why the ego drove so by decisions alone.
+
+    Raises:
+        Unanswered: the record lacks the decision; or rollouts are needed.
+    """
+    end = ride.now if deed.end is None else deed.end
+    wait = _waited(ride, world, deed, end)
     lit = light_causes(ride, world, deed, moment) if wait is None else None
     if lit is not None:
         return Reasons(lit[0], None, Evidence(traces=(lit[1].trace_id,)), lit[1])
@@ -171,38 +159,6 @@ def beside(found: tuple[MotionCause, ...], cleared: tuple[int, ...]) -> tuple[Mo
     Without one of them, another would be in the way, so none is known to be the reason.
     """
     return () if cleared and all(cause.kind == "plan" for cause in found) else found
-
-
-def motion_cause(
-    ride: Ride, world: World, cause: Cause, trace: PlanTrace, time: float
-) -> MotionCause:
-    """Turn a vehicle that held us up into a reason for how we drove."""
-    how = cause.mechanism.how if cause.mechanism is not None else "leader"
-    joins = how in ("leader", "cut-in") and goes_first(trace, cause.vehicle)
-    if joins and not leads(world, cause.vehicle, time):
-        how = "right-of-way"  # it will be ahead of us only once we have let it go first
-    elif how == "leader" and set(cause.actions[:1]) & set(CHANGES):
-        how = how if leads(world, cause.vehicle, time) else "cut-in"  # only once it has moved over
-    since = world.episodes(Vehicle(cause.vehicle), SINCE, trace.sim_time, ride.now)
-    since = tuple(e for e in since if e.begin >= trace.sim_time)
-    return MotionCause(
-        kind="no-room" if how == "collision" else how,
-        vehicle=cause.vehicle,
-        actions=cause.actions,
-        probability=cause.probability,
-        did=since[0] if since else None,
-        necessary=cause.necessary,
-    )
-
-
-def as_of(ride: Ride, causes: tuple[MotionCause, ...], time: float) -> tuple[MotionCause, ...]:
-    """Add the speeds at a time [s] to causes, and drop the leaders that were drawing away then."""
-    ours, found = speed_at(ride, time), []
-    for told in with_speeds(ride, causes, time):
-        theirs = told.speed if told.kind == "leader" else None
-        if theirs is None or ours is None or theirs <= ours + FASTER:
-            found.append(told)
-    return tuple(found)
 
 
 def _waited(ride: Ride, world: World, deed: Episode, end: float) -> RideEvent | None:

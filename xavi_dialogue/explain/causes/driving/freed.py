@@ -7,7 +7,8 @@ from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Feature
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.causes.driving.driving import Reasons, reasons_for
+from xavi_dialogue.explain.causes.driving.driving import reasons_for
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
 from xavi_dialogue.explain.facts.episodes.light_waits import holds
 from xavi_dialogue.explain.facts.traffic_lights import told
 from xavi_dialogue.explain.facts.world import World

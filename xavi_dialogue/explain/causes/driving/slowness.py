@@ -15,15 +15,15 @@ from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.domain.answers import Cause, Evidence, Mechanism, MotionCause, NotRecorded
 from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.terms import Ego, Vehicle
-from xavi_dialogue.explain.causes.driving.driving import (
+from xavi_dialogue.explain.causes.driving.driving import beside, of_road
+from xavi_dialogue.explain.causes.driving.restrained import as_driven
+from xavi_dialogue.explain.causes.driving.roadside import limit_at, road_causes, setting_off
+from xavi_dialogue.explain.causes.driving.stated_reasons import (
     FASTER,
     Reasons,
     as_of,
-    beside,
     motion_cause,
-    of_road,
 )
-from xavi_dialogue.explain.causes.driving.roadside import limit_at, road_causes, setting_off
 from xavi_dialogue.explain.causes.driving.traffic_lights import light_causes
 from xavi_dialogue.explain.causes.driving.yielding import kept
 from xavi_dialogue.explain.causes.plans.contrast import evidence, factual
@@ -178,6 +178,9 @@ def _same_lane(ride: Ride, look: Look, time: float) -> bool:
 def _reasons(
     ride: Ride, world: World, trace: PlanTrace, deed: Episode, ahead: Look | None
 ) -> Reasons:
+    driven = as_driven(ride, world, deed, deed.begin)
+    if driven is not None:
+        return driven
     lit = light_causes(ride, world, deed, deed.begin)
     if lit is not None:
         return Reasons(lit[0], None, _recorded(lit[1]), lit[1])

@@ -12,7 +12,7 @@ from xavi_dialogue.causal.model import Actions, CausalModel, Choice, Interventio
 from xavi_dialogue.domain.answers import Contrast, Evidence, NeedRollout, NotRecorded, TooLittle
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.causes.driving.driving import Reasons
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
 from xavi_dialogue.explain.causes.plans.contrast import (
     alternatives,
     evidence,

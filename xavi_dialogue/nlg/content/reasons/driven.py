@@ -1,5 +1,6 @@
 """Driven: one reason for how we drove, as a clause."""
 
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.clauses.manoeuvres import own_verbs
@@ -115,6 +116,8 @@ def is_gone(cause: MotionCause, context: SpeechContext) -> bool:
     if cause.kind != "right-of-way" or cause.vehicle is None:
         return False
     look = context.look(cause.vehicle)
+    if look is not None and look.in_view and look.kind in ON_FOOT and look.bearing == "ahead":
+        return False
     return look is None or not look.in_view or look.bearing in GONE
 
 

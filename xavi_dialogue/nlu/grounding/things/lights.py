@@ -8,6 +8,7 @@ from typing import Any, Final
 
 from msgspec.structs import replace
 
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.meaning import Act, Doing, HowLong, Identify, Where
 from xavi_dialogue.domain.rewriting import rewrite
 from xavi_dialogue.domain.terms import (
@@ -158,7 +159,7 @@ def among(of: Described, g: Grounder) -> Feature | None:
 
 
 def _leads(g: Grounder, *, unsaid: bool) -> bool:
-    """Tell whether a light was spoken of rather than a vehicle.
+    """Tell whether a light was spoken of rather than a vehicle; nobody on foot is "it".
 
     Args:
         g: the grounder.
@@ -166,11 +167,16 @@ def _leads(g: Grounder, *, unsaid: bool) -> bool:
     """
     mentions = g.context.discourse.mentions
     lights = [m.salience for m in mentions if isinstance(m.thing, Feature)]
-    others = [salience for _, salience in vehicles_of(mentions)]
+    others = [salience for one, salience in vehicles_of(mentions) if not _walks(one, g)]
     best = max(others, default=0.0)
     if max(lights, default=0.0) > best:
         return True
     return unsaid and best < NOBODY and _known(g)
+
+
+def _walks(vehicle: int, g: Grounder) -> bool:
+    look = g.context.look(vehicle, g.context.now)
+    return look is not None and look.kind in ON_FOOT
 
 
 def _known(g: Grounder) -> bool:
