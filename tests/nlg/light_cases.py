@@ -99,6 +99,8 @@ CASES: tuple[Answer, ...] = (
     SupposedOfLight(RED, "green", 4.0, ("stop",), ("exit-straight",), False, False, 5.0),
     SupposedOfLight(RED, "green", 4.0, ("stop",), ("continue",), False, False, holds=False),
     SupposedOfLight(GREEN, "red", 4.0, ("continue",), ("stop",), False, True),
+    SupposedOfLight(RED, "green", 4.0, ("stop",), ("continue",), False, False, first=(1, 2)),
+    SupposedOfLight(RED, "green", 4.0, ("stop",), ("stop",), True, False, past=False, first=(1,)),
     SupposedOfLight(RED, "red", NOW, ("stop",), ("stop",), True, True, past=False, standing=True),
     SupposedOfLight(GREEN, "green", 4.0, ("continue",), ("continue",), True, False),
     MotionReason(STOOD, (HELD,), asked="stop"),

@@ -115,6 +115,7 @@ class SupposedOfLight(Value, frozen=True):
     past: bool = True
     standing: bool = False  # we stood at it when it was decided
     holds: bool | None = None  # the reply to the question whether we would have stopped
+    first: tuple[int, ...] = ()  # road users that we would have let go first all the same
 
 
 class TurnOnRed(Value, frozen=True):

@@ -9,6 +9,7 @@ from typing import Any, Literal
 from planner.record.light_record import GREENS
 from planner.record.trace import PlanTrace
 from sim.scene import EGO, LightState, Signal
+from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.domain.answers import Answer, NotRecorded
 from xavi_dialogue.domain.meaning import Question, WhatIf, Whether, Why
 from xavi_dialogue.domain.terms import Event, Feature, Happens, Is, Proposition
@@ -19,12 +20,14 @@ from xavi_dialogue.explain.answers.reference.reading import event_of, is_own, un
 from xavi_dialogue.explain.causes.driving.traffic_lights import with_light
 from xavi_dialogue.explain.causes.plans.contrast import factual
 from xavi_dialogue.explain.causes.vehicles.course import lines
+from xavi_dialogue.explain.causes.vehicles.involved import LIKELY
 from xavi_dialogue.explain.facts.episodes.light_events import HELD
 from xavi_dialogue.explain.facts.episodes.light_waits import held_at, holds
 from xavi_dialogue.explain.facts.traffic_lights import light_in, meant, shown_at
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, planned
 from xavi_dialogue.explain.history.traffic_lights import ahead, passings
 
+SOON = 6.0  # [s] in which somebody who goes first keeps us at the light
 STANDING = 0.3  # [m/s] below which we stand
 STATES: dict[LightColour, str] = {
     "red": LightState.RED.value, "amber": LightState.AMBER.value, "green": LightState.GREEN.value,
@@ -63,6 +66,9 @@ def supposed(question: WhatIf, scene: Asked) -> Answer:
     passed = next((p.time for p in done if p.signal == signal and p.time > trace.sim_time), None)
     passing = _passing(scene.ride, trace, again, signal)
     waits = _held(again, signal)
+    first = () if waits else _let_go_first(scene.ride, again)
+    if not waits and not first and passed is None:
+        first = _held_now(scene, signal, STATES[wanted])
     return SupposedOfLight(
         one,
         wanted,
@@ -75,7 +81,8 @@ def supposed(question: WhatIf, scene: Asked) -> Answer:
         passed=passed,
         past=past,
         standing=trace.scene[EGO].speed < STANDING,
-        holds=_would(question.then, waits=waits),
+        holds=_would(question.then, waits=waits or bool(first)),
+        first=first,
     )
 
 
@@ -141,6 +148,28 @@ def _held(again: PlanTrace, signal: Signal) -> bool:
     ]
     held = sum(any(h.place == signal.index for h in r.held_by_lights) for r in drives)
     return 2 * held > len(drives) > 0
+
+
+def _held_now(scene: Asked, signal: Signal, state: str) -> tuple[int, ...]:
+    """List who would go first now, while we are still before the light.
+
+    Raises:
+        Unanswered: the decision in force must be planned again first.
+    """
+    trace = scene.ride.at(scene.moment)
+    again = None if trace is None else with_light(scene.ride, trace, signal, state)
+    return () if again is None else _let_go_first(scene.ride, again)
+
+
+def _let_go_first(ride: Ride, again: PlanTrace) -> tuple[int, ...]:
+    """List who would still probably go first under the new plan, the longest hold-up first."""
+    try:
+        plan = factual(ride.model(again), again)
+    except Unanswered:
+        return ()
+    found = [h for h in hold_ups(plan).values() if h.how == "right-of-way" and h.share >= LIKELY]
+    found = [h for h in found if h.began <= again.sim_time + SOON]
+    return tuple(h.vehicle for h in sorted(found, key=lambda h: (-h.expected, h.vehicle)))
 
 
 def _passing(ride: Ride, trace: PlanTrace, again: PlanTrace, signal: Signal) -> float | None:

@@ -1,6 +1,6 @@
 """Traffic lights: their colours, their expected changes, and how we passed them, in words."""
 
-from xavi_dialogue.domain.terms import Everyone, Feature, Nobody
+from xavi_dialogue.domain.terms import Everyone, Feature, Nobody, Vehicle, Vehicles
 from xavi_dialogue.domain.traffic_lights import (
     Crossed,
     Foreseen,
@@ -206,6 +206,7 @@ def plan_supposed_light(answer: SupposedOfLight, context: SpeechContext) -> Plan
     slots = {
         "same": answer.same,
         "waits": answer.waits,
+        "first": _those(answer.first, context.now),
         "standing": answer.standing,
         "reply": {None: "", True: "yes", False: "no"}[answer.holds],
         "past": answer.past,
@@ -214,6 +215,12 @@ def plan_supposed_light(answer: SupposedOfLight, context: SpeechContext) -> Plan
         "lost": gained and answer.passed is None,
     }
     return Plan((message("LIGHT_IF", **slots),))
+
+
+def _those(vehicles: tuple[int, ...], time: float) -> Who | None:
+    if not vehicles:
+        return None
+    return Who(Vehicles(vehicles) if vehicles[1:] else Vehicle(vehicles[0]), time)
 
 
 def plan_turn_on_red(answer: TurnOnRed, context: SpeechContext) -> Plan:
