@@ -41,11 +41,12 @@ from xavi_dialogue.explain.answers.reference.occasions import (
     overlaps,
 )
 from xavi_dialogue.explain.answers.ride.comfort import stretch
+from xavi_dialogue.explain.answers.ride.condensing import condensed
 from xavi_dialogue.explain.answers.ride.delays import for_whom
 from xavi_dialogue.explain.answers.ride.mistakes import mistakes
 from xavi_dialogue.explain.answers.ride.places import gone, time_to_go
 
-TOLD = 6  # maximum number of episodes in a summary
+TOLD = 8  # maximum number of episodes in a summary
 APPROACH = 4.0  # [s] maximum time between episodes at one junction
 LEADING = 5.0  # [s] before the last episode in which others belong to it
 LISTED = 40  # maximum number of episodes in a list
@@ -62,7 +63,8 @@ DEED = 2.0  # minimum weight of an episode of another vehicle
 #: How much an episode matters in a summary.
 WEIGHT: dict[ActionName, float] = {
     "collide": 20.0, "nearly-collide": 12.0, "arrive": 6.0, "give-way": 6.0, "cut-in": 6.0,
-    "overtake": 5.0, "leave": 5.0, "wait": 5.0, "stop": 5.0, "stand": 4.0, "enter": 3.0,
+    "follow": 5.0, "overtake": 5.0, "leave": 5.0, "wait": 5.0, "stop": 5.0, "stand": 4.0,
+    "enter": 3.0,
     "exit-left": 5.0, "exit-right": 5.0, "exit-straight": 3.0, "continue-next-exit": 5.0,
     "change-left": 4.0, "change-right": 4.0, "pull-out": 4.0, "change-plan": 3.0, "brake": 4.0,
     "pass": 2.0, "cross": 3.0, "slow-down": 2.0, "speed-up": 0.5, "disappear": 0.5, "appear": 0.5,
@@ -157,6 +159,7 @@ def summary(asked: Asked, about: Thing | None, time: Window, *, ride: bool = Fal
     told = [e for e in told if e.action not in _HALTS or duration(asked, e) >= BRIEF] or told
     if ride:
         told = [e for e in told if e.end is not None or e.action not in ("brake", "slow-down")]
+        told = condensed(asked, told) if vehicle is None else told
     chosen = select(asked, told, TOLD)
     measures = _of_ride(asked, begin, end) if ride and vehicle is None else ()
     actor = about if vehicle is not None else None

@@ -20,10 +20,13 @@ from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Tense, Wh
 
 LISTED = 12  # maximum of episodes in a list of one kind
 NOTABLE = 6  # maximum of episodes in a list of whatever happened: the most important ones
-TOLD = 7  # maximum of episodes in a summary
+TOLD = 8  # maximum of episodes in a summary
 TOLD_MORE = 14
 SOON = 1.0  # [s] maximum time between two episodes that are joined by "then"
+APART = 15.0  # [s] between two episodes from which on they stand in two sentences
 IN_SENTENCE = 3  # maximum of episodes in one sentence
+YIELDING = ("give-way", "wait", "let-go")
+OTHERS = 2.5  # importance of others who let us go first
 #: Importance of actions in a summary; those not listed have none.
 WEIGHTS = {
     "collide": 9.0, "nearly-collide": 8.0, "overtake": 6.0, "exit-left": 6.0, "exit-right": 6.0,
@@ -31,7 +34,7 @@ WEIGHTS = {
     "change-lane": 5.0, "give-way": 5.0, "wait": 5.0, "stop": 4.5, "arrive": 6.0, "cut-in": 6.0,
     "pull-out": 5.0, "brake": 4.0, "slow-down": 2.0, "stand": 3.5, "exit-straight": 3.0,
     "swerve": 6.0, "let-go": 4.0, "block": 4.0, "u-turn": 6.0, "merge": 5.0,
-    "continue-next-exit": 1.5, "pass": 2.0, "change-plan": 1.0, "go": 1.0,
+    "follow": 5.0, "continue-next-exit": 1.5, "pass": 2.0, "change-plan": 1.0, "go": 1.0,
 }  # fmt: skip
 
 
@@ -113,6 +116,8 @@ def _weightiest(episodes: tuple[Episode, ...], most: int) -> list[Episode]:
 def weight(episode: Episode) -> float:
     """Return the importance of an episode for a passenger."""
     own = 0.5 if isinstance(episode.actor, Ego) else 0.0
+    if not own and episode.action in YIELDING:
+        return OTHERS
     return WEIGHTS.get(episode.action, 0.0) + (own if episode.action in WEIGHTS else 0.0)
 
 
@@ -125,8 +130,12 @@ def _rows(episodes: list[Episode], context: SpeechContext) -> list[list[Episode]
         return (type(episode.actor).__name__, _number(episode.actor), ride, tense)
 
     for _, group in groupby(episodes, key=subject):
-        run = list(group)
-        rows += [run[k : k + IN_SENTENCE] for k in range(0, len(run), IN_SENTENCE)]
+        rows.append([])
+        for episode in group:
+            late = bool(rows[-1]) and episode.begin - rows[-1][-1].begin > APART
+            if late or len(rows[-1]) == IN_SENTENCE:
+                rows.append([])
+            rows[-1].append(episode)
     return rows
 
 
