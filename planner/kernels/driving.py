@@ -79,8 +79,7 @@ def accelerate(
     """Return the acceleration in the coming step, and the vehicle or light that limits it.
 
     Args:
-        course, motion, length: of the vehicle; its length [m].
-        step, dt: the present step, and the length [s] of the coming one.
+        course, motion, length [m]: of the vehicle; step, dt [s]: of the coming step.
         others, ignored: the vehicles to stay behind; [M] whether each is behind this one.
         crossing: [C] the vehicles that may have the right of way.
         firsts: [L, C, T] whether a vehicle goes first, by line and step; the last step stays.
