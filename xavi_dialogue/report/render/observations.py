@@ -296,7 +296,7 @@ def _light_table(page: Page) -> Markup:
         )
         for one in page.report.lights
     )
-    return table(("Seen", "Light", "State", "Begin", "Distance, when first seen so"), rows)
+    return table(("Seen", "Light", "State", "Begin", "Distance, at the first decision here"), rows)
 
 
 def _light_name(one: LightSpan) -> str:
