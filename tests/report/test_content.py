@@ -13,6 +13,7 @@ from sim.scene import EGO, VehicleState
 from tests.report.records import (
     BRAKING,
     LIGHT,
+    TOWN,
     UNHEEDED,
     figures,
     incident,
@@ -476,3 +477,99 @@ def bare() -> xavi.Ride:
 def test_what_holds_of_every_report_is_said(path, at) -> None:
     kinds = {one.kind for one in incident(path, at).limits}
     assert kinds >= {"model", "others-inside", "perfect-sight", "simulated"}
+
+
+def test_an_option_that_collides_avoids_no_braking() -> None:
+    known = incident(TOWN, "hardest braking").avoidability
+    assert known is not None
+    chance = next(one for one in known.chances if one.number == 22)
+    ways = {way.action: way for way in chance.ways}
+    rows = [r for r in traces(TOWN)[22].rollouts if r.actions[0].action == "continue"]
+    assert {r.outcome for r in rows} == {"collision"}
+    assert ways["continue"].believed is not None
+    assert ways["continue"].believed.value == 0.0
+    assert ways["continue"].avoids is False
+    assert known.last is None
+
+
+def test_whom_another_option_would_have_hit_is_involved() -> None:
+    found = incident(TOWN, "hardest braking")
+    hit = {r.collided_with for r in traces(TOWN)[22].rollouts} - {None}
+    assert hit == {5}
+    assert [(p.vehicle, p.roles) for p in found.involved] == [(5, ("in-the-way",))]
+    choices = {c.action: c for one in found.decided for c in one.choices if one.number == 22}
+    assert {v: f.value for v, f in choices["continue"].hit.items()} == {5: 1.0}
+    assert choices["exit-right"].hit == {}
+
+
+@every_case
+def test_speeds_expected_are_those_of_the_predictions(path, at) -> None:
+    checked = 0
+    for known in incident(path, at).beliefs:
+        driven = history(path, known.vehicle)
+        for one in known.speeds:
+            trace = traces(path)[one.decision]
+            goals = next(p.goals for p in trace.predictions if p.vehicle == known.vehicle)
+            k = round((one.at - one.time) / SAMPLE_PERIOD)
+            rows = [
+                (goal.probability * way.probability, way.speed[k])
+                for goal in goals
+                for way in goal.trajectories
+                if len(way.speed) > k
+            ]
+            mean = sum(p * v for p, v in rows) / sum(p for p, _ in rows)
+            assert one.speed.value == pytest.approx(mean, abs=1e-3)
+            if one.driven is not None:
+                near = min(driven, key=lambda t, at=one.at: abs(t - at))  # type: ignore[misc]
+                assert one.driven.value == pytest.approx(driven[near], abs=0.7)
+            checked += 1
+    assert checked or path == BRAKING
+
+
+def test_two_are_removed_together() -> None:
+    pairs = [
+        one
+        for case in incident(LIGHT, "red light").cases
+        for one in case.tested
+        if one.supposed.kind == "pair"
+    ]
+    assert {one.supposed.pair for one in pairs} == {(8, 9), (8, 10), (9, 10)}
+    trace = traces(LIGHT)[pairs[0].decision]
+    need = NeedRollout(trace_id=trace.trace_id, removed=pairs[0].supposed.pair)
+    assert pairs[0].trace == ride(LIGHT).again(trace, need).trace_id
+
+
+def test_how_a_light_could_have_been_passed_follows_from_its_changes() -> None:
+    known = incident(LIGHT, "red light").avoidability
+    assert known is not None
+    assert known.light is not None
+    lit = [t.road.lights[0] for t in traces(LIGHT).values() if t.road and t.road.lights]
+    green = next(one for one in lit if one.state == "g")
+    assert (known.mishap, known.light.again) == ("stop", green.since)
+    assert known.light.turned is None  # it was red when it came into view
+    for one in known.light.passing:
+        road = traces(LIGHT)[one.number].road
+        assert road is not None
+        far = road.lights[0].distance
+        assert one.before is None
+        assert one.after is not None
+        assert one.after.value == pytest.approx(far / (green.since - one.time), abs=1e-3)
+    first = known.light.passing[0]
+    assert first.time == min(t.sim_time for t in traces(LIGHT).values() if t.road and t.road.lights)
+
+
+def test_a_light_holds_up_every_option_before_it() -> None:
+    known = incident(LIGHT, "red light").avoidability
+    assert known is not None
+    for chance in known.chances:
+        for way in chance.ways:
+            if not way.planned:
+                rows = [
+                    r
+                    for r in traces(LIGHT)[chance.number].rollouts
+                    if r.actions and r.actions[0].action == way.action
+                ]
+                held = [bool(r.held_by_lights) for r in rows]
+                assert way.believed is not None
+                assert min(held) <= way.believed.value <= max(held)
+    assert known.last is None

@@ -7,11 +7,11 @@ from xml.etree import ElementTree
 import pytest
 from msgspec.structs import replace
 
-from tests.report.records import BRAKING, LIGHT, UNHEEDED, incident, report
+from tests.report.records import BRAKING, LIGHT, TOWN, UNHEEDED, incident, report
 from xavi_dialogue.report.content import Incident
 from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.render.markup import Markup, joined, tag
-from xavi_dialogue.report.render.notes import Notes, percent, told
+from xavi_dialogue.report.render.notes import TIE, Notes, percent, told
 from xavi_dialogue.report.render.page import CAUTION, html
 from xavi_dialogue.report.render.words import decisions_words, seconds
 
@@ -43,7 +43,7 @@ class Reader(HTMLParser):
         assert self.open.pop() == name
 
     def handle_data(self, data: str) -> None:
-        self.text += data
+        self.text += data.replace(TIE, " ")
 
 
 def read(text: str) -> Reader:
@@ -121,7 +121,15 @@ def test_what_the_summary_says_stands_in_the_content() -> None:
     assert "This car and vehicle 1 (blue truck) touched at 11.1 s" in text
     assert "this car goes first (decision 11)" in text
     assert "decision 9, 2.1 s before: to stop" in text.replace("\n", " ")
+    assert (
+        "Decision 9 (\N{MINUS SIGN}2.1 s) expected vehicle 1 (blue truck) to drive 11.5 km/h"
+        in text
+    )
     light = read(report(LIGHT, "red light").html()).text
+    assert "turned green again at 26.0 s" in light
+    town = read(report(TOWN, "hardest braking").html()).text
+    assert "a collision with vehicle 5 (blue bus) in 100 %" in town
+    assert "Decisions 16 to 21 did not foresee it" in town
     assert "The light ahead, in " in light
     assert "The light ahead showed red from " in light
 
@@ -144,14 +152,14 @@ def test_plain_text_is_escaped_and_markup_is_not() -> None:
      (0.99999, ">99.9 %"), (1.0, "100 %")],
 )  # fmt: skip
 def test_probabilities_are_told_apart_from_certainty(value: float, text: str) -> None:
-    assert percent(value) == text
+    assert percent(value) == text.replace(" ", TIE)
 
 
 def test_figures_are_told_with_unit_and_interval() -> None:
     source = Source("ride", "x")
-    assert told(Figure(10.0, "m/s", source)) == "36.0 km/h"
+    assert told(Figure(10.0, "m/s", source)) == f"36.0{TIE}km/h"
     assert told(Figure(-2.0, "s", source, -3.0, 1.0, "range")) == (
-        "\N{MINUS SIGN}2.0 s (\N{MINUS SIGN}3.0 to 1.0)"
+        f"\N{MINUS SIGN}2.0{TIE}s (\N{MINUS SIGN}3.0 to 1.0)"
     )
     notes = Notes()
     first, same, other = (notes.ref(Source("ride", f)) for f in ("x", "x", "y"))

@@ -11,19 +11,20 @@ from planner.record.light_record import LightSupposed
 from planner.record.trace import Action, HoldUp
 from xavi_dialogue.report.figures import Figure, Source
 
-Mishap = Literal["collide", "brake"]
+Mishap = Literal["collide", "brake", "stop"]  # stop: at a traffic light
 
 
 class Supposed(msgspec.Struct, frozen=True, omit_defaults=True):
     """One change of the world: a vehicle is away or does something else, a light differs."""
 
-    kind: Literal["absent", "empty", "goal", "light", "in-view"]
+    kind: Literal["absent", "pair", "empty", "goal", "light", "in-view"]
     vehicle: int | None = None
     goal: Action | None = None
     place: str = ""  # of the goal, in words
     lights: tuple[LightSupposed, ...] = ()
     phantoms: tuple[int, ...] = ()
     prior: Figure | None = None  # its probability in the decision
+    pair: tuple[int, ...] = ()  # those that are away together
 
 
 class Tested(msgspec.Struct, frozen=True):
@@ -74,6 +75,7 @@ class Way(msgspec.Struct, frozen=True):
     replayed: Figure | None  # share of its lines that touch the others as they drove
     clearance: Figure | None  # [m] least distance to them, in its likeliest line
     braking: Figure | None  # [m/s2] hardest
+    collision: Figure | None  # probability of a collision with anybody by the rollouts
     off_route: Figure | None  # probability that it loses the way to the goal
     planned: bool  # whether rollouts were added by planning again
     avoids: bool | None
@@ -98,6 +100,32 @@ class Emergency(msgspec.Struct, frozen=True):
     source: Source
 
 
+class Passing(msgspec.Struct, frozen=True):
+    """How fast the car would have had to drive from a decision on to pass a light without a stop.
+
+    Distances are to the light; the mean speeds follow from them and from when it changed.
+    """
+
+    number: int  # of the decision
+    time: float  # [s]
+    distance: Figure  # [m] to the light
+    speed: Figure  # [m/s] then
+    limit: Figure | None  # [m/s]
+    before: Figure | None  # [m/s] least mean speed to pass before it turned; None: not seen
+    after: Figure | None  # [m/s] greatest mean speed to come when it let traffic go again
+
+
+class LightStop(msgspec.Struct, frozen=True):
+    """The light of a stop: when it turned, and how it could have been passed without one."""
+
+    controller: str
+    place: int
+    turned: float | None  # [s] when its green was seen to end; None: it was not
+    again: float | None  # [s] when it was seen to turn green again; None: it was not
+    queue: tuple[int, ...]  # those that stood or drove between the car and the light
+    passing: tuple[Passing, ...]  # oldest first
+
+
 class Avoidability(msgspec.Struct, frozen=True):
     """From when the mishap could have been avoided, and how."""
 
@@ -109,3 +137,4 @@ class Avoidability(msgspec.Struct, frozen=True):
     last: int | None  # the last decision with an option that avoids it ...
     last_on_route: int | None  # ... and does not lose the way to the goal
     emergency: tuple[Emergency, ...]  # of collisions
+    light: LightStop | None = None  # of stops at a light

@@ -20,6 +20,7 @@ from xavi_dialogue.report.content import Chosen
 from xavi_dialogue.report.figures import Figure, rounded
 from xavi_dialogue.report.replayed import AFTER, clearance, emergencies
 from xavi_dialogue.report.ridden import Inquiry
+from xavi_dialogue.report.stopped import light_stop
 from xavi_dialogue.report.tracks import Tracks
 from xavi_dialogue.report.weighed import Ground, collision, hardest, weighed_by
 
@@ -61,6 +62,7 @@ def avoidability(
         emergency=emergencies(tracks, moment.vehicle, moment.time)
         if braked and moment.vehicle is not None
         else (),
+        light=light_stop(inquiry.ridden, tracks, moment.time, since) if kind == "stop" else None,
     )
 
 
@@ -88,6 +90,8 @@ def _mishap(moment: Chosen) -> tuple[Mishap, float | None] | None:
     """Return what is to be avoided, and from which deceleration [m/s2] on braking counts."""
     if moment.kind == "collision":
         return "collide", None
+    if moment.kind == "red-light":
+        return "stop", None
     braking = moment.figures.get("deceleration")
     if braking is None or braking.value < LEAST:
         return None
@@ -154,6 +158,7 @@ class _Case:
             replayed=touched,
             clearance=nearest,
             braking=hardest(ground, rows, f"of the rollouts that begin with {action}, by weight"),
+            collision=collision(ground, plan, f"of the rollouts that begin with {action}"),
             off_route=Figure(
                 rounded(min(plan.outcomes["dead"], 1.0)),
                 "",
@@ -167,6 +172,8 @@ class _Case:
         self, ground: Ground, plan: Intervention, drawn: Mapping[int, Motion]
     ) -> Figure | None:
         """Return the probability of the mishap by the rollouts."""
+        if self.kind == "stop":
+            return _held(ground, plan)
         if self.threshold is None:
             return collision(ground, plan, f"of the rollouts that begin with {plan.plan[0]}")
         rows = [
@@ -228,8 +235,18 @@ class _Case:
             return way
         if own.believed.value <= SELDOM and not way.chosen:
             return way  # it was not foreseen, so nothing was to be avoided
+        if way.collision is not None and way.collision.value > WORSE:
+            return replace(way, avoids=False)  # what it avoids is outweighed
         better = seldom and own.believed.value - way.believed.value >= LESS
         return way if way.chosen and seldom else replace(way, avoids=better)
+
+
+def _held(ground: Ground, plan: Intervention) -> Figure:
+    """Return the probability that a light holds the car up."""
+    share = sum(weight for one, weight in weighed_by(plan) if one.held_by_lights)
+    how = f"share of the rollouts that begin with {plan.plan[0]}, by weight, that a light holds up"
+    source = ground.source("rollouts[*].held_by_lights", how)
+    return Figure(rounded(min(share, 1.0)), "", source)
 
 
 def _line_of(rollout: Rollout) -> int:

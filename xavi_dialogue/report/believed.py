@@ -1,17 +1,35 @@
 """What was believed of those involved, and how it moved."""
 
-from planner.record.trace import Action
+from collections.abc import Sequence
+
+from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.report.content import BeliefPoint, Beliefs, GoalBelief
+from xavi_dialogue.report.expected import expected_speeds
 from xavi_dialogue.report.parties import of_trace
 from xavi_dialogue.report.ridden import Ridden, predicted
+from xavi_dialogue.report.tracks import Tracks
 
 LEAST = 0.01  # probability that a goal reaches somewhere in the window to be listed
 
 Name = tuple[Action, str | None]  # of a goal: its kind and its edge
 
 
-def beliefs(ridden: Ridden, vehicle: int, window: tuple[float, float]) -> Beliefs:
-    """Return the goals that the decisions of a window [s] ascribed to a road user."""
+def beliefs(
+    ridden: Ridden,
+    tracks: Tracks,
+    vehicle: int,
+    window: tuple[float, float],
+    examined: Sequence[PlanTrace],
+) -> Beliefs:
+    """Return the goals that the decisions of a window [s] ascribed to a road user.
+
+    Args:
+        ridden: the ride.
+        tracks: where everybody was.
+        vehicle: the road user.
+        window: [s] begin and end.
+        examined: the decisions of which the speeds that they expected are told, too.
+    """
     points: dict[Name, list[BeliefPoint]] = {}
     places: dict[Name, str] = {}
     without = []
@@ -40,7 +58,8 @@ def beliefs(ridden: Ridden, vehicle: int, window: tuple[float, float]) -> Belief
         )
         for (kind, edge), row in ranked
     )
-    return Beliefs(vehicle, goals, tuple(without))
+    speeds = expected_speeds(examined, tracks, vehicle)
+    return Beliefs(vehicle, goals, tuple(without), speeds)
 
 
 def _most(row: list[BeliefPoint]) -> float:

@@ -56,9 +56,10 @@ def build(ridden: Ridden, at: float | str | None = None) -> Incident:
     involved = parties(inquiry, tracks, moment, window)
     others = tuple(party.vehicle for party in involved)
     lit = lights(ridden, window)
-    believed = tuple(beliefs(ridden, vehicle, window) for vehicle in others)
     avoided = avoidability(inquiry, tracks, moment, since)
     examined = _examined(ridden, moment, avoided)
+    shown = [trace for trace, _ in examined]
+    believed = tuple(beliefs(ridden, tracks, vehicle, window, shown) for vehicle in others)
     tested = tuple(cases(inquiry, trace, others[:SUPPOSED]) for trace, _ in examined)
     traces = ridden.record.traces
     return Incident(

@@ -1,6 +1,7 @@
 """Cases: what removing or changing others, lights or hidden areas does to a decision."""
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 
 from planner.record.light_record import GREENS, LightSupposed
 from planner.record.trace import PlanTrace
@@ -66,6 +67,10 @@ def _suppositions(
         yield Supposed("absent", vehicle), NeedRollout(trace_id=of, removed=vehicle)
         yield from _goals(trace, vehicle)
     everybody = tuple(sorted(set(trace.scene) - {EGO}))
+    for pair in combinations(here, 2):
+        away = tuple(sorted(pair))
+        if away != everybody:
+            yield Supposed("pair", pair=away), NeedRollout(trace_id=of, removed=away)
     if len(everybody) > 1:
         yield Supposed("empty"), NeedRollout(trace_id=of, removed=everybody)
     lights = () if trace.road is None else trace.road.lights

@@ -18,7 +18,7 @@ SCHEMA = "xavi.report/1"
 
 MomentKind = Literal["collision", "hardest-braking", "closest-approach", "red-light", "time"]
 Role = Literal[
-    "collided", "near", "gave-way", "held-up", "leader", "right-of-way", "follower"
+    "collided", "near", "gave-way", "in-the-way", "held-up", "leader", "right-of-way", "follower"
 ]  # fmt: skip
 Examined = Literal["in-force", "changed", "last-chance"]
 Limit = Literal[
@@ -174,12 +174,23 @@ class GoalBelief(msgspec.Struct, frozen=True):
     came: bool | None  # whether it took that road in the record; None: not seen
 
 
+class SpeedExpected(msgspec.Struct, frozen=True):
+    """How fast a decision expected another to drive at a later time."""
+
+    decision: int
+    time: float  # [s] of the decision
+    at: float  # [s] of which the speed is
+    speed: Figure  # [m/s] mean over goals and trajectories, by probability
+    driven: Figure | None  # [m/s] as it was seen then
+
+
 class Beliefs(msgspec.Struct, frozen=True):
     """What was believed of one road user."""
 
     vehicle: int
     goals: tuple[GoalBelief, ...]
     unpredicted: tuple[int, ...]  # decisions that had it in view without a prediction
+    speeds: tuple[SpeedExpected, ...] = ()  # by the decisions that are examined
 
 
 class Choice(msgspec.Struct, frozen=True):
@@ -189,6 +200,7 @@ class Choice(msgspec.Struct, frozen=True):
     chosen: bool
     value: Figure  # [s] expected reward
     chances: dict[Outcome, Figure]
+    hit: dict[int, Figure]  # probability of a collision with another, likeliest first
     told: Figure | None  # probability of a collision, with the error of the model
     time: Figure | None  # [s] to the goal
     braking: Figure | None  # [m/s2] hardest

@@ -5,11 +5,13 @@ from collections.abc import Iterator
 from planner.record.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.holdups import hold_ups
+from xavi_dialogue.explain.causes.plans.avoidance import SELDOM
 from xavi_dialogue.explain.causes.plans.contrast import factual
 from xavi_dialogue.explain.causes.vehicles.necessity import SOMETIMES
 from xavi_dialogue.explain.facts.measures.between import leader
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.ride import Ride
+from xavi_dialogue.report.compared import compared, hits
 from xavi_dialogue.report.content import Chosen, Party, Role
 from xavi_dialogue.report.figures import Figure, Source, rounded
 from xavi_dialogue.report.ridden import Inquiry, Ridden
@@ -20,7 +22,7 @@ RECENT = 3.0  # [s] before the moment, in which decisions show who is in the way
 WAYS = 5.0  # [s] before it, in which the right of way counts
 BEHIND = 20.0  # [m] within which somebody behind counts
 ORDER: tuple[Role, ...] = (
-    "collided", "near", "gave-way", "held-up", "leader", "right-of-way", "follower",
+    "collided", "near", "gave-way", "in-the-way", "held-up", "leader", "right-of-way", "follower",
 )  # fmt: skip
 
 
@@ -105,6 +107,7 @@ def _all_roles(
     for trace in inquiry.ridden.between(moment.time - RECENT, moment.time):
         held = holding_up(inquiry, trace)
         yield from ((one, "held-up") for one in held if here is not None and one in here.scene)
+        yield from ((vehicle, "in-the-way") for vehicle in _in_the_way(trace))
     for trace in inquiry.ridden.between(moment.time - WAYS, moment.time):
         facts = () if trace.road is None else trace.road.priority
         yield from ((fact.vehicle, "right-of-way") for fact in facts if fact.who == "vehicle")
@@ -113,6 +116,12 @@ def _all_roles(
     if ahead is not None:
         yield ahead, "leader"
     yield from ((vehicle, "follower") for vehicle in _followers(states, moment.time))
+
+
+def _in_the_way(trace: PlanTrace) -> tuple[int, ...]:
+    """Return those that an option of a decision would probably have hit."""
+    options = compared(trace).values()
+    return tuple(sorted({v for rows in options for v, p in hits(rows).items() if p > SELDOM}))
 
 
 def holding_up(inquiry: Inquiry, trace: PlanTrace) -> tuple[int, ...]:

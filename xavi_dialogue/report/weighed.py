@@ -1,6 +1,6 @@
 """Decisions: what they could choose from, with outcomes and the terms of the reward."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,12 +14,12 @@ from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.plans.terms import differences
 from xavi_dialogue.explain.causes.vehicles.course import brakes, lines
 from xavi_dialogue.explain.history.ride import planned
+from xavi_dialogue.report.compared import Weighed, compared, hits
 from xavi_dialogue.report.content import Choice, Decided, DecisionRow, Examined
 from xavi_dialogue.report.figures import Figure, Place, Source, rounded
 from xavi_dialogue.report.parties import of_trace
 from xavi_dialogue.report.ridden import Ridden
 
-Weighed = Sequence[tuple[Rollout, float]]  # rollouts with their weights
 RANGE = "5 to 95 % of the weight, widened to hold the mean"
 OF_PLAN = "of the rollouts of the plan, by weight"
 BETWEEN_ERRORS = "two standard errors to either side"
@@ -69,7 +69,7 @@ def chosen_plan(model: CausalModel) -> Intervention | None:
 def decided(trace: PlanTrace, why: tuple[Examined, ...]) -> Decided:
     """Return a decision in full, with why it is examined."""
     model, plan = CausalModel(trace), planned(trace)
-    weights = _by_weights(trace)
+    weights = compared(trace)
     rows = weights or _by_model(model)
     here = model.intervene(plan[:1]) if plan else None
     found = [
@@ -91,15 +91,6 @@ def decided(trace: PlanTrace, why: tuple[Examined, ...]) -> Decided:
         costs=trace.reckoned,
         by_weights=bool(weights),
     )
-
-
-def _by_weights(trace: PlanTrace) -> dict[Action, Weighed]:
-    """Return the rollouts that the decision compared, by first action, with their weights."""
-    found: dict[Action, list[tuple[Rollout, float]]] = {}
-    for one in trace.rollouts:
-        if one.weight is not None and one.actions:
-            found.setdefault(one.actions[0].action, []).append((one, one.weight))
-    return dict(found)
 
 
 def _by_model(model: CausalModel) -> dict[Action, Weighed]:
@@ -140,6 +131,12 @@ def _choice(
             )
             for outcome, share in shares.items()
             if share > 0.0
+        },
+        hit={
+            vehicle: Figure(
+                rounded(share), "", ground.source(f"{where}.collided_with", f"share {of}")
+            )
+            for vehicle, share in hits(rows).items()
         },
         told=None
         if there is None

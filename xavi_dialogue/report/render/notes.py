@@ -6,6 +6,7 @@ from xavi_dialogue.report.render.markup import Markup, joined, tag
 KMH = 3.6
 UNITS = {"m/s": "km/h", "m/s2": "m/s²"}
 DIGITS = {"m/s": 1, "m/s2": 1, "m": 1, "s": 1}
+TIE = "\N{NO-BREAK SPACE}"  # between a number and its unit
 SMALLEST = 0.001  # probability that is told apart from 0
 
 
@@ -20,18 +21,18 @@ def number(value: float, unit: str) -> str:
 def percent(value: float) -> str:
     """Return a probability."""
     if 0.0 < value < SMALLEST:
-        return "<0.1 %"
+        return f"<0.1{TIE}%"
     if 1.0 - SMALLEST < value < 1.0:
-        return ">99.9 %"
+        return f">99.9{TIE}%"
     digits = 0 if value in (0.0, 1.0) or 0.1 <= value <= 0.9 else 1
-    return f"{100.0 * value:.{digits}f} %"
+    return f"{100.0 * value:.{digits}f}{TIE}%"
 
 
 def told(figure: Figure) -> str:
     """Return a figure with its unit and its interval, without its source."""
     unit = UNITS.get(figure.unit, figure.unit)
     value = number(figure.value, figure.unit)
-    text = f"{value} {unit}" if unit else value
+    text = f"{value}{TIE}{unit}" if unit else value
     if figure.low is None or figure.high is None:
         return text
     low, high = (number(end, figure.unit) for end in (figure.low, figure.high))

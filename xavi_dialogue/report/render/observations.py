@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from planner.record.places import First
 from sim.scene import EGO
 from xavi_dialogue.report.content import Entry, Incident, LightSpan
+from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.render.charts import Axes, Line, bands, chart
 from xavi_dialogue.report.render.colours import LIGHTS, colour, stroke
 from xavi_dialogue.report.render.drawings import strip
@@ -20,6 +21,8 @@ from xavi_dialogue.report.render.words import (
     seconds,
 )
 
+NOWHERE = Source("ride", "")  # of figures whose source stands elsewhere
+BROAD = 7  # columns of speeds and distances in one table
 LISTED = 20  # bystanders that are listed
 
 
@@ -198,30 +201,38 @@ def motions(page: Page) -> Markup:
 def _motion_table(page: Page) -> Markup:
     """Return speeds and gaps at whole seconds from the moment."""
     report, names, notes = page.report, page.names, page.notes
-    head: list[Markup | str] = ["Time"]
-    head += [
+    speeds = [
         joined((f"Speed of {names.short(one.vehicle)}", notes.ref(one.source)))
         for one in report.motions
     ]
-    head += [
+    gaps = [
         joined((f"Distance of {names.short(one.vehicle)}", notes.ref(one.source)))
         for one in report.gaps
     ]
-    rows = []
+    rows: list[tuple[str, list[str], list[str]]] = []
     moment = report.moment.time
     for by in range(-7, 8):
         time = moment + by
         if not report.since - 1e-6 <= time <= report.until + 1e-6:
             continue
-        cells = [f"{time:.1f} s ({page.by(time)})"]
-        for one in report.motions:
-            speed = _at(time, one.time, one.speed)
-            cells.append("–" if speed is None else f"{speed * KMH:.1f} km/h")
-        for gap in report.gaps:
-            far = _at(time, gap.time, gap.distance)
-            cells.append("–" if far is None else f"{far:.1f} m")
-        rows.append(cells)
-    return tag("div", table(head, rows, "long"), class_="wide")
+        driven = [(_at(time, one.time, one.speed), "m/s") for one in report.motions]
+        apart = [(_at(time, one.time, one.distance), "m") for one in report.gaps]
+        rows.append((f"{time:.1f} s ({page.by(time)})", _cells(driven), _cells(apart)))
+    text = "Values are those of the nearest sample, up to 0.15 s away."
+    if len(speeds) + len(gaps) <= BROAD:
+        whole = [([at, *a, *b]) for at, a, b in rows]
+        shown = [table(["Time", *speeds, *gaps], whole, "long")]
+    else:
+        shown = [
+            table(["Time", *speeds], [[at, *a] for at, a, _ in rows], "long"),
+            table(["Time", *gaps], [[at, *b] for at, _, b in rows], "long"),
+        ]
+    return joined((tag("p", text), tag("div", *shown, class_="wide")))
+
+
+def _cells(values: list[tuple[float | None, str]]) -> list[str]:
+    """Return values with their units; a dash where there is none."""
+    return ["–" if value is None else told(Figure(value, unit, NOWHERE)) for value, unit in values]
 
 
 def _at(time: float, times: tuple[float, ...], values: tuple[float, ...]) -> float | None:

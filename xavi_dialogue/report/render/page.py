@@ -4,7 +4,7 @@ from collections.abc import Callable
 from importlib.resources import files
 
 from xavi_dialogue.report.content import Incident
-from xavi_dialogue.report.render import closing, observations, reasons
+from xavi_dialogue.report.render import avoidance, closing, observations, reasons
 from xavi_dialogue.report.render.markup import Markup, joined, tag
 from xavi_dialogue.report.render.notes import Notes
 from xavi_dialogue.report.render.observations import Page
@@ -21,7 +21,7 @@ SECTIONS: tuple[tuple[str, str, Callable[[Page], Markup]], ...] = (
     ("beliefs", "What was believed, and how it moved", reasons.beliefs),
     ("decision", "What was decided", reasons.decisions),
     ("causes", "What it hangs on", reasons.causes),
-    ("avoidance", "From when it could have been avoided, and how", reasons.avoidance),
+    ("avoidance", "From when it could have been avoided, and how", avoidance.avoidance),
     ("limits", "What the record cannot show", closing.limits),
     ("hashes", "Ride, traces and program", closing.hashes),
 )

@@ -1,8 +1,7 @@
 """Sections on what was believed and decided, what it hangs on, and whether it was avoidable."""
 
-from xavi_dialogue.report.alternatives import Avoidability, Cases, Chance, Holding, Tested, Way
-from xavi_dialogue.report.avoiding import keeps_route
-from xavi_dialogue.report.content import Beliefs, Choice, Decided
+from xavi_dialogue.report.alternatives import Cases, Holding, Tested
+from xavi_dialogue.report.content import Beliefs, Choice, Decided, GoalBelief, SpeedExpected
 from xavi_dialogue.report.render.charts import Line, chart
 from xavi_dialogue.report.render.colours import OTHERS, STROKES
 from xavi_dialogue.report.render.markup import Markup, joined, listed, table, tag
@@ -24,7 +23,7 @@ def beliefs(page: Page) -> Markup:
     """Return what was believed of those involved, and how it moved."""
     text = (
         "The probability of each goal in each decision. It follows from how well the motion so "
-        "far fits driving to that goal."
+        "far fits driving to that goal. One that a decision did not ascribe has none then."
     )
     parts = [tag("p", text)]
     for known in page.report.beliefs:
@@ -38,10 +37,11 @@ def beliefs(page: Page) -> Markup:
 def _beliefs(page: Page, known: Beliefs) -> list[Markup]:
     if not known.goals:
         return [tag("p", "No decision of these seconds predicted it.")]
+    times = sorted({point.time for one in known.goals for point in one.points})
     drawn = [
         Line(
             f"{k + 1}",
-            tuple((p.time, 100.0 * p.probability) for p in one.points),
+            _drawn(one, times),
             OTHERS[k % len(OTHERS)],
             STROKES[k % len(STROKES)] or None,
             dots=True,
@@ -58,7 +58,36 @@ def _beliefs(page: Page, known: Beliefs) -> list[Markup]:
         ]
         rows.append((f"{k + 1}: {goal(one.kind, one.place)}", *ends, came[one.came]))
     head = ("Goal", "First in the window", "Last in the window", "Took that road later in the ride")
-    return [chart(page.axes, "Probability of its goals [%]", drawn, high=100.0), table(head, rows)]
+    return [
+        chart(page.axes, "Probability of its goals [%]", drawn, high=100.0),
+        table(head, rows),
+        *_speeds(page, known.speeds),
+    ]
+
+
+def _drawn(one: GoalBelief, times: list[float]) -> tuple[tuple[float, float], ...]:
+    """Return the curve of a goal [s], [%]: none where a decision did not ascribe it."""
+    chances = {point.time: 100.0 * point.probability for point in one.points}
+    return tuple((time, chances.get(time, 0.0)) for time in times)
+
+
+def _speeds(page: Page, known: tuple[SpeedExpected, ...]) -> list[Markup]:
+    """Return how fast it was expected to drive, against how fast it drove."""
+    if not known:
+        return []
+    rows = (
+        (
+            f"D{one.decision} at {one.time:.1f} s",
+            f"{one.at:.1f} s ({page.by(one.at)})",
+            page.notes.figure(one.speed),
+            page.notes.figure(one.driven, "not seen"),
+        )
+        for one in known
+        if one.at <= page.report.until + 1e-6
+    )
+    head = ("By decision", "For", "Speed expected", "Speed driven")
+    return [tag("p", "How fast it was expected to drive, and how fast it drove:"),
+            table(head, rows, "long")]  # fmt: skip
 
 
 def decisions(page: Page) -> Markup:
@@ -140,6 +169,10 @@ def _outcomes(page: Page, one: Choice) -> Markup:
         joined((f"{phrase('outcome', name)} ", page.notes.figure(figure)))
         for name, figure in one.chances.items()
     ]
+    told += [
+        joined((f"with {page.names.short(vehicle)} ", page.notes.figure(figure)))
+        for vehicle, figure in one.hit.items()
+    ]
     return joined(told, ", ")
 
 
@@ -220,105 +253,4 @@ def _tested(page: Page, one: Tested) -> tuple[Markup | str, ...]:
         page.notes.figure(one.collision),
         page.notes.figure(one.braking),
         page.notes.figure(one.time),
-    )
-
-
-def avoidance(page: Page) -> Markup:
-    """Return from when it could have been avoided, and how."""
-    known = page.report.avoidability
-    if known is None:
-        return tag("p", "There was no collision and no hard braking at this moment, so there is "
-                   "nothing to be avoided.")  # fmt: skip
-    what = "the collision" if known.mishap == "collide" else (
-        f"braking at {known.threshold:g} m/s² or more"
-    )  # fmt: skip
-    parts = [
-        tag("p", f"Examined is {what} at {known.at:.1f} s, at every decision of the seconds "
-            "before. An option is judged by its rollouts, as it was believed then. ",
-            "For a collision its lines are also laid against the other as it really drove. "
-            "An option avoids it if both give it a probability of at most 25 %."
-            if known.mishap == "collide" else
-            "An option avoids it if its rollouts brake so with a probability of at most 25 %, "
-            "and at least 25 % less often than what was chosen."),
-        tag("p", tag("b", last_chance(known))),
-        *(tag("p", text) for text in _emergencies(page, known)),
-        tag("div", _ways(page, known), class_="wide"),
-    ]  # fmt: skip
-    return joined(parts)
-
-
-def last_chance(known: Avoidability) -> str:
-    """Return the last decision with a way out."""
-    if known.last is None:
-        return "No decision of these seconds had an option that the record shows to avoid it."
-    text = f"The last decision with an option that avoids it is {_open_at(known, known.last)}."
-    if known.last_on_route not in (None, known.last):
-        kept = _open_at(known, known.last_on_route, lost=False)
-        text += f" Of those that keep to the route, it is {kept}."
-    return text
-
-
-def _open_at(known: Avoidability, number: int | None, *, lost: bool = True) -> str:
-    """Return a decision with the options that avoid the mishap; `lost`: off the route, too."""
-    chance = next(one for one in known.chances if one.number == number)
-    told = " or ".join(
-        f"to {action_words(way.action)}{_cost(way)}"
-        for way in chance.ways
-        if way.avoids and (lost or keeps_route(way))
-    )
-    return f"decision {chance.number}, {known.at - chance.time:.1f} s before: {told}"
-
-
-def _cost(way: Way) -> str:
-    return "" if keeps_route(way) else " (off the route to the goal)"
-
-
-def _emergencies(page: Page, known: Avoidability) -> list[Markup]:
-    found = []
-    for one in known.emergency:
-        note = page.notes.ref(one.source)
-        if one.latest is None:
-            text = (
-                f"Braking at {one.rate:g} m/s² from {one.looked_from:.1f} s on, or from any later "
-                "sample, would not have avoided contact with the other as it drove"
-            )
-        else:
-            text = (
-                f"Braking at {one.rate:g} m/s² on its own line, begun at {one.latest:.1f} s "
-                f"({one.before:.1f} s before) or earlier, "
-                "would have kept this car clear of the other as it drove"
-            )
-        found.append(joined((text, note, ".")))
-    return found
-
-
-def _ways(page: Page, known: Avoidability) -> Markup:
-    crash = known.mishap == "collide"
-    rows = [
-        _way(page, chance, way, crash=crash)
-        for chance in known.chances
-        for way in sorted(chance.ways, key=lambda way: not way.chosen)
-    ]
-    of_crash = ("Touches the other as it drove", "Least distance") if crash else ()
-    head = ("Decision", "Option", "As believed then", *of_crash, "Hardest braking", "Avoids it")
-    return table(head, rows, "long")
-
-
-def _way(page: Page, chance: Chance, way: Way, *, crash: bool) -> tuple[Markup | str, ...]:
-    unknown = "not recorded" if way.believed is None else "was not foreseen"
-    verdict = unknown if way.avoids is None else tag("b", "yes") if way.avoids else "no"
-    name = capital(action_words(way.action)) + _cost(way)
-    marks = [
-        tag("b", " (chosen)") if way.chosen else None,
-        " (more rollouts)" if way.planned else "",
-    ]
-    figures = [page.notes.figure(way.believed)]
-    if crash:
-        figures += [page.notes.figure(way.replayed), page.notes.figure(way.clearance)]
-    return (
-        f"D{chance.number}, {page.by(chance.time)}",
-        joined((name, *marks)),
-        *figures,
-        page.notes.figure(way.braking),
-        verdict,
     )

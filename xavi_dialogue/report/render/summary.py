@@ -5,10 +5,11 @@ from collections.abc import Iterator
 from xavi_dialogue.report.alternatives import Cases, Tested
 from xavi_dialogue.report.content import Choice
 from xavi_dialogue.report.figures import Figure, Source
+from xavi_dialogue.report.render.avoidance import emergencies, last_chance, light_told
 from xavi_dialogue.report.render.markup import Markup, Part, joined, listed
 from xavi_dialogue.report.render.notes import KMH, number, percent
 from xavi_dialogue.report.render.observations import Page
-from xavi_dialogue.report.render.reasons import last_chance, reasons_why
+from xavi_dialogue.report.render.reasons import reasons_why
 from xavi_dialogue.report.render.words import (
     action_words,
     capital,
@@ -21,6 +22,7 @@ from xavi_dialogue.report.render.words import (
 
 SHIFT = 0.1  # probability of a collision by which a change counts
 BRAKES = 1.0  # [m/s2] of the hardest braking by which a change counts
+FASTER = 2.0  # [m/s] between the speeds expected and driven from which they are told
 COUNTS = 2.0  # [s] of the expected reward by which a change counts
 
 
@@ -34,6 +36,8 @@ def summary(page: Page) -> Markup:
             *_light(page),
             *_believed(page),
             *_decided(page),
+            *_expected_speeds(page),
+            *_held(page),
             *_hangs_on(page),
             *_avoidable(page),
         ]
@@ -74,17 +78,18 @@ def _peak_braking(page: Page) -> tuple[float, float, Source] | None:
 
 def _speeds(page: Page) -> Iterator[Markup]:
     """Yield the speeds at the moment of this car, and of the first of those involved."""
-    moment = page.report.moment.time
+    moment = at = page.report.moment.time
     parts: list[Part] = []
     for course in page.report.motions[:3]:
         known = [k for k, t in enumerate(course.time) if abs(t - moment) <= 0.25]
         if known:
             near = min(known, key=lambda k: (abs(course.time[k] - moment), k))
+            at = course.time[near] if not parts else at
             who = page.names.of(course.vehicle)
             speed = f"{who} {course.speed[near] * KMH:.1f} km/h"
             parts += [", " if parts else None, speed, page.notes.ref(course.source)]
     if parts:
-        yield joined((f"Speeds at {seconds(moment)}: ", *parts, "."))
+        yield joined((f"Speeds at {seconds(at)}: ", *parts, "."))
 
 
 def _priority(page: Page) -> Iterator[Markup]:
@@ -110,8 +115,10 @@ def _light(page: Page) -> Iterator[Markup]:
         if span.since <= moment + 1e-6 and span.until >= moment - 1.0:
             state = phrase("light", span.state)
             seen = "seen to change" if span.change_seen else "came into view so"
+            later = span.until >= page.report.decisions[-1].time - 1e-6
+            last = "at least until" if later else "to"
             yield joined((f"The light ahead showed {state} from {seconds(span.since)} ({seen}) "
-                          f"to {seconds(span.until)}", page.notes.ref(span.distance.source),
+                          f"{last} {seconds(span.until)}", page.notes.ref(span.distance.source),
                           "."))  # fmt: skip
 
 
@@ -161,8 +168,38 @@ def _expected(page: Page, choice: Choice) -> Markup:
     if crash is None:
         parts.append(" and a collision in none of the rollouts")
     else:
-        parts += [" and a collision in ", page.notes.figure(crash), " of the rollouts"]
+        whom = " or ".join(page.names.of(vehicle) for vehicle in choice.hit)
+        with_whom = f" with {whom}" if whom else ""
+        share = page.notes.figure(crash)
+        parts += [f" and a collision{with_whom} in ", share, " of the rollouts"]
     return joined(parts)
+
+
+def _expected_speeds(page: Page) -> Iterator[Markup]:
+    """Yield where another drove otherwise than the decisions that are examined expected it to."""
+    for known in page.report.beliefs:
+        seen = [one for one in known.speeds if one.at <= page.report.moment.time + 1e-6]
+        pairs = [(abs(one.speed.value - one.driven.value), one) for one in seen if one.driven]
+        apart, one = max(pairs, key=lambda pair: pair[0], default=(0.0, None))
+        if one is not None and apart >= FASTER:
+            who = page.names.of(known.vehicle)
+            yield joined((f"Decision {one.decision} ({page.by(one.time)}) expected {who} to drive ",
+                          page.notes.figure(one.speed), f" at {seconds(one.at)}; it drove ",
+                          page.notes.figure(one.driven), "."))  # fmt: skip
+
+
+def _held(page: Page) -> Iterator[Markup]:
+    """Yield what the decision in force expected to hold the car up."""
+    in_force = {one.number for one in page.report.decided if "in-force" in one.why}
+    for case in page.report.cases:
+        if case.decision in in_force and case.held:
+            parts: list[Part] = []
+            for one in case.held:
+                name = "" if one.vehicle is None else f"{page.names.of(one.vehicle)}, "
+                told = [f"{name}{phrase('held', one.how)}, ", page.notes.figure(one.expected)]
+                parts += ["; " if parts else None, *told, " in the mean"]
+            text = f"Decision {case.decision} expected this car to be held up by: "
+            yield joined((text, *parts, "."))
 
 
 def _hangs_on(page: Page) -> Iterator[Markup]:
@@ -212,3 +249,6 @@ def _avoidable(page: Page) -> Iterator[Markup]:
     known = page.report.avoidability
     if known is not None:
         yield joined((last_chance(known),))
+        yield from emergencies(page, known)
+        if known.light is not None:
+            yield light_told(page, known.light)

@@ -91,6 +91,8 @@ def supposed_words(names: Names, one: Supposed) -> str:
             return "without all others"
         case "absent":
             return f"without {names.of(one.vehicle)}"
+        case "pair":
+            return f"without both {' and '.join(map(names.of, one.pair))}"
         case "goal":
             return f"{names.of(one.vehicle)} surely {goal(one.goal or 'continue', one.place)}"
         case "light":
