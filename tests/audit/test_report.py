@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import shutil
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -16,6 +17,7 @@ from xavi_dialogue.audit.report import LIST, PAGE, write
 from xavi_dialogue.audit.results.changes import earlier
 from xavi_dialogue.audit.results.tables import ANSWERS, CHANGES, FINDINGS, RIDES, read
 from xavi_dialogue.audit.store import Store
+from xavi_dialogue.audit.values import Peak
 
 HOSTILE = "<script>alert(1)</script> $x_{"
 
@@ -141,3 +143,47 @@ def test_the_page_shows_the_foremost_and_says_how_many_more(tmp_path: Path) -> N
 def test_an_audit_of_nothing_has_a_page(tmp_path: Path) -> None:
     write(Audit("program", (), (), ()), Store(tmp_path), 10, None)
     assert "Audit of 0 rides" in (tmp_path / PAGE).read_text(encoding="utf-8")
+
+
+def driven(folder: Path) -> Audit:
+    """Return an audit of one ride that is stored in its folder."""
+    path = Path(__file__).parents[2] / "transcripts" / "rides" / "s2-2.ride.jsonl.gz"
+    (folder / "rides").mkdir(parents=True)
+    shutil.copy(path, folder / "rides" / "0.gz")
+    known = facts(
+        scenario="s2", ride_hash=hashlib.sha256(path.read_bytes()).hexdigest(),
+        braking=Peak(4.0, 3.3), time_to_collision=None,
+    )  # fmt: skip
+    made = audit((known, answered()))
+    source = msgspec.structs.replace(made.rides[0].source, place="s2")
+    return replace(made, rides=(replace(made.rides[0], source=source),))
+
+
+def test_findings_lead_to_reports_beside_the_page(tmp_path: Path) -> None:
+    found = driven(tmp_path)
+    summary = write(found, Store(tmp_path), 10, None, reports=1)
+    (link,) = [one for one in elements(tmp_path / PAGE).links if one.startswith("reports/")]
+    page = (tmp_path / link).read_text(encoding="utf-8")
+    assert "Incident report: Hardest braking at 3.3 s: s2" in page
+    assert "planned again" in page
+    assert summary.files[link] == hashlib.sha256(page.encode()).hexdigest()
+    written = (tmp_path / link).stat().st_mtime_ns
+    assert write(found, Store(tmp_path), 10, None, reports=1) == summary
+    assert (tmp_path / link).stat().st_mtime_ns == written
+    (tmp_path / link).write_text("<html>cut off", encoding="utf-8")
+    assert write(found, Store(tmp_path), 10, None, reports=1) == summary
+    assert (tmp_path / link).read_text(encoding="utf-8") == page
+
+
+def test_without_a_report_the_page_has_its_command(tmp_path: Path) -> None:
+    write(driven(tmp_path), Store(tmp_path), 10, None)
+    text = (tmp_path / PAGE).read_text(encoding="utf-8")
+    assert "<code>xavi report rides/0.gz --at &#39;hardest braking&#39;</code>" in text
+    assert not (tmp_path / "reports").exists()
+
+
+def test_a_report_that_cannot_be_made_leaves_the_command(tmp_path: Path) -> None:
+    write(some(), Store(tmp_path), 10, None, reports=3)  # its rides are not there
+    text = (tmp_path / PAGE).read_text(encoding="utf-8")
+    assert "xavi report rides/0.gz --at 5.5" in text
+    assert "reports/" not in text

@@ -25,6 +25,7 @@ class Options:
     jobs: int | None = None  # None: one process for each processor
     dask: str | None = None  # the scheduler of a cluster, instead of local processes
     top: int = 10
+    reports: int = 1
 
 
 def run(options: Options) -> report.Summary:
@@ -42,7 +43,7 @@ def run(options: Options) -> report.Summary:
     store = Store(options.folder)
     with bar() as progress:
         found = audit.run(options.sources, options.questions, store, runner(options), progress)
-    return report.write(found, store, options.top, before)
+    return report.write(found, store, options.top, before, options.reports)
 
 
 def runner(options: Options) -> audit.Runner:

@@ -26,7 +26,7 @@ APART: Final = (
     *("xavi_dialogue/audit/command.py", "xavi_dialogue/audit/report.py"),
     *("xavi_dialogue/audit/results", "xavi_dialogue/audit/running"),
     *("xavi_dialogue/audit/store.py", "xavi_dialogue/chat"),
-    *("xavi_dialogue/cli", "xavi_dialogue/terminal"),
+    *("xavi_dialogue/cli", "xavi_dialogue/report", "xavi_dialogue/terminal"),
 )
 LENGTH: Final = 16  # hexadecimal digits that are kept of a hash
 

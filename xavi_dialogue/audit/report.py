@@ -12,6 +12,7 @@ from xavi_dialogue.audit.results.changes import Earlier, changes
 from xavi_dialogue.audit.results.findings import KINDS, Finding, findings
 from xavi_dialogue.audit.results.page import TITLES, page
 from xavi_dialogue.audit.results.plots import plots
+from xavi_dialogue.audit.results.reports import write_reports
 from xavi_dialogue.audit.results.tables import tables
 from xavi_dialogue.audit.store import Store
 
@@ -29,7 +30,7 @@ class Summary(msgspec.Struct, frozen=True):
     rides: int
     failed: dict[str, str]  # reasons by ride
     findings: dict[str, int]  # their numbers by kind
-    files: dict[str, str]  # SHA-256 of tables, page, rides and answers, by name
+    files: dict[str, str]  # SHA-256 of tables, page, reports and rides, by name
 
     def table(self) -> str:
         """Return it as text."""
@@ -39,8 +40,17 @@ class Summary(msgspec.Struct, frozen=True):
         return "\n".join(lines)
 
 
-def write(audit: Audit, store: Store, top: int, before: Earlier | None) -> Summary:
+def write(
+    audit: Audit, store: Store, top: int, before: Earlier | None, reports: int = 0
+) -> Summary:
     """Write all files of an audit.
+
+    Args:
+        audit: the rides.
+        store: its folder.
+        top: number of findings of each kind that the page shows.
+        before: an earlier audit to compare with.
+        reports: number of findings of each kind of which a report is written.
 
     Raises:
         AuditError: there is nothing to compare with the earlier audit.
@@ -50,9 +60,11 @@ def write(audit: Audit, store: Store, top: int, before: Earlier | None) -> Summa
     found = findings(audit, changed or ())
     written = tables(audit, found, changed)
     program = None if before is None else before.program
-    written[PAGE] = page(audit, found, plots(audit), top, program)
+    reported = write_reports(audit, found, store, reports)
+    written[PAGE] = page(audit, found, plots(audit), top, program, reported)
     for name, data in written.items():
         store.write(name, data)
+    written |= {name: store.read(name) for name in reported.values()}
     hashes = {name: hashlib.sha256(data).hexdigest() for name, data in sorted(written.items())}
     summary = Summary(
         schema=SCHEMA,

@@ -96,9 +96,17 @@ class Store:
             AuditFailed: it cannot be written.
         """
         try:
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             _write(self.folder / name, data)
         except OSError as error:
             raise AuditFailed(f"cannot write {self.folder / name}: {error.strerror}") from error
+
+    def read(self, name: str) -> bytes:
+        """Return a file of the folder; nothing if it cannot be read."""
+        try:
+            return (self.folder / name).read_bytes()
+        except OSError:
+            return b""
 
     def whole(self, key: str, facts: Facts) -> bool:
         """Check whether a ride is stored with the length that it had."""

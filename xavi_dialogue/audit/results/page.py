@@ -11,6 +11,7 @@ from xavi_dialogue.audit.audit import Audit, Looked
 from xavi_dialogue.audit.errors import needing
 from xavi_dialogue.audit.results.findings import KINDS, Finding
 from xavi_dialogue.audit.results.plots import anchor
+from xavi_dialogue.audit.results.reports import Written, command
 from xavi_dialogue.audit.results.tables import ride_row
 
 with needing("audit", "pip install jinja2"):
@@ -44,6 +45,7 @@ def page(
     pictures: Sequence[tuple[str, str]],
     top: int,
     against: str | None,
+    reported: Written,
 ) -> bytes:
     """Return the page.
 
@@ -53,6 +55,7 @@ def page(
         pictures: SVG and captions.
         top: number of findings of each kind that are shown.
         against: the program of the earlier audit, if there is one.
+        reported: the files of reports that there are.
     """
     environment = Environment(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=StrictUndefined
@@ -63,7 +66,7 @@ def page(
         audit=audit,
         against=against,
         counts=_counts(audit),
-        sections=[_section(audit, places, kind, findings, top) for kind in KINDS
+        sections=[_section(audit, places, kind, findings, top, reported) for kind in KINDS
                   if kind != "changed-answer" or against is not None],
         pictures=pictures,
         rides=[_ride(audit, k, one) for k, one in enumerate(audit.rides)],
@@ -84,7 +87,12 @@ def _counts(audit: Audit) -> dict[str, int]:
 
 
 def _section(
-    audit: Audit, places: dict[str, int], kind: str, findings: Sequence[Finding], top: int
+    audit: Audit,
+    places: dict[str, int],
+    kind: str,
+    findings: Sequence[Finding],
+    top: int,
+    reported: Written,
 ) -> dict[str, Any]:
     several = [one for one in findings if one.kind == kind]
     rows = [
@@ -92,6 +100,8 @@ def _section(
             **msgspec.structs.asdict(one),
             "anchor": anchor(places[one.ride]),
             "file": audit.rides[places[one.ride]].file,
+            "report": reported.get((one.kind, one.rank)),
+            "command": command(audit.rides[places[one.ride]], one),
             "again": _again(audit, audit.rides[places[one.ride]], one),
         }
         for one in several[:top]

@@ -50,6 +50,9 @@ Dask = Annotated[
     str | None,
     typer.Option(metavar="ADDRESS", help="Scheduler of a Dask cluster: tcp://127.0.0.1:8786."),
 ]
+Reports = Annotated[
+    int, typer.Option(min=0, help="Findings of each kind of which a report is written, too.")
+]
 Top = Annotated[int, typer.Option(min=1, help="Findings of each kind on the page.")]
 
 
@@ -71,12 +74,13 @@ def _audit(shell: Streams) -> Callable[..., None]:
         jobs: Jobs = None,
         dask: Dask = None,
         top: Top = 10,
+        reports: Reports = 1,
         as_json: AsJson = False,
     ) -> None:
         """Look through many rides for what deserves a look, and ask each the same questions.
 
-        Writes tables (Parquet) and a page (audit.html). What is done already is not done again.
-        The exit status is 1 if a ride failed.
+        Writes tables (Parquet), a page (audit.html) and reports on the foremost findings.
+        What is done already is not done again. The exit status is 1 if a ride failed.
         """
         with shell.errors():
             _check(recordings, scenario, seeds, duration, jobs, dask)
@@ -91,6 +95,7 @@ def _audit(shell: Streams) -> Callable[..., None]:
                     jobs=jobs,
                     dask=dask,
                     top=top,
+                    reports=reports,
                 )
             )
         shell.write(to_json(found) if as_json else f"{found.table()}\n{out / 'audit.html'}")
