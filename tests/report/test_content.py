@@ -2,11 +2,13 @@
 
 import hashlib
 import math
+from typing import get_args
 
 import msgspec
 import pytest
 
 import xavi_dialogue as xavi
+from planner.record.events import RestraintKind
 from planner.record.trace import SAMPLE_PERIOD, PlanTrace
 from sim.boxes import overlap
 from sim.scene import EGO, VehicleState
@@ -26,6 +28,7 @@ from tests.report.records import (
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.report.content import Incident, encode
 from xavi_dialogue.report.figures import Figure
+from xavi_dialogue.report.render.words import phrase
 from xavi_dialogue.service.in_process import NoPlan
 from xavi_dialogue.storage.ride_file import RecordedRide
 
@@ -573,3 +576,17 @@ def test_a_light_holds_up_every_option_before_it() -> None:
                 assert way.believed is not None
                 assert min(held) <= way.believed.value <= max(held)
     assert known.last is None
+
+
+def test_what_restrained_the_car_is_in_the_timeline() -> None:
+    found = incident(TOWN, "hardest braking")
+    told = [(one.time, one.what) for one in found.timeline if one.kind == "restrained"]
+    events = [one for one in ride(TOWN).events if one.kind == "restrained"]
+    inside = [one for one in events if found.since <= one.sim_time <= found.until]
+    assert told == [(one.sim_time, one.by) for one in inside]
+    assert "bend" in [what for _, what in told]
+
+
+def test_every_restraint_has_words() -> None:
+    for kind in get_args(RestraintKind):
+        assert phrase("restraint", kind) != kind or kind == "nothing"

@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
+import msgspec
+
 from planner.record.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
@@ -22,7 +24,10 @@ SEEN: tuple[ActionName, ...] = (
 )  # fmt: skip
 AGAIN = 3.0  # [s] after giving way to somebody for which that is not told again
 SOON = 0.6  # [s] between the beginnings of two accounts of one thing
-FROM_EVENTS = ("action-committed", "gave-way", "stopped-at-light", "arrived", "collided", "ended")
+FROM_EVENTS = (
+    "action-committed", "gave-way", "restrained", "stopped-at-light", "arrived", "collided",
+    "ended",
+)  # fmt: skip
 
 
 def timeline(
@@ -80,9 +85,10 @@ def _events(ridden: Ridden, window: tuple[float, float]) -> Iterator[Entry]:
                 if event.sim_time - before < AGAIN:
                     continue
             source = Source("event", "kind", k, event.sim_time)
-            yield Entry(
-                event.sim_time, event.kind, source, EGO, event.action or "", other=event.vehicle
-            )
+            what: str = event.action or ""
+            if event.kind == "restrained":
+                what = "" if event.by is msgspec.UNSET else event.by
+            yield Entry(event.sim_time, event.kind, source, EGO, what, other=event.vehicle)
 
 
 def _decisions(ridden: Ridden, window: tuple[float, float]) -> Iterator[Entry]:

@@ -114,6 +114,9 @@ def _entry(page: Page, one: Entry) -> Markup:
             value = page.notes.figure(next(iter(figures.values())))
             text = phrase("peak", one.what).format("", whom)
             return joined((tag("b", text), ": ", value, "."))
+        case "restrained":
+            why = phrase("restraint", one.what).format(whom)
+            return joined((f"From now on {why} keeps this car from driving faster.",))
         case "episode":
             return _episode(page, one, whom)
     text = phrase("event", one.kind)

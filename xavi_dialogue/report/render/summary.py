@@ -36,6 +36,7 @@ def summary(page: Page) -> Markup:
             *_light(page),
             *_believed(page),
             *_decided(page),
+            *_restrained(page),
             *_expected_speeds(page),
             *_held(page),
             *_hangs_on(page),
@@ -173,6 +174,18 @@ def _expected(page: Page, choice: Choice) -> Markup:
         share = page.notes.figure(crash)
         parts += [f" and a collision{with_whom} in ", share, " of the rollouts"]
     return joined(parts)
+
+
+def _restrained(page: Page) -> Iterator[Markup]:
+    """Yield what kept the car from driving faster at the moment."""
+    moment = page.report.moment.time
+    told = [one for one in page.report.timeline if one.kind == "restrained"]
+    known = [one for one in told if one.time <= moment + 1e-6]
+    if known and known[-1].what != "nothing":
+        last = known[-1]
+        why = phrase("restraint", last.what).format(page.names.of(last.other)).rstrip(",")
+        text = f"What kept this car from driving faster from {seconds(last.time)} on: {why}"
+        yield joined((text, page.notes.ref(last.source), "."))
 
 
 def _expected_speeds(page: Page) -> Iterator[Markup]:
