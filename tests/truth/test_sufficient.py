@@ -150,7 +150,7 @@ def test_what_comes_without_a_vehicle_was_planned_again() -> None:
 
 
 NONE = "No other vehicle makes the difference to that, not even all of them together."
-SEVERAL = "Others count, too: without any one of them alone, it would come to the same"
+SEVERAL = "Others play a part, too: without any one of them alone, it would come to the same"
 ALL_NAMED = f"{SEVERAL}, and without all 3 of them, I would do the same, but with less reason."
 
 

@@ -9,7 +9,7 @@ from benchmarks.truth.decision import Decision
 from planner.record.trace import PlanTrace
 
 OTHERS = (
-    r"[Oo]thers count(?:ed)?, too: without any one of them alone, "
+    r"[Oo]thers play(?:ed)? a part, too: without any one of them alone, "
     r"it would (?:have )?come to the same"
 )
 

@@ -10,8 +10,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from msgspec.structs import replace as changed
-
 from planner.record.events import RestraintKind
 from planner.record.trace import HoldUp, PlanTrace
 from xavi_dialogue.causal.model import Actions, CausalModel
@@ -173,7 +171,7 @@ class _Tested:
     @property
     def either(self) -> bool:
         """Whether others are as much a reason as those that were in the way."""
-        return self.causation is not None and self.causation.kind == "either"
+        return self.causation is not None and self.causation.kind in ("either", "both")
 
 
 def _tested(
@@ -199,20 +197,7 @@ def _tested(
     else:
         causes = with_lowest(ride, causes, deed.begin - LEEWAY, deed.end)
     known = {cause.vehicle: cause for cause in causes if cause.vehicle is not None}
-    causation = _of_those(tried.causation, held.vehicles)
-    return _Tested(known, causation, evidence(ride, model, plan))
-
-
-def _of_those(causation: Causation | None, held: tuple[int, ...]) -> Causation | None:
-    """Keep, of vehicles that matter together, only those that were in the way."""
-    if causation is None or causation.kind not in ("both", "several"):
-        return causation
-    ours = tuple(vehicle for vehicle in causation.vehicles if vehicle in held)
-    if len(ours) == len(causation.vehicles):
-        return causation
-    if causation.kind == "several":
-        return changed(causation, vehicles=ours)
-    return changed(causation, kind="one" if ours else "open", vehicles=ours, alters=())
+    return _Tested(known, tried.causation, evidence(ride, model, plan))
 
 
 def _stated(
