@@ -16,16 +16,19 @@ Conventions on which other modules rely:
 - Where nothing was understood, `acts` is empty and every content word is unknown.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import islice, product
 
 from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading
 from xavi_dialogue.nlu.compose.acts import NOTHING
+from xavi_dialogue.nlu.demands import blames, startles, wants_reason
 from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node, Nodes
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
 from xavi_dialogue.nlu.joining.alternatives import chosen_between
+from xavi_dialogue.nlu.joining.demanding import blaming, demanding, may_startle
 from xavi_dialogue.nlu.joining.meanwhile import at_same_time, in_its_world
 from xavi_dialogue.nlu.joining.outcomes import struck_by
 from xavi_dialogue.nlu.joining.sentences import (
@@ -101,10 +104,23 @@ def _read(text: str) -> tuple[Reading, ...]:
             rows[-1] = _sentence(before, budget)
         else:
             before = sentence
-            rows.append(_sentence(sentence, budget))
+            rows.append(_of_several(sentence, rows, len(parts), budget))
             ends.append("")
         ends[-1] = before.end
     return joined(rows, ends)
+
+
+def _of_several(
+    typed: Typed, rows: Sequence[tuple[Reading, ...]], count: int, budget: Budget
+) -> tuple[Reading, ...]:
+    """Read a sentence of a text; what a bare demand is of stands in another one."""
+    found = _sentence(typed, budget)
+    if blames(typed.tokens):
+        found = tuple(map(blaming, found))
+    bare = count > 1 and wants_reason(typed)
+    if bare or (rows and startles(typed) and may_startle(rows[-1][0])):
+        return (demanding(typed), *found)
+    return found
 
 
 def _is_tag(typed: Typed) -> bool:

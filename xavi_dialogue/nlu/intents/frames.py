@@ -1,7 +1,7 @@
 """Frames: the plain question of each intent, as the grammar reads it."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, Final
 
@@ -45,11 +45,17 @@ def plain(intent: Intent, thing: Thing | None) -> Plain | None:
     for entry in entries:
         found = entry.get(intent.tense, entry.get(_ALWAYS)) or ()
         for text in (found,) if isinstance(found, str) else found:
-            if _SLOT not in text or thing is not None:
-                acts = substitute(_acts(text), _STAND_IN, thing)
-                shown = text.replace(_SLOT, _SHOWN)
-                return Plain(shown, acts, bool(entry.get(_VAGUE)))
+            if (question := spoken(text, thing)) is not None:
+                return replace(question, vague=bool(entry.get(_VAGUE)))
     return None
+
+
+def spoken(text: str, thing: Thing | None) -> Plain | None:
+    """Give a plain question by its text; None where it is of another vehicle, and there is none."""
+    if _SLOT in text and thing is None:
+        return None
+    acts = substitute(_acts(text), _STAND_IN, thing)
+    return Plain(text.replace(_SLOT, _SHOWN), acts, vague=False)
 
 
 def is_of(act: Act, name: str) -> bool:

@@ -4,8 +4,12 @@ What the grammar reads clearly, word for word, stays as it is. Where it leaves w
 reads them at a high cost, the plain questions of likely intents stand beside its readings.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from dataclasses import replace as replaced
 from typing import Final
+
+from msgspec.structs import replace
 
 from xavi_dialogue.domain.meaning import (
     Act,
@@ -17,34 +21,45 @@ from xavi_dialogue.domain.meaning import (
     TokenShare,
 )
 from xavi_dialogue.domain.rewriting import first
-from xavi_dialogue.domain.terms import Both, Feature
+from xavi_dialogue.domain.terms import Both, Feature, Thing
+from xavi_dialogue.nlu.demands import default, demanded, is_met
 from xavi_dialogue.nlu.grounding.doubts import SMALL
 from xavi_dialogue.nlu.intents.classifier import Intent, judge
 from xavi_dialogue.nlu.intents.features import asking, features
-from xavi_dialogue.nlu.intents.frames import Plain, is_of, plain
+from xavi_dialogue.nlu.intents.frames import Plain, is_of, plain, spoken
 from xavi_dialogue.nlu.intents.mentions import at_time_of, mentioned
 from xavi_dialogue.nlu.intents.signature import asking_acts
+from xavi_dialogue.nlu.joining.sentences import sentences
+from xavi_dialogue.nlu.text.tokens import tokenise
 from xavi_dialogue.nlu.unread import unread_cost
 
 CLEAR: Final = 0.75  # cost of each act up to which the grammar is trusted
 OFFERED: Final = 3  # intents of which the plain question is offered, at most
 LIKELY: Final = 0.33  # probability from which on it is, where the grammar leaves words unread ...
 CERTAIN: Final = 0.7  # ... and where it leaves none
+UNMET: Final = 1.0  # cost of each demand of a sentence that a reading leaves unmet
+LOOKED: Final = 8  # intents that are looked at for one that meets it
+FITTING: Final = 0.05  # least probability of those that do
+DEFAULT: Final = 0.6  # what a plain question of unmet demands is taken for as a probability
+FITTED: Final = 0.9  # ... where its words name what it is of
 SURE: Final = 0.5  # probability from which on it need not be said how a text was understood
 
 
 def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
     """Give the readings of a text and the plain questions that it may come to, likeliest first."""
+    wanted = _demands(text, readings[0])
+    readings = sorted((_charged(one, wanted) for one in readings), key=lambda one: one.cost)
     best = readings[0]
+    unmet = _unmet(best, wanted)
     asked = asking(text, best.shares)
-    incomplete = _is_incomplete(best, asked)
+    incomplete = bool(unmet) or _is_incomplete(best, asked)
     clear = not incomplete and (_cost(best) <= CLEAR * len(best.acts) or _of_light(best))
     if clear or _of_several(best) or any(share.strange for share in asked):
         return tuple(readings)
     thing = mentioned(best)
     offered = [
         (intent, question)
-        for intent in judge(features(text, best))[:OFFERED]
+        for intent in _likely(features(text, best), unmet, thing)
         if intent.probability >= (LIKELY if incomplete else CERTAIN)
         and _leaves_open(best, intent, incomplete)
         and (question := plain(intent, thing)) is not None
@@ -52,10 +67,69 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
         and not _is_less(best.acts, question.acts)
         and _counts(best.acts) <= _counts(question.acts)
     ]
-    found = [_reading(best, [pair]) for pair in offered]
+    found = [_reading(best, [pair]) for pair in (*offered, *_defaults(best, unmet))]
     if len(offered) > 1:
         found.append(_reading(best, offered[:2]))
     return tuple(sorted([*readings, *found], key=lambda reading: reading.cost))
+
+
+@dataclass(frozen=True, slots=True)
+class _Demand:
+    """What a sentence demands, by its words."""
+
+    kind: str
+    words: tuple[str, ...]
+
+    def is_met(self, acts: Sequence[Act]) -> bool:
+        return is_met(self.kind, acts)
+
+
+def _demands(text: str, best: Reading) -> list[_Demand]:
+    """List what the sentences of a text demand, each by its words as far as they were corrected."""
+    found: list[_Demand] = []
+    at = 0
+    for sentence in sentences(tokenise(text)):
+        shares = best.shares[at : at + len(sentence.tokens)]
+        words = tuple(s.read if s.read.isalpha() else s.text for s in shares)
+        found += [_Demand(kind, words) for kind in demanded(words)]
+        at += len(sentence.tokens)
+    return found
+
+
+def _unmet(reading: Reading, wanted: Sequence[_Demand]) -> list[_Demand]:
+    return [demand for demand in wanted if not demand.is_met(reading.acts)]
+
+
+def _charged(reading: Reading, wanted: Sequence[_Demand]) -> Reading:
+    """Let a reading cost more that leaves unmet what a sentence demands.
+
+    One without acts owns up to it.
+    """
+    unmet = len(_unmet(reading, wanted)) if reading.acts else 0
+    return replace(reading, cost=round(reading.cost + UNMET * unmet, 3)) if unmet else reading
+
+
+def _defaults(reading: Reading, unmet: Sequence[_Demand]) -> Iterator[tuple[Intent, Plain]]:
+    """Give the plain questions that unmet demands come to."""
+    for demand in unmet[:1]:
+        found = default(demand.kind, demand.words)
+        question = None if found is None else spoken(found.plain, mentioned(reading))
+        if found is not None and question is not None:
+            chance = FITTED if found.fitted else DEFAULT
+            yield Intent(demand.kind, "any", "none", chance), question
+
+
+def _likely(found: frozenset[str], unmet: Sequence[_Demand], thing: Thing | None) -> list[Intent]:
+    """Judge what is asked; where a demand is unmet, among what meets it."""
+    every = judge(found)
+    if not unmet:
+        return list(every[:OFFERED])
+    plains = ((one, plain(one, thing)) for one in every[:LOOKED])
+    fit = [one for one, question in plains if question and unmet[0].is_met(question.acts)]
+    whole = sum(one.probability for one in fit)
+    if whole < FITTING:
+        return list(every[:OFFERED])
+    return [replaced(one, probability=one.probability / whole) for one in fit[:OFFERED]]
 
 
 def _is_incomplete(best: Reading, asked: Sequence[TokenShare]) -> bool:

@@ -61,7 +61,6 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.times import relative
 from xavi_dialogue.nlu.compose.verbs.trends import changed
 from xavi_dialogue.nlu.honesty import is_well_typed
-from xavi_dialogue.nlu.joining.blaming import why_held
 from xavi_dialogue.nlu.joining.outcomes import asks_whom
 
 _MOMENTARY = frozenset({"speed", "distance", "gap", "clearance", "limit", "acceleration",
@@ -77,7 +76,7 @@ def settled(acts: Sequence[Act | None], asked: list[bool], stated: list[bool]) -
         asked: whether each is the last of a sentence that ends with a question mark.
         stated: whether each stands in a sentence that ends otherwise, where another one asks.
     """
-    acts = [_left(act, acts[:k]) for k, act in enumerate(why_held(acts))]
+    acts = [_left(act, acts[:k]) for k, act in enumerate(acts)]
     if any(isinstance(act, Ask) and not told for act, told in zip(acts, stated, strict=True)):
         last = max(k for k, told in enumerate(stated) if isinstance(acts[k], Ask) and not told)
         acts = [_told(a, k < last) if stated[k] else a for k, a in enumerate(acts)]
@@ -88,7 +87,7 @@ def settled(acts: Sequence[Act | None], asked: list[bool], stated: list[bool]) -
     found: list[Act | None] = []
     for index, act in enumerate(acts):
         before = next((one for one in reversed(found) if one is not None), None)
-        known = act == Ask(HowKnow()) and any(map(_asks_grounds, found))
+        known = (act == Ask(HowKnow()) and any(map(_asks_grounds, found))) or act in found
         if act is None or known or (before is not None and _is_told(before, act)):
             found.append(None)
             continue

@@ -4,7 +4,6 @@
 middle lane is free now, what is stopping you?".
 """
 
-from collections.abc import Sequence
 from typing import Any
 
 from msgspec import structs
@@ -17,7 +16,6 @@ from xavi_dialogue.domain.meaning import (
     Elliptic,
     HowMuch,
     Identify,
-    Repair,
     Request,
     Whether,
     Which,
@@ -88,21 +86,6 @@ def _wonders(question: object) -> bool:
         case Identify(thing=Pronoun(form="it")):
             return True
     return False
-
-
-def why_held(acts: Sequence[Act | None]) -> list[Act | None]:
-    """Ask "we brake again, but the road is clear, what is it?" of what we do, not of the road."""
-    for index, act in enumerate(acts[2:], start=2):
-        first, told = acts[index - 2], acts[index - 1]
-        question = act.question if isinstance(act, Ask) else None
-        vague = act == Repair("why") or question == Why(That()) or _wonders(question)
-        of = _told(first) if first is not None and vague else None
-        if not (isinstance(told, Claim) and isinstance(of, Happens) and of.event.actor == Ego()):
-            continue
-        if is_clear(told.that) or of.event.action in HELD:
-            kept = [*acts[: index - 2], None if isinstance(first, Request) else first, told]
-            return [*kept, Ask(Why(of)), *acts[index + 1 :]]
-    return list(acts)
 
 
 def is_clear(that: Proposition) -> bool:

@@ -1,13 +1,15 @@
 """Sentences: a text cut at its marks, and the readings of its sentences put together."""
 
 from collections.abc import Iterable, Sequence
-from itertools import product
+from itertools import islice, product
 from typing import Final
 
 from msgspec import structs
 
 from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Reading, Repair, Unread, WhatIf
+from xavi_dialogue.nlu.demands import set_apart
 from xavi_dialogue.nlu.joining.besides import settled
+from xavi_dialogue.nlu.joining.demanding import attached
 from xavi_dialogue.nlu.joining.topics import fold
 from xavi_dialogue.nlu.text.tokens import Token, Typed
 
@@ -20,7 +22,7 @@ _STOPS: Final = frozenset({".", "?"})
 
 
 def sentences(typed: Typed) -> tuple[Typed, ...]:
-    """Cut a text where a sentence ends."""
+    """Cut a text where a sentence ends, and where a mark sets a demand for a reason apart."""
     found: list[Typed] = []
     here: list[Token] = []
     for token in typed.tokens:
@@ -29,7 +31,8 @@ def sentences(typed: Typed) -> tuple[Typed, ...]:
             token = Token(token.text)
             here = []
         here.append(token)
-    return (*found, Typed(tuple(here), typed.end))
+    found.append(Typed(tuple(here), typed.end))
+    return tuple(part for sentence in found for part in set_apart(sentence))
 
 
 def appended(first: Typed, second: Typed) -> Typed:
@@ -61,6 +64,7 @@ def unlike(readings: Iterable[Reading]) -> list[Reading]:
 def _one(row: tuple[Reading, ...], ends: Sequence[str]) -> Reading:
     """Put one reading of each sentence together; what is named first is what "he" means."""
     row = _without_world(row)
+    row = _attached(row)
     acts = [act for reading in row for act in reading.acts]
     asked = {
         id(reading.acts[-1])
@@ -104,6 +108,13 @@ def _without_world(row: tuple[Reading, ...]) -> tuple[Reading, ...]:
             reading = Reading((), shares, reading.cost, (Unread(words, True),))
         kept.append(reading)
     return tuple(kept)
+
+
+def _attached(row: tuple[Reading, ...]) -> tuple[Reading, ...]:
+    """Put what we did into the bare demand for its reason beside it."""
+    lost = not all(reading.acts for reading in row)
+    acts = iter(attached([act for reading in row for act in reading.acts], lost))
+    return tuple(structs.replace(r, acts=tuple(islice(acts, len(r.acts)))) for r in row)
 
 
 def _is_supposing(act: Act) -> bool:

@@ -49,6 +49,8 @@ def existing(clause: Clause) -> list[Found]:
         return [(Not(turn) if words_of(clause.objects[0][1]).startswith("no ") else turn, 0.0)]
     if isinstance(sem, Event) and tense_of(clause) == "future":
         return [(Happens(with_fields(sem, tense="future", time=clause.time)), 0.0)]
+    if isinstance(sem, Event) and sem.actor == Ego() and tense_of(clause) == "past":
+        return [(Happens(with_fields(sem, tense="past", time=clause.time)), 0.0)]
     if isinstance(sem, Noun):
         thing = Unknown(sem.word)
         if sem.key == "danger":

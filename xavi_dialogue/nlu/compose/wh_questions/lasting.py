@@ -73,6 +73,7 @@ def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -
         more["event"], actor = with_fields(clause.subject, tense=clause.tense), Ego()
     if actor == more.get("to") == Ego():  # "how much room was there between us"
         actor = _postponed(clause) or Pronoun("it")
+    actor = _placed(actor, clause)
     return HowMuch(
         Measured(cast(Any, attribute), actor, time=time, tense=cast(Any, clause.tense),
                  **more), extreme,
@@ -83,6 +84,17 @@ def _postponed(clause: Clause) -> Thing | None:
     """Find the subject behind the verb: "how many metres is from us the yellow one"."""
     things = (as_thing(sem) for sem, _ in clause.objects)
     return next((t for t in things if isinstance(t, Described | Vehicle | Pronoun)), None)
+
+
+def _placed(thing: Thing, clause: Clause) -> Thing:
+    """Add where it is said to be: "how many metres is behind us the blue car"."""
+    if not isinstance(thing, Described) or thing.bearing is not None or clause.verb is not None:
+        return thing
+    ours = (p.key for p in clause.complements if isinstance(as_thing(p.sem), Ego | Passenger))
+    where = next((key for key in ours if key.startswith("bearing-")), None)
+    if where is None:
+        return thing
+    return cast(Thing, with_fields(thing, bearing=where.removeprefix("bearing-")))
 
 
 def meanwhile(clause: Clause, event: Event | None) -> Any:

@@ -4,7 +4,7 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import HowSure, Question, Whether, Which
+from xavi_dialogue.domain.meaning import HowSure, Question, Whether, Which, Why
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -42,6 +42,12 @@ def race(spoken: Question) -> Question | None:
             event.action == "arrive" and "first" in event.manner and event.tense != "past"
         ):
             return replace(spoken, such=_goes(Wanted(), Ego()))
+        case Why(
+            of=Happens(event=Event(action=action, actor=Ego(), manner=("first",)) as event),
+            instead=Happens(event=Event(action=same, actor=other)),
+        ) if action == same and isinstance(other, _THEIRS):
+            before = None if isinstance(other, Pronoun) else other
+            return replace(spoken, of=Happens(replace(event, object=before)), instead=None)
     return None
 
 

@@ -9,7 +9,7 @@ from typing import Any, Final
 from msgspec.structs import replace
 
 from planner.record.trace import ON_FOOT
-from xavi_dialogue.domain.meaning import Act, Doing, HowLong, Identify, Where
+from xavi_dialogue.domain.meaning import Act, Doing, HowLong, Identify, When, Where
 from xavi_dialogue.domain.rewriting import rewrite
 from xavi_dialogue.domain.terms import (
     Described,
@@ -69,6 +69,11 @@ def _meant(part: Any, g: Grounder) -> Any:
             action in HELD and (light := _light(_spoken(thing, g))) is not None
         ):  # "how long will it stay like that?"
             return HowLong(Happens(replace(event, action="show", actor=light)))
+        case (
+            HowLong(of=Has("colour", "red" | "green" | "amber", Pronoun()) as of)
+            | When(of=Has("colour", "red" | "green" | "amber", Pronoun()) as of)
+        ):  # a vehicle has its colour for good
+            return replace(part, of=_lit_then(replace(of, thing=LIGHT), g))
         case Where(of=Pronoun() as thing):
             return replace(part, of=_spoken(thing, g))
         case Identify(thing=thing) | Exists(thing=thing):
