@@ -2,7 +2,7 @@
 
 import pytest
 
-from xavi_dialogue.domain.meaning import Act, Ask, Claim, HowMuch, Listing, Reading, Why
+from xavi_dialogue.domain.meaning import Act, Ask, Claim, HowMuch, Listing, Reading, WhatIf, Why
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import Described, Event, Happens, Measured, Pronoun
 from xavi_dialogue.nlu.demands import demanded, is_met
@@ -144,3 +144,19 @@ def _why(text: str) -> Why:
 def _asked(text: str) -> str | None:
     event = first(_why(text).of, Event)
     return None if event is None else event.action
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "If it's green, why are we waiting?",
+        "ok so if its green now why are we standing here",
+        "If nobody is coming, why are you braking?",
+    ],
+)
+def test_what_is_so_is_the_ground_of_a_why_and_supposes_nothing(text: str) -> None:
+    acts = interpret(text)[0].acts
+    assert any(isinstance(act, Ask) and isinstance(act.question, Why) for act in acts)
+    assert first(acts, WhatIf) is None
+    otherwise = interpret("If it was red, why would you wait?")[0].acts
+    assert first(otherwise, WhatIf) is not None

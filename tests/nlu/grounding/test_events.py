@@ -11,8 +11,10 @@ from xavi_dialogue.domain.discourse import Discourse, Span
 from xavi_dialogue.domain.terms import (
     At,
     Between,
+    Ego,
     Event,
     Now,
+    Pronoun,
     Rank,
     Relative,
     Unsaid,
@@ -212,3 +214,15 @@ def route(turn: Any) -> RoadFacts:
 )
 def test_why_we_turn_is_asked_of_our_next_turn(spoken: Event, cost: float) -> None:
     assert Said(spoken, facts=route("exit-left")).cost == pytest.approx(cost)
+
+
+def test_what_is_slowing_down_is_our_car_if_no_other_is_named() -> None:
+    """ "What's it slowing down for?", while we brake."""
+    spoken = Event("brake", Pronoun("it"), tense="present")
+    theirs, named = did("brake", 38.0, who=1, going_on=True), talk(Vehicle(1))
+    fresh = replace(named, mentions=(replace(named.mentions[0], salience=1.5),))
+    assert Said(spoken, GOING_ON).event.actor == Ego()
+    assert Said(spoken, GOING_ON, discourse=named).event.actor == Ego()
+    assert Said(spoken, GOING_ON, theirs, discourse=named).event.actor == Vehicle(1)
+    assert Said(spoken, GOING_ON, discourse=fresh).event.actor == Vehicle(1)
+    assert Said(spoken, theirs, discourse=named).event.actor == Vehicle(1)

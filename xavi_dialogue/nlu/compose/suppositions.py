@@ -2,13 +2,13 @@
 
 from typing import Any
 
-from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, WhatIf
+from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, WhatIf, Why
 from xavi_dialogue.domain.terms import Ego, Happens, Not, Proposition, Unsaid
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, node_of, words_of
-from xavi_dialogue.nlu.compose.wh_questions.frames import is_short
+from xavi_dialogue.nlu.compose.wh_questions.frames import is_contrary, is_short
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -94,6 +94,8 @@ class Suppositions:
             supposed = at_once(supposed)
         if leaf_of(unit, "WHATIF") is None and question is None:
             return [((Ask(WhatIf(supposed)),), 0.1)]
+        if isinstance(question, Why) and not is_contrary(question):
+            return [((Claim(supposed), Ask(question)), 0.0)]  # "if it is green, why do we wait"
         return [((Ask(WhatIf(supposed, question)),), 0.0)]
 
     def _then(self, node: Node) -> Any:

@@ -68,7 +68,7 @@ class Frames:
                 question = structs.replace(question, instead=_in_lane(instead, question.of))
         if isinstance(question, Why):
             question = structs.replace(question, rival=alternative(clause.because))
-            if clause.condition is not None and not _contrary(question):
+            if clause.condition is not None and not is_contrary(question):
                 return question  # "why did you brake if nobody was there": it is taken for granted
         if isinstance(question, HowSure) and clause.contrast is not None:
             return question
@@ -191,7 +191,7 @@ def _without(sem: Sem) -> Proposition | None:
     return None if thing is None else Not(Exists(thing))
 
 
-def _contrary(question: Why) -> bool:
+def is_contrary(question: Why) -> bool:
     """Say whether it is asked why something would have come about that did not."""
     event = _inner_event(question.of)
     return event is not None and event.modal == "would"

@@ -45,6 +45,7 @@ from xavi_dialogue.nlu.grounding.events.fitting import (
 from xavi_dialogue.nlu.grounding.events.generic import specified
 from xavi_dialogue.nlu.grounding.events.hiding import out_of
 from xavi_dialogue.nlu.grounding.kin import like
+from xavi_dialogue.nlu.grounding.salience import vehicles_of
 from xavi_dialogue.nlu.grounding.things.pronouns import apart
 
 #: What is meant by going left or right where we did not turn off.
@@ -66,6 +67,7 @@ FRESH: Final = 10.0  # [s] that "why didn't you" reaches back
 def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -> Event:
     """Ground an event: its actor, its object and its time."""
     spoken = afoot(out_of(_at_junction(completed(_by_anybody(spoken), g, mode)), g), g)
+    spoken = _by_us(spoken, g)
     if spoken.tense == "future" and _meanwhile(spoken.time):
         spoken = replace(spoken, time=Unsaid())
     window = _window(spoken, mode, g, outer)
@@ -98,6 +100,19 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
             g.notes.spans(window.span)
         return replace(found, time=window.term)
     return _placed(found, mode, g, window, outer is not None and not outer.said)
+
+
+def _by_us(spoken: Event, g: Grounder) -> Event:
+    """Take "it" in "what's it slowing down for" for our car, if we do so and no other is named."""
+    if spoken.actor != Pronoun("it") or spoken.action not in _HELD or spoken.tense != "present":
+        return spoken
+    now, ours = g.context.now, replace(spoken, actor=Ego())
+    named = any(salience > 1.0 for _, salience in vehicles_of(g.context.discourse.mentions))
+    if named or not g.context.holds(ours, now, now):
+        return spoken
+    others = sorted(vehicles_of(g.context.discourse.mentions), key=lambda pair: -pair[1])
+    told = (replace(spoken, actor=Vehicle(number)) for number, _ in others[:1])
+    return spoken if any(g.context.holds(one, now, now) for one in told) else ours
 
 
 def _by_anybody(spoken: Event) -> Event:
