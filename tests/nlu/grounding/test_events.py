@@ -217,7 +217,7 @@ def test_why_we_turn_is_asked_of_our_next_turn(spoken: Event, cost: float) -> No
 
 
 def test_what_is_slowing_down_is_our_car_if_no_other_is_named() -> None:
-    """ "What's it slowing down for?", while we brake."""
+    """While we brake, "what's it slowing down for?" is of us."""
     spoken = Event("brake", Pronoun("it"), tense="present")
     theirs, named = did("brake", 38.0, who=1, going_on=True), talk(Vehicle(1))
     fresh = replace(named, mentions=(replace(named.mentions[0], salience=1.5),))
