@@ -406,12 +406,14 @@ async def _use(
         if person.done or viewer.leave is not None:
             continue
         turns = [t for t in controller.conversation.turns if t.reply.reason not in PASSING]
-        if len(turns) > person.next:
-            turn = turns[person.next]
+        if len(turns) > person.known:
+            turn = turns[person.known]
+            person.known += 1
             if turn.text == person.script[person.next][1]:
                 person.show(turn.text, turn.reply.text, world.scheduler.now)
                 continue
             person.unsure = True
+            continue
         at, text = person.script[person.next]
         request = system.token(4)
         person.asks[person.next] = person.asks.get(person.next, 0) + 1

@@ -188,6 +188,9 @@ class World:
                     process.crash_at = process.steps + int(fault.amount)
             case "power":
                 self._cut_power(fault.machine)
+            case "stored":
+                volume.crashing = True
+                heal = partial(setattr, volume, "crashing", False)
             case "stall":
                 if process is not None:
                     process.stalled = scheduler.now + fault.lasts

@@ -28,6 +28,7 @@ Json: TypeAlias = "bool | str | list[Json] | dict[str, Json]"
 DIALOGUE = ("@rpc/ask", "@rpc/history", "@rpc/forget", "@rpc/cancel", "@rpc/evidence")
 TURNS = "dialogue/*/turn"
 ROADS = "@blob/network"
+ROUTER = "router"  # what the names of routers begin with; it is no role of a member
 LONGEST = 64  # characters of a common name (RFC 5280, A.1)
 
 
@@ -197,8 +198,14 @@ def member(role: str, name: str | None = None) -> Member:
     return found
 
 
-def access_control(members: Iterable[Member]) -> dict[str, Json]:
-    """Return the part of a hub's Zenoh configuration that grants the table's permissions."""
+def access_control(members: Iterable[Member], routers: Iterable[str] = ()) -> dict[str, Json]:
+    """Return the part of a hub's Zenoh configuration that grants the table's permissions.
+
+    Args:
+        members: who is known.
+        routers: names of routers that are linked to this one. They pass on what their own members
+            may do, so that all that is granted to anybody is granted to them.
+    """
     everybody = sorted(set(members), key=lambda one: one.common_name)
     rules: dict[str, Json] = {}
     policies: list[Json] = []
@@ -211,8 +218,14 @@ def access_control(members: Iterable[Member]) -> dict[str, Json]:
                 "subjects": [one.common_name],
             }
         )
+    linked = sorted(f"{ROUTER}.{name}" for name in set(routers))
+    if linked:
+        passage = _passage()
+        rules[str(passage["id"])] = passage
+        policies.append({"rules": [passage["id"]], "subjects": [*linked]})
     subjects: list[Json] = [
-        {"id": one.common_name, "cert_common_names": [one.common_name]} for one in everybody
+        {"id": name, "cert_common_names": [name]}
+        for name in (*(one.common_name for one in everybody), *linked)
     ]
     return {
         "enabled": True,
@@ -243,6 +256,30 @@ def _rules(grant: Grant, one: Member) -> list[dict[str, Json]]:
                     }
                 )
     return found
+
+
+def _passage() -> dict[str, Json]:
+    """Return the rule by which a router lets pass what another one has let in."""
+    places = {
+        (FLEET if grant.fleet else EVERY_CAR).of(tail + ending)
+        for role in ROLES.values()
+        for grant in role.grants
+        for tail in grant.tails
+        for ending, _, _ in PARTS[grant.deed]
+    }
+    kinds = {
+        kind
+        for parts in PARTS.values()
+        for _, incoming, outgoing in parts
+        for kind in (*incoming, *outgoing)
+    }
+    return {
+        "id": "what another router lets in",
+        "permission": "allow",
+        "flows": ["ingress", "egress"],
+        "messages": [*sorted(kinds)],
+        "key_exprs": [*sorted(places)],
+    }
 
 
 def table() -> str:

@@ -17,7 +17,15 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from pathlib import Path
 
-from xavi_dialogue.bus.access_control import ROLES, Json, Member, access_control, member
+from xavi_dialogue.bus.access_control import (
+    ROLES,
+    ROUTER,
+    BadName,
+    Json,
+    Member,
+    access_control,
+    member,
+)
 from xavi_dialogue.bus.certificates import Authority, Identity
 from xavi_dialogue.bus.zenoh_bus import SAFE
 from xavi_dialogue.process.exit_status import RunFault, UsageFault
@@ -61,6 +69,7 @@ class KeyOptions:
     listen: str  # endpoint of the hub
     connect: str  # the same, as seen by clients
     valid: timedelta
+    routers: tuple[tuple[str, str], ...] = ()  # names, and endpoints at which they listen
 
 
 def wanted(
@@ -70,8 +79,11 @@ def wanted(
     passengers: Iterable[str] = (),
     vehicles: Iterable[str] = (),
     days: int = 365,
+    routers: Iterable[str] = (),
 ) -> KeyOptions:
     """Return the members to make keys for: every role once, and the named ones.
+
+    With routers, given as NAME=ENDPOINT, nobody else is a hub.
 
     Raises:
         BadName: a name is not allowed.
@@ -95,7 +107,23 @@ def wanted(
         *(member("car", name) for name in vehicles),
     )
     members = tuple(dict.fromkeys((*(member(role) for role in ROLES), *named)))
-    return KeyOptions(members, tuple(dict.fromkeys(known)), listen, connect, timedelta(days=days))
+    return KeyOptions(
+        members,
+        tuple(dict.fromkeys(known)),
+        listen,
+        connect,
+        timedelta(days=days),
+        tuple(map(_router, routers)),
+    )
+
+
+def _router(text: str) -> tuple[str, str]:
+    name, _, endpoint = text.partition("=")
+    if not re.fullmatch(r"[A-Za-z0-9_-]{1,32}", name):
+        raise BadName(f"{text!r} is no router; write one such as north=tls/north.example.org:7447")
+    if _host(endpoint) in ANYWHERE:
+        raise BadEndpoint(f"{endpoint} is every address; name the one that others connect to")
+    return name, endpoint
 
 
 def _host(endpoint: str) -> str:
@@ -122,13 +150,22 @@ def material(order: KeyOptions, folder: Path, now: datetime) -> dict[str, bytes]
     authority = Authority.new(now, order.valid)
     files = _files(AUTHORITY, authority.identity)
     for one in order.members:
-        name, hub = one.common_name, one.role == HUB
+        name, hub = one.common_name, one.role == HUB and not order.routers
         files |= _files(name, authority.issue(name, order.hosts if hub else (), now))
-        text = json.dumps(configuration(one, order, folder), indent=2)
-        files[f"{name}.json5"] = (
-            f"// Zenoh configuration of {name}, by `xavi keys`.\n{text}\n".encode()
-        )
+        files |= _settings(name, configuration(one, order, folder))
+    for number, (name, endpoint) in enumerate(order.routers):
+        name = f"{ROUTER}.{name}"
+        hosts = tuple(dict.fromkeys((*LOOPBACK, _host(endpoint))))
+        files |= _files(name, authority.issue(name, hosts, now))
+        files |= _settings(name, router_configuration(number, order, folder))
     return files
+
+
+def _settings(name: str, settings: Mapping[str, Json]) -> dict[str, bytes]:
+    text = json.dumps(settings, indent=2)
+    return {
+        f"{name}.json5": f"// Zenoh configuration of {name}, by `xavi keys`.\n{text}\n".encode()
+    }
 
 
 def _files(name: str, identity: Identity) -> dict[str, bytes]:
@@ -137,7 +174,35 @@ def _files(name: str, identity: Identity) -> dict[str, bytes]:
 
 def configuration(one: Member, order: KeyOptions, folder: Path) -> dict[str, Json]:
     """Return the Zenoh configuration of a member: of the hub, or of one of its clients."""
-    name, hub = one.common_name, one.role == HUB
+    hub = one.role == HUB and not order.routers
+    connect = [endpoint for _, endpoint in order.routers] or [order.connect]
+    settings, link = _session(one.common_name, folder)
+    settings |= {
+        "mode": "peer" if hub else "client",
+        "listen/endpoints": [order.listen] if hub else [],
+        "connect/endpoints": [] if hub else connect,
+    }
+    if hub:
+        _host_with(settings, link, access_control(order.members))
+    return _nested(settings)
+
+
+def router_configuration(number: int, order: KeyOptions, folder: Path) -> dict[str, Json]:
+    """Return the Zenoh configuration of a router, which links to those before it."""
+    name, endpoint = order.routers[number]
+    settings, link = _session(f"{ROUTER}.{name}", folder)
+    settings |= {
+        "mode": "router",
+        "listen/endpoints": [endpoint],
+        "connect/endpoints": [there for _, there in order.routers[:number]],
+    }
+    names = [name for name, _ in order.routers]
+    _host_with(settings, link, access_control(order.members, names))
+    return _nested(settings)
+
+
+def _session(name: str, folder: Path) -> tuple[dict[str, object], dict[str, object]]:
+    """Return the settings that all sessions share, and the part of them about TLS."""
     link: dict[str, object] = {
         "root_ca_certificate": str(folder / f"{AUTHORITY}.pem"),
         "connect_certificate": str(folder / f"{name}.pem"),
@@ -148,17 +213,19 @@ def configuration(one: Member, order: KeyOptions, folder: Path) -> dict[str, Jso
     }
     settings: dict[str, object] = {
         **SAFE,
-        "mode": "peer" if hub else "client",
-        "listen/endpoints": [order.listen] if hub else [],
-        "connect/endpoints": [] if hub else [order.connect],
         "transport/link/protocols": list(PROTOCOLS),
         "transport/link/tls": link,
     }
-    if hub:
-        link["listen_certificate"] = link["connect_certificate"]
-        link["listen_private_key"] = link["connect_private_key"]
-        settings["access_control"] = access_control(order.members)
-    return _nested(settings)
+    return settings, link
+
+
+def _host_with(
+    settings: dict[str, object], link: dict[str, object], access: Mapping[str, Json]
+) -> None:
+    """Add what a session needs to which others connect."""
+    link["listen_certificate"] = link["connect_certificate"]
+    link["listen_private_key"] = link["connect_private_key"]
+    settings["access_control"] = access
 
 
 def _nested(settings: Mapping[str, object]) -> dict[str, Json]:
@@ -224,7 +291,7 @@ def _check(folder: Path, force: bool) -> None:
 def _is_ours(name: str) -> bool:
     stem, _, ending = name.rpartition(".")
     role = stem.partition(".")[0]
-    return ending in ("pem", "key", "json5") and (role in ROLES or stem == AUTHORITY)
+    return ending in ("pem", "key", "json5") and (role in (*ROLES, ROUTER) or stem == AUTHORITY)
 
 
 def _swap(place: Path, folder: Path) -> None:

@@ -48,6 +48,14 @@ def _keys(shell: Streams) -> Callable[..., None]:
             list[str] | None,
             typer.Option(metavar="NAME", help="Car with a separate certificate; repeatable."),
         ] = None,
+        router: Annotated[
+            list[str] | None,
+            typer.Option(
+                metavar="NAME=ENDPOINT",
+                help="Router of a fleet, such as north=tls/north.example.org:7447; repeatable."
+                " With routers the service is a client of them.",
+            ),
+        ] = None,
         days: Annotated[int, typer.Option(min=1, max=3650, help="Days of validity.")] = 365,
         force: Annotated[bool, typer.Option("--force", help="Replace all existing keys.")] = False,
     ) -> None:
@@ -56,7 +64,9 @@ def _keys(shell: Streams) -> Callable[..., None]:
         from xavi_dialogue.security.provisioning import keep, material, wanted
 
         with shell.errors():
-            order = wanted(host or (), listen, connect, passenger or (), vehicle or (), days)
+            order = wanted(
+                host or (), listen, connect, passenger or (), vehicle or (), days, router or ()
+            )
             now, place = utc_now(), folder.resolve()
             keep(material(order, place, now), place, force=force)
         shell.write(_told(order, place, now, vehicle[0] if vehicle else None))
@@ -68,10 +78,15 @@ def _told(order: "KeyOptions", folder: Path, now: "datetime", vehicle: str | Non
     """List the written files, and the next commands to run."""
     ends = (now + order.valid).date().isoformat()
     width = max(len(one.common_name) for one in order.members)
-    lines = [f"Keys in {folder}, valid until {ends}; the hub is at {order.connect}."]
+    hub = f"the hub is at {order.connect}"
+    if order.routers:
+        hub = f"the routers are at {' and '.join(endpoint for _, endpoint in order.routers)}"
+    lines = [f"Keys in {folder}, valid until {ends}; {hub}."]
     for one in order.members:
         name = one.common_name
         lines.append(f"  {name:{width}}  {name}.json5 (with {name}.pem, {name}.key)")
+    for name, _ in order.routers:
+        lines.append(f"  router.{name}: router.{name}.json5, for `zenohd --config`")
     lines += [
         "Give each machine ca.pem and the three files of its role, under the same path.",
         "Keep ca.key secret: with it, any identity on the bus can be made.",
@@ -79,8 +94,9 @@ def _told(order: "KeyOptions", folder: Path, now: "datetime", vehicle: str | Non
     ]
     car = "car" if vehicle is None else f"car.{vehicle}"
     called = () if vehicle is None else ("--vehicle", vehicle)
+    client = ("--mode", "client") if order.routers else ()
     for words in (
-        ("xavi", "serve", "--zenoh", str(folder / "service.json5")),
+        ("xavi", "serve", "--zenoh", str(folder / "service.json5"), *client),
         ("xavi", "drive", "--speed", "1", "--zenoh", str(folder / f"{car}.json5"), *called),
         ("xavi", "chat", "--zenoh", str(folder / "passenger.json5"), *called),
     ):
