@@ -20,6 +20,8 @@ MAX_PAST = 200  # latest turns of a session that are loaded
 _LOG = logging.getLogger(__name__)
 NOBODY = "nobody"  # stands for the digest of an owner that cannot be read: no token has it
 REST = 10.0  # pause after a failed attempt, as a multiple of its time
+# A disk takes 5 to 30 ms: after each answer that would hold up the next one.
+FLUSHED_EVERY = 0.25  # [s]
 PATIENCE = 0.25  # [s] to wait for other writers, as answers have a deadline
 MAX_MISSED = 5000  # turns and events that wait to be written; the oldest are dropped first
 EXPIRED_EVERY = 3600.0  # [s]
@@ -60,6 +62,7 @@ class TurnLog:
     _failing: bool = False
     _again: float = 0.0  # [s] on the monotonic clock: when the file is tried again
     _unsynced: bool = False  # written, but not yet on the disk itself
+    _synced: float = float("-inf")  # [s] on the monotonic clock, when it was last flushed
     _expired: float = 0.0  # [s] wall time when old turns were last erased
 
     def recall(self, session: str) -> tuple[Turn, ...]:
@@ -178,8 +181,9 @@ class TurnLog:
             self._store = None
 
     def _tidy(self, store: Store, days: int, now: float, idle: bool) -> None:
-        if idle and self._unsynced:
+        if idle and self._unsynced and system.monotonic() >= self._synced + FLUSHED_EVERY:
             self._unsynced = False
+            self._synced = system.monotonic()
             store.sync()
         if now >= self._expired + EXPIRED_EVERY:
             self._expired = self._purged = now
