@@ -68,7 +68,8 @@ def _transcripts(world: "World") -> Iterator[str]:
     _excuse(world)
     for person in world.people:
         turns = [t for t in world.stored(person.session) if t.reply.reason not in PASSING]
-        yield from _once(person, turns)
+        if person.session not in world.exempt:  # else a stranger may have begun it anew
+            yield from _once(person, turns)
         told = tuple((turn.text, msgspec.json.encode(_timeless(turn)).decode()) for turn in turns)
         world.transcripts[person.session] = told
         if person.forgotten is not None:
