@@ -14,6 +14,7 @@ from xavi_dialogue.service.responder import MAX_SENT, PASSING
 if TYPE_CHECKING:
     from tests.simulated.world import World
 
+DISK = frozenset(("full", "failing", "locked", "read"))  # faults of the disk
 SLACK = 0.15  # [s] one step of an answer may take that long after its deadline
 WINDOW = 2.0  # [s] after which what was said is flushed, if the service was not busy all the time
 
@@ -239,8 +240,10 @@ def _dashboard(world: "World") -> Iterator[str]:
     stored = [(turn.text, turn.reply.text) for turn in world.stored("desk")]
     if turns != stored[-len(turns) :] or (stored and not turns):
         yield f"the dashboard shows {turns}, stored are {stored}"
+    # A service that starts while its disk fails knows nothing of what was said before.
+    unread = any(fault.kind in DISK for fault in world.plan.faults)
     for one in world.dashboards:
-        if one.begun_anew > 1 and "desk" not in world.exempt:
+        if one.begun_anew > 1 and "desk" not in world.exempt and not unread:
             yield f"a browser was told {one.begun_anew} times to show the conversation anew"
     for request, answers in browsers.answers.items():
         if len(answers) != 1:
@@ -269,9 +272,9 @@ def power_cut(world: "World", person: Person, before: list[Any], flushed: float)
 def _quiet(world: "World", when: float, flushed: float) -> bool:
     """Check whether there was time to flush what was shown at a time [s]."""
     now = world.scheduler.now
-    disks = {"full", "failing", "locked", "read"}
+
     troubled = any(
-        fault.kind in disks | {"stall"} and fault.at <= now and fault.at + fault.lasts >= when
+        fault.kind in DISK | {"stall"} and fault.at <= now and fault.at + fault.lasts >= when
         for fault in world.plan.faults
     )
     return now - when > WINDOW and not troubled
