@@ -3,7 +3,6 @@
 import gc
 import hashlib
 import logging
-from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -21,8 +20,6 @@ from tests.simulated.reading import read_once
 from tests.simulated.scheduler import OutOfHand, Process, Scheduler
 from xavi_dialogue.dashboard.controller import Controller
 from xavi_dialogue.runtime.system import behind_the_door
-from xavi_dialogue.service.reorder_buffer import RideReports
-from xavi_dialogue.service.ride_tracker import RideTracker
 from xavi_dialogue.service.server import Service
 from xavi_dialogue.storage.conversations import Store
 from xavi_dialogue.storage.database import on_disk
@@ -76,9 +73,6 @@ class World:
         self.memory: TurnLog | None = None
         self.controller: Controller | None = None
         self.browsers: Any = None
-        self.dashboards: list[Any] = []  # the browsers of all dashboards so far
-        self.rides: Counter[tuple[int, str]] = Counter()  # that were begun by a service
-        self.trackers: list[RideTracker] = []  # which are kept, so that each has a number
         self.ride: Any = None
         self.driven = False
         self.slow: float | None = None  # [s] that planning again takes longer; 0: it dies
@@ -188,9 +182,6 @@ class World:
                     process.crash_at = process.steps + int(fault.amount)
             case "power":
                 self._cut_power(fault.machine)
-            case "stored":
-                volume.crashing = True
-                heal = partial(setattr, volume, "crashing", False)
             case "stall":
                 if process is not None:
                     process.stalled = scheduler.now + fault.lasts
@@ -268,7 +259,6 @@ class World:
             stack.enter_context(self._listening())
             stack.enter_context(read_once())
             stack.enter_context(_uncollected())
-            stack.enter_context(self._counting_rides())
             for starter in self.starters.values():
                 if starter.machine == "fresh":
                     continue
@@ -295,22 +285,6 @@ class World:
             logger.removeHandler(listener)
             logger.propagate = before[0]
             logger.setLevel(before[1])
-
-    @contextmanager
-    def _counting_rides(self) -> Iterator[None]:
-        """Count how often a record of each ride is begun."""
-        begin = RideTracker._begin
-
-        def counted(tracker: RideTracker, reports: RideReports) -> None:
-            self.rides[id(tracker), reports.ride] += 1
-            self.trackers.append(tracker)
-            begin(tracker, reports)
-
-        RideTracker._begin = counted  # type: ignore[method-assign]
-        try:
-            yield
-        finally:
-            RideTracker._begin = begin  # type: ignore[method-assign]
 
     def _drive(self) -> None:
         scheduler = self.scheduler
