@@ -514,6 +514,7 @@ def test_a_turn_is_on_disk_before_its_reply_is_sent(kept: Retention) -> None:
 def test_nobody_waits_for_the_disk_itself(kept: Retention, monkeypatch: pytest.MonkeyPatch) -> None:
     done: list[str] = []
     monkeypatch.setattr(Store, "sync", lambda _: done.append("on the disk"))
+    monkeypatch.setattr("xavi_dialogue.storage.turn_log.FLUSHED_EVERY", 0.0)
     bench = Bench(TurnLog(kept))
     bench.drive()
     done.clear()
