@@ -49,7 +49,7 @@ def chosen(told: Any, most: int = 6, **facts: Any) -> list[str]:
         (did("cross", 5.0, 5.0), did("slow-down", 4.0, 4.0)),
         (they(1, "pass", 5.0, 5.0), did("speed-up", 4.0, 4.0)),
         (did("follow", 5.0, 15.0), they(1, "speed-up", 4.0, 4.0)),
-        (they(1, "speed-up", 5.0, 5.0), did("follow", 4.0, 4.0)),
+        (did("follow", 4.0, 4.0), did("brake", 5.0, 5.0)),
         (did("follow", 5.0, 15.0), they(1, "appear", 4.0, 4.0)),
         (did("follow", 5.0, 15.0), they(1, "disappear", 4.0, 4.0)),
     ],
@@ -75,7 +75,7 @@ def test_what_lasts_weighs_a_little_more() -> None:
     endless = they(1, "wait", 1.0, 60.0)  # 5 + 0.5 at most, against 6
     assert chosen([endless, they(2, "cut-in", 3.0, 3.0)], 1, now=300.0) == ["cut-in"]
     assert chosen([did("wait", 2.0, 4.0), did("stop", 6.0, 12.0)], 1) == ["stop"]
-    going = did("follow", 9.0)  # 0.3 + 0.5, as it goes on since 11 s, against 0.75
+    going = did("follow", 9.0)
     assert chosen([did("speed-up", 4.0, 4.0), going], 1) == ["follow"]
 
 
