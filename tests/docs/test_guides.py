@@ -29,6 +29,7 @@ ELSEWHERE = {
     "xavi doctor --connect": "needs the service; tests/drills ask for a diagnosis there",
     "xavi doctor --zenoh": "needs keys and the service; tests/cli/test_doctor.py diagnoses",
     "xavi keys ~": "writes to the home folder; the guide for operators has one that is run",
+    "zenohd": "a router of Zenoh itself; tests/drills/test_router_keys.py runs routers",
     "xavi record": "needs the service; tests/drills/test_recordings.py records there",
     "xavi replay": "talks; tests/drills/test_recordings.py replays",
     "xavi audit --dask": "needs a cluster; tests/audit/test_running.py starts one",
