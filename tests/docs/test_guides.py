@@ -25,6 +25,7 @@ ELSEWHERE = {
     "xavi serve": "never ends; tests/chat/test_client_example.py and tests/library start it",
     "xavi drive --connect": "needs the service; the same tests start it",
     "xavi drive --zenoh": "needs keys and the service; tests/drills drive so",
+    "xavi ask --zenoh": "needs keys and the service; tests/drills ask so",
     "xavi ask --connect": "needs the service; tests/drills ask there",
     "xavi doctor --connect": "needs the service; tests/drills ask for a diagnosis there",
     "xavi doctor --zenoh": "needs keys and the service; tests/cli/test_doctor.py diagnoses",
