@@ -1,27 +1,37 @@
-"""Incident reports of rides, as values that write themselves."""
+"""Incident reports of rides, as values that write themselves.
+
+What writes them is loaded when it is first used, as most of those who open rides want none.
+"""
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from xavi_dialogue.library.errors import LibraryError
-from xavi_dialogue.report.content import Incident, MomentKind, encode
-from xavi_dialogue.report.render.page import html
+from xavi_dialogue.library.errors import LibraryError, translated
+
+if TYPE_CHECKING:
+    from xavi_dialogue.report.content import Incident, MomentKind
+    from xavi_dialogue.report.ridden import Ridden
 
 
 @dataclass(frozen=True, slots=True)
 class Report:
     """What the record of a ride shows of one moment."""
 
-    content: Incident = field(repr=False)  # all that it says, as frozen values
-    kind: MomentKind  # collision, hardest-braking, closest-approach, red-light or time
+    content: "Incident" = field(repr=False)  # all that it says, as frozen values
+    kind: "MomentKind"  # collision, hardest-braking, closest-approach, red-light or time
     time: float  # [s] the moment
 
     def html(self) -> str:
         """Return it as one HTML document, which needs no other file."""
+        from xavi_dialogue.report.render.page import html
+
         return html(self.content)
 
     def json(self) -> str:
         """Return its content as JSON."""
+        from xavi_dialogue.report.content import encode
+
         return encode(self.content).decode()
 
     def save(self, path: str | Path, *, as_json: bool = False) -> Path:
@@ -38,6 +48,14 @@ class Report:
         return file
 
 
-def report_of(found: Incident) -> Report:
-    """Return a report by its content."""
+def report_of(ridden: "Ridden", at: float | str | None) -> Report:
+    """Return the report of a moment of a ride.
+
+    Raises:
+        XaviError: there is no such moment.
+    """
+    from xavi_dialogue.report.build import build
+
+    with translated():
+        found = build(ridden, at)
     return Report(found, found.moment.kind, found.moment.time)

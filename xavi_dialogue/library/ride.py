@@ -29,8 +29,6 @@ from xavi_dialogue.library.reports import Report, report_of
 from xavi_dialogue.library.tables import TableName, table
 from xavi_dialogue.library.trajectories import compared
 from xavi_dialogue.nlg.context import Style
-from xavi_dialogue.report.build import build
-from xavi_dialogue.report.ridden import Ridden
 from xavi_dialogue.service import in_process
 from xavi_dialogue.service.in_process import Replan, make_pipeline
 from xavi_dialogue.storage import ride_file
@@ -160,12 +158,13 @@ class Ride:
         Raises:
             XaviError: there is no such moment.
         """
+        from xavi_dialogue.report.ridden import Ridden
+
         again = keeping(self.again, self.record)
         inputs = [one for _, one in self.known]
         gaps = fold(make_pipeline(), inputs, Dialogue()).gaps
         ridden = Ridden(self.record, self.scenes, again, self.network, self.digest, gaps)
-        with translated():
-            return report_of(build(ridden, at))
+        return report_of(ridden, at)
 
     @cached_property
     def default_time(self) -> float:
