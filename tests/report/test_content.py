@@ -26,7 +26,7 @@ from tests.report.records import (
     traces,
 )
 from xavi_dialogue.domain.answers import NeedRollout
-from xavi_dialogue.report.content import Incident, encode
+from xavi_dialogue.report.content import DecisionRow, Incident, encode
 from xavi_dialogue.report.figures import Figure
 from xavi_dialogue.report.render.words import phrase
 from xavi_dialogue.service.in_process import NoPlan
@@ -286,10 +286,70 @@ def test_options_are_valued_as_the_decision_did(path, at) -> None:
 def test_the_decisions_that_matter_are_examined() -> None:
     found = incident(UNHEEDED)
     assert [(one.number, one.why) for one in found.decided] == [
-        (9, ("changed", "last-chance")),
+        (8, ("changed",)),
+        (9, ("last-change", "last-chance")),
+        (10, ("last-way",)),
         (11, ("in-force",)),
     ]
     assert [case.decision for case in found.cases] == [9, 11]
+
+
+@every_case
+def test_every_change_of_what_to_do_next_is_shown_with_its_options(path, at) -> None:
+    found = incident(path, at)
+    shown = {one.number for one in found.decided}
+    assert {row.number for row in found.decisions if row.changed} <= shown
+    assert found.avoidability is None or {found.avoidability.last} - {None} <= shown
+
+
+@every_case
+def test_an_option_has_one_reward_and_one_collision_wherever_it_is_shown(path, at) -> None:
+    found = incident(path, at)
+    rows = {row.number: row for row in found.decisions}
+    cases = {case.decision: case for case in found.cases}
+    known = found.avoidability
+    chances = {} if known is None else {chance.number: chance for chance in known.chances}
+    for one in found.decided:
+        for choice in one.choices:
+            crash = choice.chances.get("collision")
+            share = 0.0 if crash is None else crash.value
+            told = [rows.get(one.number), cases.get(one.number)] if choice.chosen else []
+            for row in told:
+                if row is not None:
+                    value = row.value if isinstance(row, DecisionRow) else row.reward
+                    assert value is not None
+                    assert value.value == choice.value.value
+                    assert row.collision is not None
+                    assert row.collision.value == pytest.approx(share, abs=1e-6)
+            for way in chances[one.number].ways if one.number in chances else ():
+                if way.action == choice.action and not way.planned:
+                    assert way.collision is not None
+                    assert way.collision.value == pytest.approx(share, abs=1e-6)
+
+
+def test_what_a_decision_that_weighed_is_worth_is_what_it_went_by() -> None:
+    weighed = 0
+    for row in incident(LIGHT, "red light").decisions:
+        trace = traces(LIGHT)[row.number]
+        if any(one.weight is not None for one in trace.rollouts):
+            assert row.value is not None
+            assert row.value.value == pytest.approx(trace.plan[0].value, abs=0.02)
+            weighed += 1
+    assert weighed > 5
+
+
+def test_who_may_cross_on_foot_is_told_beside_the_right_of_way() -> None:
+    found = incident(LIGHT, "red light")
+    crossing = {row.decision: row.crossing for row in found.precedence}
+    for number, known in crossing.items():
+        for who, figure in known.items():
+            assert traces(LIGHT)[number].scene[who].kind == "pedestrian"
+            goals = next(p.goals for p in traces(LIGHT)[number].predictions if p.vehicle == who)
+            chance = sum(goal.probability for goal in goals if goal.kind == "cross")
+            assert figure.value == pytest.approx(chance, abs=1e-3)
+    gave = {one.vehicle for one in found.involved if "gave-way" in one.roles}
+    assert gave == {8, 9, 10}
+    assert gave <= {who for known in crossing.values() for who in known}
 
 
 def test_removing_the_other_removes_the_collision() -> None:

@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 import pytest
 from msgspec.structs import replace
 
-from tests.report.records import BRAKING, LIGHT, TOWN, UNHEEDED, incident, report
+from tests.report.records import BRAKING, LIGHT, TOWN, UNHEEDED, incident, report, traces
 from xavi_dialogue.report.content import Incident
 from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.render.markup import Markup, joined, tag
@@ -132,6 +132,59 @@ def test_what_the_summary_says_stands_in_the_content() -> None:
     assert "Decisions 16 to 21 did not foresee it" in town
     assert "The light ahead, in " in light
     assert "The light ahead showed red from " in light
+
+
+def test_columns_say_what_their_probabilities_are_of() -> None:
+    crash = read(report(UNHEEDED).html()).text
+    assert "Probability of a collision with anybody, as believed then" in crash
+    assert "a collision has two figures. The share of the rollouts is what the reward" in crash
+    braking = read(report(BRAKING, "hardest braking").html()).text
+    assert re.search(r"Probability of braking at \d\.?\d* m/s² or more, as believed then", braking)
+    light = read(report(LIGHT, "red light").html()).text
+    assert "Probability that a light holds the car up, as believed then" in light
+    assert "Decision 8: changed what to do next" in crash
+    assert "Decision 10: the last from which it was avoidable, but off the route" in crash
+
+
+def standard_error_of_the_lead() -> float:
+    """Return it of turning right over going straight on in decision 10, by the rollouts."""
+    rows = [one for one in traces(UNHEEDED)[10].rollouts if one.weight is not None]
+    ours, theirs = (
+        [one for one in rows if one.actions[0].action == a] for a in ("continue", "exit-right")
+    )
+    leads = [b.reward - a.reward for a, b in zip(ours, theirs, strict=True)]
+    weights = [one.weight or 0.0 for one in ours]
+    mean = sum(w * lead for w, lead in zip(weights, leads, strict=True))
+    squares = ((w * (lead - mean)) ** 2 for w, lead in zip(weights, leads, strict=True))
+    return float(sum(squares) ** 0.5)
+
+
+def test_a_choice_that_was_not_the_best_is_explained() -> None:
+    crash = read(report(UNHEEDED).html()).text
+    told_of = "To turn right came out better, but by no more than the standard error of that"
+    assert crash.count(told_of) == 1
+    (kept,) = (one.kept for one in incident(UNHEEDED).decided if one.number == 10)
+    assert kept is not None
+    assert kept.value == pytest.approx(standard_error_of_the_lead(), abs=1e-3)
+    assert "came out better" not in read(report(LIGHT, "red light").html()).text
+
+
+@every_case
+def test_options_with_more_rollouts_are_explained(path, at) -> None:
+    known = incident(path, at).avoidability
+    assert known is not None
+    again = any(way.planned for chance in known.chances for way in chance.ways)
+    text = read(report(path, at).html()).text
+    assert ("(more rollouts)" in text) == ("figures are those of all of them" in text) == again
+
+
+def test_people_who_may_cross_are_told_where_nobody_on_a_lane_does() -> None:
+    light = report(LIGHT, "red light").html()
+    rows = re.findall(r"<tr>(.*?)</tr>", light, re.DOTALL)
+    cells = [re.findall(r"<td[^>]*>(.*?)</td>", row, re.DOTALL) for row in rows]
+    told_of = [row for row in cells if len(row) == 5 and "nobody on a lane" in row[3]]
+    assert told_of
+    assert any("pedestrian 8" in row[4] and "%" in row[4] for row in told_of)
 
 
 def test_a_report_of_another_moment_differs() -> None:

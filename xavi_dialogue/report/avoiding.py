@@ -22,7 +22,7 @@ from xavi_dialogue.report.replayed import AFTER, clearance, emergencies
 from xavi_dialogue.report.ridden import Inquiry
 from xavi_dialogue.report.stopped import light_stop
 from xavi_dialogue.report.tracks import Tracks
-from xavi_dialogue.report.weighed import Ground, collision, hardest, weighed_by
+from xavi_dialogue.report.weighed import Ground, collision, hardest
 
 PART = 0.75  # of the peak, from which braking counts as the same
 LEAST = 1.5  # [m/s2] of a peak below which there is nothing to avoid
@@ -149,7 +149,7 @@ class _Case:
         model, plan = known
         again = model.trace is not trace
         ground, drawn = Ground(model.trace, "replan" if again else "decision"), lines(model.trace)
-        rows = weighed_by(plan)
+        rows = ground.rows(plan)
         touched, nearest = self._replay(ground, plan, drawn)
         return Way(
             action=action,
@@ -160,7 +160,7 @@ class _Case:
             braking=hardest(ground, rows, f"of the rollouts that begin with {action}, by weight"),
             collision=collision(ground, plan, f"of the rollouts that begin with {action}"),
             off_route=Figure(
-                rounded(min(plan.outcomes["dead"], 1.0)),
+                rounded(min(sum(w for one, w in rows if one.outcome == "dead"), 1.0)),
                 "",
                 ground.source("rollouts[*].outcome", "share of dead by weight"),
             ),
@@ -178,7 +178,7 @@ class _Case:
             return collision(ground, plan, f"of the rollouts that begin with {plan.plan[0]}")
         rows = [
             (brakes(line.until(self.moment.time + LEEWAY)) >= self.threshold, weight)
-            for one, weight in weighed_by(plan)
+            for one, weight in ground.rows(plan)
             if (line := drawn.get(one.index)) is not None
         ]
         mass = sum(weight for _, weight in rows)
@@ -201,7 +201,7 @@ class _Case:
         found: list[tuple[float, float]] = []
         kept: dict[int, float | None] = {}
         until = self.moment.time + AFTER
-        for one, weight in weighed_by(plan):
+        for one, weight in ground.rows(plan):
             key = _line_of(one)
             if one.index not in drawn:
                 continue
@@ -243,7 +243,7 @@ class _Case:
 
 def _held(ground: Ground, plan: Intervention) -> Figure:
     """Return the probability that a light holds the car up."""
-    share = sum(weight for one, weight in weighed_by(plan) if one.held_by_lights)
+    share = sum(weight for one, weight in ground.rows(plan) if one.held_by_lights)
     how = f"share of the rollouts that begin with {plan.plan[0]}, by weight, that a light holds up"
     source = ground.source("rollouts[*].held_by_lights", how)
     return Figure(rounded(min(share, 1.0)), "", source)

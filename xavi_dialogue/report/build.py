@@ -33,6 +33,7 @@ from xavi_dialogue.report.weighed import decided, row
 from xavi_dialogue.storage.ride_file import RecordedRide, dump
 
 SUPPOSED = 3  # of those involved, in how many the world is changed
+TESTED = {"in-force", "last-change", "last-chance"}  # what is planned again with changes
 
 
 def build(ridden: Ridden, at: float | str | None = None) -> Incident:
@@ -57,10 +58,10 @@ def build(ridden: Ridden, at: float | str | None = None) -> Incident:
     others = tuple(party.vehicle for party in involved)
     lit = lights(ridden, window)
     avoided = avoidability(inquiry, tracks, moment, since)
-    examined = _examined(ridden, moment, avoided)
-    shown = [trace for trace, _ in examined]
+    examined = _examined(ridden, moment, window, avoided)
+    shown = [trace for trace, why in examined if TESTED.intersection(why)]
     believed = tuple(beliefs(ridden, tracks, vehicle, window, shown) for vehicle in others)
-    tested = tuple(cases(inquiry, trace, others[:SUPPOSED]) for trace, _ in examined)
+    tested = tuple(cases(inquiry, trace, others[:SUPPOSED]) for trace in shown)
     traces = ridden.record.traces
     return Incident(
         schema=SCHEMA,
@@ -96,24 +97,33 @@ def _next_decision(ridden: Ridden, until: float) -> float:
 
 
 def _examined(
-    ridden: Ridden, moment: Chosen, avoided: Avoidability | None
+    ridden: Ridden, moment: Chosen, window: tuple[float, float], avoided: Avoidability | None
 ) -> list[tuple[PlanTrace, tuple[Examined, ...]]]:
-    """Return the decisions that are examined in full, oldest first, with the reasons.
+    """Return the decisions that are shown in full, oldest first, with the reasons.
 
-    They are the one in force, the last one before with another first action than the one before
-    it, and the last one from which the mishap could still be avoided on the way to the goal.
+    They are the one in force, every one with another first action than the one before it, and
+    the last ones from which the mishap could still be avoided, on the way to the goal or off it.
     """
     found: dict[int, list[Examined]] = {}
-    known = ridden.between(moment.time - BEFORE, moment.time)
+    known = ridden.between(window[0], moment.time)
     if known:
         found.setdefault(known[-1].decision, []).append("in-force")
-    changed = [b for a, b in pairwise(known) if planned(a)[:1] != planned(b)[:1]]
-    if changed:
-        found.setdefault(changed[-1].decision, []).append("changed")
-    last = None if avoided is None else avoided.last_on_route
-    if last is not None:
-        found.setdefault(last, []).append("last-chance")
-    return [(t, tuple(found[t.decision])) for t in known if t.decision in found]
+    changed = [
+        b
+        for a, b in pairwise(ridden.record.traces)
+        if planned(a)[:1] != planned(b)[:1] and window[0] <= b.sim_time <= window[1]
+    ]
+    before = [trace.decision for trace in changed if trace.sim_time <= moment.time + 1e-6]
+    for trace in changed:
+        last_one = trace.decision in before[-1:]
+        found.setdefault(trace.decision, []).append("last-change" if last_one else "changed")
+    if avoided is not None:
+        on_route, last = avoided.last_on_route, avoided.last
+        if on_route is not None:
+            found.setdefault(on_route, []).append("last-chance")
+        if last is not None and last != on_route:
+            found.setdefault(last, []).append("last-way")
+    return [(t, tuple(found[t.decision])) for t in ridden.record.traces if t.decision in found]
 
 
 def _bystanders(

@@ -21,7 +21,6 @@ from xavi_dialogue.report.weighed import (
     collision,
     hardest,
     reward,
-    weighed_by,
 )
 
 POSSIBLE = 0.05  # probability from which a goal of another is supposed
@@ -40,7 +39,7 @@ def cases(inquiry: Inquiry, trace: PlanTrace, vehicles: Sequence[int]) -> Cases:
     """
     model = CausalModel(trace)
     here, ground = chosen_plan(model), Ground(trace)
-    rows = () if here is None else weighed_by(here)
+    rows = () if here is None else ground.rows(here)
     return Cases(
         decision=trace.decision,
         time=trace.sim_time,
@@ -109,7 +108,7 @@ def _tested(inquiry: Inquiry, trace: PlanTrace, supposed: Supposed, need: NeedRo
         why = inquiry.reasons[need]
         return Tested(supposed, trace.decision, (), None, None, None, None, None, None, why)
     ground, there = Ground(made, "replan"), chosen_plan(CausalModel(made))
-    rows = () if there is None else weighed_by(there)
+    rows = () if there is None else ground.rows(there)
     return Tested(
         supposed=supposed,
         decision=trace.decision,

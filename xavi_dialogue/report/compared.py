@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from planner.record.trace import Action, PlanTrace, Rollout
+from xavi_dialogue.causal.model import Intervention
 
 Weighed = Sequence[tuple[Rollout, float]]  # rollouts with their weights
 
@@ -14,6 +15,16 @@ def compared(trace: PlanTrace) -> dict[Action, Weighed]:
         if one.weight is not None and one.actions:
             found.setdefault(one.actions[0].action, []).append((one, one.weight))
     return dict(found)
+
+
+def weighed(trace: PlanTrace, plan: Intervention) -> Weighed:
+    """Return the rollouts of a plan of a decision with their weights: every figure goes by these.
+
+    They are those that the decision compared its first action by, so that an option has the same
+    figures wherever it is shown; where it weighed nothing, those of the causal model.
+    """
+    own = compared(trace).get(plan.plan[0]) if plan.plan else None
+    return own or [(r.rollout, w) for r, w in zip(plan.results, plan.weights, strict=True)]
 
 
 def hits(rows: Weighed) -> dict[int, float]:

@@ -20,7 +20,7 @@ MomentKind = Literal["collision", "hardest-braking", "closest-approach", "red-li
 Role = Literal[
     "collided", "near", "gave-way", "in-the-way", "held-up", "leader", "right-of-way", "follower"
 ]  # fmt: skip
-Examined = Literal["in-force", "changed", "last-chance"]
+Examined = Literal["in-force", "last-change", "changed", "last-chance", "last-way"]
 Limit = Literal[
     "no-roads", "other-roads", "no-scenes", "ends-early", "begins-late", "lost", "lacks",
     "not-predicted", "not-planned", "hidden", "rollout-lines", "model", "others-inside",
@@ -152,8 +152,9 @@ class Precedence(msgspec.Struct, frozen=True):
     time: float  # [s]
     rule: Rule | None  # of the car's way through it
     distance: Figure | None  # [m] to it
-    first: dict[int, First]  # who goes first, by the other road user
+    first: dict[int, First]  # who goes first, by the other road user on a lane
     source: Source
+    crossing: dict[int, Figure] = {}  # who may cross on foot, and how probably; it goes first
 
 
 class BeliefPoint(msgspec.Struct, frozen=True):
@@ -214,7 +215,7 @@ class Decided(msgspec.Struct, frozen=True):
     """One decision, in full."""
 
     number: int
-    why: tuple[Examined, ...]  # why it is examined
+    why: tuple[Examined, ...]  # why it is shown in full
     time: float  # [s]
     trace: str
     plan: tuple[Action, ...]
@@ -223,6 +224,7 @@ class Decided(msgspec.Struct, frozen=True):
     ruled_out: dict[Action, str]
     costs: Costs
     by_weights: bool  # whether the figures are those that the decision went by
+    kept: Figure | None = None  # [s] standard error that the lead of a better option is within
 
 
 class DecisionRow(msgspec.Struct, frozen=True):
@@ -236,7 +238,7 @@ class DecisionRow(msgspec.Struct, frozen=True):
     changed: bool  # whether the first action differs from that of the decision before
     speed: Figure
     collision: Figure | None  # its probability under the plan, by the rollouts
-    value: Figure | None
+    value: Figure | None  # [s] expected reward
 
 
 class Limitation(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -300,8 +302,8 @@ class Incident(msgspec.Struct, frozen=True):
     precedence: tuple[Precedence, ...]
     beliefs: tuple[Beliefs, ...]
     decisions: tuple[DecisionRow, ...]
-    decided: tuple[Decided, ...]  # those that are examined, oldest first
-    cases: tuple[Cases, ...]  # of the same
+    decided: tuple[Decided, ...]  # those that are shown in full, oldest first
+    cases: tuple[Cases, ...]  # of those of them that were planned again
     avoidability: Avoidability | None
     limits: tuple[Limitation, ...]
     hashes: Hashes

@@ -2,7 +2,9 @@
 
 from msgspec.structs import replace
 
+from planner.record.trace import ON_FOOT, PlanTrace
 from sim.scene import EGO
+from xavi_dialogue.explain.causes.plans.avoidance import SELDOM
 from xavi_dialogue.report.content import Course, Gaps, LightSpan, Precedence
 from xavi_dialogue.report.figures import Figure, rounded
 from xavi_dialogue.report.parties import of_trace
@@ -72,7 +74,7 @@ def lights(ridden: Ridden, window: tuple[float, float]) -> tuple[LightSpan, ...]
 
 
 def precedence(ridden: Ridden, window: tuple[float, float]) -> tuple[Precedence, ...]:
-    """Return the right of way by each decision of a window [s], where it changes."""
+    """Return who goes first by each decision of a window [s], where it changes."""
     found: list[Precedence] = []
     for trace in ridden.between(*window):
         road = trace.road
@@ -89,7 +91,31 @@ def precedence(ridden: Ridden, window: tuple[float, float]) -> tuple[Precedence,
             distance=far,
             first={fact.vehicle: fact.who for fact in road.priority},
             source=of_trace(trace, "road.priority"),
+            crossing=_crossing(trace),
         )
-        if not found or (found[-1].rule, found[-1].first) != (now.rule, now.first):
+        if not found or _who(found[-1]) != _who(now):
             found.append(now)
     return tuple(found)
+
+
+def _who(row: Precedence) -> tuple[object, ...]:
+    """Return what makes a row differ from the one before."""
+    return row.rule, row.first, row.crossing.keys()
+
+
+def _crossing(trace: PlanTrace) -> dict[int, Figure]:
+    """Return who may cross the car's way on foot, with the probability; the car lets them go.
+
+    Right of way on lanes, as the road has it, leaves them out.
+    """
+    found: dict[int, Figure] = {}
+    for k, known in enumerate(trace.predictions):
+        there = trace.scene.get(known.vehicle)
+        if there is None or there.kind not in ON_FOOT:
+            continue
+        chance = sum(goal.probability for goal in known.goals if goal.kind == "cross")
+        if chance > SELDOM:
+            how = "sum of the goals that cross this car's way"
+            source = of_trace(trace, f"predictions[{k}].goals[*].probability", how)
+            found[known.vehicle] = Figure(rounded(min(chance, 1.0)), "", source)
+    return found

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.record.trace import ACTIONS, OUTCOMES, Action, PlanTrace, RewardTerm, Rollout
+from planner.search.comparison import standard_error
 from sim.scene import EGO
 from xavi_dialogue.causal.effects import HIGH, LOW, quantile
 from xavi_dialogue.causal.model import CausalError, CausalModel, Intervention
@@ -14,7 +15,7 @@ from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.plans.terms import differences
 from xavi_dialogue.explain.causes.vehicles.course import brakes, lines
 from xavi_dialogue.explain.history.ride import planned
-from xavi_dialogue.report.compared import Weighed, compared, hits
+from xavi_dialogue.report.compared import Weighed, compared, hits, weighed
 from xavi_dialogue.report.content import Choice, Decided, DecisionRow, Examined
 from xavi_dialogue.report.figures import Figure, Place, Source, rounded
 from xavi_dialogue.report.parties import of_trace
@@ -37,6 +38,10 @@ class Ground:
         found = self.trace
         return Source(self.place, field, found.decision, found.sim_time, found.trace_id, how)
 
+    def rows(self, plan: Intervention) -> Weighed:
+        """Return the rollouts of a plan with their weights."""
+        return weighed(self.trace, plan)
+
 
 def row(ridden: Ridden, trace: PlanTrace, before: PlanTrace | None) -> DecisionRow:
     """Return a decision in short."""
@@ -50,9 +55,7 @@ def row(ridden: Ridden, trace: PlanTrace, before: PlanTrace | None) -> DecisionR
         changed=before is not None and planned(before)[:1] != planned(trace)[:1],
         speed=Figure(trace.scene[EGO].speed, "m/s", of_trace(trace, f"scene.{EGO}.speed")),
         collision=None if here is None else collision(ground, here),
-        value=Figure(trace.plan[0].value, "s", of_trace(trace, "plan[0].value"))
-        if trace.plan
-        else None,
+        value=None if here is None else reward(ground, here),
     )
 
 
@@ -90,7 +93,27 @@ def decided(trace: PlanTrace, why: tuple[Examined, ...]) -> Decided:
         ),
         costs=trace.reckoned,
         by_weights=bool(weights),
+        kept=_kept(Ground(trace), weights, plan[0]) if weights and plan else None,
     )
+
+
+def _kept(ground: Ground, rows: dict[Action, Weighed], chosen: Action) -> Figure | None:
+    """Return the standard error [s] of the comparison with the best option, if that has a lead.
+
+    The planner keeps to what is being driven while the lead is within it. None: the chosen option
+    is the best, or the lead is greater.
+    """
+    values = {action: sum(w * one.reward for one, w in known) for action, known in rows.items()}
+    best = max(values, key=lambda action: values[action])
+    ours, theirs = rows.get(chosen, ()), rows[best]
+    if best == chosen or len(ours) != len(theirs):
+        return None
+    leads = [b.reward - a.reward for (a, _), (b, _) in zip(ours, theirs, strict=True)]
+    error = standard_error([weight for _, weight in ours], leads)
+    if values[best] - values[chosen] > error:
+        return None
+    how = f"standard error of the difference between {chosen} and {best}, by weight"
+    return Figure(rounded(error), "s", ground.source("rollouts[*].reward", how))
 
 
 def _by_model(model: CausalModel) -> dict[Action, Weighed]:
@@ -99,13 +122,8 @@ def _by_model(model: CausalModel) -> dict[Action, Weighed]:
     for action in model.options():
         there = model.intervene((action,))
         if there is not None:
-            found[action] = weighed_by(there)
+            found[action] = weighed(model.trace, there)
     return found
-
-
-def weighed_by(plan: Intervention) -> Weighed:
-    """Return the rollouts of an intervention with their weights."""
-    return [(r.rollout, w) for r, w in zip(plan.results, plan.weights, strict=True)]
 
 
 def _choice(
@@ -184,7 +202,7 @@ def collision(
     calibrated: bool = False,
 ) -> Figure:
     """Return the probability of a collision under a plan, by its rollouts or as answers tell it."""
-    share = min(plan.outcomes["collision"], 1.0)
+    share = min(sum(w for one, w in ground.rows(plan) if one.outcome == "collision"), 1.0)
     if calibrated:
         how = f"share {of}, by weight, with the error of the model (ranges.json)"
         return Figure(
@@ -200,7 +218,8 @@ def collision(
 
 def reward(ground: Ground, plan: Intervention) -> Figure:
     """Return the expected reward [s] of a plan."""
-    return Figure(rounded(plan.value), "s", ground.source("rollouts[*].reward", f"mean {OF_PLAN}"))
+    value = sum(w * one.reward for one, w in ground.rows(plan))
+    return Figure(rounded(value), "s", ground.source("rollouts[*].reward", f"mean {OF_PLAN}"))
 
 
 def hardest(ground: Ground, rows: Weighed, of: str = OF_PLAN) -> Figure | None:

@@ -17,8 +17,8 @@ def avoidance(page: Page) -> Markup:
     return joined(
         (
             tag("p", f"Examined is {_mishap(known)} at {known.at:.1f} s, at every decision of the "
-                "seconds before. An option is judged by its rollouts, as it was believed then. ",
-                _rule(known)),
+                "seconds before. An option is judged by its rollouts, as it was believed then: by "
+                f"the {_believed(known)}. ", _rule(known), _more(known)),
             tag("p", tag("b", last_chance(known))),
             *(tag("p", text) for text in emergencies(page, known)),
             *(() if known.light is None else _light(page, known.light)),
@@ -36,11 +36,31 @@ def _mishap(known: Avoidability) -> str:
     return f"braking at {known.threshold:g} m/s² or more"
 
 
+def _believed(known: Avoidability) -> str:
+    """Return what it is whose probability an option is judged by."""
+    match known.mishap:
+        case "collide":
+            return "probability of a collision with anybody"
+        case "stop":
+            return "probability that a light holds the car up"
+    return f"probability of braking at {known.threshold:g} m/s² or more"
+
+
+def _more(known: Avoidability) -> str:
+    """Return what is to be said where rollouts were added."""
+    if not any(way.planned for chance in known.chances for way in chance.ways):
+        return ""
+    return (
+        " Where an option was tried too seldom, it was planned again with more rollouts, and its "
+        "figures are those of all of them: not those that the decision went by."
+    )
+
+
 def _rule(known: Avoidability) -> str:
     """Return from when on an option avoids the mishap."""
     if known.mishap == "collide":
         return (
-            "For a collision its lines are also laid against the other as it really drove. "
+            "Its lines are also laid against the other as it really drove. "
             "An option avoids it if both give it a probability of at most 25 %."
         )
     does = "a light holds the car up" if known.mishap == "stop" else "its rollouts brake so"
@@ -175,8 +195,10 @@ def _ways(page: Page, known: Avoidability) -> Markup:
         for chance in known.chances
         for way in sorted(chance.ways, key=lambda way: not way.chosen)
     ]
-    of_crash = ("Touches the other as it drove", "Least distance") if crash else ("Collision",)
-    head = ("Decision", "Option", "As believed then", *of_crash, "Hardest braking", "Avoids it")
+    replayed = ("Share of its lines that touch the other as it drove", "Least distance to it")
+    of_crash = replayed if crash else ("Probability of a collision, as believed then",)
+    believed = f"{capital(_believed(known))}, as believed then"
+    head = ("Decision", "Option", believed, *of_crash, "Hardest braking", "Avoids it")
     return table(head, rows, "long")
 
 

@@ -4,13 +4,14 @@ from dataclasses import dataclass
 
 from planner.record.places import First
 from sim.scene import EGO
+from xavi_dialogue.explain.causes.plans.avoidance import SELDOM
 from xavi_dialogue.report.content import Entry, Incident, LightSpan
 from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.render.charts import Axes, Line, bands, chart
 from xavi_dialogue.report.render.colours import LIGHTS, colour, stroke
 from xavi_dialogue.report.render.drawings import strip
 from xavi_dialogue.report.render.markup import EMPTY, Markup, joined, table, tag
-from xavi_dialogue.report.render.notes import KMH, Notes, told
+from xavi_dialogue.report.render.notes import KMH, TIE, Notes, percent, told
 from xavi_dialogue.report.render.words import (
     Names,
     action_words,
@@ -56,12 +57,12 @@ def involved(page: Page) -> Markup:
             "; ".join(phrase("role", role) for role in one.roles),
             joined((f"{one.length:.1f} × {one.width:.1f} m", page.notes.ref(one.source))),
             page.notes.figure(one.nearest),
-            "–" if one.nearest_at is None else seconds(one.nearest_at),
+            "–" if one.nearest_at is None else seconds(one.nearest_at).replace(" ", TIE),
         )
         for one in report.involved
     ]
     known = (
-        table(("Road user", "Role", "Size", "Least distance", "at"), rows)
+        table(("Road user", "Role", "Size", "Least distance in the samples", "at"), rows)
         if rows
         else tag("p", "No other road user is involved.")
     )
@@ -260,13 +261,19 @@ def lights(page: Page) -> Markup:
             "–" if one.rule is None else f"this car {phrase('rule', one.rule)}",
             page.notes.figure(one.distance),
             joined((_first(page, one.first), page.notes.ref(one.source))),
+            _crossing(page, one.crossing),
         )
         for one in report.precedence
     ]
-    head = ("From", "Decision", "The way of this car", "Distance", "Who goes first")
+    head = (
+        "From", "Decision", "Rule for this car among those on lanes", "Distance",
+        "Who goes first, of those on lanes that cross or join this car's",
+        "People who may cross, and how probably",
+    )  # fmt: skip
     text = (
-        "As the roads have it, by the decisions at which it changed. Only those are listed whose "
-        "way may cross or join this car's."
+        "As the roads have it, by the decisions at which it changed. People on foot have no lane: "
+        "the last column has those whom a decision believed to cross this car's way with more than "
+        f"{percent(SELDOM)}. Plans of this car let people pass."
     )
     none = tag("p", "The record has no junction ahead in these seconds.")
     parts += [tag("p", text), table(head, rows, "long")] if rows else [none]
@@ -276,7 +283,7 @@ def lights(page: Page) -> Markup:
 def _first(page: Page, first: dict[int, First]) -> Markup:
     """Return who goes first, those involved in bold."""
     if not first:
-        return joined(("nobody's way crosses",))
+        return joined(("nobody on a lane",))
     told_of = []
     for who in ("vehicle", "depends", "ego"):
         those = [vehicle for vehicle in first if first[vehicle] == who]
@@ -287,6 +294,16 @@ def _first(page: Page, first: dict[int, First]) -> Markup:
         if names:
             told_of.append(joined((f"{phrase('first', who)}: ", joined(names, ", "))))
     return joined(told_of, "; ")
+
+
+def _crossing(page: Page, crossing: dict[int, Figure]) -> Markup:
+    """Return who may cross the car's way on foot, likeliest first."""
+    ranked = sorted(crossing.items(), key=lambda item: (-item[1].value, item[0]))
+    told_of = [
+        joined((page.names.short(vehicle), " ", page.notes.figure(chance)))
+        for vehicle, chance in ranked
+    ]
+    return joined(told_of, ", ") if told_of else joined(("nobody",))
 
 
 def _bands(page: Page) -> Markup:

@@ -104,8 +104,16 @@ def decisions(page: Page) -> Markup:
         )
         for one in report.decisions
     )
-    head = ("", "Time", "Plan", "Speed then", "Collision expected", "Expected reward")
-    short = table(head, rows, "long")
+    head = ("", "Time", "Plan", "Speed then", "Collision: share of the rollouts",
+            "Expected reward")  # fmt: skip
+    text = (
+        "In the tables of options below, a collision has two figures. The share of the rollouts is "
+        "what the reward counts. But rollouts err: the next column is the probability that this "
+        "car would tell its passengers, made from such a share and from how often SUMO bore "
+        "rollouts out. The last column compares options over the same situations where both were "
+        "tried in them, so it need not be the difference of the expected rewards."
+    )
+    short = joined((table(head, rows, "long"), tag("p", text) if report.decided else None))
     whole = [_decided(page, one) for one in report.decided]
     return joined((tag("h3", "All decisions of these seconds"), short, *whole))
 
@@ -127,7 +135,7 @@ def _decided(page: Page, one: Decided) -> Markup:
             tag("b", chain(one.plan)), f".{begun} {weighed} The reward counts lost seconds; "
             f"penalties: {cost}. Out of time means not at its goal within the "
             f"{horizon:g} s that rollouts look ahead."),
-        _options(page, one) if one.choices else tag("p", "It had nothing to choose from."),
+        *(_options(page, one) if one.choices else [tag("p", "It had nothing to choose from.")]),
         _terms(page, one) if any(choice.terms for choice in one.choices) else None,
     ]  # fmt: skip
     if one.ruled_out:
@@ -144,7 +152,8 @@ def reasons_why(one: Decided) -> str:
     return "; ".join(phrase("examined", why) for why in one.why)
 
 
-def _options(page: Page, one: Decided) -> Markup:
+def _options(page: Page, one: Decided) -> list[Markup]:
+    """Return the options as a table, with what its columns hold."""
     rows = [
         (
             joined((capital(action_words(c.action)), tag("b", " (chosen)") if c.chosen else None)),
@@ -158,10 +167,26 @@ def _options(page: Page, one: Decided) -> Markup:
         for c in one.choices
     ]
     head = (
-        "Option", "Expected reward", "Outcomes", "Collision, as the car would tell it",
-        "Time to the goal", "Hardest braking", "Worse than the chosen one by",
+        "Option", "Expected reward", "Outcomes: shares of the rollouts",
+        "Collision, with the error of the rollouts", "Time to the goal", "Hardest braking",
+        "Worse than the chosen one by",
     )  # fmt: skip
-    return tag("div", table(head, rows), class_="wide")
+    return [tag("div", table(head, rows), class_="wide"), *_kept(page, one)]
+
+
+def _kept(page: Page, one: Decided) -> list[Markup]:
+    """Return why another option was not chosen that came out better, if there is one."""
+    if one.kept is None:
+        return []
+    best = max(one.choices, key=lambda choice: choice.value.value)
+    text = (
+        f"To {action_words(best.action)} came out better, but by no more than the standard error "
+        "of that comparison, ",
+        page.notes.figure(one.kept),
+        ". Within it, the planner keeps to what the car is doing, unless that is likelier to end "
+        "in a collision or off the route.",
+    )
+    return [tag("p", *text)]
 
 
 def _outcomes(page: Page, one: Choice) -> Markup:
@@ -193,8 +218,10 @@ def _terms(page: Page, one: Decided) -> Markup:
 def causes(page: Page) -> Markup:
     """Return what removing or changing others does to decisions."""
     text = (
-        "The decision was planned again, with one thing changed at a time and the beliefs about "
-        "all others kept. A change that alters neither plan nor outcome is no cause of them."
+        "Decisions were planned again, with one thing changed at a time and the beliefs about all "
+        "others kept. A change that alters neither plan nor outcome is no cause of them. "
+        "Collisions are shares of the rollouts. Planned again are the decision in force, the last "
+        "change of what to do next, and the last from which the mishap was avoidable on the route."
     )
     parts = [tag("p", text)]
     for case in page.report.cases:
@@ -227,9 +254,9 @@ def _case(page: Page, case: Cases) -> list[Markup]:
 
 
 def _holding(page: Page, one: Holding) -> Markup:
-    who = "" if one.vehicle is None else f"{capital(page.names.of(one.vehicle))}, "
+    who = "" if one.vehicle is None else f"{page.names.of(one.vehicle)}, "
     parts: list[Markup | str] = [
-        f"{who}{phrase('held', one.how)}: ",
+        capital(f"{who}{phrase('held', one.how)}: "),
         page.notes.figure(one.expected),
     ]
     parts += [" in the mean, with a probability of ", page.notes.figure(one.share)]

@@ -146,8 +146,10 @@ def _believed(page: Page) -> Iterator[Markup]:
 
 
 def _decided(page: Page) -> Iterator[Markup]:
-    """Yield what was decided by the decisions that are examined."""
+    """Yield what was decided up to the moment by the decisions that are shown in full."""
     for one in page.report.decided:
+        if one.time > page.report.moment.time + 1e-6:
+            continue
         chosen = next((choice for choice in one.choices if choice.chosen), None)
         other = next((choice for choice in one.choices if not choice.chosen), None)
         at = f"Decision {one.number} ({page.by(one.time)}, {reasons_why(one)})"
