@@ -4,6 +4,7 @@ import asyncio
 import selectors
 from asyncio import events
 from collections.abc import Callable, Coroutine
+from contextlib import suppress
 from typing import Any
 
 from tests.simulated.scheduler import Crashed, Scheduler, Waiter
@@ -52,10 +53,16 @@ class VirtualLoop(asyncio.SelectorEventLoop):
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler, self._calls = scheduler, _Selector(scheduler)
+        self.tasks: list[asyncio.Task[Any]] = []  # that are not done, and some that are
         super().__init__(self._calls)
 
     def time(self) -> float:
         return self._scheduler.monotonic()
+
+    def create_task(self, coro: Any, **named: Any) -> Any:
+        task = super().create_task(coro, **named)
+        self.tasks = [one for one in self.tasks if not one.done()] + [task]
+        return task
 
     def run_in_executor(  # type: ignore[override]
         self, executor: None, func: Callable[..., Any], *arguments: Any
@@ -102,10 +109,23 @@ def run(scheduler: Scheduler, main: Coroutine[Any, Any, None]) -> None:
     try:
         loop.run_until_complete(main)
     except Crashed:
-        # Nothing of a dead process runs any more, not even when its coroutines are collected.
-        loop.abandoned = True
+        _abandon(loop)
         main.close()
         raise
     finally:
         events._set_running_loop(before)
         loop.close()
+
+
+def _abandon(loop: VirtualLoop) -> None:
+    """End the coroutines of a dead process, of which nothing runs any more.
+
+    Otherwise they end when they are collected, which is any time later, and complain.
+    """
+    loop.call_exception_handler = lambda _: None  # type: ignore[method-assign]
+    events._set_running_loop(loop)
+    for task in loop.tasks:
+        coroutine = task.get_coro()
+        if coroutine is not None:
+            with suppress(Crashed, RuntimeError):  # it awaits something on its way out
+                coroutine.close()

@@ -10,6 +10,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import count
 from types import TracebackType
 from typing import Any, Self
 
@@ -64,6 +65,7 @@ class Served:
 class Asked:
     """One request as it was sent, with what came of it."""
 
+    number: int
     key: str
     payload: bytes
     asker: Process
@@ -110,7 +112,8 @@ class Network:
         self.asked: list[Asked] = []
         self.forbidden: list[str] = []  # what nodes did against their roles
         self._kept: list[Kept] = []
-        self._queues: dict[tuple[int, int, str], float] = {}  # [s] when the latest one arrives
+        self._queues: dict[tuple[Node, Node, str], float] = {}  # [s] when the latest one arrives
+        self._keepers = count()
 
     def connect(self, process: Process, role: str, *, hosts: bool = False) -> "Bus":
         """Return a process's connection."""
@@ -165,7 +168,7 @@ class Network:
         """Deliver something after a delay, in the order of its key unless the weather is bad."""
         arrives = self.scheduler.now + self.dice.uniform(*NEAR)
         arrives += self.dice.random() * self.weather.delay
-        row = (id(source), id(target), key)
+        row = (source, target, key)
         arrives = max(arrives, self._queues.get(row, 0.0) + 1e-6)
         if self.weather.disorder:
             arrives += self.dice.random() * self.weather.disorder
@@ -238,7 +241,7 @@ class Network:
         return arrive
 
     def keeping(self, node: "Node", key: str, keep: int) -> Kept:
-        kept = Kept(key, node, len(self._queues) + self.scheduler.events, deque(maxlen=keep))
+        kept = Kept(key, node, next(self._keepers), deque(maxlen=keep))
         self._kept.append(kept)
         return kept
 
@@ -252,7 +255,7 @@ class Network:
         timeout: float,
         done: Callable[[Outcome], None],
     ) -> None:
-        asked = Asked(key, payload, node.process, self.scheduler.now, timeout)
+        asked = Asked(len(self.asked), key, payload, node.process, self.scheduler.now, timeout)
         self.asked.append(asked)
 
         def end(outcome: Outcome) -> None:
@@ -288,7 +291,7 @@ class Network:
             self.served.append(served)
             handler(Call(self, served, there, node, asked, end))
 
-        self.carry(node, there, f"? {key} {id(asked)}", arrive)
+        self.carry(node, there, f"? {key} {asked.number}", arrive)
 
     # Signs of life.
 
@@ -472,5 +475,5 @@ class Call:
         if not network.linked(self.server) or network.dice.random() < network.weather.loss:
             self.asked.troubled = True
             return
-        key = f"! {self.key} {id(self.asked)}"
+        key = f"! {self.key} {self.asked.number}"
         network.carry(self.server, self.client, key, lambda: self.end(outcome))
