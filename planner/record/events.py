@@ -49,7 +49,7 @@ class LightPlace(msgspec.Struct, frozen=True):
     place: int
 
 
-class Event(msgspec.Struct, frozen=True):
+class Event(msgspec.Struct, frozen=True, repr_omit_defaults=True):
     """One thing that happened to the ego."""
 
     kind: EventKind

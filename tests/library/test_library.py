@@ -126,6 +126,8 @@ def test_decisions_tell_what_was_weighed_and_believed() -> None:
     assert values == sorted(values, reverse=True)
     assert [one.action for one in decision.options if one.chosen] == ["change-left"]
     assert sum(decision.options[0].chances.values()) == pytest.approx(1.0, abs=1e-5)
+    options = [option for one in s1().decisions for option in one.options]
+    assert all(0.0 < chance <= 1.0 for one in options for chance in one.chances.values())
     assert decision.ruled_out["change-right"] == "there is no lane to the right"
     by_vehicle: dict[int, float] = {}
     for one in decision.beliefs:
@@ -140,6 +142,42 @@ def test_a_saved_ride_has_its_events_and_a_scene_for_each_decision() -> None:
     assert s1().scenes[0].ego.speed > 0.0
     assert [e.sim_time for e in s1().events if e.kind == "arrived"] == [s1().end]
     assert repr(s1()) == "<Ride s1, seed 0: 20 decisions, 19.1 s>"
+
+
+def test_values_are_short_where_a_terminal_shows_them() -> None:
+    found = s1().ask(WHY)
+    assert repr(found) == (
+        f"Answer(question={WHY!r}, at=6.0, text={found.text!r}, kind='answer', reason=None)"
+    )
+    conversation = s1().conversation()
+    assert repr(conversation) == "<Conversation about s1, seed 0: 0 answers>"
+    conversation.ask(WHY)
+    assert repr(conversation) == "<Conversation about s1, seed 0: 1 answers>"
+    begun = repr(s1().events[0])
+    assert begun.startswith("Event(kind='action-started', sim_time=0.0, action='continue'")
+    assert "UNSET" not in begun
+
+
+def test_conversations_and_reports_show_themselves() -> None:
+    conversation = s1().conversation()
+    assert conversation._repr_html_() == "<p>Conversation about s1, seed 0: 0 answers</p>"
+    asked = [conversation.ask(text)._repr_html_() for text in (WHY, "why?")]
+    assert conversation._repr_html_() == "".join(asked)
+    report = s1().report(at=6.0)
+    shown = report._repr_html_()
+    assert shown.startswith('<iframe srcdoc="&lt;!doctype html&gt;')
+    assert "<html" not in shown
+    assert shown.count('"') == 4
+
+
+def test_tables_have_a_number_for_every_outcome_and_what_kept_the_car() -> None:
+    options = s1().table("options")
+    chances = options[[name for name in options if name.startswith("p_")]]
+    assert list(chances) == ["p_done", "p_collision", "p_termination", "p_dead"]
+    assert not chances.isna().any().any()
+    assert chances.sum(axis=1).to_numpy() == pytest.approx(1.0, abs=1e-5)
+    events = s1().table("events")
+    assert list(events[events["event"] == "restrained"]["by"]) == ["nothing", "limit"]
 
 
 def test_html_escapes_what_was_typed_and_what_was_said() -> None:
@@ -239,6 +277,9 @@ def test_wrong_arguments_are_told_with_what_is_right() -> None:
         s1().conversation(style="rude")  # type: ignore[arg-type]
     with pytest.raises(xavi.XaviError, match="seed is -1; give one from 0"):
         xavi.drive("s1", seed=-1)
+    for duration in (0.0, -1.0, float("nan")):
+        with pytest.raises(xavi.XaviError, match=r"duration is .*; give seconds greater than 0"):
+            xavi.drive("s1", duration=duration)
     with pytest.raises(xavi.XaviError, match="there is no scenario 'nowhere'; those that exist"):
         xavi.drive("nowhere")
 

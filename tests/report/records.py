@@ -17,6 +17,7 @@ UNHEEDED = HERE / "unheeded-0.ride.jsonl.gz"  # a van drives into our way, and d
 RIDES = HERE.parents[1] / "transcripts" / "rides"
 BRAKING = RIDES / "s2-2.ride.jsonl.gz"
 LIGHT = RIDES / "junction-0.ride.jsonl.gz"
+STEADY = RIDES / "s1-0.ride.jsonl.gz"  # it never brakes
 TOWN = RIDES / "town-0.ride.jsonl.gz"
 
 

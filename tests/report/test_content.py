@@ -15,6 +15,7 @@ from sim.scene import EGO, VehicleState
 from tests.report.records import (
     BRAKING,
     LIGHT,
+    STEADY,
     TOWN,
     UNHEEDED,
     figures,
@@ -114,6 +115,14 @@ def test_a_collision_is_the_most_remarkable_moment() -> None:
     assert (found.kind, found.time) == ("collision", event.sim_time)
     assert found.content.moment.vehicle == event.vehicle == 1
     assert (found.content.since, found.content.until) == (event.sim_time - 7.0, event.sim_time)
+
+
+def test_without_braking_the_closest_approach_is_the_most_remarkable_moment() -> None:
+    found = report(STEADY).content
+    assert all(one.kind != "collided" for one in ride(STEADY).events)
+    assert found.moment.kind == "closest-approach"
+    gap = found.moment.figures["gap"].value
+    assert gap == min(one.nearest.value for one in found.involved if one.nearest is not None)
 
 
 def test_the_hardest_braking_is_that_of_the_histories() -> None:

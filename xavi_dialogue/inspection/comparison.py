@@ -48,7 +48,7 @@ def _compared(
     return Option(
         action=action,
         value=sum(weight * one.reward for one, weight in rows),
-        chances={outcome: share for outcome, share in shares.items() if share > 0.0},
+        chances={outcome: min(share, 1.0) for outcome, share in shares.items() if share > 0.0},
         time=sum(time * weight for time, weight in timed) / mass if mass > 0.0 else None,
         samples=len({(one.samples, one.lights, one.phantoms) for one, _ in rows}),
         told=None if known is None else known.value,

@@ -24,12 +24,13 @@ class Answer:
     text: str
     kind: Kind  # answer, refusal or clarification
     reason: Reason | None  # why it was not answered; None of an answer
-    meaning: tuple[dict[str, Any], ...]  # what the question was understood to ask, act by act
-    content: tuple[dict[str, Any], ...]  # what each was answered; told apart by `is`
-    explanation: dict[str, Any] | None  # as in `xavi ask --json`
-    evidence: Evidence  # what it rests on
-    choices: tuple[str, ...]  # of a clarification: ask with "1" for the first
-    suggestions: tuple[str, ...]  # what could be asked next
+    # Act by act: what the question was understood to ask, and what was answered, by `is`.
+    meaning: tuple[dict[str, Any], ...] = field(repr=False)
+    content: tuple[dict[str, Any], ...] = field(repr=False)
+    explanation: dict[str, Any] | None = field(repr=False)  # as in `xavi ask --json`
+    evidence: Evidence = field(repr=False)  # what it rests on
+    choices: tuple[str, ...] = field(repr=False)  # of a clarification: ask with "1" for the first
+    suggestions: tuple[str, ...] = field(repr=False)  # what could be asked next
     decision: Decision | None = field(repr=False)  # that it explains
     planned: Trajectory | None = field(repr=False)  # that the car set out on
     ghost: Trajectory | None = field(repr=False)  # that it would have driven otherwise

@@ -19,3 +19,9 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     above = "".join(element("th", text) for text in head)
     body = "".join(f"<tr>{''.join(element('td', text) for text in row)}</tr>" for row in rows)
     return f"<table><thead><tr>{above}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def framed(document: str) -> str:
+    """Return a whole document in a frame, apart from the style of the page around it."""
+    style = "width: 100%; height: 40em; border: 1px solid #999"
+    return f'<iframe srcdoc="{escape(document)}" style="{style}" sandbox></iframe>'

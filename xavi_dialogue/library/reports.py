@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from xavi_dialogue.library.errors import LibraryError, translated
+from xavi_dialogue.library.html import framed
 
 if TYPE_CHECKING:
     from xavi_dialogue.report.content import Incident, MomentKind
@@ -21,6 +22,9 @@ class Report:
     content: "Incident" = field(repr=False)  # all that it says, as frozen values
     kind: "MomentKind"  # collision, hardest-braking, closest-approach, red-light or time
     time: float  # [s] the moment
+
+    def _repr_html_(self) -> str:
+        return framed(self.html())
 
     def html(self) -> str:
         """Return it as one HTML document, which needs no other file."""

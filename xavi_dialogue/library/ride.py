@@ -212,6 +212,13 @@ class Conversation:
         self._inner = in_process.Conversation(make_pipeline(), keeping(ride.again, ride.record))
         self._told = 0  # inputs so far
 
+    def __repr__(self) -> str:
+        count = len(self.answers)
+        return f"<Conversation about {self.ride.scenario}, seed {self.ride.seed}: {count} answers>"
+
+    def _repr_html_(self) -> str:
+        return "".join(one._repr_html_() for one in self.answers) or element("p", repr(self)[1:-1])
+
     def ask(self, question: str, at: float | None = None) -> Answer:
         """Return the answer to a question, which may refer to those before.
 

@@ -58,6 +58,8 @@ def drive(
     """
     if seed is not None and not 0 <= seed <= MAX_SEED:
         raise LibraryError(f"seed is {seed}; give one from 0 to {MAX_SEED}")
+    if duration is not None and not duration > 0.0:  # nor is it for nan
+        raise LibraryError(f"duration is {duration}; give seconds greater than 0")
     with translated():
         loaded = load_scenario(str(scenario))
         for warning in loaded.warnings:

@@ -4,7 +4,10 @@ from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
+from msgspec import UnsetType
+
 from planner.record.events import Event
+from planner.record.trace import OUTCOMES
 from xavi_dialogue.library.decisions import Decision
 from xavi_dialogue.library.errors import LibraryError
 
@@ -61,7 +64,7 @@ def _options(one: Decision) -> Iterable[Row]:
             "chosen": option.chosen,
             "arrival": option.time,
             "collision": option.collision,
-            **{f"p_{name}": chance for name, chance in option.chances.items()},
+            **{f"p_{name}": option.chances.get(name, 0.0) for name in OUTCOMES},
         }
 
 
@@ -84,6 +87,7 @@ def _event(one: Event) -> Row:
         "action": one.action,
         "decision": one.decision,
         "vehicle": one.vehicle,
+        "by": None if isinstance(one.by, UnsetType) else one.by,
     }
 
 

@@ -39,7 +39,7 @@ def choose(ridden: Ridden, tracks: Tracks, at: float | str | None) -> Chosen:
     """Return the moment that is asked for; by default, the most remarkable one.
 
     That is a collision, else hard braking, else an approach nearer than CLOSE, else the hardest
-    braking that there was.
+    braking that there was, else the closest approach, else the end.
 
     Raises:
         ReportError: there is no such moment in the ride.
@@ -74,8 +74,9 @@ def _remarkable(ridden: Ridden, tracks: Tracks) -> Chosen:
     near = _approach(ridden, tracks, "")
     if near is not None and near.figures["gap"].value < CLOSE:
         return near
-    if braking is not None:
-        return braking
+    found = braking or near
+    if found is not None:
+        return found
     return Chosen("time", ridden.end, "", _speeds(tracks, ridden.end))
 
 
