@@ -276,6 +276,10 @@ def test_traces_are_checked_and_explained_without_a_car(tmp_path: Path) -> None:
     checked = xavi("trace", "check", str(tmp_path / "roadless.json"), "--json")
     assert checked.exit_code == 1
     assert [(one["part"], one["decisions"]) for one in json.loads(checked.stdout)] == [("road", 1)]
+    what_if = "What if vehicle 1 had not been there?"
+    declined = xavi("explain", str(tmp_path / "roadless.json"), what_if)
+    assert declined.exit_code == 5
+    assert "no roads of it are known here; --scenario names" in " ".join(declined.stderr.split())
     (tmp_path / "bad.json").write_text("{}", encoding="utf-8")
     for command in (("trace", "check"), ("explain",)):
         asked = (why,) if command == ("explain",) else ()

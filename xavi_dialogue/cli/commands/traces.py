@@ -9,6 +9,11 @@ import typer
 from xavi_dialogue.cli.commands.common import AsJson, Streams, to_json
 from xavi_dialogue.process.exit_status import ExitStatus
 
+ROADLESS = (
+    "this takes planning the decision again, and no roads of it are known here; --scenario names "
+    "a scenario that has them"
+)
+
 File = Annotated[str, typer.Argument(help="A trace or a ride, gzipped or not; - for stdin.")]
 
 
@@ -95,7 +100,10 @@ def _explain(shell: Streams) -> Callable[..., None]:
         from xavi_dialogue.process.exit_status import status_of
 
         with shell.errors():
-            reply = open_ride(file, scenario).conversation(style).reply(text, at)
+            ride = open_ride(file, scenario)
+            reply = ride.conversation(style).reply(text, at)
+        if ride.network is None and reply.reason == "planner-unavailable":
+            shell.note(ROADLESS)
         shell.write(encode(reply) if as_json else reply.text)
         raise typer.Exit(status_of(reply))
 
