@@ -44,6 +44,7 @@ from xavi_dialogue.bus.messages import (
 from xavi_dialogue.chat.client import Client, ServiceLost
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.turn import Turn
+from xavi_dialogue.service.erased import MAX_NAMES, REMEMBERED, ErasedQuestions
 from xavi_dialogue.service.reorder_buffer import ReorderBuffer
 from xavi_dialogue.service.requests import Answer
 from xavi_dialogue.service.server import Service
@@ -423,6 +424,7 @@ def test_a_file_that_holds_everybody_up_is_left_alone_for_a_while(
     bench = Bench(TurnLog(kept))
     bench.drive()
     monkeypatch.setattr(memory, "REST", 1e6)
+    tries.clear()
     assert [bench.ask("answer", request=f"r{k}").kind for k in range(5)] == ["answer"] * 5
     assert len(tries) <= 1
     other.execute("ROLLBACK")
@@ -438,11 +440,10 @@ def test_whose_a_session_is_counts_once_it_can_be_read_again(kept: Retention) ->
     first.service._memory.close()
     hidden = kept.path.with_suffix(".hidden")
     kept.path.rename(hidden)
-    kept.path.mkdir()
+    kept.path.write_bytes(b"no database" * 100)  # which can never be read again
     later = Bench(TurnLog(kept))
     later.drive()
     assert later.ask("refuse", token=thief).kind == "refusal"  # of a conversation of its own
-    kept.path.rmdir()
     hidden.rename(kept.path)
     [denied] = later.send("answer", request="q2", token=thief)
     assert isinstance(denied, Refused)
@@ -482,13 +483,91 @@ def test_as_long_as_it_cannot_be_read_whose_a_session_is_nobody_gets_it(kept: Re
 
     assert [tried(kind, "r1") for kind in ("history", "ask", "forget")] == ["out-of-scope"] * 3
     assert tried("forget", "r2") == "busy"  # what is on disk is not to be erased by whoever comes
-    assert tried("ask", "r2") == "done"  # a conversation of their own, of which nothing is kept
+    assert tried("ask", "r2") == "busy"
     kept.path.rmdir()
     hidden.rename(kept.path)
     assert [tried(kind, "r2") for kind in ("history", "ask", "forget")] == ["out-of-scope"] * 3
     assert bench.service.vehicle_session().past.get("r2") is None
     store.close()
     assert texts(kept, "r2") == ["answer"]
+
+
+def test_while_earlier_turns_cannot_be_read_nothing_is_answered_without_them(
+    kept: Retention,
+) -> None:
+    first = Bench(TurnLog(kept))
+    first.drive()
+    first.ask("answer", request="q1")
+    first.service._memory.close()
+    hidden = kept.path.with_suffix(".hidden")
+    kept.path.rename(hidden)
+    kept.path.mkdir()
+    said: list[str] = []
+    later = Bench(TurnLog(kept, said.append))
+    later.drive()
+    for request in ("q1", "q2"):  # one that comes again, and another
+        [refused] = later.send("answer", request=request)
+        assert isinstance(refused, Refused)
+        failure = unpack(refused.payload, Failure)
+        assert failure.reason == "busy"
+        assert "cannot be read" in failure.detail
+    assert sum("questions are refused" in one for one in said) == 1
+    kept.path.rmdir()
+    hidden.rename(kept.path)
+    assert later.ask("answer", request="q1").text
+    assert texts(kept) == ["answer"]
+    later.ask("answer", request="q2")
+    assert texts(kept) == ["answer"] * 2
+    assert len(later.service.vehicle_session().past["ada"]) == 2
+
+
+def test_a_question_that_comes_again_after_its_conversation_was_erased_begins_no_other(
+    kept: Retention,
+) -> None:
+    bench = Bench(TurnLog(kept))
+    bench.drive()
+    bench.ask("answer", request="q1")
+    bench.passenger.request(
+        KEYS.of("@rpc/forget"),
+        pack(ForgetRequest(request="f", session="ada")),
+        1.0,
+        lambda _: None,
+    )
+    bench.service.work()
+    [refused] = bench.send("answer", request="q1")
+    assert isinstance(refused, Refused)
+    assert unpack(refused.payload, Failure).reason == "busy"
+    assert texts(kept) == []
+    assert bench.ask("answer", request="q2").kind == "answer"
+    assert "ada" not in str(bench.service.handler.erased._gone)
+
+
+def test_questions_of_erased_sessions_are_known_for_a_while_only() -> None:
+    questions = ErasedQuestions()
+    assert not questions.came("ada", "q1", "why?", 0.0)
+    questions.erase("ada", 1.0)
+    assert questions.came("ada", "q1", "why?", 2.0)
+    assert not questions.came("ada", "q1", "how?", 2.0)
+    assert not questions.came("ada", "q2", "why?", 2.0)
+    assert not questions.came("bea", "q1", "why?", 2.0)
+    assert not questions.came("ada", "q1", "why?", 1.0 + REMEMBERED)
+    for number in range(2 * MAX_NAMES):
+        questions.came("ada", str(number), "why?", 40.0)
+    questions.erase("ada", 41.0)
+    assert len(questions._came) + len(questions._gone) <= MAX_NAMES + 1
+
+
+def test_a_session_is_resumed_with_what_waits_for_the_disk(kept: Retention) -> None:
+    memory = TurnLog(kept)
+    bench = Bench(memory)
+    bench.drive()
+    bench.ask("answer", request="q1")
+    assert memory._store is not None
+    memory._store.cap(0)
+    for number in range(2, 40):
+        bench.ask("answer", request=f"q{number}")
+    assert memory._missed
+    assert len(memory.recall("ada")) == 39
 
 
 @pytest.fixture

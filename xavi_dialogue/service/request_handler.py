@@ -1,11 +1,10 @@
 """Handling of requests: they are checked, admitted, and passed to the session of their vehicle."""
 
 import logging
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TypeVar
-
-import msgspec
 
 from planner.record import trace as plan_trace
 from xavi_dialogue.bus.errors import MessageError
@@ -30,9 +29,11 @@ from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.errors import XaviError
 from xavi_dialogue.runtime import system
+from xavi_dialogue.service.erased import ErasedQuestions
 from xavi_dialogue.service.ownership import UNKNOWN, SessionOwners
-from xavi_dialogue.service.requests import Question
+from xavi_dialogue.service.requests import Question, latest, named
 from xavi_dialogue.service.vehicle_session import VehicleSession
+from xavi_dialogue.storage.database import StoreError
 from xavi_dialogue.storage.turn_log import TurnLog
 
 _LOG = logging.getLogger(__name__)
@@ -44,6 +45,8 @@ MAX_EARLY = 500  # questions about one car that may wait for the record; they do
 HOPE = 0.7  # share of its deadline that a question may wait for its turn; see RequestHandler.ask
 LEARNT = 0.1  # weight of the latest question in the pace
 UNREADABLE = "whose conversation this is cannot be read at the moment; ask again soon"
+UNREAD = "what was said before cannot be read at the moment; ask again soon"
+ERASED = "this was asked before the conversation was erased"
 UNHEARD = "no decision of this ride that is still remembered has this id"
 FOREIGN = "this conversation belongs to somebody else; begin another with --session NAME"
 
@@ -70,6 +73,7 @@ class RequestHandler:
     repeat: Callable[[str, AskRequest], bytes | None]  # returns the reply that was sent recently
     forgotten: Callable[[str], None]  # called with a session that was erased
     vehicles: dict[str, VehicleSession] = field(default_factory=dict)  # by car
+    erased: ErasedQuestions = field(default_factory=ErasedQuestions)
     pace: float = 0.0  # [s] running average of the time per question
     _active: dict[int, VehicleSession] = field(default_factory=dict)  # with something to be done
     _changed: dict[int, VehicleSession] = field(default_factory=dict)  # since it was last idle
@@ -141,13 +145,18 @@ class RequestHandler:
             Rejection: it is not accepted.
         """
         vehicle_session, asked = self._admitted(call, AskRequest)
+        name = named(vehicle_session.vehicle, asked.request)
+        if self.erased.came(asked.session, name, asked.text, came):
+            raise Rejection("busy", ERASED)
         known = vehicle_session.scheduler.open.get((asked.session, asked.request))
         if known is not None:
             if known.asked == asked and len(known.again) < MAX_AGAIN:
                 known.again.append(call)  # it came twice, and is answered once
                 return
             raise Rejection("busy", "a request of this name is open in this session")
-        if (said := self.repeat(vehicle_session.vehicle, asked)) is not None:
+        with self._reading():
+            said = self.repeat(vehicle_session.vehicle, asked)
+        if said is not None:
             call.reply(said)
             return
         wait = self.pace * self.ready()
@@ -213,6 +222,7 @@ class RequestHandler:
             for question in dropped:
                 question.drop()
         self.forgotten(session)
+        self.erased.erase(session, system.monotonic())
         return known
 
     def history(self, call: Call, seq: int) -> None:
@@ -223,7 +233,8 @@ class RequestHandler:
         """
         vehicle_session, wanted = self._admitted(call, HistoryRequest)
         past = vehicle_session.past.get(wanted.session)
-        turns = self.memory.recall(wanted.session) if past is None else past
+        with self._reading():
+            turns = self.memory.recall(wanted.session) if past is None else past
         shown = (PastTurn(turn.text, turn.reply) for turn in turns[-wanted.turns :])
         scene = None if vehicle_session.reports is None else vehicle_session.reports.scene
         reply = HistoryReply(
@@ -295,9 +306,27 @@ class RequestHandler:
         )
 
     def _know(self, vehicle_session: VehicleSession, session: str) -> None:
-        """Load the earlier turns of a session."""
+        """Load the earlier turns of a session.
+
+        Raises:
+            Rejection: they cannot be read now; without them, answers would be others.
+        """
         if session not in vehicle_session.past:
-            vehicle_session.resume(session, self.memory.recall(session))
+            with self._reading():
+                turns = self.memory.recall(session)
+            vehicle_session.resume(session, turns)
+
+    @contextmanager
+    def _reading(self) -> Iterator[None]:
+        """Refuse what depends on the file if that cannot be read now.
+
+        Raises:
+            Rejection: it cannot be read.
+        """
+        try:
+            yield
+        except StoreError as error:
+            raise Rejection("busy", UNREAD) from error
 
     def _make_room(self) -> None:
         """Drop the cars that left the bus first, but for the latest few."""
@@ -311,15 +340,3 @@ class RequestHandler:
             raise Rejection("busy", f"this service talks about {MAX_CARS} cars already")
         there = sum(one.car_alive for one in self.vehicles.values())
         self._room = min(there + KEPT_GONE, MAX_CARS)
-
-
-def latest(turns: Iterable[PastTurn], limit: int) -> tuple[PastTurn, ...]:
-    """Return the latest turns that fit into a number of bytes."""
-    kept: list[PastTurn] = []
-    taken = 0
-    for turn in reversed([*turns]):
-        taken += len(msgspec.json.encode(turn)) + 1
-        if taken > limit:
-            break
-        kept.append(turn)
-    return tuple(reversed(kept))

@@ -1,10 +1,13 @@
 """Values for questions to the service and for the tasks that follow, without input or output."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from xavi_dialogue.bus.interface import Call
-from xavi_dialogue.bus.messages import AskRequest
+import msgspec
+
+from xavi_dialogue.bus.interface import DEFAULT_VEHICLE, Call
+from xavi_dialogue.bus.messages import AskRequest, PastTurn
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.domain.answers import NeedRollout
@@ -67,3 +70,20 @@ class PlanAgain:
 
 
 Task: TypeAlias = Answer | PlanAgain
+
+
+def latest(turns: Iterable[PastTurn], limit: int) -> tuple[PastTurn, ...]:
+    """Return the latest turns that fit into a number of bytes."""
+    kept: list[PastTurn] = []
+    taken = 0
+    for turn in reversed([*turns]):
+        taken += len(msgspec.json.encode(turn)) + 1
+        if taken > limit:
+            break
+        kept.append(turn)
+    return tuple(reversed(kept))
+
+
+def named(vehicle: str, name: str) -> str:
+    """Return a name that is unique among cars."""
+    return name if vehicle == DEFAULT_VEHICLE else f"{vehicle}/{name}"

@@ -13,7 +13,6 @@ from planner.record.trace import PlanTrace
 from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import (
-    DEFAULT_VEHICLE,
     Bus,
     Keys,
     NobodyThere,
@@ -38,7 +37,7 @@ from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.runtime import system
 from xavi_dialogue.service.ownership import SessionOwners
-from xavi_dialogue.service.requests import Answer, PlanAgain
+from xavi_dialogue.service.requests import Answer, PlanAgain, named
 from xavi_dialogue.service.vehicle_session import VehicleSession
 from xavi_dialogue.storage.conversations import RideName
 from xavi_dialogue.storage.turn_log import TurnLog
@@ -166,11 +165,6 @@ class Responder:
         known = {"vehicle": vehicle, "session": task.session, "request": task.request}
         _LOG.info("a what-if is asked for", extra={**known, "trace_id": task.need.trace_id})
         self.bus.request(Keys(vehicle).of("@rpc/whatif"), pack(wanted), remaining, done)
-
-
-def named(vehicle: str, name: str) -> str:
-    """Return a name that is unique among cars."""
-    return name if vehicle == DEFAULT_VEHICLE else f"{vehicle}/{name}"
 
 
 def ride_of(vehicle_session: VehicleSession) -> RideName | None:

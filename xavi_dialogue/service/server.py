@@ -43,8 +43,8 @@ from xavi_dialogue.runtime import system
 from xavi_dialogue.service.membership import Membership, Place
 from xavi_dialogue.service.ownership import SessionOwners
 from xavi_dialogue.service.request_handler import Rejection, RequestHandler
-from xavi_dialogue.service.requests import Answer, PlanAgain, Task
-from xavi_dialogue.service.responder import Responder, named, planned, ride_of
+from xavi_dialogue.service.requests import Answer, PlanAgain, Task, named
+from xavi_dialogue.service.responder import Responder, planned, ride_of
 from xavi_dialogue.service.vehicle_session import VehicleSession
 from xavi_dialogue.storage.conversations import RideName
 from xavi_dialogue.storage.turn_log import TurnLog

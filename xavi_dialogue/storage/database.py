@@ -46,6 +46,13 @@ class Disk:
         # release the locks that this process holds on it.
         os.close(os.open(path, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o600))
 
+    def has(self, path: Path) -> bool:
+        """Check whether a file is there; where that cannot be told, it may be."""
+        try:
+            return path.exists()
+        except OSError:
+            return True
+
     def connect(self, path: Path, patience: float) -> Writing:
         """Open a file as a database; wait up to `patience` [s] for others that write."""
         return sqlite3.connect(path, timeout=patience, isolation_level=None)
@@ -80,6 +87,11 @@ def on_disk(disk: Disk) -> Iterator[None]:
         yield
     finally:
         _disk = before
+
+
+def is_there(path: Path) -> bool:
+    """Check whether there is a file, as far as can be told."""
+    return _disk.has(path)
 
 
 class StoreError(RunFault):
@@ -267,6 +279,14 @@ class Database:
                     raise
                 system.sleep(PAUSE)
         _disk.protect(self.path)
+        if self._version(version) < version:  # else it can be read whoever writes, or if it is full
+            self._migrate(steps, version)
+        if self.rows("PRAGMA quick_check(1)") != [("ok",)]:
+            raise Damaged(_mend(self.path, "it is damaged"))
+        self._purge_in_passing()
+        self.rows(f"PRAGMA busy_timeout = {round(self._patience * 1000.0)}")
+
+    def _migrate(self, steps: Mapping[int, str], version: int) -> None:
         with self.writing() as file:
             held = self._version(version)
             if held < version:
@@ -275,10 +295,6 @@ class Database:
                         file.execute(statement)
                 file.execute(f"PRAGMA application_id = {APPLICATION}")
                 file.execute(f"PRAGMA user_version = {version}")
-        if self.rows("PRAGMA quick_check(1)") != [("ok",)]:
-            raise Damaged(_mend(self.path, "it is damaged"))
-        self._purge_in_passing()
-        self.rows(f"PRAGMA busy_timeout = {round(self._patience * 1000.0)}")
 
     def _set_up(self) -> None:
         self.rows("PRAGMA journal_mode = WAL")

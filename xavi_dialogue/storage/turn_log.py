@@ -6,7 +6,7 @@ and one warning; the missing turns are stored as soon as the file can be written
 
 import logging
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -14,7 +14,14 @@ from planner.record.events import Event
 from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.runtime import system
 from xavi_dialogue.storage.conversations import New, NewEvent, NewTurn, RideName, Store, fits
-from xavi_dialogue.storage.database import Damaged, NotStorable, StoreError, Unpurged, Unwritable
+from xavi_dialogue.storage.database import (
+    Damaged,
+    NotStorable,
+    StoreError,
+    Unpurged,
+    Unwritable,
+    is_there,
+)
 
 MAX_PAST = 200  # latest turns of a session that are loaded
 _LOG = logging.getLogger(__name__)
@@ -60,23 +67,31 @@ class TurnLog:
     _unpurged: bool = False  # something is erased, and still in the files
     _purged: float = 0.0  # [s] wall time of the latest attempt to purge the files
     _failing: bool = False
+    _unread: bool = False  # reading has failed, too
     _again: float = 0.0  # [s] on the monotonic clock: when the file is tried again
     _unsynced: bool = False  # written, but not yet on the disk itself
     _synced: float = float("-inf")  # [s] on the monotonic clock, when it was last flushed
     _expired: float = 0.0  # [s] wall time when old turns were last erased
 
     def recall(self, session: str) -> tuple[Turn, ...]:
-        """Return the turns of a session, oldest first; none if they cannot be read."""
+        """Return the turns of a session, oldest first; none if they can never be read again.
+
+        Raises:
+            Unwritable: they cannot be read now.
+        """
         if self.keeping is None or session in self._unforgotten:
             return ()
+        missed = tuple(
+            new.turn for new in self._missed if isinstance(new, NewTurn) and new.session == session
+        )
         try:
             with self._reading(self.keeping) as store:
-                return store.turns(session, MAX_PAST)
+                return (*store.turns(session, MAX_PAST), *missed)[-MAX_PAST:]
         except Damaged as error:
             self._regret("what was said before", error)
         except StoreError as error:
-            self._fail(error)
-        return ()
+            self._cannot_read(self.keeping, error)
+        return missed
 
     def owner(self, session: str) -> str | None:
         """Return the digest of a session's owner; None if it is open to all.
@@ -99,14 +114,23 @@ class TurnLog:
             raise
 
     def answered(self, session: str, request: str, since: float) -> Turn | None:
-        """Return the turn that answered a request since a wall time [s]; None if there is none."""
+        """Return the turn that answered a request since a wall time [s]; None if there is none.
+
+        Raises:
+            Unwritable: that cannot be read now.
+        """
         if self.keeping is None or session in self._unforgotten:
             return None
         for new in self._missed:
             if isinstance(new, NewTurn) and (new.session, new.request) == (session, request):
                 return new.turn
-        with suppress(StoreError), self._reading(self.keeping) as store:  # else answered again
-            return store.answered(session, request, since)
+        try:
+            with self._reading(self.keeping) as store:
+                return store.answered(session, request, since)
+        except Damaged:
+            return None  # it is answered again, as if nothing had been said
+        except StoreError as error:
+            self._cannot_read(self.keeping, error)
         return None
 
     def keep(
@@ -247,7 +271,7 @@ class TurnLog:
         self._missed.clear()
         self._unsynced = True
         if self._failing:
-            self._failing = False
+            self._failing = self._unread = False
             _LOG.warning("the store works again")
             self.warn("what is said is kept again, and what was missed as well")
 
@@ -270,6 +294,21 @@ class TurnLog:
                 self._unpurged = True
             self._unforgotten.discard(session)
         return erased
+
+    def _cannot_read(self, keeping: Retention, error: StoreError) -> None:
+        """Take note that the file cannot be read.
+
+        Raises:
+            Unwritable: that may work later, and the file holds what must be known until then.
+        """
+        self._fail(error)
+        if not isinstance(error, Unwritable) or not is_there(keeping.path):
+            return
+        if not self._unread:
+            self._unread = True
+            _LOG.error("the store cannot be read", extra={"problem": str(error)})
+            self.warn("questions are refused until what was said before can be read again")
+        raise error
 
     def _fail(self, error: StoreError) -> None:
         if not self._failing:
