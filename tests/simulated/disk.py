@@ -20,6 +20,7 @@ MEMORY = Path("/dev/shm")
 HEADER = 32  # bytes of a log that change whenever it is begun anew
 POLL = 0.01  # [s] between attempts on a file that is locked
 LOCKED = (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
+ENDS = ("COMMIT", "ROLLBACK")
 WRITES = ("INSERT", "UPDATE", "DELETE", "CREATE", "ALTER", "DROP", "VACUUM", "COMMIT", "BEGIN")
 
 
@@ -31,6 +32,7 @@ class Volume:
     generation: int = 0
     full: bool = False
     failing: bool = False
+    crashing: bool = False  # whether the process crashes that stores a turn next, once it has
     safe: tuple[bytes, int] = (b"", 0)  # header and length of the log when it was flushed
     open: list["Connection"] = field(default_factory=list)
     held: sqlite3.Connection | None = None  # of another program that reads, or writes
@@ -120,6 +122,10 @@ class SimulatedDisk(Disk):
             raise OSError(28, "No space left on device")
         volume.path.touch()
 
+    def has(self, path: Path) -> bool:
+        self.scheduler.step()
+        return self.volume(path).path.exists()
+
     def connect(self, path: Path, patience: float) -> Any:
         self.scheduler.step()
         process = self.scheduler.process
@@ -169,6 +175,7 @@ class Connection:
     volume: Volume
     process: Process
     patience: float
+    storing: bool = False  # whether this transaction stores a turn
     torn: bytes | None = None  # the log as a crash within a commit left it
 
     def __post_init__(self) -> None:
@@ -195,7 +202,12 @@ class Connection:
             return self._real.execute("SELECT 1")
         self._fail(sql)
         before = self.volume.written() if sql == "COMMIT" else b""
+        storing = self.storing
         found = self._patiently(sql, arguments)
+        self.storing = "INTO turns" in sql or (self.storing and sql not in ENDS)
+        if sql == "COMMIT" and storing and self.volume.crashing:
+            self.volume.crashing = False
+            self.process.crash_at = self.process.steps + 2  # not within the commit
         if sql == "COMMIT" and self.process.crash_at == self.process.steps + 1:
             self.torn = self._part(before, self.volume.written())
         self.scheduler.step()

@@ -1,5 +1,6 @@
 """What must hold in every run of the simulated world."""
 
+from collections import Counter
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -11,8 +12,10 @@ from xavi_dialogue.bus.messages import PastTurn
 from xavi_dialogue.service.responder import MAX_SENT, PASSING
 
 if TYPE_CHECKING:
+    from tests.simulated.network import Asked
     from tests.simulated.world import World
 
+DISK = frozenset(("full", "failing", "locked", "read"))  # faults of the disk
 SLACK = 0.15  # [s] one step of an answer may take that long after its deadline
 WINDOW = 2.0  # [s] after which what was said is flushed, if the service was not busy all the time
 
@@ -21,6 +24,9 @@ def at_rest(world: "World") -> list[str]:
     """Return what is wrong once everything has come to rest."""
     found = [*_requests(world), *_transcripts(world), *_bounds(world), *_dashboard(world)]
     found += world.network.forbidden
+    for (_, ride), times in world.rides.items():
+        if times > 1:
+            found.append(f"a service began the record of ride {ride} {times} times")
     for person in world.erased:
         found += left_of(world, person)
     return found
@@ -49,7 +55,8 @@ def _requests(world: "World") -> Iterator[str]:
                 yield f"{where} has no outcome"
             continue
         _, outcome = asked.outcomes[0]
-        if isinstance(outcome, TooLate) and not asked.troubled and not _bad_weather(world):
+        late = isinstance(outcome, TooLate) and not asked.troubled
+        if late and not _bad_weather(world) and not _slowly_planned(world, asked):
             yield f"{where} got no answer, though nothing had failed"
 
 
@@ -58,12 +65,22 @@ def _bad_weather(world: "World") -> bool:
     return bool(kinds & {"loss", "stall", "delay", "disorder"})
 
 
+def _slowly_planned(world: "World", asked: "Asked") -> bool:
+    """Check whether planning again took too long: the car says so when time is over."""
+    return asked.key.endswith("@rpc/whatif") and any(
+        fault.kind == "planner" and fault.at <= asked.sent <= fault.at + fault.lasts
+        for fault in world.plan.faults
+    )
+
+
 def _transcripts(world: "World") -> Iterator[str]:
     """No turn that was shown is lost or changed, and all are those of a run without faults."""
     world.transcripts = {}
     _excuse(world)
     for person in world.people:
         turns = [t for t in world.stored(person.session) if t.reply.reason not in PASSING]
+        if person.session not in world.exempt:  # else a stranger may have begun it anew
+            yield from _once(person, turns)
         told = tuple((turn.text, msgspec.json.encode(_timeless(turn)).decode()) for turn in turns)
         world.transcripts[person.session] = told
         if person.forgotten is not None:
@@ -76,29 +93,37 @@ def _transcripts(world: "World") -> Iterator[str]:
         yield from _same(world, person, told)
 
 
-def _excuse(world: "World") -> None:
-    """Note whose answers lack a plan or a report, as they say themselves.
+def _once(person: Person, turns: list[Any]) -> Iterator[str]:
+    """A question is answered no more often than it was asked, whatever was lost or came twice."""
+    asked: Counter[str] = Counter()
+    for number, times in person.asks.items():
+        asked[person.script[number][1]] += times
+    for text, times in Counter(turn.text for turn in turns).items():
+        if times > asked[text]:
+            yield f"{person.session} has {times} turns of {text!r}, asked {asked[text]} times"
 
-    Who asks once all has healed has no excuse.
-    """
+
+def _excuse(world: "World") -> None:
+    """Note whose answers lack a plan or a report, as they say themselves."""
     failed = [
         asked.outcomes[0][0]
         for asked in world.network.asked
         if asked.key.endswith("@rpc/whatif") and asked.outcomes and _failed(asked.outcomes[0][1])
     ]
+    for session in _asked_within(world, [(when, when) for when in failed]):
+        world.exempt.setdefault(session, "a decision could not be planned again")
+    if {fault.kind for fault in world.plan.faults} & {"apart", "stall", "crash", "stored", "power"}:
+        for session in _asked_within(world, world.gaps):
+            world.exempt.setdefault(session, "reports were lost")
+
+
+def _asked_within(world: "World", gaps: list[tuple[float, float]]) -> Iterator[str]:
+    """Yield the sessions that had a question open in one of these times [s]."""
     for asked in world.network.asked:
-        if not asked.key.endswith("@rpc/ask"):
-            continue
-        end = asked.outcomes[0][0] if asked.outcomes else world.scheduler.now
-        if any(asked.sent <= when <= end for when in failed):
-            session = msgspec.json.decode(asked.payload)["session"]
-            world.exempt.setdefault(session, "a decision could not be planned again")
-    service = world.service
-    for vehicle in () if service is None else service.handler.all_vehicles():
-        apart = {fault.kind for fault in world.plan.faults} & {"apart", "stall", "crash", "power"}
-        if vehicle.reports is not None and vehicle.reports.lost and apart:
-            for person in world.people:
-                world.exempt.setdefault(person.session, "reports were lost")
+        if asked.key.endswith("@rpc/ask"):
+            end = asked.outcomes[0][0] if asked.outcomes else world.scheduler.now
+            if any(asked.sent <= until and since <= end for since, until in gaps):
+                yield msgspec.json.decode(asked.payload)["session"]
 
 
 def _failed(outcome: object) -> bool:
@@ -221,8 +246,13 @@ def _dashboard(world: "World") -> Iterator[str]:
         return
     turns = [(turn.text, turn.reply.text) for turn in controller.conversation.turns]
     stored = [(turn.text, turn.reply.text) for turn in world.stored("desk")]
+    if world.lost_to_another(world.people[2]):
+        stored = []
     if turns != stored[-len(turns) :] or (stored and not turns):
         yield f"the dashboard shows {turns}, stored are {stored}"
+    for one in world.dashboards:
+        if one.begun_anew > 1 and "desk" not in world.exempt:
+            yield f"a browser was told {one.begun_anew} times to show the conversation anew"
     for request, answers in browsers.answers.items():
         if len(answers) != 1:
             yield f"the browser's question {request} was answered {len(answers)} times"
@@ -250,9 +280,8 @@ def power_cut(world: "World", person: Person, before: list[Any], flushed: float)
 def _quiet(world: "World", when: float, flushed: float) -> bool:
     """Check whether there was time to flush what was shown at a time [s]."""
     now = world.scheduler.now
-    disks = {"full", "failing", "locked", "read"}
     troubled = any(
-        fault.kind in disks | {"stall"} and fault.at <= now and fault.at + fault.lasts >= when
+        fault.kind in DISK | {"stall"} and fault.at <= now and fault.at + fault.lasts >= when
         for fault in world.plan.faults
     )
     return now - when > WINDOW and not troubled

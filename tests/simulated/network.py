@@ -36,6 +36,7 @@ matches = cache(_matches)
 
 NEAR = (0.0002, 0.003)  # [s] least and greatest delay of a message in fair weather
 RECOVERED = (0.2, 0.6)  # [s] until a lost report that is kept is delivered after all
+NOTICED = 0.7  # chance that a request ends with the hub, and not with its time
 FAREWELL = (0.0, 0.05)  # [s] until the end of a connection is noticed
 
 
@@ -73,6 +74,7 @@ class Asked:
     timeout: float  # [s]
     troubled: bool = False  # whether a link, a message or a process failed it
     outcomes: list[tuple[float, Outcome]] = field(default_factory=list)
+    end: Callable[[Outcome], None] = lambda _: None
 
 
 @dataclass(eq=False)
@@ -160,7 +162,15 @@ class Network:
         self._kept = [kept for kept in self._kept if kept.node is not node]
         for asked in self.asked:
             asked.troubled |= not asked.outcomes
+            if not asked.outcomes and node.process is self.hub and self.dice.random() < NOTICED:
+                self._end_soon(asked)
         self.changed()
+
+    def _end_soon(self, asked: Asked) -> None:
+        """Tell who asked that the hub is gone."""
+        nobody = NobodyThere(f"the hub that {asked.key} was sent to is gone")
+        delay = self.dice.uniform(*FAREWELL)
+        self.scheduler.after(delay, lambda: asked.end(nobody), asked.asker)
 
     # Messages.
 
@@ -263,6 +273,7 @@ class Network:
                 asked.outcomes.append((self.scheduler.now, outcome))
                 done(outcome)
 
+        asked.end = end
         late = TooLate(f"no reply from {key} in time")
         self.scheduler.after(timeout, lambda: end(late), node.process)
         if not self.linked(node):

@@ -24,7 +24,7 @@ from xavi_dialogue.bus.messages import (
     pack,
 )
 from xavi_dialogue.chat.batch import BatchChat
-from xavi_dialogue.chat.client import Client, ServiceLost
+from xavi_dialogue.chat.client import GRACE, Client, ServiceLost
 from xavi_dialogue.chat.controller import ChatController
 from xavi_dialogue.chat.history import SessionHistory
 from xavi_dialogue.chat.remote_backend import (
@@ -67,6 +67,9 @@ THOUGHT = (0.1, 1.8)  # [s] between questions of a passenger
 COMPUTED = (0.0005, 0.02)  # [s] that a stage of an answer takes
 PLANNED = (0.02, 0.3)  # [s] that planning again takes
 PATIENCE = 5.0  # [s] for a service and a car to talk with
+HASTE = 0.15  # chance that a stranger asks about a time that never comes
+NEVER = 500.0  # [s]
+HURRY = 0.7  # [s] deadline of such a question
 SECRET = "xylophones"  # a word that only the diary holds
 
 
@@ -322,6 +325,7 @@ class Browsers:
     problems: list[str]
     sessions: list[ClientSession] = field(default_factory=list)
     answers: dict[str, list[AnsweredHere]] = field(default_factory=dict)
+    begun_anew: int = 0  # times that the page was told to show the conversation from the start
 
     @property
     def browsers(self) -> int:
@@ -341,6 +345,7 @@ class Browsers:
             told = msgspec.json.decode(text)
             if told["type"] == "scene":
                 viewer.hear(_seen(told["seq"]), system.monotonic())
+            self.begun_anew += told["type"] == "turns" and told["reset"]
             if told["type"] == "answered":
                 found = msgspec.json.decode(text, type=AnsweredHere)
                 self.answers.setdefault(found.request, []).append(found)
@@ -365,6 +370,7 @@ def dashboard(world: "World", bus: Bus, person: Person) -> None:
         loop.set_exception_handler(trouble)
         controller = Controller(KEYS, Passenger(person.session, person.token))
         browsers = Browsers(loop, world.problems)
+        world.dashboards.append(browsers)
         world.controller, world.browsers = controller, browsers
         controller.attach(browsers)  # type: ignore[arg-type]
         controller.join(bus)
@@ -400,12 +406,14 @@ async def _use(
         if person.done or viewer.leave is not None:
             continue
         turns = [t for t in controller.conversation.turns if t.reply.reason not in PASSING]
-        if len(turns) > person.next:
-            turn = turns[person.next]
+        if len(turns) > person.known:
+            turn = turns[person.known]
+            person.known += 1
             if turn.text == person.script[person.next][1]:
                 person.show(turn.text, turn.reply.text, world.scheduler.now)
                 continue
             person.unsure = True
+            continue
         at, text = person.script[person.next]
         request = system.token(4)
         person.asks[person.next] = person.asks.get(person.next, 0) + 1
@@ -427,11 +435,32 @@ async def _answered(
     world.problems.append(f"the browser's question {request} got no answer within 20 s")
 
 
+def hurry(world: "World", bus: Bus) -> None:
+    """Ask about a time that never comes, and have no patience."""
+    name = system.token(4)
+    wanted = AskRequest(
+        request=name,
+        session="stranger",
+        text="What are you doing?",
+        at=NEVER,
+        deadline_ms=1000.0 * HURRY,
+    )
+    try:
+        got = call(bus, KEYS.of("@rpc/ask"), pack(wanted), HURRY + GRACE)
+    except Exception as error:  # too much, late or gone
+        world.refused.append(type(error).__name__)
+        return
+    if msgspec.json.decode(got)["reason"] not in PASSING:
+        world.problems.append(f"an answer about {NEVER} s: {got[:300]!r}")
+
+
 def stranger(world: "World", bus: Bus, victims: list[Person]) -> None:
-    """Try to read, take over and erase what belongs to others."""
+    """Try to read, take over and erase what belongs to others; now and then be in a hurry."""
     dice = world.scheduler.dice
     while True:
         system.sleep(dice.uniform(0.3, 1.5))
+        if dice.random() < HASTE and not all(one.done for one in world.people):
+            hurry(world, bus)
         victim = dice.choice(victims)
         if not victim.shown or victim.forgotten is not None:
             continue

@@ -19,6 +19,7 @@ HEALED = 10.0  # [s] after which nothing goes wrong any more
 Kind: TypeAlias = Literal[
     "crash",  # of a process, after some of its steps
     "power",  # cut to a machine
+    "stored",  # the service crashes as soon as it has stored a turn
     "stall",  # of a process
     "apart",  # a machine is separated from the hub
     "loss",
@@ -147,7 +148,7 @@ def _draw(dice: random.Random, kind: Kind) -> Fault:
             amount = dice.choice((0.02, 0.1, 0.4))
         case "delay" | "disorder":
             amount = dice.choice((0.02, 0.2, 0.8))
-        case "full" | "failing" | "read" | "locked":
+        case "stored" | "full" | "failing" | "read" | "locked":
             machine = "hub"
         case "clock":
             amount = dice.choice((-1.0, 1.0)) * dice.choice((1.0, 20.0, 3600.0, 86400.0))

@@ -39,7 +39,7 @@ PLANTED = (
         "dedup",
         "service/request_handler.py",
         ("known.again.append(call)", "pass"),
-        ("if (said := self.repeat(", "if False and (said := self.repeat("),
+        ("said = self.repeat(vehicle_session.vehicle, asked)", "said = None"),
         ("if known is not None:", "if known is None and known is not None:"),
     ),
     *_of(

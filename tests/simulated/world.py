@@ -3,11 +3,12 @@
 import gc
 import hashlib
 import logging
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -20,6 +21,9 @@ from tests.simulated.reading import read_once
 from tests.simulated.scheduler import OutOfHand, Process, Scheduler
 from xavi_dialogue.dashboard.controller import Controller
 from xavi_dialogue.runtime.system import behind_the_door
+from xavi_dialogue.service.ownership import digest
+from xavi_dialogue.service.reorder_buffer import RideReports
+from xavi_dialogue.service.ride_tracker import RideTracker
 from xavi_dialogue.service.server import Service
 from xavi_dialogue.storage.conversations import Store
 from xavi_dialogue.storage.database import on_disk
@@ -31,6 +35,7 @@ RESTARTED = (0.1, 1.5)  # [s] until a dead process is started again
 FLUSHED = 1.5  # [s] after which what was shown is on the disk, if the service had no other work
 FAULTLESS = 20261128  # seed of the runs without faults, which tell what is right
 
+T = TypeVar("T")
 Turn = tuple[str, str]  # question, answer with all that it has
 
 
@@ -73,6 +78,10 @@ class World:
         self.memory: TurnLog | None = None
         self.controller: Controller | None = None
         self.browsers: Any = None
+        self.dashboards: list[Any] = []  # the browsers of all dashboards so far
+        self.rides: Counter[tuple[int, str]] = Counter()  # that were begun by a service
+        self.trackers: list[RideTracker] = []  # which are kept, so that each has a number
+        self.gaps: list[tuple[float, float]] = []  # [s] from when until when reports were lost
         self.ride: Any = None
         self.driven = False
         self.slow: float | None = None  # [s] that planning again takes longer; 0: it dies
@@ -156,6 +165,7 @@ class World:
     def _lost_with_the_service(self) -> None:
         """Note whose turns were waiting for the disk, of which the operator was warned."""
         self.problems += invariants.faults_of(self)
+        self._end_gap()
         memory, self.memory, self.service = self.memory, None, None
         for new in () if memory is None else memory._missed:
             session = getattr(new, "session", None)
@@ -166,6 +176,14 @@ class World:
             self.exempt[session] = "turns waited for the disk when the service crashed"
         if memory is not None and memory._unforgotten:
             self.exempt["diary-of-ada"] = "erasing waited for the disk"
+
+    def miss_reports(self) -> None:
+        """Note that the service has given up reports."""
+        self.gaps.append((self.scheduler.now, float("inf")))
+
+    def _end_gap(self) -> None:
+        """Note that a record begins anew."""
+        self.gaps = [(since, min(until, self.scheduler.now)) for since, until in self.gaps]
 
     # What goes wrong.
 
@@ -182,6 +200,9 @@ class World:
                     process.crash_at = process.steps + int(fault.amount)
             case "power":
                 self._cut_power(fault.machine)
+            case "stored":
+                volume.crashing = True
+                heal = partial(setattr, volume, "crashing", False)
             case "stall":
                 if process is not None:
                     process.stalled = scheduler.now + fault.lasts
@@ -220,14 +241,23 @@ class World:
 
     def stored(self, session: str) -> list[Any]:
         """Return the turns of a session on the disk of the service."""
+        return self._read(lambda store: [*store.turns(session, 1000)]) or []
+
+    def lost_to_another(self, person: Person) -> bool:
+        """Check whether somebody else began a session anew of which nothing was stored."""
+        owner = self._read(lambda store: store.owner(person.session))
+        begun = bool(self.stored(person.session))
+        return begun and person.session in self.exempt and owner != digest(person.token)
+
+    def _read(self, read: Callable[[Store], T]) -> T | None:
         volume = self.disk.volume(STORE)
         if not volume.path.exists():
-            return []
+            return None
         copy = volume.folder / "look.sqlite3"
         copy.write_bytes(volume.path.read_bytes())
         copy.with_name("look.sqlite3-wal").write_bytes(volume.written())
         with on_disk(_PlainDisk()), behind_the_door(_SYSTEM), Store(copy) as store:
-            found = list(store.turns(session, 1000))
+            found = read(store)
         copy.unlink()
         return found
 
@@ -259,6 +289,7 @@ class World:
             stack.enter_context(self._listening())
             stack.enter_context(read_once())
             stack.enter_context(_uncollected())
+            stack.enter_context(self._counting_rides())
             for starter in self.starters.values():
                 if starter.machine == "fresh":
                     continue
@@ -273,11 +304,11 @@ class World:
 
     @contextmanager
     def _listening(self) -> Iterator[None]:
-        """Count internal errors that the programs log as problems."""
+        """Note internal errors that the programs log, and lost reports."""
         listener, logger = _Listener(self), logging.getLogger("xavi_dialogue")
         before = logger.propagate, logger.level
         logger.propagate = False
-        logger.setLevel(logging.ERROR)
+        logger.setLevel(logging.WARNING)
         logger.addHandler(listener)
         try:
             yield
@@ -285,6 +316,24 @@ class World:
             logger.removeHandler(listener)
             logger.propagate = before[0]
             logger.setLevel(before[1])
+
+    @contextmanager
+    def _counting_rides(self) -> Iterator[None]:
+        """Count how often a record of each ride is begun."""
+        begin = RideTracker._begin
+
+        def counted(tracker: RideTracker, reports: RideReports) -> None:
+            self.rides[id(tracker), reports.ride] += 1
+            self.trackers.append(tracker)
+            if self.scheduler.process is not None and self.scheduler.process.machine == "hub":
+                self._end_gap()
+            begin(tracker, reports)
+
+        RideTracker._begin = counted  # type: ignore[method-assign]
+        try:
+            yield
+        finally:
+            RideTracker._begin = begin  # type: ignore[method-assign]
 
     def _drive(self) -> None:
         scheduler = self.scheduler
@@ -297,12 +346,17 @@ class World:
             if not scheduler.run(fresh, LIMIT) or not in_time:
                 waits = [one.session for one in self.people if not one.done]
                 self.problems.append(f"after {LIMIT:g} s {', '.join(waits)} have no answer yet")
-            end = scheduler.now + REST
-            scheduler.run(lambda: False, end)
+            scheduler.run(lambda: False, scheduler.now + REST)
+            scheduler.run(self._is_quiet, scheduler.now + REST)  # strangers go on, and the car
         except OutOfHand as error:
             self.problems.append(str(error))
         self.problems += scheduler.failures
         self.problems += invariants.at_rest(self)
+
+    def _is_quiet(self) -> bool:
+        """Check whether nothing that came to the service waits."""
+        service = self.service
+        return service is None or (service._inbox.empty() and not service.handler.waiting())
 
     def _outcome(self) -> Outcome:
         figures = {
@@ -331,14 +385,16 @@ _SYSTEM = _RealSystem()
 
 
 class _Listener(logging.Handler):
-    """Hears of internal errors of a world's programs."""
+    """Hears of internal errors of a world's programs, and of lost reports."""
 
     def __init__(self, world: World) -> None:
-        super().__init__(logging.ERROR)
+        super().__init__(logging.WARNING)
         self._world = world
 
     def emit(self, record: logging.LogRecord) -> None:
         alive = self._world.scheduler.process is not None and self._world.scheduler.process.alive
+        if record.msg == "reports were lost":
+            self._world.miss_reports()
         if record.exc_info and alive:
             told = logging.Formatter().formatException(record.exc_info)
             self._world.problems.append(f"internal error, {record.name}:\n{told[-1500:]}")
