@@ -1,4 +1,4 @@
-"""Values along a path: the highest speed at each place, and the states of a vehicle on it."""
+"""Values along a path: its curvature, the highest speeds, and the states of a vehicle on it."""
 
 import math
 
@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
 
 _jit = njit(cache=True, error_model="numpy")
 
@@ -53,22 +52,51 @@ def place(
 
 
 @_jit
-def within(
-    total: Floats, heading: Floats, arc: Floats, low: Ints, high: Ints, most: float
-) -> Bools:
-    """Check for each stretch of a line whether it deviates at most `most` [m] to the side.
+def averaged(
+    heading: Floats, arc: Floats, windows: Ints, cut: float, swerve: float, jog: float, alike: float
+) -> Floats:
+    """Return the curvature [1/m] [N] of a line, averaged over windows: see `curvature_of`.
+
+    Args:
+        heading, arc: [N] [rad], [m].
+        windows: points on each side to average over, the narrowest first.
+        cut: [m] maximum distance of a wider curve from the line.
+        swerve: curvature of a swerve, times length^2 / way aside.
+        jog, alike: [m] to the side, and [rad] turned, up to which it is a swerve.
+    """
+    count, spacing = len(arc), arc[-1] / (len(arc) - 1)
+    total, so_far = np.zeros(count), 0.0  # integral of the heading along the line
+    for k in range(1, count):
+        so_far += 0.5 * (heading[k] + heading[k - 1])
+        total[k] = so_far * spacing
+    found = np.empty(count)
+    for k in range(count):
+        wide = True
+        for i in range(len(windows)):
+            low, high = max(k - windows[i], 0), min(k + windows[i], count - 1)
+            width, turn = max(arc[high] - arc[low], 1e-6), heading[high] - heading[low]
+            bulge = total[high] - total[low] - 0.5 * (heading[high] + heading[low]) * width
+            wide &= i == 0 or abs(turn) * width / 8.0 + 0.5 * abs(bulge) <= cut
+            if i == 0 or (wide and abs(turn / width) < abs(found[k])):
+                found[k] = turn / width
+            gently = abs(turn) / width + swerve * abs(bulge) / width**2
+            swerves = abs(turn) <= alike and gently < abs(found[k])
+            if swerves and _within(total, heading, arc, low, high, jog):
+                found[k] = math.copysign(gently, found[k])
+    return found
+
+
+@_jit
+def _within(total: Floats, heading: Floats, arc: Floats, low: int, high: int, most: float) -> bool:
+    """Check whether a stretch of a line deviates at most `most` [m] from a straight one.
 
     Args:
         total: [N] integral of the heading along the line.
         heading, arc: [N] [rad], [m].
-        low, high: [K] first and last index of each stretch.
+        low, high: first and last index of the stretch.
         most: [m] from the straight line in the direction in which the stretch begins.
     """
-    found = np.ones(len(low), np.bool_)
-    for i in range(len(low)):
-        a = low[i]
-        for k in range(a, high[i] + 1):
-            if not abs(total[k] - total[a] - heading[a] * (arc[k] - arc[a])) <= most:
-                found[i] = False
-                break
-    return found
+    for k in range(low, high + 1):
+        if not abs(total[k] - total[low] - heading[low] * (arc[k] - arc[low])) <= most:
+            return False
+    return True

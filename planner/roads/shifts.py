@@ -31,7 +31,7 @@ def shifted(points: Array, joints: Array) -> Array:
     Returns:
         The points; the same object where the line has no jog.
     """
-    if len(points) <= 2 * WITHIN[0] + 2:
+    if len(joints) == 0 or len(points) <= 2 * WITHIN[0] + 2:
         return points
     found = points
     for middle in _middles(points):

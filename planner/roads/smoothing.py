@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.kernels.along import within
+from planner.kernels.along import averaged
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -24,6 +24,7 @@ CUT = 0.3  # [m] by which a vehicle may cut the corners of a polygon
 WINDOWS = (2, 3, 4, 6, 8, 12, 16, 24, 32)  # path points on each side to average curvature over
 JOG, ALIKE = 1.2, 0.15  # [m] to the side, and [rad] that a road may go on aside as it came
 SWERVE = 2.0 * math.pi  # curvature of a sine that leads aside, times length^2 / way aside
+_WINDOWS: Ints = np.array(WINDOWS, np.int64)
 
 
 def smoothed(points: Array) -> tuple[Array, Ints]:
@@ -73,22 +74,4 @@ def curvature_of(heading: Array, arc: Array) -> Array:
     corners moves a vehicle aside by no more than CUT: a small kink costs no speed, a bend does.
     If a lane continues a little to the side, the curvature is that of a swerve.
     """
-    n, spacing = len(arc), float(arc[-1]) / (len(arc) - 1)
-    total = np.concatenate(([0.0], np.cumsum(0.5 * (heading[1:] + heading[:-1])))) * spacing
-    result: Array = np.zeros(n)
-    open_ = np.ones(n, dtype=np.bool_)
-    for window in WINDOWS:
-        low = np.maximum(np.arange(n) - window, 0)
-        high = np.minimum(np.arange(n) + window, n - 1)
-        width = np.maximum(arc[high] - arc[low], 1e-6)
-        turn = heading[high] - heading[low]
-        bulge = total[high] - total[low] - 0.5 * (heading[high] + heading[low]) * width
-        open_ &= (window == WINDOWS[0]) | (np.abs(turn) * width / 8.0 + 0.5 * np.abs(bulge) <= CUT)
-        wider = turn / width
-        gentler = open_ & (np.abs(wider) < np.abs(result))
-        result = wider if window == WINDOWS[0] else np.where(gentler, wider, result)
-        swerve = np.abs(turn) / width + SWERVE * np.abs(bulge) / width**2
-        found = np.flatnonzero((np.abs(turn) <= ALIKE) & (swerve < np.abs(result)))
-        found = found[within(total, heading, arc, low[found], high[found], JOG)]
-        result[found] = np.copysign(swerve[found], result[found])
-    return result
+    return averaged(heading, arc, _WINDOWS, CUT, SWERVE, JOG, ALIKE)

@@ -175,22 +175,23 @@ def _blended(
 ) -> Path:
     """Return the same, shifted by the quintic that leads `lateral` [m] and `slope` to zero."""
     points, heading, bend, cap = _interpolate(line, along + offset)
-    u = np.clip(along / blend, 0.0, 1.0)
+    over = int(np.searchsorted(along, blend))  # points before the path is on the line
+    u, ahead, bent = along[:over] / blend, heading[:over], bend[:over]
     aside = lateral * (1.0 - u**3 * (10.0 - 15.0 * u + 6.0 * u**2))
     aside += slope * blend * (u - u**3 * (6.0 - 8.0 * u + 3.0 * u**2))
     rise = -30.0 * lateral / blend * (u * (1.0 - u)) ** 2
     rise += slope * (1.0 - u**2 * (18.0 - 32.0 * u + 15.0 * u**2))
     turning = -60.0 * lateral / blend**2 * u * (1.0 - u) * (1.0 - 2.0 * u)
     turning += slope / blend * u * (-36.0 + 96.0 * u - 60.0 * u**2)
-    x, y = points[:, 0] - aside * np.sin(heading), points[:, 1] + aside * np.cos(heading)
+    stretch = np.maximum(1.0 - aside * bent, 0.2)  # of the shifted line against the line
+    points[:over, 0] -= aside * np.sin(ahead)
+    points[:over, 1] += aside * np.cos(ahead)
+    heading[:over] += np.arctan2(rise, stretch)
+    bend[:over] = bent / stretch + turning / (stretch**2 + rise**2) ** 1.5
+    x, y = points[:, 0], points[:, 1]
     steps = np.maximum(np.hypot(x[1:] - x[:-1], y[1:] - y[:-1]), 1e-3)
     arc = np.concatenate(([0.0], np.cumsum(steps)))
-    stretch = np.maximum(1.0 - aside * bend, 0.2)  # of the shifted line against the line
-    curvature = bend / stretch + turning / (stretch**2 + rise**2) ** 1.5
-    turned = heading + np.arctan2(rise, stretch)
-    return _path(
-        np.column_stack((x, y)), arc, turned, curvature, cap, _lanes(line, offset, along, arc)
-    )
+    return _path(points, arc, heading, bend, cap, _lanes(line, offset, along, arc))
 
 
 def _path(
@@ -262,13 +263,15 @@ def _rounded(arc: Array, points: Array, starts: Array) -> tuple[Array, Array, Ar
     Returns:
         Arc, points and starts of the line that can be driven; unchanged if it needs no change.
     """
-    bent, loose = shifted(points, starts[1:] / max(arc[1], 1e-9)), ~_hairpins(points)
+    bent = shifted(points, starts[1:] / max(arc[1], 1e-9))
+    loose: NDArray[np.bool_] | None = None
     for _ in range(ROUNDS):
         steps = np.diff(bent, axis=0)
         heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
         sharp = np.abs(np.diff(heading)) > TIGHTEST * np.hypot(*steps[1:].T)
         if not np.any(sharp):
             break
+        loose = ~_hairpins(points) if loose is None else loose
         moved = (np.convolve(sharp, np.ones(5), "same")[: len(sharp)] > 0.0) & loose
         if not np.any(moved):
             break

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from planner.kernels.along import within
 from planner.kernels.resampling import nearest, resampled
+from planner.roads.smoothing import ALIKE, CUT, JOG, SWERVE, WINDOWS, curvature_of
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -38,10 +38,34 @@ def test_nearest_looks_at_the_first_points_alone() -> None:
     assert nearest(points, 4, 0.5, 0.0) == 0
 
 
-def test_a_stretch_is_within_what_it_leads_aside() -> None:
-    arc = np.arange(4.0)
-    heading = np.array([0.0, 0.5, 0.5, 0.0])
-    total = np.array([0.0, 0.25, 0.75, 1.0])  # [m] aside, for small angles
-    low, high = np.array([0, 0]), np.array([3, 2])
-    assert within(total, heading, arc, low, high, 0.8).tolist() == [False, True]
-    assert within(total, heading, arc, low, high, 1.0).tolist() == [True, True]
+@pytest.mark.parametrize("seed", range(20))
+def test_curvature_is_averaged_as_numpy_does(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    arc = np.arange(float(rng.integers(3, 250)))
+    bends = np.where(rng.random(len(arc)) < 0.1, rng.normal(0.0, 0.12, len(arc)), 0.0)
+    heading = np.cumsum(bends - (seed % 2) * np.concatenate(([0.0] * 3, bends))[: len(arc)])
+    assert curvature_of(heading, arc).tobytes() == averaged_by_numpy(heading, arc).tobytes()
+
+
+def averaged_by_numpy(heading: np.ndarray, arc: np.ndarray) -> np.ndarray:
+    """The curvature of a line, all places at once."""
+    n, spacing = len(arc), float(arc[-1]) / (len(arc) - 1)
+    total = np.concatenate(([0.0], np.cumsum(0.5 * (heading[1:] + heading[:-1])))) * spacing
+    result, wide = np.zeros(n), np.ones(n, dtype=np.bool_)
+    for window in WINDOWS:
+        low = np.maximum(np.arange(n) - window, 0)
+        high = np.minimum(np.arange(n) + window, n - 1)
+        width = np.maximum(arc[high] - arc[low], 1e-6)
+        turn = heading[high] - heading[low]
+        bulge = total[high] - total[low] - 0.5 * (heading[high] + heading[low]) * width
+        wide &= (window == WINDOWS[0]) | (np.abs(turn) * width / 8.0 + 0.5 * np.abs(bulge) <= CUT)
+        gentler = wide & (np.abs(turn / width) < np.abs(result))
+        result = turn / width if window == WINDOWS[0] else np.where(gentler, turn / width, result)
+        swerve = np.abs(turn) / width + SWERVE * np.abs(bulge) / width**2
+        aside = [
+            np.max(np.abs(total[a : b + 1] - total[a] - heading[a] * (arc[a : b + 1] - arc[a])))
+            for a, b in zip(low, high, strict=True)
+        ]
+        swerves = (np.abs(turn) <= ALIKE) & (swerve < np.abs(result)) & (np.array(aside) <= JOG)
+        result = np.where(swerves, np.copysign(swerve, result), result)
+    return result
