@@ -1,7 +1,7 @@
 """The cost of the way to the goal, and the place on it that one decision aims for.
 
-Rollouts cannot reach a goal on the other side of town. They aim for a place on the shortest way
-to it; what comes after that place does not matter to the present decision.
+Rollouts cannot reach a goal on the other side of town. They aim for a place on the way to it that
+costs least; what comes after that place does not matter to the present decision.
 """
 
 import heapq
@@ -73,7 +73,7 @@ def waypoint(roads: Roads, here: Location, goal: EgoGoal, aim: float = AIM) -> E
 
 
 def way(roads: Roads, lanes: tuple[str, ...], goal: EgoGoal) -> tuple[str, ...]:
-    """Return the edges along connected lanes, and from there on the shortest way to the goal."""
+    """Return the edges along connected lanes, and from there on the cheapest way to the goal."""
     network = roads.network
     ahead = [lane for lane in lanes if not network.lanes[lane].internal]
     ahead += [lane for lane in rest_of(network, lanes[-1]) if not network.lanes[lane].internal]
@@ -206,11 +206,21 @@ def _at(roads: Roads, edge: str, position: float) -> EgoGoal:
 
 
 def next_link(roads: Roads, edge: str, goal: EgoGoal) -> Link | None:
-    """Return the link from an edge on the shortest way to the goal."""
+    """Return the link from an edge on the way to the goal that costs least.
+
+    Costs are compared to the microsecond, since their last digits differ between processors.
+    """
     network = roads.network
     links = [x for lane in network.edge_lanes(edge) for x in network.links_from(lane.id)]
-    return min(
-        links,
-        key=lambda link: remaining(roads, network.lanes[link.to_lane].edge, goal),
-        default=None,
-    )
+    return min(links, key=lambda link: round(_cost_over(roads, link, goal), 6), default=None)
+
+
+def _cost_over(roads: Roads, link: Link, goal: EgoGoal) -> float:
+    """Return the cost [s] of free driving over a link and on to the start of the goal's edge."""
+    network = roads.network
+    across = sum(toll(roads, lane).cost for lane in link.via)
+    edge = network.lanes[link.to_lane].edge
+    if edge == goal.edge:
+        return across
+    along = toll(roads, network.edge_lanes(edge)[0].id).cost
+    return across + along + _costs_to(roads, goal.edge).get(edge, math.inf)
