@@ -13,7 +13,7 @@ RED, ROLLING, ROUND = 20.0, 14.0, 34.5  # [s] in the ride `junction-0`
         (
             ROLLING,
             "are you waiting for those people?",
-            "No, not because of the pedestrian coming from the right (vehicle 8)",
+            "Partly: I am braking, because the traffic light is red. Besides, I have to let the",
         ),
         (ROLLING, "can we go now?", "Not yet: the traffic light"),
         (RED, "will you stop for those people?", "We are standing still, because"),

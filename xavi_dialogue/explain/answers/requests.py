@@ -133,7 +133,8 @@ def _cause(asked: Asked) -> MotionCause | None:
             raise
         return None
     causes = found.causes if isinstance(found, MotionReason) else ()
-    known = sorted(causes, key=lambda cause: cause.vehicle is None)  # somebody before something
+    # A light holds us whoever else does; somebody comes before a bend or a limit.
+    known = sorted(causes, key=lambda cause: (cause.kind != "light", cause.vehicle is None))
     return next((c for c in known if c.kind not in ("plan", "starting")), None)
 
 

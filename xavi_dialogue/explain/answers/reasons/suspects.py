@@ -12,7 +12,7 @@ def with_suspect(
 ) -> Answer:
     """Add whether the vehicle that the question takes for the cause is one.
 
-    If it is, it comes first, so that the answer is about it.
+    If it is, it comes first, so that the answer is about it; a light precedes it.
 
     Args:
         found: the reason.
@@ -46,7 +46,7 @@ def with_suspect(
         against = replace(found.contrast, causes=tuple(ranked))
         told = replace(found, contrast=against, ahead=ahead)
         return replace(told, suspect=suspect, suspected=part, besides=besides)
-    motive = sorted(found.causes, key=lambda cause: cause.vehicle != suspect)
+    motive = sorted(found.causes, key=lambda c: (c.kind != "light", c.vehicle != suspect))
     return replace(found, causes=tuple(motive), suspect=suspect, suspected=part, besides=besides)
 
 
@@ -148,4 +148,5 @@ def _part(found: ChoiceReason | MotionReason, named: list[int], suspect: int) ->
     causes = found.causes if isinstance(found, MotionReason) else found.contrast.causes
     told = any(cause.vehicle == suspect for cause in causes)
     both = causation is not None and causation.kind == "both" and told
-    return "main" if both or named[0] == suspect else "part"
+    lit = isinstance(found, MotionReason) and any(cause.kind == "light" for cause in found.causes)
+    return "main" if (both or named[0] == suspect) and not lit else "part"

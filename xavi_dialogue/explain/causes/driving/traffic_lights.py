@@ -22,7 +22,7 @@ from xavi_dialogue.explain.history.nearing import with_speeds
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride
 from xavi_dialogue.explain.history.traffic_lights import ahead, shown
 
-HELD = frozenset[ActionName](("slow-down", "brake", "stop", "stand", "wait", "move"))
+HELD = frozenset[ActionName](("slow-down", "brake", "stop", "stand", "wait", "move", "follow"))
 STILL = frozenset[ActionName](("stop", "stand", "wait"))
 GREEN = LightState.GREEN.value
 

@@ -46,7 +46,7 @@ def plan_motion(answer: MotionReason, context: SpeechContext) -> Plan:
     answer = answer if past else _current(answer, context)
     first = _driving(answer, context, past)
     first_of = _vehicles_of(answer.causes[:1])
-    told = answer.suspect in first_of
+    told = answer.suspect in first_of or answer.suspect in _vehicles_of(answer.causes[1:2])
     core = suspected(
         first,
         answer.suspect,
