@@ -8,6 +8,7 @@ from xavi_dialogue.domain.answers import (
     Answer,
     Beliefs,
     Closeness,
+    MotionReason,
     NeedRollout,
     Priority,
     Verdict,
@@ -32,9 +33,10 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     WholeRide,
 )
-from xavi_dialogue.domain.vocabulary import State
+from xavi_dialogue.domain.vocabulary import ActionName, State
 from xavi_dialogue.explain.answers.expectations.foreseen import CROSSING, macros
 from xavi_dialogue.explain.answers.propositions.conditions import handed
+from xavi_dialogue.explain.answers.propositions.happenings import activity
 from xavi_dialogue.explain.answers.propositions.lasting import staying
 from xavi_dialogue.explain.answers.propositions.weighing import weigh
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -46,6 +48,8 @@ from xavi_dialogue.explain.answers.suppositions.own_suppositions import claimed,
 
 #: Manners that are a matter of opinion; the reply is the reason for what we did.
 JUDGED = frozenset(("late", "early", "long"))
+HELD = frozenset[ActionName](("stop", "stand", "wait", "brake", "slow-down"))
+HELD_BY_TREND: dict[str, ActionName] = {"standing": "stand", "slowing": "slow-down"}
 PACES: dict[str, State] = {"fast": "fast", "slowly": "slow"}
 PASSING = frozenset(("pass", "overtake"))
 DRIVING = frozenset(("move", "go", "turn", "exit-left", "exit-right", "enter", "pass"))
@@ -166,6 +170,8 @@ def claim(act: Claim, asked: Asked) -> Answer:
         return why
     if (wavering := _wavered(act.that, asked)) is not None:
         return wavering
+    if (held := _held_now(act.that, asked)) is not None:
+        return held
     found = _seen_since(act.that, weigh(act.that, asked), asked)
     if isinstance(found.answer, Priority):
         return replace(found.answer, claim=True)
@@ -174,6 +180,31 @@ def claim(act: Claim, asked: Asked) -> Answer:
     if found.answer is not None and (found.holds is None or _own_type(act.that)):
         return found.answer
     return _checked(found, act)
+
+
+def _held_now(that: Proposition, asked: Asked) -> Answer | None:
+    """Return the reason why we stand or slow down now, for a claim that says that we do."""
+    match that:
+        case Happens(event=event) if event.action in HELD:
+            pass
+        case Not(content=Happens(event=Event(action="go" | "move") as event)):
+            pass
+        case _:
+            return None
+    said = asked.past is not None and asked.past.said
+    now = event.tense == "perfect" and not said
+    now = now or (event.tense == "present" and isinstance(event.time, Unsaid | Now))
+    plain = event.modal is None and event.then is None and event.object is None
+    doing = HELD_BY_TREND.get(activity(asked, Ego(), asked.now).trend or "")
+    if not (is_us(event.actor) and now and plain) or doing is None:
+        return None
+    try:
+        found = handed(Why(Happens(Event(doing, tense="present"))), refound(asked, span=None))
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    return found if isinstance(found, MotionReason) else None
 
 
 def _wavered(that: Proposition, asked: Asked) -> Answer | None:
