@@ -172,8 +172,8 @@ _KEEP = {"again": "again", "already": "already", "still": "still", "ever": "", "
 _UNCHANGED = frozenset({"hit", "cut", "let", "set"})
 #: Verbs whose participle after "be" describes a state: "we are stuck, headed, stopped".
 _RESULTING = frozenset(
-    ("allow", "permit", "stick", "sit", "stand", "hold one's ground", "head", "park", "stop", "go", "finish", "come",
-     "get", "turn", "end", "arrive")
+    ("allow", "permit", "stick", "sit", "stand", "hold one's ground", "head", "park", "stop", "go",
+     "finish", "come", "get", "turn", "end", "arrive")
 )  # fmt: skip
 
 
