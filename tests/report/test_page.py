@@ -127,9 +127,10 @@ def test_what_the_summary_says_stands_in_the_content() -> None:
     )
     light = read(report(LIGHT, "red light").html()).text
     assert "turned green again at 26.0 s" in light
-    town = read(report(TOWN, "hardest braking").html()).text
+    town = read(report(TOWN, 25.0).html()).text
     assert "a collision with vehicle 5 (blue bus) in 100 %" in town
-    assert "Decisions 16 to 21 did not foresee it" in town
+    braking = read(report(LIGHT, "hardest braking").html()).text
+    assert "Decisions 36 to 38 and 42 to 43 did not foresee it" in braking
     assert "The light ahead, in " in light
     assert "The light ahead showed red from " in light
 

@@ -21,12 +21,15 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import islice, product
 
+from msgspec import structs
+
 from xavi_dialogue.domain.meaning import Act, Ask, Beyond, Reading
 from xavi_dialogue.nlu.compose.acts import NOTHING
 from xavi_dialogue.nlu.demands import blames, startles, wants_reason
 from xavi_dialogue.nlu.grammar.chart import Budget, Chart, ChartLimitError, Node, Nodes
 from xavi_dialogue.nlu.grammar.lexicon import Leaf, leaves, lexicon, without_skips
 from xavi_dialogue.nlu.grammar.rules import grammar
+from xavi_dialogue.nlu.grammar.subjects import marked, past
 from xavi_dialogue.nlu.joining.alternatives import chosen_between
 from xavi_dialogue.nlu.joining.demanding import blaming, demanding, may_startle
 from xavi_dialogue.nlu.joining.meanwhile import at_same_time, in_its_world
@@ -67,6 +70,7 @@ EASY = 0.42  # cost of an act up to which a reading is taken as it is
 EASY_ALONE = 0.62  # the same of an act that is the only one
 GAIN = 0.3  # what a reading by ear must be cheaper by than one that leaves words unread ...
 GAIN_OF_WHOLE = 0.8  # ... and than one that leaves none
+UNSAID = 0.15  # cost of a subject that is left out
 ENOUGH = 2  # readings, with which those that cost much more are not looked for
 NEAR = 0.5
 
@@ -141,6 +145,34 @@ def _sentence(typed: Typed, budget: Budget) -> tuple[Reading, ...]:
     other = struck_by(typed) or on_screen(typed)
     if other is not None:
         return (other,)
+    stated = marked(typed)
+    told = () if stated is None else _as_typed(typed, stated, _whole(stated, budget))
+    found = told or _whole(typed, budget)
+    stated = None if _plain(found[0]) else past(typed)
+    if stated is None:
+        return found
+    told = _as_typed(typed, stated, _whole(stated, budget))
+    return told if told and told[0].cost < found[0].cost else found
+
+
+def _as_typed(typed: Typed, stated: Typed, found: tuple[Reading, ...]) -> tuple[Reading, ...]:
+    """Return the readings of a sentence that was given its subject, without that word's share."""
+    at = next(
+        k
+        for k, (a, b) in enumerate(zip(typed.tokens, stated.tokens, strict=False))
+        if a.text != b.text
+    )
+    return tuple(
+        structs.replace(
+            one, shares=(*one.shares[:at], *one.shares[at + 1 :]), cost=one.cost + UNSAID
+        )
+        for one in found
+        if one.acts and not one.unknown
+    )
+
+
+def _whole(typed: Typed, budget: Budget) -> tuple[Reading, ...]:
+    """Return the readings of one sentence as it stands, likeliest first; never empty."""
     known = lexicon()
     lattice = build(typed, known.vocabulary, known.nouns)
     readings = _understood(lattice, budget)

@@ -46,6 +46,15 @@ def restraint_at(ride: Ride, time: float) -> Restraint | None:
     return next((r.restraint for r in restraints(ride) if r.begin <= time < r.end), None)
 
 
+def let_go_first(ride: Ride, vehicle: int, begin: float, end: float) -> bool:
+    """Check whether the ego had to let a road user go first between two times [s]."""
+    return any(
+        one.restraint.by == "right-of-way" and one.restraint.vehicle == vehicle
+        for one in restraints(ride)
+        if one.begin <= end and one.end >= begin
+    )
+
+
 def lasted(ride: Ride, begin: float, end: float) -> dict[Restraint, float]:
     """Return for how long [s] each restraint was in force between two times [s]."""
     found: dict[Restraint, float] = {}

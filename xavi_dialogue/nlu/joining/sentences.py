@@ -19,6 +19,7 @@ DOUBTFUL: Final = 1.0  # cost from which on a sentence is read as a question by 
 TOLD: Final = 0.5  # what a question costs less that another one asks too
 _SUPPOSING: Final = frozenset({"suppose", "supposing", "say", "imagine", "assume", "if"})
 _STOPS: Final = frozenset({".", "?"})
+LEAST: Final = 2  # [words] of a question, and of what it concedes
 
 
 def sentences(typed: Typed) -> tuple[Typed, ...]:
@@ -32,7 +33,19 @@ def sentences(typed: Typed) -> tuple[Typed, ...]:
             here = []
         here.append(token)
     found.append(Typed(tuple(here), typed.end))
-    return tuple(part for sentence in found for part in set_apart(sentence))
+    whole = (part for sentence in found for part in set_apart(sentence))
+    return tuple(part for sentence in whole for part in _conceding(sentence))
+
+
+def _conceding(sentence: Typed) -> tuple[Typed, ...]:
+    """Cut a question before what it concedes: "why do they go first, although it is green?"."""
+    words = [token.text for token in sentence.tokens]
+    for at in range(LEAST, len(words) - LEAST) if sentence.end == "?" else ():
+        if words[at] == "although" or words[at : at + 2] == ["even", "though"]:
+            begin, *rest = sentence.tokens[at:]
+            conceded = Typed((Token(begin.text), *rest), ".")
+            return Typed(sentence.tokens[:at], "?"), conceded
+    return (sentence,)
 
 
 def appended(first: Typed, second: Typed) -> Typed:

@@ -9,7 +9,6 @@ from typing import Any, Literal, TypeAlias, cast
 from msgspec.structs import replace as changed
 
 from planner.record.places import RoadFacts
-from planner.record.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, NotRecorded, Priority
 from xavi_dialogue.domain.facts import Episode, Measure, Somebody
@@ -33,7 +32,7 @@ from xavi_dialogue.explain.answers.ride.crossings import (
     stood,
     went_first,
 )
-from xavi_dialogue.explain.facts.episodes.waiting import top_holders
+from xavi_dialogue.explain.answers.ride.walking import walks_first
 from xavi_dialogue.explain.history.ride import planned
 
 Rule: TypeAlias = Literal[
@@ -135,7 +134,7 @@ def priority_at(
     ahead = about.end >= asked.now - SHORT and meets_ahead(asked, vehicle)
     if ahead and rule in ("priority", "give-way") and passes_by(asked, vehicle):
         rule = "none"
-    rule = _walks_first(asked, vehicle, about, waited) or rule
+    rule = "give-way" if walks_first(asked, vehicle, about, waited) else rule
     if rule is None and not blame:
         raise Unanswered(NotRecorded("not-recorded", about="right-of-way", since=time))
     crossing = rule in ("priority", "give-way", "equal", "depends")
@@ -220,21 +219,6 @@ def _changing(asked: Asked, vehicle: int, about: Window) -> Rule | None:
     trace = asked.ride.at(about.end)
     meant = () if trace is None else planned(trace)[:1]
     return "we-change" if any(step in CHANGES for step in meant) else None
-
-
-def _walks_first(
-    asked: Asked, vehicle: int | None, about: Window, waited: Episode | None
-) -> Rule | None:
-    """Return the rule if we must let somebody on foot go first, as planned or done."""
-    if vehicle is None:
-        return None
-    look, trace = asked.world.look(vehicle, about.end), asked.world.states.trace(about.end)
-    if look is None or look.kind not in ON_FOOT or trace is None:
-        return None
-    crossing = asked.world.episodes(actor=Vehicle(vehicle), actions=("cross",), object=Ego())
-    first = waited is not None or any(overlaps(asked, e, about) for e in crossing)
-    held = first or (vehicle, "right-of-way") in top_holders(asked.world.states, trace, EGO)
-    return "give-way" if held else None
 
 
 def _indicates_to_us(asked: Asked, vehicle: int, at: float) -> bool:

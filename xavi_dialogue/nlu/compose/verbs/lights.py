@@ -75,13 +75,17 @@ def stays(special: Special) -> Proposition:
 def _shows(special: Special, action: str) -> Event:
     colour = colour_of(special.object) or getattr(special.object, "colour", None)
     event = event_of(special, action, Feature("light", colour=colour))
-    return _of_light(event)
+    verb = special.clause.verb
+    return _of_light(event, gets=verb is not None and verb.key == "get")
 
 
-def _of_light(event: Event) -> Event:
-    """Give what is said of who faces a light to the light: "we got green"."""
+def _of_light(event: Event, *, gets: bool) -> Event:
+    """Give what is said of who faces a light to the light: "we got green".
+
+    Lights themselves turn, change or go to a colour; people get one.
+    """
     who = event.actor
-    if isinstance(who, Feature | Pronoun):
+    if isinstance(who, Feature) or (isinstance(who, Pronoun) and not (gets and who.form != "it")):
         return event
     of = None if isinstance(who, _OURS) else who
     return replace(event, actor=Feature("light", of=of))

@@ -45,6 +45,7 @@ from xavi_dialogue.nlu.grounding.acts import dangers
 from xavi_dialogue.nlu.grounding.acts.measuring import just_named, measured, of_ride, spoken_of
 from xavi_dialogue.nlu.grounding.acts.recasting import of_nobody, something_wrong, within_limit
 from xavi_dialogue.nlu.grounding.acts.restating import restated
+from xavi_dialogue.nlu.grounding.acts.shared_subject import of_the_same
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
@@ -99,7 +100,7 @@ def proposition(
             each: list[Proposition] = []
             for one in contents:  # "did the red one leave, or is it behind us?"
                 beside = g.beside(naming(g.context.discourse, tuple(each)))
-                each.append(beside.proposition(one, mode, outer))
+                each.append(beside.proposition(of_the_same(one, contents, each), mode, outer))
             return replace(spoken, contents=tuple(each))
         case That():
             return _that(g)
@@ -110,8 +111,7 @@ def proposition(
         case Exists():
             return _exists(behind_hider(spoken, g), g, outer)
         case Is():
-            limited = within_limit(spoken, g)
-            if limited is not None:
+            if (limited := within_limit(spoken, g)) is not None:
                 return g.proposition(limited, mode, outer)
             amiss = something_wrong(spoken, g)
             return amiss if amiss is not None else walked(_is(spoken, g, mode, outer), g)

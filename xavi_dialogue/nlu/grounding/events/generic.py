@@ -27,6 +27,7 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Unsaid,
     Vehicle,
+    Vehicles,
 )
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
 
@@ -186,13 +187,13 @@ def in_order(spoken: Happens, mode: Mode) -> Proposition:
         return spoken
     if event.object is not None and not isinstance(event.object, Ego | Vehicle):
         return spoken
-    named = isinstance(event.actor, Vehicle) or isinstance(event.object, Vehicle)
-    if not isinstance(event.actor, Ego | Vehicle):
+    named = isinstance(event.actor, Vehicle | Vehicles) or isinstance(event.object, Vehicle)
+    if not isinstance(event.actor, Ego | Vehicle | Vehicles):
         return spoken
     if event.tense in ("past", "perfect") and event.modal is None:
         gave = Event("give-way", event.actor, time=event.time, tense=event.tense)
         return spoken if named else Not(Happens(gave), lexical=True)
-    ours = isinstance(event.actor, Vehicle)
+    ours = isinstance(event.actor, Vehicle | Vehicles)
     to: Thing = Ego() if ours else event.object if named and event.object else Everyone()
     tense: Tense = "past" if event.tense in ("past", "perfect") else "present"
     return Related("has-priority-over", event.actor, to, event.time, tense)
