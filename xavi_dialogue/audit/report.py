@@ -34,7 +34,9 @@ class Summary(msgspec.Struct, frozen=True):
 
     def table(self) -> str:
         """Return it as text."""
-        lines = [f"{self.rides} rides, {len(self.questions)} questions each"]
+        asked = len(self.questions)
+        rides = f"{self.rides} ride{'s' * (self.rides != 1)}"
+        lines = [f"{rides}, {asked} question{'s' * (asked != 1)} each"]
         lines += [f"{count:6} {TITLES[kind].lower()}" for kind, count in self.findings.items()]
         lines += [f"failed: {ride}: {why}" for ride, why in self.failed.items()]
         return "\n".join(lines)

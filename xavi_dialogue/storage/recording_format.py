@@ -277,7 +277,8 @@ def _chosen(reading: _Reading, vehicle: str | None) -> str:
     names = tuple(reading.tracks)
     listed = ", ".join(names)
     if not names:
-        raise NothingToPlay(f"it holds no ride{f': {reading.why}' if reading.why else ''}")
+        why = reading.why or "an export of a saved ride is for viewers alone; give the saved ride"
+        raise NothingToPlay(f"it holds no ride: {why}")
     if vehicle is None and len(names) > 1:
         raise NothingToPlay(f"it holds several cars; name one with --car: {listed}")
     if vehicle is not None and vehicle not in names:
