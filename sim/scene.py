@@ -88,7 +88,7 @@ class Scene:
     """
 
     time: float  # [s] simulation time
-    vehicles: Mapping[int, VehicleState]
+    vehicles: Mapping[int, VehicleState]  # by number
     lights: tuple[Light, ...] = ()  # in view, by controller and index
     people: Mapping[int, PersonState] = field(default_factory=dict)  # outside of vehicles
     unseen: tuple[Unseen, ...] = ()  # by lane, in the order of the network

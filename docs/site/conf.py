@@ -4,10 +4,14 @@ Its sources are the pages of this repository where they lie, so that their links
 here and there.
 """
 
+import sys
+from pathlib import Path
+
 project = "XAVI Dialogue"
 author = "the authors of XAVI Dialogue"
 root_doc = "docs/index"
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+sys.path.insert(0, str(Path(__file__).parent))  # for `fields`
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "fields"]
 include_patterns = [
     "docs/**",
     "examples/**",
@@ -23,6 +27,8 @@ html_theme = "furo"
 html_title = project
 html_show_sphinx = False
 html_show_copyright = False
+html_static_path = ["static"]
+html_css_files = ["site.css"]
 
 myst_heading_anchors = 4
 # Links to code and folders stay as they are; tests/test_repository.py checks that they lead somewhere.
@@ -35,5 +41,4 @@ nb_merge_streams = True
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
-autodoc_class_signature = "separated"
 napoleon_numpy_docstring = False

@@ -52,11 +52,11 @@ class LightPlace(msgspec.Struct, frozen=True):
 class Event(msgspec.Struct, frozen=True, repr_omit_defaults=True):
     """One thing that happened to the ego."""
 
-    kind: EventKind
-    sim_time: float  # [s]
-    action: Action | None = None
+    kind: EventKind  # what happened
+    sim_time: float  # [s] when it happened
+    action: Action | None = None  # of the ego, which it began, ended or carried out
     decision: int | None = None  # running number of the trace in which the action was chosen
-    vehicle: int | None = None
-    schema: str = SCHEMA
-    light: LightPlace | msgspec.UnsetType = msgspec.UNSET
+    vehicle: int | None = None  # the number of the other one
+    schema: str = SCHEMA  # of this record
+    light: LightPlace | msgspec.UnsetType = msgspec.UNSET  # of a stop or restraint, if any
     by: RestraintKind | msgspec.UnsetType = msgspec.UNSET  # of "restrained"

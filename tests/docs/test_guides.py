@@ -1,5 +1,6 @@
 """Every command line of the documents is run, and the site shows all pages and all public names."""
 
+import importlib.util
 import re
 import shlex
 import shutil
@@ -142,3 +143,24 @@ def test_the_reference_has_every_public_name() -> None:
     named = re.findall(r"^\.\. auto\w+:: (\w+)$", page, re.M)
     assert sorted(named) == sorted(set(xavi.__all__) - {"__version__"})
     assert all(getattr(xavi, name).__doc__ for name in named)
+
+
+def test_the_reference_describes_every_field_with_its_unit() -> None:
+    path = ROOT / "docs" / "site" / "fields.py"
+    spec = importlib.util.spec_from_file_location("site_fields", path)
+    assert spec is not None
+    assert spec.loader is not None
+    shown = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(shown)
+    values = [getattr(xavi, name) for name in xavi.__all__ if name[0].isupper()]
+    known = {value.__name__: shown.fields(value) for value in values}
+    assert {name for name, fields in known.items() if fields} >= {
+        "Answer", "Belief", "Curves", "Decision", "Event", "Evidence", "Option", "Picture",
+        "Report", "Ride", "Scene", "Trajectory",
+    }  # fmt: skip
+    for name, fields in known.items():
+        for field, kind, comment in fields:
+            assert comment, f"{name}.{field}"
+            if kind in ("float", "float | None") and field not in ("probability", "collision"):
+                assert re.search(r"\[(s|m|m/s)\]", comment), f"{name}.{field}: {comment}"
+    assert "Fields" in "".join(shown.described(xavi.Answer))

@@ -178,6 +178,7 @@ def test_tables_have_a_number_for_every_outcome_and_what_kept_the_car() -> None:
     assert chances.sum(axis=1).to_numpy() == pytest.approx(1.0, abs=1e-5)
     events = s1().table("events")
     assert list(events[events["event"] == "restrained"]["by"]) == ["nothing", "limit"]
+    assert [str(events[name].dtype) for name in ("decision", "vehicle")] == ["Int64", "Int64"]
 
 
 def test_html_escapes_what_was_typed_and_what_was_said() -> None:

@@ -10,9 +10,9 @@ from xavi_dialogue.domain.base import Value
 class Evidence(Value, frozen=True):
     """The evidence for an answer."""
 
-    method: Literal["record", "tree", "rollouts"] = "record"
-    rollouts: int = 0
-    distinct_samples: int = 0
+    method: Literal["record", "tree", "rollouts"] = "record"  # rollouts: planned again
+    rollouts: int = 0  # that it rests on
+    distinct_samples: int = 0  # of what others do, among these
     traces: tuple[str, ...] = ()  # trace ids
 
 

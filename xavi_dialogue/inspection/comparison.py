@@ -16,14 +16,14 @@ from xavi_dialogue.explain.causes.plans.chances import chances
 class Option:
     """A first action that a decision weighed."""
 
-    action: Action
+    action: Action  # the first one
     value: float  # [s] mean reward by the weights; higher is better
     chances: Mapping[Outcome, float]  # of each outcome that occurred, by the weights
     time: float | None  # [s] mean to the goal of what reaches it, by the weights
-    samples: int
+    samples: int  # of what others do that were tried
     told: float | None  # [s] the mean reward that answers rest on; None if they have none
     collision: float | None  # the probability of a collision that answers state
-    chosen: bool
+    chosen: bool  # by the decision
 
 
 def comparison(trace: PlanTrace) -> tuple[Option, ...]:

@@ -19,14 +19,13 @@ from xavi_dialogue.library.trajectories import Compared, Trajectory
 class Answer:
     """The reply to one question; a refusal is one too, with its reason."""
 
-    question: str
+    question: str  # as it was asked
     at: float  # [s] when it was asked
-    text: str
+    text: str  # the sentences
     kind: Kind  # answer, refusal or clarification
     reason: Reason | None  # why it was not answered; None of an answer
-    # Act by act: what the question was understood to ask, and what was answered, by `is`.
-    meaning: tuple[dict[str, Any], ...] = field(repr=False)
-    content: tuple[dict[str, Any], ...] = field(repr=False)
+    meaning: tuple[dict[str, Any], ...] = field(repr=False)  # what was asked, act by act
+    content: tuple[dict[str, Any], ...] = field(repr=False)  # what was answered, by `is`
     explanation: dict[str, Any] | None = field(repr=False)  # as in `xavi ask --json`
     evidence: Evidence = field(repr=False)  # what it rests on
     choices: tuple[str, ...] = field(repr=False)  # of a clarification: ask with "1" for the first

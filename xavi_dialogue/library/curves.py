@@ -20,9 +20,9 @@ TICKS = 6  # greatest number of times that are written below
 class Curves:
     """The probability of each goal of one road user over a ride; 0 where it is not considered."""
 
-    vehicle: int
+    vehicle: int  # the number of the road user
     goals: tuple[str, ...]  # in words; the one that was once the likeliest first
-    times: NDArray[np.float64] = field(repr=False)  # [s] [T] of the decisions
+    times: NDArray[np.float64] = field(repr=False)  # [s] of the decisions, [T]
     probabilities: NDArray[np.float64] = field(repr=False)  # [T, goals]
 
     @property

@@ -17,10 +17,10 @@ from xavi_dialogue.library.trajectories import Trajectory, planned
 class Belief:
     """A goal that another road user may have."""
 
-    vehicle: int
+    vehicle: int  # the number of the road user
     goal: Action  # the action that ends at it
     place: str  # in words
-    probability: float
+    probability: float  # by the decision, 0 to 1
 
 
 @dataclass(frozen=True)

@@ -27,8 +27,8 @@ ROAD, OTHER_ROAD, MARKING, GROUND = "#c3c8d0", "#d8d2cb", "#ffffff", "#f4f5f2"
 class Picture:
     """A picture that notebooks show."""
 
-    svg: str = field(repr=False)
-    caption: str = ""
+    svg: str = field(repr=False)  # the whole document
+    caption: str = ""  # what it shows, in words
 
     def save(self, path: str | Path) -> Path:
         """Write it as an SVG file.

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 TableName: TypeAlias = Literal["decisions", "options", "beliefs", "events"]
 Row: TypeAlias = Mapping[str, Any]
 
+NUMBERS = ("decision", "vehicle")  # of events, whole where there are some
 MISSING = "tables need pandas: pip install 'xavi-dialogue[tables]'"
 
 
@@ -33,10 +34,9 @@ def table(name: TableName, decisions: Iterable[Decision], events: Iterable[Event
     if name not in get_args(TableName):
         raise LibraryError(f"there is no table {name!r}; use one of {get_args(TableName)}")
     if name == "events":
-        rows = [_event(one) for one in events]
-    else:
-        rows = [row for one in decisions for row in _ROWS[name](one)]
-    return DataFrame(rows)
+        found = DataFrame([_event(one) for one in events])
+        return found.astype(dict.fromkeys(NUMBERS, "Int64")) if len(found) else found
+    return DataFrame([row for one in decisions for row in _ROWS[name](one)])
 
 
 def _decision(one: Decision) -> Iterable[Row]:

@@ -22,7 +22,7 @@ class Trajectory:
     period: float  # [s] between points
     points: tuple[Point, ...] = field(repr=False)  # [m] of the front bumper
     speeds: tuple[float, ...] = field(repr=False)  # [m/s] at each point
-    outcome: Outcome
+    outcome: Outcome  # how it ends
     probability: float  # of this trajectory among those of the plan
 
     @property
