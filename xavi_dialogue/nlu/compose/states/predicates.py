@@ -140,6 +140,8 @@ def _same(clause: Clause, thing: Thing | None, subject: Thing, time: Time) -> li
     placed = _placed(thing, subject, time, tense)
     if placed is not None:
         return [(placed, 0.05)]
+    if thing == Feature("way") and not isinstance(subject, Ego):  # "all these people in your way"
+        return [(Related("in-the-way-of", subject, Ego(), time, tense), 0.0)]
     same: Proposition = Related("same-as", subject, thing, time, tense)
     if words_of(clause.objects[0][1]) in _NOMINATIVE:
         return [(same, NOMINATIVE)]
