@@ -107,3 +107,12 @@ def up_with(thing: Thing, time: Time) -> Question:
         case Described(doing=Event() as deed) if thing == Described(doing=deed):
             return Why(Happens(with_fields(deed, actor=Ego())))
     return Doing(thing, time, "present")
+
+
+def comes_up(wh: Wh, clause: Clause) -> bool:
+    """Tell whether it is asked what comes up on our way, and not who comes from somewhere."""
+    return (
+        wh.kind == "what"
+        and "up" in {leaf.key for leaf in clause.particles}
+        and not clause.bearings
+    )

@@ -62,7 +62,7 @@ from xavi_dialogue.nlu.compose.verbs.others import (
     with_lane,
     with_whom,
 )
-from xavi_dialogue.nlu.compose.wh_questions.doings import deed_asked, doing, happened, up_with
+from xavi_dialogue.nlu.compose.wh_questions import doings
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured
 from xavi_dialogue.nlu.compose.wh_questions.reasoning import reasoned
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, content_of, fact, held_then
@@ -119,9 +119,9 @@ class What:
         time = clause.time
         match name:
             case "do":
-                return doing(wh, clause, value)
+                return doings.doing(wh, clause, value)
             case "happen" | "happen-wrong":
-                return happened(clause, value)
+                return doings.happened(clause, value)
             case "load":
                 return measured("load", clause, subject)
             case "driver" if isinstance(clause.subject, Wanted):
@@ -182,7 +182,7 @@ class What:
                 if (changing := self._of_change(wh, clause, event)) is not None:
                     return changing
             case Related(relation="with", thing=Wanted(), to=to) if is_vehicle(to):
-                return up_with(to, clause.time)
+                return doings.up_with(to, clause.time)
             case Is(state="wrong", thing=Wanted()) if (who := with_whom(clause)) is not None:
                 return Doing(who, clause.time, "present")
             case Is(state="over", thing=Wanted()) if clause.modal in ("could", "should"):
@@ -194,8 +194,10 @@ class What:
                 return Listing("wrong-predictions", time=clause.time)  # "what did you get wrong?"
             case Is(state="wrong", thing=Wanted()):
                 return Doing(None, clause.time, "present")
-            case Happens(event=Event(action="come", actor=Wanted(), object=None, time=Relative())):
-                return Doing(Ego(), clause.time, "future")  # "what comes after this turn?"
+            case Happens(event=Event(action="come", actor=Wanted(), object=None, time=time)) if (
+                isinstance(time, Relative) or doings.comes_up(wh, clause)
+            ):  # "what comes after this turn?", "what's coming up?"
+                return Doing(Ego(), clause.time, "future")
             case Related(thing=Wanted(), to=Ego()) if clause.focus & {"closest", "nearest"}:
                 return Identify(nearest(value, wanted))
             case Happens(event=Event(action="go" | "continue", actor=Wanted(), object=None)):
@@ -224,12 +226,10 @@ class What:
                 for phrase in clause.complements:  # "who is that behind us on the motorbike"
                     found = cast(Thing, adopted(found, phrase) or found)
                 return _person(wh, Identify(found))
-        doer = _doer(wh, clause, value)
-        if doer is not None:
+        if (doer := _doer(wh, clause, value)) is not None:
             return doer
-        if wh.kind == "what" and (done := deed_asked(clause, value)) is not None:
-            return done
-        return Which(wanted, value)
+        done = doings.deed_asked(clause, value) if wh.kind == "what" else None
+        return done or Which(wanted, value)
 
 
 def _person(wh: Wh, found: Question) -> Question:
