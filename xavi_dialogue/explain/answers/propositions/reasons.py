@@ -2,6 +2,7 @@
 
 from msgspec import structs
 
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import (
     Answer,
     ChoiceReason,
@@ -106,7 +107,9 @@ def why(question: Why, scene: Asked) -> Answer:
     if of_causes and isinstance(found, ChoiceReason | MotionReason):
         found = structs.replace(found, of_causes=True)
     if isinstance(question.suspect, Vehicles) and len(question.suspect.numbers) > 1:
-        return with_suspects(found, question.suspect.numbers)
+        looks = (scene.world.look(one, scene.moment) for one in question.suspect.numbers)
+        people = all(look is not None and look.kind in ON_FOOT for look in looks)
+        return with_suspects(found, question.suspect.numbers, together=people)
     return with_suspect(found, blamed, check_seen(scene, question.rival), alone=question.alone)
 
 

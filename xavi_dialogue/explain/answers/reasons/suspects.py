@@ -50,10 +50,16 @@ def with_suspect(
     return replace(found, causes=tuple(motive), suspect=suspect, suspected=part, besides=besides)
 
 
-def with_suspects(found: Answer, suspects: tuple[int, ...], *, which: bool = False) -> Answer:
+def with_suspects(
+    found: Answer, suspects: tuple[int, ...], *, which: bool = False, together: bool = False
+) -> Answer:
     """Add whether several vehicles that the question takes for the cause all are.
 
-    With `which`, the question is which of them is, or is more of a cause.
+    Args:
+        found: the reason.
+        suspects: the vehicles.
+        which: the question is which of them is, or is more of a cause.
+        together: they are one group, as people who cross; those of them that are a cause count.
     """
     if not isinstance(found, ChoiceReason | MotionReason):
         return found
@@ -67,6 +73,8 @@ def with_suspects(found: Answer, suspects: tuple[int, ...], *, which: bool = Fal
         return replace(told, suspected="neither" if which else "none", besides=suspects[1:])
     told = with_suspect(found, guilty[0])
     assert isinstance(told, ChoiceReason | MotionReason)
+    if together and len(guilty) < len(suspects):
+        return told
     if len(guilty) == len(suspects):
         return replace(told, suspected="all-alike" if which else "all", besides=guilty[1:])
     besides = tuple(vehicle for vehicle in suspects if vehicle not in guilty)

@@ -46,7 +46,7 @@ from xavi_dialogue.nlu.grounding.events.generic import specified
 from xavi_dialogue.nlu.grounding.events.hiding import out_of
 from xavi_dialogue.nlu.grounding.kin import like
 from xavi_dialogue.nlu.grounding.salience import vehicles_of
-from xavi_dialogue.nlu.grounding.things.pronouns import apart
+from xavi_dialogue.nlu.grounding.things.pronouns import apart, walks
 
 #: What is meant by going left or right where we did not turn off.
 SIDEWAYS: Final[dict[ActionName, ActionName]] = {
@@ -104,13 +104,14 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
 
 def _by_us(spoken: Event, g: Grounder) -> Event:
     """Take "it" in "what's it slowing down for" for our car, if we do so and no other is named."""
-    if spoken.actor != Pronoun("it") or spoken.action not in _HELD or spoken.tense != "present":
+    held = spoken.action in _HELD or (spoken.action == "move" and "slowly" in spoken.manner)
+    if spoken.actor != Pronoun("it") or not held or spoken.tense != "present":
         return spoken
     now, ours = g.context.now, replace(spoken, actor=Ego())
-    named = any(salience > 1.0 for _, salience in vehicles_of(g.context.discourse.mentions))
-    if named or not g.context.holds(ours, now, now):
+    others = [pair for pair in vehicles_of(g.context.discourse.mentions) if not walks(pair[0], g)]
+    if any(salience > 1.0 for _, salience in others) or not g.context.holds(ours, now, now):
         return spoken
-    others = sorted(vehicles_of(g.context.discourse.mentions), key=lambda pair: -pair[1])
+    others.sort(key=lambda pair: -pair[1])
     told = (replace(spoken, actor=Vehicle(number)) for number, _ in others[:1])
     return spoken if any(g.context.holds(one, now, now) for one in told) else ours
 

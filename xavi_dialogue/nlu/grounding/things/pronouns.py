@@ -4,8 +4,9 @@ from typing import Final
 
 from msgspec.structs import replace
 
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import NoSuchVehicle
-from xavi_dialogue.domain.terms import Everyone, Pronoun, Thing, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import Ego, Everyone, Pronoun, Thing, Vehicle, Vehicles
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Unclear, Window
 from xavi_dialogue.nlu.grounding.salience import group, vehicles_of
 from xavi_dialogue.nlu.grounding.things.descriptions import MISSING
@@ -33,7 +34,7 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
         return Vehicles(spoken) if len(spoken) > 1 else Everyone()
     if thing.form == "they" and together and _group_leads(g):
         return Vehicles(together)
-    weighed = _weighed(g, fits, moment)
+    weighed = _weighed(thing, g, fits, moment)
     if weighed:
         return _salient(thing, g, weighed, moment)
     if thing.form == "they" and len(met := on_foot(g.context, moment)) > 1:
@@ -41,6 +42,8 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
     found = interacting(g.context, moment, fits)
     if found is None:
         found = interacting(g.context, g.context.now, fits)
+    if thing.form == "it" and found is not None and walks(found, g):
+        return Ego()  # nobody on foot is "it", so our car is
     if found is None:
         g.notes.missing.append(NoSuchVehicle(thing=thing, time=moment))
         g.notes.cost += MISSING
@@ -85,7 +88,9 @@ def _group_leads(g: Grounder) -> bool:
     return False
 
 
-def _weighed(g: Grounder, fits: Fits | None, moment: float) -> list[tuple[float, int]]:
+def _weighed(
+    thing: Pronoun, g: Grounder, fits: Fits | None, moment: float
+) -> list[tuple[float, int]]:
     known = set(g.context.world.vehicles)
     seen = g.context.world.in_view(moment)
     found = []
@@ -94,7 +99,14 @@ def _weighed(g: Grounder, fits: Fits | None, moment: float) -> list[tuple[float,
             continue
         share = MISFIT if fits is not None and fits(vehicle) is None else 1.0
         found.append((salience * share, vehicle))
-    return sorted(found, key=lambda pair: (-pair[0], pair[1]))
+    driven = [pair for pair in found if not walks(pair[1], g)] if thing.form == "it" else []
+    return sorted(driven or found, key=lambda pair: (-pair[0], pair[1]))
+
+
+def walks(vehicle: int, g: Grounder) -> bool:
+    """Tell whether somebody is on foot, whom people do not call "it"."""
+    look = g.context.look(vehicle, g.context.now)
+    return look is not None and look.kind in ON_FOOT
 
 
 def _salient(thing: Pronoun, g: Grounder, weighed: list[tuple[float, int]], moment: float) -> Thing:
