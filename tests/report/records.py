@@ -18,7 +18,7 @@ RIDES = HERE.parents[1] / "transcripts" / "rides"
 BRAKING = RIDES / "s2-2.ride.jsonl.gz"
 LIGHT = RIDES / "junction-0.ride.jsonl.gz"
 STEADY = RIDES / "s1-0.ride.jsonl.gz"  # it never brakes
-TOWN = RIDES / "town-0.ride.jsonl.gz"
+TOWN = HERE / "town-0.ride.jsonl.gz"  # it turns off, braking hard, before it would hit a bus
 
 
 @cache

@@ -190,14 +190,15 @@ def _kept(page: Page, one: Decided) -> list[Markup]:
 
 
 def _outcomes(page: Page, one: Choice) -> Markup:
-    told = [
-        joined((f"{phrase('outcome', name)} ", page.notes.figure(figure)))
-        for name, figure in one.chances.items()
-    ]
-    told += [
-        joined((f"with {page.names.short(vehicle)} ", page.notes.figure(figure)))
-        for vehicle, figure in one.hit.items()
-    ]
+    told = []
+    for name, figure in one.chances.items():
+        whom = one.hit.items() if name == "collision" else ()
+        hit = [
+            joined((f"{page.names.short(vehicle)} ", page.notes.figure(share)))
+            for vehicle, share in whom
+        ]
+        within = joined((" (", joined(hit, ", "), ")")) if hit else None
+        told.append(joined((f"{phrase('outcome', name)} ", page.notes.figure(figure), within)))
     return joined(told, ", ")
 
 
