@@ -21,6 +21,7 @@ from xavi_dialogue.runtime.system import System
 
 BEGIN = 1_800_000_000.0  # [s] wall time at which every run begins
 JITTER = 0.0005  # [s] until a woken task runs, at most
+TICK = 1e-6  # [s] least time that waiting takes: who waits for less would never see time pass
 MAX_STEPS = 400_000  # events of a run, beyond which it has got out of hand
 
 
@@ -162,7 +163,7 @@ class Scheduler(System):
         waiter = Waiter(task, self)
         waiters.append(waiter)
         if timeout is not None:
-            self.after(timeout, lambda: waiter.wake(False))
+            self.after(max(timeout, TICK), lambda: waiter.wake(False))
         found = self._hub.switch()
         if waiter in waiters:
             waiters.remove(waiter)
@@ -276,6 +277,8 @@ class Queue:
 
     def get(self, block: bool = True, timeout: float | None = None) -> Any:
         self._scheduler.step()
+        if timeout is not None and timeout > 0.0:
+            timeout = max(timeout, TICK)
         give_up = None if timeout is None else self._scheduler.now + timeout
         while not self._items:
             left = None if give_up is None else give_up - self._scheduler.now
