@@ -35,7 +35,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 
 
 def test_bounds() -> None:
-    assert (MAX_RIDES, MAX_RESULTS) == (16, 256)
+    assert (MAX_RIDES, MAX_RESULTS) == (64, 256)
 
 
 def test_the_same_is_not_explained_twice(asked: list[Any]) -> None:

@@ -4,7 +4,8 @@ import gc
 
 import pytest
 
-from xavi_dialogue.process.garbage import settled
+from xavi_dialogue.process import garbage
+from xavi_dialogue.process.garbage import QUIET, REVISED_EVERY, YOUNG, Sweeper, settled
 
 
 def test_what_is_loaded_is_spared_until_the_ride_is_over() -> None:
@@ -17,3 +18,28 @@ def test_it_is_gone_through_again_after_a_failure() -> None:
     with pytest.raises(ValueError), settled():
         raise ValueError
     assert gc.get_freeze_count() == 0
+
+
+def test_what_is_new_is_collected_once_and_then_spared(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = 100.0
+    monkeypatch.setattr(garbage.time, "monotonic", lambda: now)
+    done: list[str] = []
+    counts = (YOUNG + 1, 0, 0)
+    for name in ("collect", "freeze", "unfreeze"):
+        monkeypatch.setattr(garbage.gc, name, lambda name=name: done.append(name))
+    monkeypatch.setattr(garbage.gc, "get_count", lambda: counts)
+    sweeper = Sweeper()
+    sweeper.sweep()
+    sweeper.sweep()  # too early for another
+    assert done == ["collect", "freeze"]
+    now += 2.0
+    sweeper.sweep()
+    assert done == ["collect", "freeze"] * 2
+    counts = (0, 0, 0)
+    now += QUIET - 1.0
+    sweeper.sweep()
+    assert len(done) == 4
+    now += REVISED_EVERY
+    sweeper.sweep()
+    sweeper.sweep()
+    assert done[4:] == ["unfreeze", "collect", "freeze"]

@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 
 from msgspec.structs import replace
 
-from xavi_dialogue.dialogue.state.discourse import event_of
+from xavi_dialogue.dialogue.state.assertions import event_of
 from xavi_dialogue.dialogue.state.memory import is_about_drive
 from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.domain.answers import (

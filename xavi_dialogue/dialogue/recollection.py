@@ -18,7 +18,7 @@ from xavi_dialogue.nlg.context import Looks
 from xavi_dialogue.nlu.grounding.ground import ground
 from xavi_dialogue.nlu.grounding.result import Grounding
 
-MAX_RIDES = 16  # maximum of records that are remembered; the least recently used is forgotten
+MAX_RIDES = 64  # maximum of records that are remembered; the least recently used is forgotten
 MAX_RESULTS = 256  # maximum for one record
 
 Result: TypeAlias = Answer | Refusal | NeedRollout
@@ -68,7 +68,8 @@ class Recollection:
             known = _Known(record, ride, World(ride))
         self._known[key] = known
         if len(self._known) > MAX_RIDES:
-            del self._known[next(iter(self._known))]
+            oldest = self._known.pop(next(iter(self._known)))
+            oldest.ride.notes.clear()  # which refer to the ride: it would have to be collected
         return known
 
 

@@ -5,7 +5,7 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.dialogue.state.discourse import event_of
+from xavi_dialogue.dialogue.state.assertions import event_of
 from xavi_dialogue.domain.discourse import GroundedAct, Span
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import Ask, Doing, HowMuch, Listing, Whether, Which, Whither, Why

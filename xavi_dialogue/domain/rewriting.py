@@ -1,7 +1,9 @@
 """Rewriting: functions that replace or collect parts of terms at any depth."""
 
 from collections.abc import Callable, Iterator
-from typing import Any, TypeVar
+from functools import cache
+from types import NoneType
+from typing import Any, Final, TypeVar
 
 import msgspec
 from msgspec.structs import replace
@@ -49,10 +51,22 @@ def parts(value: object, sort: type[V] | tuple[type[V], ...]) -> Iterator[V]:
         part = left.pop()
         if isinstance(part, sort):
             yield part
+        kind: type = type(part)
+        if kind in _PLAIN:
+            continue
         if isinstance(part, tuple):
             left.extend(reversed(part))
         elif isinstance(part, msgspec.Struct):
-            left.extend([getattr(part, name) for name in reversed(part.__struct_fields__)])
+            left.extend([getattr(part, name) for name in _fields(kind)])
+
+
+_PLAIN: Final = frozenset((str, int, float, bool, NoneType))
+
+
+@cache
+def _fields(kind: type[msgspec.Struct]) -> tuple[str, ...]:
+    """Return the names of fields, the last one first."""
+    return tuple(reversed(kind.__struct_fields__))
 
 
 def first(value: object, sort: type[V] | tuple[type[V], ...]) -> V | None:

@@ -14,6 +14,7 @@ from xavi_dialogue.dialogue.state.events import Asked
 from xavi_dialogue.dialogue.state.state import Dialogue
 from xavi_dialogue.nlg.surface.realiser import grammar
 from xavi_dialogue.process import child_commands
+from xavi_dialogue.process.garbage import Sweeper
 from xavi_dialogue.runtime import system
 from xavi_dialogue.service.in_process import make_pipeline
 from xavi_dialogue.service.membership import Place
@@ -54,6 +55,7 @@ def serve(
     place = Place(shard, joins=bool(link.connect) or link.config is not None)
     with join(link, PATIENCE) if link.mode == "client" else host(link) as bus:
         service = Service(bus, pipeline, memory, place, note)
+        service.rest = Sweeper().sweep
         service.open()
         note(f"serving {_where(bus.places, link)}{'' if shard.of == 1 else f', shard {shard}'}")
         service.run(partial(_told_to_quit, orders))

@@ -104,6 +104,7 @@ class Service:
             ("scene", self._hearer(SceneReport), False),
         )
         self.membership = Membership(bus, place or Place(), heard, note)
+        self.rest: Callable[[], None] = lambda: None  # called when nobody waits for an answer
 
     def vehicle_session(self, vehicle: str = DEFAULT_VEHICLE) -> VehicleSession:
         """Return the session of a vehicle."""
@@ -160,6 +161,8 @@ class Service:
         for vehicle_session in handler.changed() if idle else ():
             if self.membership.answers(vehicle_session.vehicle):
                 self._run(vehicle_session, vehicle_session.foresee(system.monotonic()))
+        if idle:
+            self.rest()
 
     def _do(self, job: _Job) -> None:
         """Run one action; an internal error in it does not stop the service."""

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from planner.record.trace import Action, PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.dialogue.manoeuvres import carried_out
-from xavi_dialogue.dialogue.state.discourse import event_of
+from xavi_dialogue.dialogue.state.assertions import event_of
 from xavi_dialogue.dialogue.state.turn import Quiz, Turn
 from xavi_dialogue.domain.answers import (
     Answer,

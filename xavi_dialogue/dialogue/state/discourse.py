@@ -4,15 +4,16 @@ The discourse before a question is a fold over the turns of the ride, so that a 
 conversation has the same state.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import reduce
-from typing import get_args
+from typing import TypeAlias, get_args
 
 from msgspec.structs import replace
 
-from xavi_dialogue.dialogue.state.turn import Part, Turn
+from xavi_dialogue.dialogue.state.assertions import asserted
+from xavi_dialogue.dialogue.state.turn import Part, Turn, kept
 from xavi_dialogue.domain.answers import (
-    Activity,
     Answer,
     Beliefs,
     Bound,
@@ -20,8 +21,6 @@ from xavi_dialogue.domain.answers import (
     ChoiceReason,
     Contrast,
     Declined,
-    DidNotHappen,
-    Grounds,
     Happenings,
     Identified,
     Method,
@@ -29,13 +28,9 @@ from xavi_dialogue.domain.answers import (
     MotionReason,
     Options,
     OtherReason,
-    PeakMoment,
-    PlanAhead,
     Priority,
     Refusal,
-    SupposedOfOther,
     SupposedOfUs,
-    Verdict,
 )
 from xavi_dialogue.domain.discourse import Discourse, Mention
 from xavi_dialogue.domain.facts import Episode, Measure
@@ -60,7 +55,6 @@ from xavi_dialogue.domain.terms import (
     Not,
     Now,
     Proposition,
-    Tense,
     Thing,
     Unsaid,
     Vehicle,
@@ -87,32 +81,61 @@ def after(discourse: Discourse, turn: Turn) -> Discourse:
     number = discourse.turn
     if turn.turned_away:
         return replace(discourse, turn=number + 1)
-    offer = turn.offer
-    said = tuple(_said(turn))
-    question = next((q.question for q in reversed(said) if isinstance(q, Ask)), None)
-    named = (*_mentions(turn, number), *_named(turn, number))
-    weighed = _weighed(turn, discourse)
+    offer, new = turn.offer, _news(turn)
+    named = (replace(one, turn=number) for one in new.mentions)
+    before = (discourse.option, discourse.decided)
+    weighed = before if new.weighed is None else new.weighed
     return Discourse(
         turn=number + 1,
         mentions=renewed(decayed(discourse.mentions), named),
-        question=question or discourse.question,
-        propositions=(*_asserted(turn), *discourse.propositions)[:ASSERTED],
-        episode=_episode(turn) or discourse.episode,
+        question=new.question or discourse.question,
+        propositions=(*new.propositions, *discourse.propositions)[:ASSERTED],
+        episode=new.episode or discourse.episode,
         offered=() if offer is None else offer.acts,
         offered_things=() if offer is None else offer.things,
         pending=None if offer is None else offer.pending,
-        last_acts=said or discourse.last_acts,
-        asked_at=turn.reply.sim_time if said else discourse.asked_at,
+        last_acts=new.said or discourse.last_acts,
+        asked_at=turn.reply.sim_time if new.said else discourse.asked_at,
         option=weighed[0],
         decided=weighed[1],
-        times=tuple(dict.fromkeys((*_times(turn), *discourse.times)))[:TIMES],
+        times=tuple(dict.fromkeys((*new.times, *discourse.times)))[:TIMES],
     )
 
 
-def _weighed(turn: Turn, before: Discourse) -> tuple[Event | None, Event | None]:
+_Weighed: TypeAlias = tuple[Event | None, Event | None]
+
+
+@dataclass(frozen=True, slots=True)
+class _News:
+    """What a turn adds to the discourse, whatever was said before it."""
+
+    said: tuple[Ask | Claim | Request | Feel, ...]
+    question: Question | None
+    mentions: tuple[Mention, ...]  # as if in turn 0
+    propositions: tuple[Proposition, ...]
+    episode: tuple[float, float] | None
+    weighed: _Weighed | None  # None: as before
+    times: tuple[float, ...]
+
+
+@kept
+def _news(turn: Turn) -> _News:
+    said = tuple(_said(turn))
+    return _News(
+        said=said,
+        question=next((q.question for q in reversed(said) if isinstance(q, Ask)), None),
+        mentions=(*_mentions(turn, 0), *_named(turn, 0)),
+        propositions=tuple(asserted(turn))[:ASSERTED],
+        episode=_episode(turn),
+        weighed=_weighed(turn),
+        times=tuple(_times(turn)),
+    )
+
+
+def _weighed(turn: Turn) -> _Weighed | None:
     """Return the option of ours that a turn discussed, and what was decided instead of it.
 
-    A turn that follows up on an earlier one keeps the earlier pair.
+    A turn that follows up on an earlier one keeps the earlier pair: None.
     """
     for part in reversed(turn.parts):
         asked = None if part.act is None else part.act.act
@@ -135,7 +158,7 @@ def _weighed(turn: Turn, before: Discourse) -> tuple[Event | None, Event | None]
             option = replace(option, time=At(against.decided))
         return option, None if done is None else Event(done, tense=option.tense)
     if any(act.leaned for act in turn.acts):
-        return before.option, before.decided
+        return None
     return None, None
 
 
@@ -198,6 +221,12 @@ def _roles(result: Answer | Refusal) -> Iterator[tuple[Thing, str]]:
         yield light, "cause"
 
 
+@kept
+def causes_in(turn: Turn) -> tuple[tuple[int, tuple[str, ...]], ...]:
+    """Return what `causes_of` yields for all results of a turn."""
+    return tuple(cause for result in turn.results for cause in causes_of(result))
+
+
 def causes_of(result: Answer | Refusal) -> Iterator[tuple[int, tuple[str, ...]]]:
     """Yield the vehicles that an answer names as causes, with what was expected of each."""
     for cause in parts(result, Cause):
@@ -215,76 +244,6 @@ def _named(turn: Turn, number: int) -> Iterator[Mention]:
     """Yield the vehicles that the words of the reply name."""
     for vehicle in turn.mentioned:
         yield mention(Vehicle(vehicle), number, "other", by_car=True)
-
-
-def _asserted(turn: Turn) -> Iterator[Proposition]:
-    """Yield what either side asserted, the latest and most relevant first."""
-    for part in reversed(turn.parts):
-        told = tuple(_answered(part))
-        yield from told
-        act = None if part.act is None else part.act.act
-        if isinstance(act, Claim):
-            yield act.that
-        elif isinstance(act, Ask) and isinstance(act.question, Whether) and not told:
-            yield act.question.that
-
-
-def _answered(part: Part) -> Iterator[Proposition]:
-    """Yield what the car asserted in answer to one act."""
-    result = part.result
-    match result:
-        case Verdict(that=that, holds=True):
-            yield that
-        case Verdict(that=that, holds=False):
-            yield that.content if isinstance(that, Not) else Not(that)
-        case ChoiceReason(deed=Episode() as deed) | MotionReason(deed=deed):
-            yield Happens(event_of(deed))
-        case OtherReason(deed=Episode() as deed) | Bound(went=Episode() as deed):
-            yield Happens(event_of(deed))
-        case Happenings(episodes=episodes) if episodes:
-            yield Happens(event_of(episodes[-1]))
-        case Identified(facts=facts) if deeds := [f for f in facts if isinstance(f, Episode)]:
-            yield Happens(event_of(deeds[-1]))
-        case PeakMoment(deeds=deeds) if deeds:
-            yield Happens(event_of(deeds[0]))
-        case DidNotHappen(asked=asked, instead=instead):
-            yield from (Happens(event_of(one)) for one in instead[-1:])
-            yield Not(Happens(asked))
-        case SupposedOfUs(contrast=contrast):
-            ours = contrast.foil[:1]
-            yield from (Happens(Event(a, time=At(contrast.decided), modal="would")) for a in ours)
-        case SupposedOfOther(then=then, past=past):
-            tense: Tense = "past" if past else "future"
-            yield from (Happens(Event(a, tense=tense, modal="would")) for a in then[:1])
-        case Grounds(vehicle=vehicle, actions=actions) if actions:
-            yield Happens(Event(actions[-1], Vehicle(vehicle), tense="future", modal="will"))
-        case PlanAhead(steps=steps):
-            yield from (Happens(Event(a, tense="future", modal="will")) for a, _ in steps[:1])
-        case Activity(doing=doing) if doing:
-            yield Happens(event_of(doing[-1]))
-        case Activity(belief=belief) | Bound(belief=belief) if belief is not None:
-            yield from _expected(belief.vehicle, belief.expectations[:1])
-        case Beliefs(history=history) if history:
-            yield from _expected(history[-1].vehicle, history[-1].expectations[:1])
-
-
-def _expected(vehicle: int, likeliest: Iterable[object]) -> Iterator[Proposition]:
-    for expectation in likeliest:
-        for action in getattr(expectation, "actions", ())[-1:]:
-            yield Happens(Event(action, Vehicle(vehicle), tense="future", modal="will"))
-
-
-def event_of(deed: Episode) -> Event:
-    """Return an episode as the event that it was."""
-    tense: Tense = "present" if deed.end is None else "past"
-    return Event(
-        action=deed.action,
-        actor=deed.actor,
-        object=deed.object,
-        side=deed.side,
-        time=At(deed.begin),
-        tense=tense,
-    )
 
 
 def _episode(turn: Turn) -> tuple[float, float] | None:

@@ -7,7 +7,7 @@ wants is kept from ride to ride.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from xavi_dialogue.dialogue.state.discourse import causes_of, discourse_of
+from xavi_dialogue.dialogue.state.discourse import causes_in, discourse_of
 from xavi_dialogue.dialogue.state.turn import Quiz, Turn
 from xavi_dialogue.domain.answers import Answer, Refusal
 from xavi_dialogue.domain.discourse import Discourse, GroundedAct
@@ -41,9 +41,7 @@ class Memory:
     @property
     def told(self) -> Told:
         """Return the causes that were stated to the passenger, except those that they got wrong."""
-        causes = {
-            cause for turn in self.turns for result in turn.results for cause in causes_of(result)
-        }
+        causes = {cause for turn in self.turns for cause in causes_in(turn)}
         return frozenset(cause for cause in causes if cause[0] not in self.missed)
 
     def answered(self, act: GroundedAct, result: Answer | Refusal) -> bool:
@@ -108,6 +106,6 @@ def _missed(turns: Sequence[Turn]) -> frozenset[int]:
     for turn in turns:
         if turn.answered is None or turn.right is None:
             continue
-        vehicles = {vehicle for result in turn.results for vehicle, _ in causes_of(result)}
+        vehicles = {vehicle for vehicle, _ in causes_in(turn)}
         missed = missed - vehicles if turn.right else missed | vehicles
     return frozenset(missed)

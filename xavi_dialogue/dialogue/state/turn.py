@@ -1,6 +1,8 @@
 """Turn: one question and its reply, with all that later turns need to know. Plain data."""
 
-from typing import Literal, TypeAlias
+from collections.abc import Callable
+from functools import cached_property, wraps
+from typing import Any, Literal, TypeAlias, TypeVar
 
 import msgspec
 
@@ -13,6 +15,9 @@ from xavi_dialogue.domain.terms import Thing
 
 #: Judgement of a reply; "passed": the passenger does not know, or does not settle on one answer.
 Judgement: TypeAlias = Literal["right", "wrong", "passed"]
+
+
+T = TypeVar("T")
 
 
 class Part(msgspec.Struct, frozen=True):
@@ -41,8 +46,8 @@ class Offer(msgspec.Struct, frozen=True, kw_only=True):
     pending: Act | None = None  # the act that one of them is to complete
 
 
-class Turn(msgspec.Struct, frozen=True, kw_only=True):
-    """One question and its reply."""
+class Turn(msgspec.Struct, frozen=True, kw_only=True, dict=True):
+    """One question and its reply; what was found out about it is kept with it."""
 
     text: str  # as typed
     parts: tuple[Part, ...] = ()  # as understood, in order
@@ -55,12 +60,26 @@ class Turn(msgspec.Struct, frozen=True, kw_only=True):
     right: bool | None = None  # ... and whether rightly; None: the passenger does not know
     turned_away: bool = False  # the question was not answered at all
 
-    @property
+    @cached_property
     def acts(self) -> tuple[GroundedAct, ...]:
         """Return the acts of the text, each once."""
         return tuple(dict.fromkeys(p.act for p in self.parts if p.act is not None))
 
-    @property
+    @cached_property
     def results(self) -> tuple[Answer | Refusal, ...]:
         """Return the results of all parts."""
         return tuple(part.result for part in self.parts)
+
+
+def kept(find: Callable[[Turn], T]) -> Callable[[Turn], T]:
+    """Let what a function finds out about a turn be kept with the turn."""
+    name = f"{find.__module__}.{find.__qualname__}"
+
+    @wraps(find)
+    def found(turn: Turn) -> T:
+        known: dict[str, Any] = turn.__dict__
+        if name not in known:
+            known[name] = find(turn)
+        return known[name]  # type: ignore[no-any-return]
+
+    return found
