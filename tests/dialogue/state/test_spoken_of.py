@@ -16,7 +16,8 @@ from tests.dialogue.state.test_chain import (
     why,
 )
 from xavi_dialogue.dialogue.chain import deeper
-from xavi_dialogue.dialogue.state.discourse import after, causes_of, discourse_of, event_of
+from xavi_dialogue.dialogue.state.assertions import event_of
+from xavi_dialogue.dialogue.state.discourse import after, causes_of, discourse_of
 from xavi_dialogue.dialogue.state.turn import Offer, Part, Turn
 from xavi_dialogue.domain.answers import (
     Activity,
