@@ -18,7 +18,7 @@ RIDES = HERE.parents[1] / "transcripts" / "rides"
 BRAKING = RIDES / "s2-2.ride.jsonl.gz"
 LIGHT = RIDES / "junction-0.ride.jsonl.gz"
 STEADY = RIDES / "s1-0.ride.jsonl.gz"  # it never brakes
-TOWN = HERE / "town-0.ride.jsonl.gz"  # it turns off, braking hard, before it would hit a bus
+TOWN = HERE / "town-0.ride.jsonl.gz"  # driven by another version: it turns off before a bus
 
 
 @cache

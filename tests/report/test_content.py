@@ -372,6 +372,23 @@ def test_removing_the_other_removes_the_collision() -> None:
 
 
 @every_case
+def test_rides_of_this_program_are_planned_as_recorded(path, at) -> None:
+    found = incident(path, at)
+    assert found.cases
+    assert all(case.reproduced for case in found.cases)
+    assert "other-program" not in {one.kind for one in found.limits}
+
+
+def test_a_ride_of_another_program_is_told() -> None:
+    found = incident(TOWN, "hardest braking")
+    assert [case.reproduced for case in found.cases] == [False, False]
+    (told,) = (one for one in found.limits if one.kind == "other-program")
+    assert told.decisions == (22, 23)
+    bare_cases = bare().report("collision").content.cases
+    assert {case.reproduced for case in bare_cases} == {None}
+
+
+@every_case
 def test_what_is_planned_again_is_what_the_planner_gives(path, at) -> None:
     tested = [one for case in incident(path, at).cases for one in case.tested if one.trace]
     absent = [one for one in tested if one.supposed.kind == "absent"]

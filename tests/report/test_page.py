@@ -130,6 +130,8 @@ def test_what_the_summary_says_stands_in_the_content() -> None:
     town = read(report(TOWN, "hardest braking").html()).text
     assert "a collision with vehicle 5 (blue bus) in 100 %" in town
     assert "Decisions 16 to 21 did not foresee it" in town
+    assert "Decision 22 (\N{MINUS SIGN}1.0 s) is planned otherwise by this program with" in town
+    assert town.count("this program plans it otherwise than recorded: another version") == 2
     assert "The light ahead, in " in light
     assert "The light ahead showed red from " in light
 

@@ -64,6 +64,7 @@ class Cases(msgspec.Struct, frozen=True):
     arrival: Figure | None  # [s] to the goal
     held: tuple[Holding, ...]  # longest first
     tested: tuple[Tested, ...]
+    reproduced: bool | None = None  # whether this program plans it as recorded; None: not tried
 
 
 class Way(msgspec.Struct, frozen=True):

@@ -12,6 +12,7 @@ from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.explain.causes.vehicles.necessity import SOMETIMES
 from xavi_dialogue.explain.history.ride import planned
 from xavi_dialogue.report.alternatives import Cases, Holding, Supposed, Tested
+from xavi_dialogue.report.controls import reproduced
 from xavi_dialogue.report.figures import Figure, rounded
 from xavi_dialogue.report.ridden import Inquiry, predicted
 from xavi_dialogue.report.weighed import (
@@ -53,6 +54,7 @@ def cases(inquiry: Inquiry, trace: PlanTrace, vehicles: Sequence[int]) -> Cases:
             _tested(inquiry, trace, supposed, need)
             for supposed, need in _suppositions(trace, vehicles)
         ),
+        reproduced=reproduced(inquiry.ridden, trace),
     )
 
 

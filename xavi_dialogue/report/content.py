@@ -23,8 +23,8 @@ Role = Literal[
 Examined = Literal["in-force", "last-change", "changed", "last-chance", "last-way"]
 Limit = Literal[
     "no-roads", "other-roads", "no-scenes", "ends-early", "begins-late", "lost", "lacks",
-    "not-predicted", "not-planned", "hidden", "rollout-lines", "model", "others-inside",
-    "perfect-sight", "simulated",
+    "not-predicted", "not-planned", "other-program", "hidden", "rollout-lines", "model",
+    "others-inside", "perfect-sight", "simulated",
 ]  # fmt: skip
 
 

@@ -86,6 +86,9 @@ def _of_plans(inquiry: Inquiry, cases: Sequence[Cases]) -> Iterator[Limitation]:
         reasons.setdefault(reason, set()).add(numbers[need.trace_id])
     for reason, decisions in sorted(reasons.items()):
         yield Limitation("not-planned", reason, decisions=tuple(sorted(decisions)))
+    otherwise = tuple(case.decision for case in cases if case.reproduced is False)
+    if otherwise:
+        yield Limitation("other-program", decisions=otherwise)
 
 
 def _always(inquiry: Inquiry) -> Iterator[Limitation]:

@@ -16,6 +16,10 @@ from xavi_dialogue.report.render.words import (
     supposed_words,
 )
 
+OTHER_PROGRAM = (
+    "With nothing changed, this program plans it otherwise than recorded: another version drove "
+    "the ride. What follows shows that, too, and not the changes alone."
+)
 MOST = 5  # goals of one road user that are drawn
 
 
@@ -251,7 +255,9 @@ def _case(page: Page, case: Cases) -> list[Markup]:
         "Time to the goal",
     )  # fmt: skip
     rows = [own, *(_tested(page, one) for one in case.tested)]
-    return [what, *([listed(held)] if held else []), tag("div", table(head, rows), class_="wide")]
+    control = [] if case.reproduced is not False else [tag("p", tag("b", OTHER_PROGRAM))]
+    changed = tag("div", table(head, rows), class_="wide")
+    return [what, *([listed(held)] if held else []), *control, changed]
 
 
 def _holding(page: Page, one: Holding) -> Markup:

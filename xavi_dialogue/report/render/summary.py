@@ -226,7 +226,10 @@ def _hangs_on(page: Page) -> Iterator[Markup]:
             if (effect := _effect(one, case)) is not None
         ]
         at = f"decision {case.decision} ({page.by(case.time)})"
-        if told:
+        if case.reproduced is False:
+            yield joined((f"{capital(at)} is planned otherwise by this program with nothing "
+                          "changed, so what it hangs on is not certain.",))  # fmt: skip
+        elif told:
             yield joined((f"Changes that alter {at}: {'. '.join(map(capital, told))}.",))
         elif case.tested:
             yield joined((f"None of the changes that were tested alters {at}.",))
