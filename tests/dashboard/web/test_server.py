@@ -10,7 +10,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import closing, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -343,12 +343,39 @@ def test_a_client_that_says_nothing_is_cut_off(monkeypatch: pytest.MonkeyPatch) 
 
 def test_there_are_not_too_many_connections(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(server, "MAX_CONNECTIONS", 2)
-    with running() as here, browser(here):
-        place = ("127.0.0.1", here.server.port)
-        with closing(socket.create_connection(place)), closing(socket.create_connection(place)):
-            refused = raw(here, b"")
+    with running() as here, browser(here), browser(here):
+        refused = raw(here, b"")
         assert refused.startswith(b"HTTP/1.1 503 ")
         assert secure(refused)
+
+
+def test_who_says_nothing_keeps_nobody_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server, "MAX_CONNECTIONS", 20)
+    monkeypatch.setattr(server, "GRACE", 0.0)
+    half = b"GET / HTTP/1.1\r\nHost: localhost\r\nX-Slow: "
+    with running() as here, browser(here) as one, ExitStack() as stack:
+        for number in range(60):  # half of them begin a request
+            silent = socket.create_connection(("127.0.0.1", here.server.port), PATIENCE)
+            stack.enter_context(closing(silent))
+            silent.sendall(half if number % 2 else b"")
+            if number % 10 == 0:
+                assert httpx.get(f"{here.origin}/").status_code == 200
+        here.do(here.server.tell, scene(1))
+        assert of_kind(one, "scene")["seq"] == 1
+
+
+def test_a_crowd_has_a_moment_to_speak(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(server, "MAX_CONNECTIONS", 2)
+    monkeypatch.setattr(server, "GRACE", server.PATIENCE)
+    with running() as here, ExitStack() as stack:
+        silent = [
+            stack.enter_context(closing(socket.create_connection(("127.0.0.1", here.server.port))))
+            for _ in range(2 * server.CROWD)
+        ]
+        assert raw(here, b"").startswith(b"HTTP/1.1 503 ")
+        silent[0].settimeout(PATIENCE)
+        silent[0].sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n")
+        assert silent[0].recv(9) == b"HTTP/1.1 "
 
 
 # --- messages -------------------------------------------------------------------------------

@@ -43,6 +43,8 @@ from xavi_dialogue.dashboard.web.websocket_messages import MAX_INCOMING, Outgoin
 __all__ = ["ListenError", "ListenOptions", "Server"]
 
 MAX_CONNECTIONS = 256  # a browser has up to seven
+CROWD = 4  # times as many, that there may be for a moment
+GRACE = 1.0  # [s] that each client has for its request, however many there are
 MAX_HEAD = 16 * 1024  # bytes of a request's first line and headers
 PATIENCE = 15.0  # [s] to receive a whole request
 LAST = 60.0  # [s] to send a response after everything else was sent
@@ -196,10 +198,11 @@ class _Http(H11Protocol):
 
     _late: asyncio.TimerHandle | None = None
     _cut: asyncio.TimerHandle | None = None
+    _last: RequestResponseCycle | None = None  # request that was answered
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(transport)
-        if len(self.connections) > MAX_CONNECTIONS:
+        if len(self.connections) > MAX_CONNECTIONS and not self._make_room():
             self._send_off(503, "There are too many connections already. Try again later.")
         else:
             self._wait()
@@ -225,14 +228,37 @@ class _Http(H11Protocol):
     def _wait(self) -> None:
         """Wait for the next request for a limited time."""
         self._wait_no_longer()
-        self._late = self.loop.call_later(PATIENCE, self._give_up, self.cycle)
+        self._last = self.cycle
+        self._late = self.loop.call_later(PATIENCE, self._give_up)
 
     def _wait_no_longer(self) -> None:
         if self._late is not None:
             self._late.cancel()
+            self._late = None
 
-    def _give_up(self, last: RequestResponseCycle | None) -> None:
-        if self.cycle is last:
+    def _waits(self) -> bool:
+        """Check whether the client has not ended its next request."""
+        return self._late is not None and self.cycle is self._last
+
+    def _make_room(self) -> bool:
+        """Cut off who has been waited for longest; return whether there is room.
+
+        So those who say nothing cannot keep out those who do.
+        """
+        fits = len(self.connections) <= CROWD * MAX_CONNECTIONS
+        others = (one for one in self.connections if isinstance(one, _Http) and one is not self)
+        waiting = [(one._late.when(), one) for one in others if one._late and one._waits()]
+        if not waiting:
+            return False
+        due, slowest = min(waiting, key=lambda pair: pair[0])
+        if due > self.loop.time() + PATIENCE - GRACE:
+            return fits
+        slowest._wait_no_longer()
+        slowest.transport.abort()
+        return True
+
+    def _give_up(self) -> None:
+        if self._waits():
             self._part()
 
     def _part(self) -> None:
