@@ -46,13 +46,14 @@ def restraint_at(ride: Ride, time: float) -> Restraint | None:
     return next((r.restraint for r in restraints(ride) if r.begin <= time < r.end), None)
 
 
-def let_go_first(ride: Ride, vehicle: int, begin: float, end: float) -> bool:
-    """Check whether the ego had to let a road user go first between two times [s]."""
-    return any(
-        one.restraint.by == "right-of-way" and one.restraint.vehicle == vehicle
+def held_by(ride: Ride, vehicle: int, begin: float, end: float) -> list[Restrained]:
+    """List when the ego had to let a road user go first between two times [s], oldest first."""
+    return [
+        one
         for one in restraints(ride)
         if one.begin <= end and one.end >= begin
-    )
+        if one.restraint.by == "right-of-way" and one.restraint.vehicle == vehicle
+    ]
 
 
 def lasted(ride: Ride, begin: float, end: float) -> dict[Restraint, float]:

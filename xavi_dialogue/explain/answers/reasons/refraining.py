@@ -1,6 +1,7 @@
 """Refraining: why we did not wait, stop, slow down, or stay behind somebody."""
 
 import math
+from dataclasses import replace
 from typing import Literal
 
 from msgspec import structs
@@ -29,6 +30,7 @@ from xavi_dialogue.explain.causes.driving.yielding import leads
 from xavi_dialogue.explain.causes.plans.premise import is_open
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, HALTS
 from xavi_dialogue.explain.history.deeds import Deed
+from xavi_dialogue.explain.history.restraints import held_by
 
 #: Actions of going on behind somebody, or letting somebody go first.
 REFRAINS = HALTS | frozenset[ActionName](
@@ -56,6 +58,9 @@ def refrained(event: Event, scene: Asked) -> Answer:
     Raises:
         Unanswered: the record lacks it; or rollouts are needed.
     """
+    slowed = _slowed_for(event, scene)
+    if slowed is not None:
+        return slowed
     change, crossed = _change(scene), going.crossed(scene)
     behind = isinstance(event.where, Related) and event.where.relation == "behind"
     stays = behind or event.action in ("follow", "keep-distance", "keep-lane")
@@ -146,6 +151,27 @@ def _done(event: Event, scene: Asked) -> Answer:
     if isinstance(answer, MotionReason):
         return structs.replace(answer, form="did")
     return answer
+
+
+def _slowed_for(event: Event, scene: Asked) -> Answer | None:
+    """Explain that we slowed down for somebody, for whom we did not come to a standstill."""
+    vehicle = vehicle_in(event.object)
+    if vehicle is None or event.action not in HALTS or not is_past(scene, event):
+        return None
+    since = scene.moment - LATELY
+    let = held_by(scene.ride, vehicle, since, scene.moment)
+    if not let:
+        return None
+    span = Span(let[-1].begin, min(let[-1].end, scene.now), said=True)
+    try:
+        found = motions.motion(Event("slow-down", tense="past"), replace(scene, span=span))
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    if not isinstance(found, MotionReason):
+        return None
+    return found if event.action in ("stop", "stand") else structs.replace(found, form="did")
 
 
 def _undone(event: Event, scene: Asked) -> Answer:

@@ -8,7 +8,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import Window
 from xavi_dialogue.explain.answers.reference.occasions import overlaps
 from xavi_dialogue.explain.facts.episodes.waiting import top_holders
-from xavi_dialogue.explain.history.restraints import let_go_first
+from xavi_dialogue.explain.history.restraints import held_by
 
 
 def walks_first(asked: Asked, vehicle: int | None, about: Window, waited: Episode | None) -> bool:
@@ -20,5 +20,5 @@ def walks_first(asked: Asked, vehicle: int | None, about: Window, waited: Episod
         return False
     crossing = asked.world.episodes(actor=Vehicle(vehicle), actions=("cross",), object=Ego())
     first = waited is not None or any(overlaps(asked, e, about) for e in crossing)
-    first = first or let_go_first(asked.ride, vehicle, about.begin, about.end)
+    first = first or bool(held_by(asked.ride, vehicle, about.begin, about.end))
     return first or (vehicle, "right-of-way") in top_holders(asked.world.states, trace, EGO)

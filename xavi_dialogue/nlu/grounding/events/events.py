@@ -75,9 +75,10 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     # "Is it braking?" is of whom was spoken of, whether he brakes or not.
     open_ = mode == "asked" and spoken.tense == "present" and isinstance(spoken.actor, Pronoun)
     open_ |= spoken.action == "go" and not spoken.manner and isinstance(spoken.actor, Pronoun)
+    order = "first" in spoken.manner and spoken.tense == "present"  # whether they do is open
     lately = is_open(spoken.actor, mode, window)
     fits = done(acting(spoken, g, window, lately), g, lately)
-    actor = _somebody(spoken.actor, g, window, real and not open_, fits)
+    actor = _somebody(spoken.actor, g, window, real and not open_ and not order, fits)
     if spoken.where is not None and spoken.where.thing == spoken.actor:
         spoken = replace(spoken, where=replace(spoken.where, thing=actor))
     spoken = afoot(replace(spoken, actor=actor), g)
@@ -87,7 +88,7 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
         spoken_of = target
         lately = is_open(target, mode, window)
         fits = done(undergoing(spoken, g, window, lately), g, lately)
-        target = _somebody(target, other, window, real, fits)
+        target = _somebody(target, other, window, real and not order, fits)
         if isinstance(target, Nobody) and _pictured(spoken_of):
             target = other.thing(spoken_of, window)  # "you pulled out in front of a lorry"
     elif spoken.action == "leave":
