@@ -23,6 +23,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Exists,
+    Feature,
     Happens,
     Has,
     Is,
@@ -45,7 +46,7 @@ from xavi_dialogue.explain.answers.reasons import (
     refraining,
     signalling,
 )
-from xavi_dialogue.explain.answers.reasons.suspects import with_suspect, with_suspects
+from xavi_dialogue.explain.answers.reasons.suspects import or_light, with_suspect, with_suspects
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, window
 from xavi_dialogue.explain.answers.reference.reading import (
@@ -109,8 +110,11 @@ def why(question: Why, scene: Asked) -> Answer:
     if isinstance(question.suspect, Vehicles) and len(question.suspect.numbers) > 1:
         looks = (scene.world.look(one, scene.moment) for one in question.suspect.numbers)
         people = all(look is not None and look.kind in ON_FOOT for look in looks)
-        return with_suspects(found, question.suspect.numbers, together=people)
-    return with_suspect(found, blamed, check_seen(scene, question.rival), alone=question.alone)
+        told = with_suspects(found, question.suspect.numbers, together=people)
+    else:
+        rival = check_seen(scene, question.rival)
+        told = with_suspect(found, blamed, rival, alone=question.alone)
+    return or_light(told) if isinstance(question.rival, Feature) else told
 
 
 def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) -> Answer:

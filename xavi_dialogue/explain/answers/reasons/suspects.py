@@ -6,6 +6,9 @@ from xavi_dialogue.domain.answers import Answer, ChoiceReason, MotionReason
 from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.reasons import Suspected
 
+#: Parts of those that are no reason.
+CLEARED = frozenset[Suspected | None]((None, "none", "neither"))
+
 
 def with_suspect(
     found: Answer, suspect: int | None, rival: int | None = None, *, alone: bool = False
@@ -80,6 +83,16 @@ def with_suspects(
     besides = tuple(vehicle for vehicle in suspects if vehicle not in guilty)
     single = which and len(guilty) == 1
     return replace(told, suspected="which" if single else "some", besides=besides)
+
+
+def or_light(found: Answer) -> Answer:
+    """State the reason alone where the question is whether it is somebody or the traffic light.
+
+    It names them, or both; those who are no reason are cleared first.
+    """
+    if not isinstance(found, ChoiceReason | MotionReason) or found.suspected in CLEARED:
+        return found
+    return replace(found, suspected="either")
 
 
 def blamed(found: ChoiceReason | MotionReason) -> list[int]:
