@@ -132,6 +132,7 @@ def test_what_the_summary_says_stands_in_the_content() -> None:
     assert "Decisions 16 to 21 did not foresee it" in town
     assert "Decision 22 (\N{MINUS SIGN}1.0 s) is planned otherwise by this program with" in town
     assert town.count("this program plans it otherwise than recorded: another version") == 2
+    assert "faster: pedestrian 9, which goes first, and a traffic light." in light
     assert "The light ahead, in " in light
     assert "The light ahead showed red from " in light
 

@@ -65,6 +65,7 @@ class Entry(msgspec.Struct, frozen=True, omit_defaults=True):
     until: float | None = None  # [s]
     plan: tuple[Action, ...] = ()
     figures: dict[str, Figure] = {}
+    lit: bool = False  # of what restrains this car: a traffic light does so, too
 
 
 class Body(msgspec.Struct, frozen=True):

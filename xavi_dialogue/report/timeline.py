@@ -86,9 +86,12 @@ def _events(ridden: Ridden, window: tuple[float, float]) -> Iterator[Entry]:
                     continue
             source = Source("event", "kind", k, event.sim_time)
             what: str = event.action or ""
+            lit = False
             if event.kind == "restrained":
                 what = "" if event.by is msgspec.UNSET else event.by
-            yield Entry(event.sim_time, event.kind, source, EGO, what, other=event.vehicle)
+                lit = event.light is not msgspec.UNSET and what != "light"
+            found = Entry(event.sim_time, event.kind, source, EGO, what, other=event.vehicle)
+            yield msgspec.structs.replace(found, lit=lit)
 
 
 def _decisions(ridden: Ridden, window: tuple[float, float]) -> Iterator[Entry]:

@@ -19,6 +19,7 @@ from xavi_dialogue.report.render.words import (
     chain,
     goal,
     phrase,
+    restraint,
     seconds,
 )
 
@@ -116,8 +117,8 @@ def _entry(page: Page, one: Entry) -> Markup:
             text = phrase("peak", one.what).format("", whom)
             return joined((tag("b", text), ": ", value, "."))
         case "restrained":
-            why = phrase("restraint", one.what).format(whom)
-            return joined((f"From now on {why} keeps this car from driving faster.",))
+            why = restraint(one, whom).rstrip(",")
+            return joined((f"From now on, this keeps this car from driving faster: {why}.",))
         case "episode":
             return _episode(page, one, whom)
     text = phrase("event", one.kind)

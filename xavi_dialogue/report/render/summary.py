@@ -16,6 +16,7 @@ from xavi_dialogue.report.render.words import (
     chain,
     goal,
     phrase,
+    restraint,
     seconds,
     supposed_words,
 )
@@ -185,7 +186,7 @@ def _restrained(page: Page) -> Iterator[Markup]:
     known = [one for one in told if one.time <= moment + 1e-6]
     if known and known[-1].what != "nothing":
         last = known[-1]
-        why = phrase("restraint", last.what).format(page.names.of(last.other)).rstrip(",")
+        why = restraint(last, page.names.of(last.other)).rstrip(",")
         text = f"What kept this car from driving faster from {seconds(last.time)} on: {why}"
         yield joined((text, page.notes.ref(last.source), "."))
 

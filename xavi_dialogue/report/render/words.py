@@ -9,7 +9,7 @@ from planner.record.trace import ON_FOOT, Action
 from sim.scene import EGO
 from xavi_dialogue.dashboard.views.labels import deed, does, plan_words
 from xavi_dialogue.report.alternatives import Supposed
-from xavi_dialogue.report.content import Party
+from xavi_dialogue.report.content import Entry, Party
 from xavi_dialogue.report.render.colours import colour
 from xavi_dialogue.report.render.markup import Markup, joined, tag
 
@@ -19,6 +19,12 @@ OURS = "this car"
 def phrase(kind: str, name: str) -> str:
     """Return a phrase of the table; the name itself where it has none."""
     return _table()[kind].get(name, name)
+
+
+def restraint(one: Entry, whom: str) -> str:
+    """Tell what keeps this car from driving faster; `whom` names the other in it."""
+    by = phrase("restraint", one.what).format(whom)
+    return f"{by.rstrip(',')}, and a traffic light" if one.lit else by
 
 
 def seconds(time: float) -> str:
