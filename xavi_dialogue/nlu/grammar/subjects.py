@@ -30,6 +30,7 @@ PERCEIVING: Final = frozenset(
 )  # fmt: skip
 FINITE: Final = frozenset(("VPAST",))
 AMBIGUOUS: Final = frozenset(("V", "SIDE", "KIND", "EVN", "ADJ", "P", "BEARING"))
+AUXILIARIES: Final = frozenset(("did", "had", "was", "were"))
 VERBS: Final = frozenset(("V", "VPAST", "VED", "VING"))
 
 
@@ -62,8 +63,8 @@ def past(typed: Typed) -> Typed | None:
     verb = _past(words, at, ADVERBS)
     if verb >= len(words) - 1 or not _is(words[verb], FINITE):
         return None
-    if _is(words[verb], AMBIGUOUS):
-        return None  # "hit the brakes" is a request, "left again" names a turn
+    if _is(words[verb], AMBIGUOUS) or words[verb] in AUXILIARIES:
+        return None  # "hit the brakes" is a request, "left again" names a turn, "did it" asks
     return _with(typed, at, "i" if words[verb] in PERCEIVING else "you")
 
 

@@ -126,8 +126,7 @@ def _why(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None
     if spoken.event is not None:
         of = with_event(of, spoken.event)
     if of is None and _bare(spoken) and spoken.form == "why" and not spoken.negated:
-        doing = Event("do", object=Pronoun("that"), tense="present")
-        return Ask(Why(Happens(doing)))  # nothing was spoken of as yet
+        return Ask(Why(Happens(Event("do", tense="present"))))  # nothing has come about as yet
     if of is None:
         return None
     if not isinstance(spoken.time, Unsaid):
