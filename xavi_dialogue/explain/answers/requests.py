@@ -133,7 +133,7 @@ def _cause(asked: Asked) -> MotionCause | None:
             raise
         return None
     causes = found.causes if isinstance(found, MotionReason) else ()
-    # A light holds us whoever else does; somebody comes before a bend or a limit.
+    # A light comes first, then other road users, then a bend or a limit.
     known = sorted(causes, key=lambda cause: (cause.kind != "light", cause.vehicle is None))
     return next((c for c in known if c.kind not in ("plan", "starting")), None)
 
