@@ -271,13 +271,13 @@ def _deem(special: Special) -> Proposition:
 
 def _leave_space(special: Special) -> Proposition:
     """Read "leave him more room", "leave more room for him": whom we keep a distance to."""
-    named = next((special.match.phrases[k] for k in ("into", "for") if k in special.match.phrases),
-                 special.object)  # fmt: skip
-    thing = as_thing(named)
+    found = special.match.phrases
+    thing = as_thing(found.get("into") or found.get("for") or special.object)
     if isinstance(thing, Feature) and thing.kind == "light":
         return Happens(event_of(special, "leave", thing))  # "since we left the light"
     whom = None if isinstance(thing, Feature) else thing
-    return Happens(event_of(special, "keep-distance", whom))
+    gives_way = getattr(as_thing(special.object), "kind", None) == "way"
+    return Happens(event_of(special, "give-way" if gives_way else "keep-distance", whom))
 
 
 def _priority(special: Special) -> Proposition:
