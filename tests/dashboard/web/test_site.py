@@ -1,7 +1,7 @@
 """The web application, without a network."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 
 import pytest
 
@@ -10,7 +10,7 @@ from tests.dashboard.web.known_source import Known
 from xavi_dialogue.dashboard.web import routes
 from xavi_dialogue.dashboard.web.auth import NO_TOKEN, SECURITY, ListenOptions, RequestGuard
 from xavi_dialogue.dashboard.web.middleware import FAULT, FETCHES, TRIES, VISITS
-from xavi_dialogue.dashboard.web.routes import MAX_BROWSERS, WebApplication
+from xavi_dialogue.dashboard.web.routes import MAX_BROWSERS, SILENCE, WebApplication
 
 HERE = "http://127.0.0.1:8480"
 TOKEN = "0123456789abcdefghij"
@@ -18,9 +18,13 @@ ORIGIN = {"origin": HERE}
 WS = "ws://127.0.0.1:8480/ws"
 
 
-def client(source: Known | None = None, token: str | None = None) -> TestClient:
+def client(
+    source: Known | None = None,
+    token: str | None = None,
+    clock: Callable[[], float] = lambda: 0.0,
+) -> TestClient:
     listen = ListenOptions.read(":8480", token=token)
-    still = WebApplication(source or Known(), RequestGuard(listen, 8480), clock=lambda: 0.0)
+    still = WebApplication(source or Known(), RequestGuard(listen, 8480), clock=clock)
     return TestClient(still.app, base_url=HERE, follow_redirects=False)
 
 
@@ -255,6 +259,27 @@ def test_there_are_not_too_many_browsers() -> None:
         for one in sockets:
             one.__exit__(None, None, None)
     assert len(source.of("greet")) == len(source.of("left")) == MAX_BROWSERS + 1
+
+
+def test_who_says_nothing_loses_its_place_to_another() -> None:
+    source, now = Known(), [0.0]
+    browser = client(source, clock=lambda: now[0])
+    with browser, ExitStack() as places:
+        speaking = places.enter_context(talking(browser))
+        speaking.send_json({"type": "here"})
+        silent = [places.enter_context(talking(browser)) for _ in range(MAX_BROWSERS - 1)]
+        with browser.websocket_connect(WS, headers=ORIGIN) as early:
+            assert closed(early) == (1013, routes.FULL)
+        now[0] = SILENCE
+        for one in silent:
+            places.enter_context(talking(browser))
+            assert closed(one) == (1013, routes.SILENT)
+        with browser.websocket_connect(WS, headers=ORIGIN) as late:
+            assert closed(late) == (1013, routes.FULL)
+        speaking.send_json({"type": "ask", "request": "r1", "text": "Why?"})
+        while speaking.receive_json()["type"] != "answered":
+            pass
+    assert len(source.of("greet")) == len(source.of("left")) == 2 * MAX_BROWSERS - 1
 
 
 def test_connections_are_not_made_without_end() -> None:

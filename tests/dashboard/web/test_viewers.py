@@ -48,6 +48,10 @@ def seen(seq: int) -> str:
     return json.dumps({"type": "seen", "seq": seq})
 
 
+def here() -> str:
+    return json.dumps({"type": "here"})
+
+
 def ask(number: int = 0) -> str:
     return json.dumps({"type": "ask", "request": f"r{number}", "text": "Why?"})
 
@@ -283,3 +287,25 @@ def test_a_reason_is_short_enough_and_the_first_one_stands() -> None:
     one.send_away(1013, "no")
     assert one.leave is not None
     assert (one.leave.code, len(one.leave.reason.encode())) == (1001, 122)
+
+
+def test_a_browser_is_silent_until_it_says_something() -> None:
+    one = viewer()
+    assert one.silent(7.0) == 7.0
+    one.hear("nonsense", 7.0)
+    assert one.silent(7.0) == 7.0
+    assert one.hear(here(), 8.0) is None
+    assert one.silent(60.0) == 0.0
+
+
+def test_a_browser_is_silent_while_it_does_not_say_that_it_has_seen_a_scene() -> None:
+    one = viewer()
+    one.hear(here(), 0.0)
+    for seq in (1, 2):
+        one.put(pack(scene(seq)))
+        assert kinds(one, 10.0 * seq) == ["scene"]
+    assert one.silent(30.0) == 20.0
+    one.hear(seen(1), 30.0)
+    assert one.silent(34.0) == 4.0
+    one.hear(seen(2), 35.0)
+    assert one.silent(60.0) == 0.0

@@ -16,6 +16,7 @@ from xavi_dialogue.dashboard.web.websocket_messages import (
     MAX_INCOMING,
     Ask,
     Cancel,
+    Here,
     Incoming,
     Outgoing,
     Ride,
@@ -100,6 +101,7 @@ class ClientSession:
         self._in_flight: deque[int] = deque()  # numbers of scenes, as sent
         self._status: Status | None = None  # as last sent
         self._told = now  # [s] when the status was sent
+        self._owing: float | None = now  # [s] since when it owes a word; None: it does not
         self._questions, self._others = Bucket(QUESTIONS, now), Bucket(OTHERS, now)
         self._messages = Bucket(MESSAGES, now)
 
@@ -107,6 +109,10 @@ class ClientSession:
     def waiting(self) -> int:
         """Return the number of bytes that wait to be sent."""
         return self._waiting + (0 if self._scene is None else self._scene.size)
+
+    def silent(self, now: float) -> float:
+        """Return for how long [s] the browser has answered neither the welcome nor a scene."""
+        return 0.0 if self._owing is None else now - self._owing
 
     def greet(self, messages: tuple[Outgoing, ...]) -> None:
         """Queue the first messages of a new browser, without limit."""
@@ -166,6 +172,7 @@ class ClientSession:
             packed, self._scene = self._scene, None
             assert isinstance(packed.message, SceneShown)
             self._in_flight.append(packed.message.seq)
+            self._owing = now if self._owing is None else self._owing
             return packed.text
         return None
 
@@ -191,16 +198,18 @@ class ClientSession:
             self.send_away(TOO_OFTEN, "Too many messages at once.")
             return None
         try:
-            message: Ask | Cancel | SeenScene | Suggest = _DECODER.decode(text)
+            message: Ask | Cancel | Here | SeenScene | Suggest = _DECODER.decode(text)
         except (msgspec.MsgspecError, UnicodeError, RecursionError):
             self.tell(Trouble(request=None, text=NOT_READ))
             return None
         allowed = (self._questions if isinstance(message, Ask) else self._others).take(now)
+        wanted: Wanted | None = None
         match message:
             case SeenScene(seq=seq):
                 if allowed:
                     self._seen(seq)
-                return None
+            case Here():
+                pass
             case Ask(request=request) if not allowed:
                 self.tell(Trouble(request=request, text=TOO_FAST))
             case Cancel(request=request) if not allowed:
@@ -208,8 +217,9 @@ class ClientSession:
             case Suggest() if not allowed:
                 self.tell(Trouble(request=None, text=TOO_MANY))
             case _:
-                return message
-        return None
+                wanted = message
+        self._owing = now if self._in_flight else None
+        return wanted
 
     def _seen(self, seq: int) -> None:
         """Handle that a scene was drawn; earlier ones are drawn or dropped."""

@@ -38,11 +38,13 @@ from xavi_dialogue.dashboard.web.responses import JSON, Body
 from xavi_dialogue.dashboard.web.websocket_messages import Ask, Cancel, Outgoing, Suggest, Trouble
 
 MAX_BROWSERS = 32
+SILENCE = 5.0  # [s] without a word after which a browser's place is another's if all are taken
 EVIDENCE_WAIT = 30.0  # [s]
 CLOSING = 1.0  # [s] to tell a browser why it is disconnected
 ASIDE = 64 * 1024  # bytes from which on a body is packed on another thread
 
 FULL = "There are too many browsers already. Close one of them, then try again."
+SILENT = "This page said nothing, and another one wanted its place."
 TEXT_ALONE = "Only text is read here."
 UNKNOWN = "There is nothing here."
 NO_DECISION = "The record of this decision is not here any more."
@@ -141,7 +143,7 @@ class WebApplication:
     async def _meet(self, socket: WebSocket) -> None:
         """Serve a browser until it disconnects or must be disconnected."""
         await socket.accept()
-        if self._ending or self.browsers >= MAX_BROWSERS:
+        if self._ending or not self._has_room():
             code, why = (GOING_AWAY, ENDING) if self._ending else (AGAIN_LATER, FULL)
             await socket.close(code, why)
             return
@@ -158,11 +160,23 @@ class WebApplication:
             viewer.send_away(BROKEN, FAULT)
             await _dismiss(socket, viewer)
         finally:
-            del self._viewers[viewer.number]
+            self._viewers.pop(viewer.number, None)
             self._look_up()
             if not self._viewers:
                 self.empty.set()
             self._source.left(viewer)
+
+    def _has_room(self) -> bool:
+        """Check whether there is a place; take it from who has been silent for longest."""
+        if self.browsers < MAX_BROWSERS:
+            return True
+        now = self._clock()
+        silent = max(self._viewers.values(), key=lambda viewer: viewer.silent(now))
+        if silent.silent(now) < SILENCE:
+            return False
+        del self._viewers[silent.number]
+        silent.send_away(AGAIN_LATER, SILENT)
+        return True
 
     def _look_up(self) -> None:
         """Update the number of browsers in the status of each."""

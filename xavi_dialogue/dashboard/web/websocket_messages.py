@@ -165,6 +165,10 @@ class Trouble(Outgoing, frozen=True, kw_only=True, tag="trouble"):
 # --- from the browser -----------------------------------------------------------------------
 
 
+class Here(msgspec.Struct, frozen=True, kw_only=True, tag="here", tag_field="type"):
+    """The welcome has arrived; who never says anything may lose its place to another browser."""
+
+
 class Ask(msgspec.Struct, frozen=True, kw_only=True, tag="ask", tag_field="type"):
     """A question."""
 
@@ -191,4 +195,4 @@ class Suggest(msgspec.Struct, frozen=True, kw_only=True, tag="suggest", tag_fiel
     at: Seconds
 
 
-Incoming: TypeAlias = Ask | Cancel | SeenScene | Suggest
+Incoming: TypeAlias = Ask | Cancel | Here | SeenScene | Suggest

@@ -109,6 +109,7 @@ export class Connection extends EventTarget {
     }, STEADY * 1000);
     this.words = null;
     this.become("open");
+    this.send({ type: "here" });
     this.dispatchEvent(new Event("welcome"));
   }
 
