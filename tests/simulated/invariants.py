@@ -81,6 +81,7 @@ def _transcripts(world: "World") -> Iterator[str]:
         turns = [t for t in world.stored(person.session) if t.reply.reason not in PASSING]
         if person.session not in world.exempt:  # else a stranger may have begun it anew
             yield from _once(person, turns)
+        yield from _names(world, person)
         told = tuple((turn.text, msgspec.json.encode(_timeless(turn)).decode()) for turn in turns)
         world.transcripts[person.session] = told
         if person.forgotten is not None:
@@ -101,6 +102,18 @@ def _once(person: Person, turns: list[Any]) -> Iterator[str]:
     for text, times in Counter(turn.text for turn in turns).items():
         if times > asked[text]:
             yield f"{person.session} has {times} turns of {text!r}, asked {asked[text]} times"
+
+
+def _names(world: "World", person: Person) -> Iterator[str]:
+    """A question that is sent again keeps its name: by that the service knows it."""
+    sent = {
+        msgspec.json.decode(asked.payload)["request"]
+        for asked in world.network.asked
+        if asked.key.endswith("@rpc/ask") and asked.asker.machine == person.machine
+    }
+    times = sum(person.asks.values())
+    if len(sent) > times:
+        yield f"{person.machine} asked {times} times, under {len(sent)} names"
 
 
 def _excuse(world: "World") -> None:
