@@ -1,12 +1,11 @@
 """Run seeds of the simulated world; a seed that fails is run again, shrunk, and shown."""
 
 import argparse
-import multiprocessing
 import sys
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
+from tests.simulated.many import outcomes
 from tests.simulated.plan import Plan, plan_of
 from tests.simulated.shrink import shrink
 from tests.simulated.world import Outcome, run
@@ -26,7 +25,7 @@ def main() -> int:
     seeds = [seed for seed in wanted if seed not in done]
     if len(seeds) < len(wanted):
         _say(f"{len(wanted) - len(seeds)} seeds were run before, {len(failed)} failed")
-    for number, (seed, outcome) in enumerate(_outcomes(seeds, asked.jobs), 1):
+    for number, (seed, outcome) in enumerate(outcomes(seeds, asked.jobs), 1):
         exempt += bool(outcome.exempt)
         if outcome.problems:
             failed.append(seed)
@@ -66,20 +65,6 @@ def _note(file: Path | None, seed: int, *, held: bool) -> None:
     if file is not None:
         with file.open("a", encoding="ascii") as written:
             written.write(f"{seed} {'held' if held else 'failed'}\n")
-
-
-def _outcomes(seeds: list[int], jobs: int) -> Iterator[tuple[int, Outcome]]:
-    if jobs == 1:
-        yield from map(_one, seeds)
-        return
-    context = multiprocessing.get_context("spawn")
-    # Greenlets of crashed processes may leave cycles behind; a process ends before they matter.
-    with context.Pool(jobs, maxtasksperchild=400) as pool:
-        yield from pool.imap_unordered(_one, seeds, chunksize=5)
-
-
-def _one(seed: int) -> tuple[int, Outcome]:
-    return seed, run(plan_of(seed))
 
 
 def _show(plan: Plan) -> int:

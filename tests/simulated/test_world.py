@@ -1,6 +1,8 @@
 """Seeds of the simulated world, in which all must hold."""
 
 import gc
+import subprocess
+import sys
 
 import pytest
 
@@ -20,3 +22,10 @@ def test_what_must_hold_holds_whatever_goes_wrong(begin: int) -> None:
             failed[seed] = outcome.problems
     gc.collect()  # what complains as it is collected does so here, and not in another test
     assert failed == {}, "python -m tests.simulated --seed N shows and shrinks one"
+
+
+def test_many_seeds_run_in_processes_of_their_own() -> None:
+    command = (sys.executable, "-m", "tests.simulated", "--seeds", "2", "--jobs", "2")
+    ended = subprocess.run(command, capture_output=True, check=True, text=True)
+    assert ended.stdout.startswith("2 seeds in ")
+    assert ": 0 failed;" in ended.stdout
