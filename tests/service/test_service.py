@@ -604,6 +604,44 @@ def test_nobody_waits_for_the_disk_itself(kept: Retention, monkeypatch: pytest.M
     assert done == ["answered", "on the disk"]
 
 
+def test_what_is_said_is_on_the_disk_in_time_even_if_somebody_always_waits(
+    kept: Retention, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    done: list[str] = []
+    monkeypatch.setattr(Store, "sync", lambda _: done.append("on the disk"))
+    bench = Bench(TurnLog(kept))
+    bench.drive()
+    for _ in range(3):
+        bench.service.work()
+    bench.send("answer", request="early", session="eve", at=60.0)  # waits for that time
+    done.clear()
+    bench.ask("answer", request="q1")
+    assert done == []
+    monkeypatch.setattr(memory, "OVERDUE", 0.0)
+    for _ in range(3):
+        bench.service.work()
+    assert done == ["on the disk"]
+    bench.ask("answer", request="q2")
+    assert done == ["on the disk"] * 2
+
+
+def test_a_file_is_tried_again_in_time_whatever_took_long(
+    kept: Retention, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The whole process may have been stopped in the middle of an attempt."""
+    bench = Bench(TurnLog(kept))
+    bench.drive()
+    monkeypatch.setattr(memory, "REST", 1e6)
+    monkeypatch.setattr(memory, "LONGEST", 0.0)
+    other = sqlite3.connect(kept.path, isolation_level=None)
+    other.execute("BEGIN IMMEDIATE")
+    bench.ask("answer", request="q1")
+    other.execute("ROLLBACK")
+    other.close()
+    bench.ask("refuse", request="q2")
+    assert texts(kept) == ["answer", "refuse"]
+
+
 def test_a_conversation_is_resumed_by_another_service(kept: Retention) -> None:
     first = Bench(TurnLog(kept))
     first.drive()

@@ -9,6 +9,7 @@ import subprocess
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -26,9 +27,9 @@ from xavi_dialogue.storage.conversations import (
     RideName,
     Store,
 )
-from xavi_dialogue.storage.database import (
+from xavi_dialogue.storage.database import Database
+from xavi_dialogue.storage.store_errors import (
     Damaged,
-    Database,
     Newer,
     NotStorable,
     StoreError,
@@ -220,6 +221,55 @@ def test_what_is_erased_while_somebody_reads_is_purged_as_soon_as_it_can_be(
             case _:
                 other.purge()
         assert SECRET.encode() not in everything(path)
+
+
+def test_what_a_power_cut_left_in_the_log_is_gone_when_a_session_is_erased(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with Store(path) as store:
+        store.keep([new("Hello!", "bob")])
+        before = path.with_name(f"{path.name}-wal").stat().st_size
+        store.keep([new(SECRET)])
+        base, log = path.read_bytes(), path.with_name(f"{path.name}-wal").read_bytes()
+    torn = bytearray(log)
+    torn[before + 8 : before + 24] = bytes(16)  # of the frame, which counts no more
+    path.write_bytes(base)
+    path.with_name(f"{path.name}-wal").write_bytes(torn)
+    monkeypatch.setattr(Database, "_purge_in_passing", lambda _: None)  # somebody was reading
+    with Store(path) as store:
+        assert store.names() == ("bob",)
+        assert SECRET.encode() in everything(path)
+        assert store.forget("ada") == 0
+        assert SECRET.encode() not in everything(path)
+
+
+@dataclass
+class Flaky:
+    """A connection that can neither commit nor roll back at times."""
+
+    real: sqlite3.Connection
+    failing: bool = True
+
+    def execute(self, sql: str, *arguments: Any) -> Any:
+        if self.failing and sql in ("COMMIT", "ROLLBACK"):
+            raise sqlite3.OperationalError("disk I/O error")
+        return self.real.execute(sql, *arguments)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.real, name)
+
+
+def test_a_transaction_that_cannot_be_rolled_back_spoils_none_after_it(path: Path) -> None:
+    with Store(path) as store:
+        flaky = Flaky(store._file._connection)
+        store._file._connection = flaky  # type: ignore[assignment]
+        for _ in range(2):
+            with pytest.raises(Unwritable, match="I/O error"):
+                store.keep([new("lost")])
+        flaky.failing = False
+        assert store.turns("ada", 9) == ()
+        store.keep([new("kept")])
+        assert [turn.text for turn in store.turns("ada", 9)] == ["kept"]
 
 
 def test_what_is_erased_on_a_full_disk_is_purged_when_there_is_room(path: Path) -> None:

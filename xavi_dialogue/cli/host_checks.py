@@ -20,7 +20,7 @@ from sim.roads import netconvert
 from xavi_dialogue.bus.interface import DEFAULT_ENDPOINT
 from xavi_dialogue.process import kernel_cache
 from xavi_dialogue.storage.conversations import VERSION, Store
-from xavi_dialogue.storage.database import StoreError
+from xavi_dialogue.storage.store_errors import StoreError
 
 Verdict: TypeAlias = Literal["ok", "warning", "fault"]
 

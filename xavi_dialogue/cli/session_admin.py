@@ -12,8 +12,8 @@ from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.nlg.narration import clock
 from xavi_dialogue.process.exit_status import UsageFault
 from xavi_dialogue.storage.conversations import DAY, Store
-from xavi_dialogue.storage.database import Unwritable
 from xavi_dialogue.storage.rows import Summary
+from xavi_dialogue.storage.store_errors import Unwritable
 
 WIDEST = 48  # characters of a question in the table
 HEAD = ("session", "turns", "last spoken in", "ride", "the last question")

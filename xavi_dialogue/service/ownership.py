@@ -8,7 +8,7 @@ import hmac
 from collections.abc import Callable, Set
 from dataclasses import dataclass, field
 
-from xavi_dialogue.storage.database import StoreError
+from xavi_dialogue.storage.store_errors import StoreError
 
 UNKNOWN = "unknown"  # stands for an owner that cannot be read; no token has this digest
 MAX_OWNERS = 200_000  # exceeds the number of sessions in memory, see request_handler.py

@@ -33,7 +33,7 @@ from xavi_dialogue.service.erased import ErasedQuestions
 from xavi_dialogue.service.ownership import UNKNOWN, SessionOwners
 from xavi_dialogue.service.requests import Question, latest, named
 from xavi_dialogue.service.vehicle_session import VehicleSession
-from xavi_dialogue.storage.database import StoreError
+from xavi_dialogue.storage.store_errors import StoreError
 from xavi_dialogue.storage.turn_log import TurnLog
 
 _LOG = logging.getLogger(__name__)

@@ -154,6 +154,7 @@ class Service:
             for vehicle_session in handler.active():
                 self._settle(vehicle_session)
                 handler.rest(vehicle_session)
+            self._memory.flush()
             if self._inbox.empty() and not handler.ready():
                 break
         idle = not handler.waiting()

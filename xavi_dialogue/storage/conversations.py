@@ -13,8 +13,9 @@ import msgspec
 
 from planner.record.events import Event
 from xavi_dialogue.dialogue.state.turn import Turn
-from xavi_dialogue.storage.database import Database, NotStorable, Writing
+from xavi_dialogue.storage.database import Database, Writing
 from xavi_dialogue.storage.rows import Line, Summary, checked, decoded, decoded_owner, known
+from xavi_dialogue.storage.store_errors import NotStorable
 
 VERSION = 3
 SCHEMA = "xavi.memory/2"  # of exported lines

@@ -1,14 +1,4 @@
-"""One SQLite file, which is checked when opened, and from which erased data is purged.
-
-    StoreError
-    ├── Damaged      not a database, not of this program, or broken
-    ├── Newer        written by a later version of this program
-    ├── Unwritable   no such place, no permission, disk full, locked: may work again later
-    │   └── Unpurged erased data is still in the files
-    └── NotStorable  too large, or a number or text that cannot be stored
-
-Every message names the file and says how to repair it.
-"""
+"""One SQLite file, which is checked when opened, and from which erased data is purged."""
 
 import contextlib
 import os
@@ -18,8 +8,18 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
-from xavi_dialogue.process.exit_status import RunFault
 from xavi_dialogue.runtime import system
+from xavi_dialogue.storage.store_errors import (
+    Damaged,
+    Newer,
+    NotStorable,
+    StoreError,
+    Unpurged,
+    Unwritable,
+    hint,
+    mend,
+    plain,
+)
 
 APPLICATION = 0x58415649  # "XAVI", in the file's header
 PAUSE = 0.05  # [s] between attempts to open a file that another process is creating
@@ -94,30 +94,6 @@ def is_there(path: Path) -> bool:
     return _disk.has(path)
 
 
-class StoreError(RunFault):
-    """The file cannot be used."""
-
-
-class Damaged(StoreError):
-    """Not a database, not of this program, or broken."""
-
-
-class Newer(StoreError):
-    """Written by a later version of this program."""
-
-
-class Unwritable(StoreError):
-    """It cannot be opened or written now; that may work later."""
-
-
-class Unpurged(Unwritable):
-    """Erased data is still in the files, until they are next written without readers."""
-
-
-class NotStorable(StoreError):
-    """Too large, or a number or text that cannot be stored."""
-
-
 class Database:
     """A connection to one file, for the thread that made it."""
 
@@ -145,6 +121,7 @@ class Database:
             Unwritable: it cannot be opened or created.
         """
         self.path, self._patience = path, patience
+        self._within = False  # a transaction
         self._make()
         with self._translated():
             self._connection = _disk.connect(path, patience)
@@ -164,14 +141,17 @@ class Database:
             StoreError: nothing was written.
         """
         with self._translated():
+            self._roll_back()
             self._connection.execute("BEGIN IMMEDIATE")
+            self._within = True
             try:
                 yield self._connection
                 self._connection.execute("COMMIT")
             except BaseException:
-                if self._connection.in_transaction:  # on a full disk SQLite has ended it already
-                    self._connection.execute("ROLLBACK")
+                self._roll_back()
                 raise
+            finally:
+                self._within = False
 
     def rows(self, sql: str, arguments: Sequence[object] = ()) -> list[Row]:
         """Return the rows of a query.
@@ -180,7 +160,14 @@ class Database:
             StoreError: the file cannot be read.
         """
         with self._translated():
+            if not self._within:
+                self._roll_back()
             return self._connection.execute(sql, arguments).fetchall()
+
+    def _roll_back(self) -> None:
+        """Roll back a transaction that failed; if that fails, too, it is done before the next."""
+        if self._connection.in_transaction:  # on a full disk SQLite has ended it already
+            self._connection.execute("ROLLBACK")
 
     def sync(self) -> None:
         """Flush all writes to disk, so that they survive a power cut.
@@ -194,7 +181,7 @@ class Database:
         except FileNotFoundError:
             return
         except OSError as error:
-            raise Unwritable(_hint(self.path, error.strerror or str(error))) from error
+            raise Unwritable(hint(self.path, error.strerror or str(error))) from error
 
     def owe(self, file: Writing) -> None:
         """Mark in the file, within a deletion, that the files must be purged."""
@@ -205,14 +192,13 @@ class Database:
     def purge(self) -> None:
         """Purge deleted data from the files, whichever process deleted it.
 
+        The log is emptied in any case: after a power cut it may hold parts of what was lost.
+
         Raises:
             Unpurged: data is left, because another process reads, or the disk is full. The next
                 process to open, purge or close the file purges it.
         """
-        owed = self._owed()
-        if owed is None:
-            return
-        erased, compacted = owed
+        erased, compacted = self._owed() or (0, 0)
         try:
             if compacted < erased:  # else only the log is left; every VACUUM would make it grow
                 self._compact(erased)
@@ -225,6 +211,8 @@ class Database:
                 f"what was erased may still be in {self.path}-wal while another program reads it;"
                 " end that program and erase again"
             )
+        if not erased:
+            return
         with self.writing() as file:
             if self._owed() == (erased, erased):  # nothing was deleted meanwhile
                 file.execute("DROP TABLE owed")
@@ -264,7 +252,7 @@ class Database:
         except FileExistsError:
             pass
         except OSError as error:
-            raise Unwritable(_hint(self.path, error.strerror or str(error))) from error
+            raise Unwritable(hint(self.path, error.strerror or str(error))) from error
 
     def _open(self, steps: Mapping[int, str], version: int) -> None:
         give_up = system.monotonic() + 2.0 * self._patience
@@ -282,7 +270,7 @@ class Database:
         if self._version(version) < version:  # else it can be read whoever writes, or if it is full
             self._migrate(steps, version)
         if self.rows("PRAGMA quick_check(1)") != [("ok",)]:
-            raise Damaged(_mend(self.path, "it is damaged"))
+            raise Damaged(mend(self.path, "it is damaged"))
         self._purge_in_passing()
         self.rows(f"PRAGMA busy_timeout = {round(self._patience * 1000.0)}")
 
@@ -310,7 +298,7 @@ class Database:
         [(application,)] = self.rows("PRAGMA application_id")
         [(tables,)] = self.rows("SELECT count(*) FROM sqlite_master")
         if application != APPLICATION and (application or version or tables):
-            raise Damaged(_mend(self.path, "it is the database of another program"))
+            raise Damaged(mend(self.path, "it is the database of another program"))
         if version > known:
             raise Newer(
                 f"{self.path} was written by a later version of xavi (tables of version {version},"
@@ -323,28 +311,9 @@ class Database:
         try:
             yield
         except _UNFIT as error:
-            raise NotStorable(f"this cannot be kept in {self.path}: {_plain(error)}") from error
+            raise NotStorable(f"this cannot be kept in {self.path}: {plain(error)}") from error
         except sqlite3.Error as error:
             code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_MISUSE)
             if code & 0xFF in _BROKEN:
-                raise Damaged(_mend(self.path, _plain(error))) from error
-            raise Unwritable(_hint(self.path, _plain(error))) from error
-
-
-def _plain(error: Exception) -> str:
-    """Return the text of an error, with unprintable characters escaped."""
-    return str(error).encode(errors="backslashreplace").decode()
-
-
-def _mend(path: Path, problem: str) -> str:
-    return (
-        f"cannot use {path}: {problem}; move the file away to begin anew, put back a copy of it,"
-        " or name another with --store"
-    )
-
-
-def _hint(path: Path, problem: str) -> str:
-    return (
-        f"cannot open or write {path}: {problem}; see to the disk's space and to permissions,"
-        " or name another file with --store"
-    )
+                raise Damaged(mend(self.path, plain(error))) from error
+            raise Unwritable(hint(self.path, plain(error))) from error

@@ -13,7 +13,8 @@ from typing import Annotated, Any, Self, TypeVar
 import msgspec
 
 from xavi_dialogue.bus.messages import Count, Name, Seconds, Whole
-from xavi_dialogue.storage.database import Damaged, Row
+from xavi_dialogue.storage.database import Row
+from xavi_dialogue.storage.store_errors import Damaged
 
 LATEST = 2.5e11  # [s] wall time in the year 9892: dates end soon after
 

@@ -14,21 +14,23 @@ from planner.record.events import Event
 from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.runtime import system
 from xavi_dialogue.storage.conversations import New, NewEvent, NewTurn, RideName, Store, fits
-from xavi_dialogue.storage.database import (
+from xavi_dialogue.storage.database import is_there
+from xavi_dialogue.storage.store_errors import (
     Damaged,
     NotStorable,
     StoreError,
     Unpurged,
     Unwritable,
-    is_there,
 )
 
 MAX_PAST = 200  # latest turns of a session that are loaded
 _LOG = logging.getLogger(__name__)
 NOBODY = "nobody"  # stands for the digest of an owner that cannot be read: no token has it
-REST = 10.0  # pause after a failed attempt, as a multiple of its time
+REST = 10.0  # pause after a failed attempt, as a multiple of its time ...
+LONGEST = 10.0  # [s] ... but no longer: the whole process may have been stopped meanwhile
 # A disk takes 5 to 30 ms: after each answer that would hold up the next one.
-FLUSHED_EVERY = 0.25  # [s]
+FLUSHED_EVERY = 0.25  # [s] while no passenger waits
+OVERDUE = 1.0  # [s] after which it is flushed even if one does
 PATIENCE = 0.25  # [s] to wait for other writers, as answers have a deadline
 MAX_MISSED = 5000  # turns and events that wait to be written; the oldest are dropped first
 EXPIRED_EVERY = 3600.0  # [s]
@@ -177,6 +179,16 @@ class TurnLog:
         except StoreError as error:
             self._fail(error)
 
+    def flush(self) -> None:
+        """Flush what was written, if that is overdue; for a service that has no idle moment."""
+        if self.keeping is None or self._failing or not self._is_due(OVERDUE):
+            return
+        try:
+            with self._using(self.keeping) as store:
+                self._flush(store)
+        except StoreError as error:
+            self._fail(error)
+
     def forget(self, session: str) -> int | None:
         """Erase a session; return the number of turns, or None if data is left for now."""
         self._missed = [
@@ -205,10 +217,8 @@ class TurnLog:
             self._store = None
 
     def _tidy(self, store: Store, days: int, now: float, idle: bool) -> None:
-        if idle and self._unsynced and system.monotonic() >= self._synced + FLUSHED_EVERY:
-            self._unsynced = False
-            self._synced = system.monotonic()
-            store.sync()
+        if self._is_due(FLUSHED_EVERY if idle else OVERDUE):
+            self._flush(store)
         if now >= self._expired + EXPIRED_EVERY:
             self._expired = self._purged = now
             store.expire(days, now)
@@ -216,6 +226,14 @@ class TurnLog:
             self._purged = now
             store.purge()
             self._unpurged = False
+
+    def _is_due(self, every: float) -> bool:
+        return self._unsynced and system.monotonic() >= self._synced + every
+
+    def _flush(self, store: Store) -> None:
+        self._unsynced = False
+        self._synced = system.monotonic()
+        store.sync()
 
     @contextmanager
     def _reading(self, keeping: Retention) -> Iterator[Store]:
@@ -232,7 +250,7 @@ class TurnLog:
 
     @contextmanager
     def _using(self, keeping: Retention) -> Iterator[Store]:
-        """Open the file; after an attempt that took long to fail, wait ten times as long.
+        """Open the file; after an attempt that took long to fail, pause before the next one.
 
         Raises:
             Unwritable: it cannot be used, or it is too early to try again.
@@ -248,7 +266,7 @@ class TurnLog:
             raise  # the file works
         except Unwritable:
             ended = system.monotonic()
-            self._again = ended + REST * (ended - began)
+            self._again = ended + min(REST * (ended - began), LONGEST)
             raise
 
     def _regret(self, what: str, error: Damaged) -> bool:
