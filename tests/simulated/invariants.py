@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from tests.simulated.parts import SECRET, STORE, Person
+from tests.simulated.parts import PLANNED, SECRET, STORE, Person
 from xavi_dialogue.bus.interface import NoAnswer, Refused, TooLate
 from xavi_dialogue.bus.messages import PastTurn
-from xavi_dialogue.service.responder import MAX_SENT, PASSING
+from xavi_dialogue.service.ownership import digest
+from xavi_dialogue.service.responder import AGAIN, MAX_SENT, PASSING
 
 if TYPE_CHECKING:
     from tests.simulated.network import Asked
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 DISK = frozenset(("full", "failing", "locked", "read"))  # faults of the disk
 SLACK = 0.15  # [s] one step of an answer may take that long after its deadline
-WINDOW = 2.0  # [s] after which what was said is flushed, if the service was not busy all the time
+WINDOW = 2.0  # [s] after which what was said is flushed, however busy the service is
 
 
 def at_rest(world: "World") -> list[str]:
@@ -66,10 +67,16 @@ def _bad_weather(world: "World") -> bool:
 
 
 def _slowly_planned(world: "World", asked: "Asked") -> bool:
-    """Check whether planning again took too long: the car says so when time is over."""
-    return asked.key.endswith("@rpc/whatif") and any(
-        fault.kind == "planner" and fault.at <= asked.sent <= fault.at + fault.lasts
-        for fault in world.plan.faults
+    """Check whether planning again took too long: the car says so when time is over.
+
+    An earlier plan of the same question may have left no time for this one.
+    """
+    return asked.key.endswith("@rpc/whatif") and (
+        asked.timeout < PLANNED[1] + SLACK
+        or any(
+            fault.kind == "planner" and fault.at <= asked.sent <= fault.at + fault.lasts
+            for fault in world.plan.faults
+        )
     )
 
 
@@ -107,9 +114,9 @@ def _once(person: Person, turns: list[Any]) -> Iterator[str]:
 def _names(world: "World", person: Person) -> Iterator[str]:
     """A question that is sent again keeps its name: by that the service knows it."""
     sent = {
-        msgspec.json.decode(asked.payload)["request"]
-        for asked in world.network.asked
-        if asked.key.endswith("@rpc/ask") and asked.asker.machine == person.machine
+        question["request"]
+        for asked, question in _questions(world)
+        if asked.asker.machine == person.machine
     }
     times = sum(person.asks.values())
     if len(sent) > times:
@@ -119,24 +126,51 @@ def _names(world: "World", person: Person) -> Iterator[str]:
 def _excuse(world: "World") -> None:
     """Note whose answers lack a plan or a report, as they say themselves."""
     failed = [
-        asked.outcomes[0][0]
+        asked
         for asked in world.network.asked
         if asked.key.endswith("@rpc/whatif") and asked.outcomes and _failed(asked.outcomes[0][1])
     ]
-    for session in _asked_within(world, [(when, when) for when in failed]):
+    whose = {asked["request"]: asked["session"] for _, asked in _questions(world)}
+    named = [msgspec.json.decode(asked.payload)["request"] for asked in failed]
+    # It may have been given up by the service before, or after by the passenger.
+    sessions = [whose[request] for request in named if request in whose]
+    times = [asked.outcomes[0][0] for asked in failed]
+    for session in (*sessions, *_asked_within(world, [(when, when) for when in times])):
         world.exempt.setdefault(session, "a decision could not be planned again")
+    for session in _repeated_over_a_jump(world):
+        world.exempt.setdefault(session, "the service's clock jumped while a request was repeated")
     if {fault.kind for fault in world.plan.faults} & {"apart", "stall", "crash", "stored", "power"}:
         for session in _asked_within(world, world.gaps):
             world.exempt.setdefault(session, "reports were lost")
 
 
+def _repeated_over_a_jump(world: "World") -> Iterator[str]:
+    """Yield the sessions of requests that were repeated too late, by the service's clock."""
+    jumps = [
+        fault.at
+        for fault in world.plan.faults
+        if fault.kind == "clock" and fault.machine == "hub" and abs(fault.amount) >= AGAIN
+    ]
+    first: dict[str, float] = {}
+    for asked, question in _questions(world):
+        began = first.setdefault(question["request"], asked.sent)
+        if any(began <= jump <= asked.sent for jump in jumps):
+            yield question["session"]
+
+
 def _asked_within(world: "World", gaps: list[tuple[float, float]]) -> Iterator[str]:
     """Yield the sessions that had a question open in one of these times [s]."""
+    for asked, question in _questions(world):
+        end = asked.outcomes[0][0] if asked.outcomes else world.scheduler.now
+        if any(asked.sent <= until and since <= end for since, until in gaps):
+            yield question["session"]
+
+
+def _questions(world: "World") -> Iterator[tuple["Asked", dict[str, Any]]]:
+    """Yield the questions that were sent, with what each says."""
     for asked in world.network.asked:
         if asked.key.endswith("@rpc/ask"):
-            end = asked.outcomes[0][0] if asked.outcomes else world.scheduler.now
-            if any(asked.sent <= until and since <= end for since, until in gaps):
-                yield msgspec.json.decode(asked.payload)["session"]
+            yield asked, msgspec.json.decode(asked.payload)
 
 
 def _failed(outcome: object) -> bool:
@@ -259,9 +293,13 @@ def _dashboard(world: "World") -> Iterator[str]:
         return
     turns = [(turn.text, turn.reply.text) for turn in controller.conversation.turns]
     stored = [(turn.text, turn.reply.text) for turn in world.stored("desk")]
-    if world.lost_to_another(world.people[2]):
+    owner = world.owner("desk")
+    lost = "desk" in world.exempt and owner != digest(world.people[2].token)
+    if lost and owner is not None:  # somebody else has begun it anew
         stored = []
-    if turns != stored[-len(turns) :] or (stored and not turns):
+    # What was begun anew without a token is open to all, who may erase it at any moment.
+    anybodys = lost and owner is None
+    if not anybodys and (turns != stored[-len(turns) :] or (stored and not turns)):
         yield f"the dashboard shows {turns}, stored are {stored}"
     for one in world.dashboards:
         if one.begun_anew > 1 and "desk" not in world.exempt:
@@ -274,6 +312,8 @@ def _dashboard(world: "World") -> Iterator[str]:
 def power_cut(world: "World", person: Person, before: list[Any], flushed: float) -> None:
     """Check that a power cut took nothing that had been flushed, nor what had long been shown."""
     after = world.stored(person.session)
+    if person.forgotten is None and not before:
+        return  # nothing was there, or an erasure that was not confirmed yet is undone
     if after != before[: len(after)]:
         world.problems.append(f"{person.session}: a power cut changed what was stored")
     lost = [(turn.text, turn.reply.text) for turn in before[len(after) :]]

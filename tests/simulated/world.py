@@ -21,7 +21,6 @@ from tests.simulated.reading import read_once
 from tests.simulated.scheduler import OutOfHand, Process, Scheduler
 from xavi_dialogue.dashboard.controller import Controller
 from xavi_dialogue.runtime.system import behind_the_door
-from xavi_dialogue.service.ownership import digest
 from xavi_dialogue.service.reorder_buffer import RideReports
 from xavi_dialogue.service.ride_tracker import RideTracker
 from xavi_dialogue.service.server import Service
@@ -243,11 +242,9 @@ class World:
         """Return the turns of a session on the disk of the service."""
         return self._read(lambda store: [*store.turns(session, 1000)]) or []
 
-    def lost_to_another(self, person: Person) -> bool:
-        """Check whether somebody else began a session anew of which nothing was stored."""
-        owner = self._read(lambda store: store.owner(person.session))
-        begun = bool(self.stored(person.session))
-        return begun and person.session in self.exempt and owner != digest(person.token)
+    def owner(self, session: str) -> str | None:
+        """Return the digest of the token that a stored session belongs to; None: open to all."""
+        return self._read(lambda store: store.owner(session))
 
     def _read(self, read: Callable[[Store], T]) -> T | None:
         volume = self.disk.volume(STORE)
@@ -354,9 +351,12 @@ class World:
         self.problems += invariants.at_rest(self)
 
     def _is_quiet(self) -> bool:
-        """Check whether nothing that came to the service waits."""
-        service = self.service
-        return service is None or (service._inbox.empty() and not service.handler.waiting())
+        """Check whether nothing that came to the service waits, be it for the disk."""
+        service, memory = self.service, self.memory
+        if service is None or memory is None:
+            return True
+        waiting = service.handler.waiting() or memory._unsynced
+        return service._inbox.empty() and not waiting
 
     def _outcome(self) -> Outcome:
         figures = {
