@@ -62,6 +62,8 @@ CASES: tuple[Answer, ...] = (
     Course("road", (LEFT,), holds=False),
     Course("road", (), holds=True, left=200.0),
     Course("road", (), left=200.0),
+    Course("route", (LEFT, LATER), left=200.0),
+    Course("route", (LEFT, LATER)),
     Course("turns", (LEFT, LATER)),
     Course("turns", (INSIDE,)),
     Course("turns", (), left=200.0),

@@ -173,3 +173,11 @@ def test_we_get_off_at_an_exit_or_a_turn(event: Event, route: Any, found: Any) -
 def test_we_stay_on_the_road_where_nothing_turns_off(route: Any, span: Any, stays: bool) -> None:
     found = room.stays_on(ahead(*route, span=span), NOW)
     assert found == (way(form="road") if stays else None)
+
+
+def test_the_route_is_stated_where_we_turn_more_than_once() -> None:
+    assert room.route_ahead(ahead(OVER, RIGHT, RING, LEFT)) == way(
+        (RIGHT, 2), (RING, 3), (LEFT, 4), form="route"
+    )
+    assert room.route_ahead(ahead(OVER, RIGHT)) is None
+    assert room.route_ahead(ahead()) is None

@@ -44,6 +44,7 @@ from xavi_dialogue.explain.answers.ride.comfort import stretch
 from xavi_dialogue.explain.answers.ride.condensing import condensed
 from xavi_dialogue.explain.answers.ride.delays import for_whom
 from xavi_dialogue.explain.answers.ride.mistakes import mistakes
+from xavi_dialogue.explain.answers.ride.onward import WAYS, turns_left
 from xavi_dialogue.explain.answers.ride.places import gone, time_to_go
 
 TOLD = 8  # maximum number of episodes in a summary
@@ -115,6 +116,8 @@ def summarise(question: Summarise, asked: Asked) -> Answer:
     """
     about = window(asked, question.time)
     if isinstance(question.about, Event):
+        if question.about.tense == "future" and question.about.action in WAYS:
+            return turns_left(asked, question.about)
         found = occasion(asked, question.about)
         if found is None:
             raise did_not_happen(asked, question.about)

@@ -124,6 +124,12 @@ def _way_taken(of: Measured, asked: Asked, at: float) -> Answer:
     return Measures((asked.world.measure(of.attribute, Ego(), at),))
 
 
+def route_ahead(asked: Asked) -> Course | None:
+    """Return the turns on our way in their order; None if there are fewer than two."""
+    turning = _turning(steps_ahead(asked), Event("turn"))
+    return course(asked, "route", turning) if len(turning) > 1 else None
+
+
 def turns_left(asked: Asked, event: Event) -> Course:
     """Return how many turns are left, and which; roundabouts count."""
     return course(asked, "turns", _turning(steps_ahead(asked), event))

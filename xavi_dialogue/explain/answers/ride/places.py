@@ -35,7 +35,7 @@ from xavi_dialogue.explain.answers.reference.naming import (
     somebodies,
 )
 from xavi_dialogue.explain.answers.reference.occasions import taken_place
-from xavi_dialogue.explain.answers.ride.onward import next_halt, next_turning
+from xavi_dialogue.explain.answers.ride.onward import next_halt, next_turning, route_ahead
 from xavi_dialogue.explain.causes.vehicles.announced import announced
 from xavi_dialogue.explain.history.nearing import still_to
 
@@ -149,6 +149,8 @@ def our_way(asked: Asked, at: float) -> Answer:
         return PlanAhead((), arrived=True)
     if at < asked.now - SHORT:
         return Bound(Ego(), measures=told(measured(asked, ("distance-to-go",), at)))
+    if asked.world.road(asked.now) is not None and (route := route_ahead(asked)) is not None:
+        return route
     ring = junction(asked, Junction("roundabout", 1), at)
     known = measured(asked, WAY, at)
     if ring.gap is not None:  # the exit that was taken is past

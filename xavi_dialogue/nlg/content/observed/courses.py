@@ -19,6 +19,8 @@ def plan_course(answer: Course, context: SpeechContext) -> Plan:
     del context
     if answer.form in COUNTED:
         return Plan((_turns(answer),))
+    if answer.form == "route":
+        return Plan((message("COURSE_ROUTE", items=_listed(answer), left=_left(answer)),))
     if answer.form == "halt":
         return Plan((_halt(answer),))
     if answer.form == "nearly":
@@ -27,7 +29,7 @@ def plan_course(answer: Course, context: SpeechContext) -> Plan:
     slots: dict[str, object] = {
         "yes": answer.holds is True,
         "no": answer.holds is False,
-        "left": None if answer.left is None else Quantity(answer.left, "m"),
+        "left": _left(answer),
         "road": answer.form == "road",
         "then": answer.then,
     }
@@ -55,9 +57,8 @@ def _step(step: WayStep) -> Message:
 
 def _halt(answer: Course) -> Message:
     """Return the next junction at which we may have to stop, and why."""
-    left = None if answer.left is None else Quantity(answer.left, "m")
     if not answer.steps:
-        return message("COURSE_HALT", none=True, left=left)
+        return message("COURSE_HALT", none=True, left=_left(answer))
     step = answer.steps[0]
     return message(
         "COURSE_HALT",
@@ -72,17 +73,7 @@ def _halt(answer: Course) -> Message:
 
 def _turns(answer: Course) -> Message:
     """Return how many turns are left, and which."""
-    items = tuple(
-        message(
-            "COURSE_TURN",
-            ring=step.kind == "roundabout" and step.exit is not None,
-            inside=step.inside,
-            exit=ordinal(step.exit) if step.exit is not None else None,
-            side="straight on" if step.turn == "exit-straight" else SIDES[step.turn],
-            far=Quantity(step.distance, "m") if rank == 0 and step.distance >= AT_HAND else None,
-        )
-        for rank, step in enumerate(answer.steps[:SHOWN])
-    )
+    items = _listed(answer)
     return message(
         "COURSE_TURNS",
         none=not items,
@@ -92,5 +83,24 @@ def _turns(answer: Course) -> Message:
         number=Number(len(answer.steps), f"more {COUNTED[answer.form]}"),
         kind=COUNTED[answer.form],
         items=items,
-        left=None if answer.left is None else Quantity(answer.left, "m"),
+        left=_left(answer),
+    )
+
+
+def _left(answer: Course) -> Quantity | None:
+    return None if answer.left is None else Quantity(answer.left, "m")
+
+
+def _listed(answer: Course) -> tuple[Message, ...]:
+    """Return the turns in their order, with the distance of the first."""
+    return tuple(
+        message(
+            "COURSE_TURN",
+            ring=step.kind == "roundabout" and step.exit is not None,
+            inside=step.inside,
+            exit=ordinal(step.exit) if step.exit is not None else None,
+            side="straight on" if step.turn == "exit-straight" else SIDES[step.turn],
+            far=Quantity(step.distance, "m") if rank == 0 and step.distance >= AT_HAND else None,
+        )
+        for rank, step in enumerate(answer.steps[:SHOWN])
     )
