@@ -60,7 +60,9 @@ _ROAD_USERS = (Ego, Vehicle, Described, Pronoun)
 _OF_LIGHTS = frozenset({"indicator", "brake-lights", "size", "colour", "kind", "name"})
 #: Actions without an object: "who is that car coming" does not ask to whom it comes.
 _ALONE = frozenset({"come", "go", "do", "move", "stand", "turn", "continue"})
-_SIDELESS = frozenset({"wait", "brake", "let-go"})
+_SIDELESS = frozenset(
+    ("wait", "brake", "let-go", "stop", "slow-down", "speed-up", "give-way", "collide", "arrive")
+)
 _APPROACHES = frozenset({"come", "approach", "appear", "happen", "go", "do", "head"})
 
 
@@ -220,8 +222,9 @@ def _event(value: Event) -> float:
         cost += ODD
     if value.action == "do" and isinstance(value.object, Unknown):
         cost += DOUBTFUL
-    if value.action in _SIDELESS and value.side is not None:
-        cost += DOUBTFUL  # "they have to wait right?"
+    before_us = value.action == "cross" and (value.object == Ego() or value.where is not None)
+    if (value.action in _SIDELESS or before_us) and value.side is not None:
+        cost += ODD  # "they have to wait right?"
     if value.action == "do" and isinstance(value.object, Passenger):
         cost += ODD
     if isinstance(value.actor, Unknown):

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, WhatIf, Why
+from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, HowKnow, WhatIf, Why
 from xavi_dialogue.domain.terms import Ego, Happens, Not, Proposition, Unsaid
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -96,6 +96,8 @@ class Suppositions:
             return [((Ask(WhatIf(supposed)),), 0.1)]
         if isinstance(question, Why) and not is_contrary(question):
             return [((Claim(supposed), Ask(question)), 0.0)]  # "if it is green, why do we wait"
+        if isinstance(question, HowKnow) and question.of is None:
+            return [((Ask(HowKnow(supposed)),), 0.0)]  # "if somebody came, how would you know?"
         return [((Ask(WhatIf(supposed, question)),), 0.0)]
 
     def _then(self, node: Node) -> Any:

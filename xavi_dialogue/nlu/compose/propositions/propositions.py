@@ -170,7 +170,7 @@ class Propositions:
         """Read "sit here looking at his back doors" as what is done meanwhile."""
         if event.action != "stand" or clause.gerund is None:
             return event
-        clause.gerund.subject = clause.gerund.subject or clause.subject
+        clause.gerund.subject = clause.subject or clause.gerund.subject
         inner = self.as_event(clause.gerund)
         if not isinstance(inner, Event) or inner.action not in _MEANWHILE:
             return event

@@ -39,8 +39,6 @@ _SIDED: dict[tuple[str, str], str] = {
 }
 _PLACED = {"in": "on", "on": "on", "at": "near", "into": "on", "between": "between", "with": "with",
            "like": "same-as"}  # fmt: skip
-
-
 _LIGHTS = frozenset({"indicator", "brake-lights"})
 _WALKING = frozenset({"walk", "step", "stroll"})
 
@@ -209,7 +207,8 @@ def _thither(actor: Thing, clause: Clause) -> bool:
 
 def _manner(action: str, clause: Clause) -> list[Manner]:
     """Collect how something is done."""
-    manner = list(clause.manner)
+    slow: list[Manner] = ["slowly"] if action == "move" and clause.focus & _HARDLY else []
+    manner = [*clause.manner, *slow]
     manner += [_MANNERS[key] for key, _ in clause.adjectives if key in _MANNERS]
     if clause.than is None and not action.startswith(("speed", "slow")):  # "had come faster"
         manner += [_PACES[key] for key, _ in clause.comparisons if key in _PACES]
@@ -248,7 +247,7 @@ def _exit_meant(place: Related) -> tuple[Thing | None, Related | None]:
     return None, place
 
 
-_ALMOST = frozenset({"nearly", "almost"})
+_ALMOST, _HARDLY = frozenset({"nearly", "almost"}), frozenset({"barely", "hardly", "scarcely"})
 _PACES: dict[str, Manner] = {
     "fast": "fast", "slow": "slowly", "soon": "early", "early": "early", "late": "late",
 }  # fmt: skip

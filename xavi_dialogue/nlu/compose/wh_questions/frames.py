@@ -5,7 +5,7 @@ from typing import Any, cast
 
 from msgspec import structs
 
-from xavi_dialogue.domain.meaning import HowDecide, HowSure, Question, WhatIf, Whether, Why
+from xavi_dialogue.domain.meaning import HowDecide, HowKnow, HowSure, Question, WhatIf, Whether, Why
 from xavi_dialogue.domain.rewriting import first, rewrite
 from xavi_dialogue.domain.terms import (
     Both,
@@ -75,6 +75,8 @@ class Frames:
         supposed = None if _if_needed(clause.condition) else self.supposition(clause)
         if supposed is None:
             return of_option(question, clause, self._deed(clause))
+        if isinstance(question, HowKnow) and question.of is None:
+            return HowKnow(supposed)  # "how would you know if somebody came?"
         return WhatIf(supposed, None if _of_difference(question) else question)
 
     def _deed(self, clause: Clause) -> Proposition | None:
