@@ -37,6 +37,7 @@ from xavi_dialogue.domain.terms import (
     Is,
     Measured,
     Not,
+    Now,
     Proposition,
     Related,
     Unsaid,
@@ -63,6 +64,7 @@ from xavi_dialogue.explain.answers.ride.delays import held_up, let_past
 from xavi_dialogue.explain.answers.suppositions import deciding, possible, risks
 from xavi_dialogue.explain.answers.suppositions.listing import how_decide, listed
 from xavi_dialogue.explain.answers.suppositions.undone import is_undone
+from xavi_dialogue.explain.facts.looks import STILL
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
@@ -191,8 +193,16 @@ def _what_for(question: Which, scene: Asked) -> Answer:
         return Identified(several, question.such)
     event = replace(event, object=None)
     if event.action in ("stop", "stand", "wait") and event.tense == "present":
-        return reasons.why(Why(Not(Happens(Event("go", tense="present")))), scene)
+        return reasons.why(Why(_held(scene)), scene)
     return reasons.why(Why(Happens(event)), scene)
+
+
+def _held(scene: Asked) -> Proposition:
+    """Say that we stand, or creep, now."""
+    speed = scene.world.measure("speed", Ego(), scene.now).value
+    if speed is not None and speed > STILL:
+        return Is("slow", Ego(), time=Now(), tense="present")
+    return Not(Happens(Event("go", tense="present")))
 
 
 def _why_safe(question: HowKnow, scene: Asked) -> Answer:

@@ -17,8 +17,8 @@ from xavi_dialogue.domain.answers import (
     Refusal,
 )
 from xavi_dialogue.domain.discourse import GroundedAct, Span
-from xavi_dialogue.domain.meaning import Ask, Beyond
-from xavi_dialogue.domain.terms import At, Between
+from xavi_dialogue.domain.meaning import Ask, Beyond, HowKnow, Question, Whether
+from xavi_dialogue.domain.terms import At, Between, Exists, Nobody, Related, Vehicles
 from xavi_dialogue.explain.answers import causal, factual
 from xavi_dialogue.explain.answers.lights import lights
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -79,7 +79,7 @@ def _answer(scene: Asked) -> Answer:
     if unseen is not None:
         return unseen(act, scene)
     if isinstance(act, Ask):
-        question = act.question
+        question = _seen(act.question)
         explainer = causal.explainer(question, scene) or factual.QUESTIONS.get(type(question))
         if explainer is None:
             raise Unanswered(NotUnderstood())
@@ -90,6 +90,16 @@ def _answer(scene: Asked) -> Answer:
     if found is None:
         raise Unanswered(NotUnderstood())
     return found(act, scene)
+
+
+def _seen(question: Question) -> Question:
+    """Ask whether several are there instead of how we know it: we know those whom we see."""
+    match question:
+        case HowKnow(Exists(Vehicles() | Nobody()) as that):
+            return Whether(that)
+        case HowKnow(Related("ahead-of" | "behind" | "beside" | "near") as that):
+            return Whether(that)
+    return question
 
 
 def _doubted(result: Refusal | NeedRollout, ride: Ride) -> Refusal | NeedRollout:

@@ -83,3 +83,16 @@ def test_whether_somebody_comes_out_before_us_is_what_is_expected(
     assert comes_before(asked, Event("pull-out", Ego(), tense="future")) is None
     assert comes_before(asked, Event("brake", Vehicle(1), tense="future")) is None
     assert comes_before(asked, Event("cross", Vehicle(1), Vehicle(2), tense="future")) is None
+
+
+@pytest.mark.parametrize(("left", "theirs", "holds"), [(3.2, 5.0, True), (3.2, 20.0, False)])
+def test_we_overtake_who_is_slower_in_another_lane(left: float, theirs: float, holds: bool) -> None:
+    asked = Given(
+        looks={1: look(1, left=left, speed=theirs)},
+        measures={("speed", Ego()): 10.0, ("speed", Vehicle(1)): theirs},
+    ).asked()
+    found = nearing.nears(asked, Event("overtake", Ego(), Vehicle(1), tense="future"))
+    assert found is not None
+    assert found.holds is holds
+    ahead = Given(looks={1: look(1, left=0.0)}).asked()
+    assert nearing.nears(ahead, Event("overtake", Ego(), Vehicle(1), tense="future")) is None

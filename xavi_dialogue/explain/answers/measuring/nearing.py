@@ -29,7 +29,10 @@ CLOSER: Final = 0.2  # [m] minimum by which a vehicle has come closer in that ti
 def nears(asked: Asked, event: Event) -> Finding | None:
     """Check whether we are going to reach a vehicle in front, by both speeds now."""
     look = look_of(asked, event.object, asked.now) if event.object is not None else None
-    if event.action not in ("approach", "pass") or look is None or not look.in_view:
+    if look is None or not look.in_view:
+        return None
+    beside = event.action == "overtake" and abs(look.left) >= BESIDE  # we need not change lanes
+    if event.action not in ("approach", "pass") and not beside:
         return None
     if look.oncoming or look.ahead <= 0.0:
         return None

@@ -133,7 +133,8 @@ def priority_at(
         rule = _changing(asked, vehicle, about) or rule
     ahead = about.end >= asked.now - SHORT and meets_ahead(asked, vehicle)
     if ahead and rule in ("priority", "give-way") and passes_by(asked, vehicle):
-        rule = "none"
+        rule = rule_for(asked.world.road(time), None, gave_way=False) if general else "none"
+        vehicle = None if general else vehicle
     rule = "give-way" if walks_first(asked, vehicle, about, waited) else rule
     if rule is None and not blame:
         raise Unanswered(NotRecorded("not-recorded", about="right-of-way", since=time))

@@ -62,6 +62,11 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
             Exists(Nobody(Described(bearing="ahead", of=Vehicle() as hider))) as such
         ) if such.tense == "present" and _beyond(scene, hider):
             return lambda _, here: SightTold("beyond", (Hider(hider.number, "ahead", None),))
+        case HowKnow(
+            Exists(Nobody(Described(bearing="ahead", of=Vehicle() as hider)))
+            | Related("ahead-of", Nobody(), Vehicle() as hider)
+        ) if _beyond(scene, hider):
+            return lambda _, here: SightTold("beyond", (Hider(hider.number, "ahead", None),))
         case Listing("hidden"):
             return _told("what")
         case Whether(Exists(thing)) if _is_blind(thing):

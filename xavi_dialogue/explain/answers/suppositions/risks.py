@@ -9,7 +9,7 @@ from xavi_dialogue.causal.model import plan_of
 from xavi_dialogue.domain.answers import Answer, Identified, Options, SupposedOfUs
 from xavi_dialogue.domain.facts import OptionValue
 from xavi_dialogue.domain.meaning import HowSure, WhatIf, Which
-from xavi_dialogue.domain.terms import At, Ego, Event, Happens
+from xavi_dialogue.domain.terms import At, Ego, Event, Happens, Not, Vehicle, Vehicles
 from xavi_dialogue.explain.answers.measuring.closeness import closeness
 from xavi_dialogue.explain.answers.reasons import knowing
 from xavi_dialogue.explain.answers.reasons.against import EARLIER
@@ -30,9 +30,19 @@ def what_if(question: WhatIf, asked: Asked) -> Answer:
     Raises:
         Unanswered: it cannot be supposed; or it is what was; or rollouts are needed.
     """
+    question = _standing(question)
     if question.then == HowSure():
         return _likelihood(question, asked)
     return _met_by(question, asked) or supposing.what_if(question, asked)
+
+
+def _standing(question: WhatIf) -> WhatIf:
+    """Take "if it had not moved" for "if it had stood still"."""
+    match question.supposed:
+        case Not(Happens(Event("move" | "go", actor=Vehicle() | Vehicles()) as event)):
+            event = replace(event, action="stand")
+            return replace(question, supposed=Happens(event))
+    return question
 
 
 def _likelihood(question: WhatIf, asked: Asked) -> Answer:

@@ -33,6 +33,7 @@ from xavi_dialogue.explain.causes.driving.suppositions import (
 from xavi_dialogue.explain.causes.plans.premise import happened, manoeuvre, premise
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, DRIVING, EXITS, names_of, same
 from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names, probability
+from xavi_dialogue.explain.facts.looks import STILL
 from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import ROUNDING, planned, prediction
 
@@ -86,6 +87,8 @@ def was_done(scene: Asked, then: Event) -> bool:
     """Check whether an event came about, as a choice or in how we drove."""
     if then.action == "keep-lane" and _left_lane(scene) is not None:
         return False
+    if then.action in GOING - DRIVING and then.side is None and _moved(scene):
+        return True
     if choices.is_choice(then):
         return happened(scene.ride, subject(scene, then).names, scene.span) is not None
     kinds = (*motions.KINDS.get(then.action, (motions.SLOWING,))[0], *motions.STILL)
@@ -93,6 +96,13 @@ def was_done(scene: Asked, then: Event) -> bool:
     if scene.past is not None and scene.past.said:
         return scene.pick(found, lambda e: (e.begin, e.end)) is not None
     return bool(found) or ("stop" in kinds and halted(scene))
+
+
+def _moved(scene: Asked) -> bool:
+    """Check whether we drove at the end of the part of the ride that is spoken of."""
+    at = scene.now if scene.past is None else min(scene.past.end, scene.now)
+    speed = scene.world.measure("speed", Ego(), at).value
+    return speed is not None and speed > STILL
 
 
 def is_new(found: Supposed, then: Event) -> bool:

@@ -58,6 +58,7 @@ from xavi_dialogue.explain.answers.suppositions.supposed_when import (
     was_done,
     without_at,
 )
+from xavi_dialogue.explain.answers.suppositions.undone import GOING
 from xavi_dialogue.explain.causes.driving.suppositions import (
     Supposed,
     is_faster,
@@ -281,6 +282,10 @@ def _still(found: Supposed, then: Event | None, driven: Episode | None) -> bool 
     """Check whether the event of the question would have come about."""
     if then is None:
         return None
+    if then.action in GOING - DRIVING and then.side is None:
+        standing = share_of(found.again, found.there, "stop")
+        if standing is not None and standing >= LIKELY:
+            return False
     names = names_of(then)
     if driven is not None or set(names) & DRIVING:
         name: ActionName = _mark(then.action, driven)
