@@ -13,6 +13,7 @@ from tests.explain.answers.stated import (
     scene,
     they,
 )
+from xavi_dialogue.domain.answers import Closeness
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.terms import (
@@ -251,3 +252,13 @@ def test_it_happened_where_there_is_such_an_episode() -> None:
     asked = scene(episodes=(did("stop", 5.0, 6.0),))
     assert room.happened(asked, Event("stop"))
     assert not room.happened(asked, Event("brake"))
+
+
+def test_room_left_to_somebody_whom_we_did_not_follow_is_how_close_we_came() -> None:
+    left = weighed(Event("keep-distance", US, IT, tense="past"))
+    assert isinstance(left.answer, Closeness)
+    assert (left.answer.vehicle, left.answer.asked, left.answer.past) == (1, "room", True)
+    followed = (did("keep-distance", 3.0, 9.0, object=IT),)
+    assert not isinstance(
+        weighed(Event("keep-distance", US, IT, tense="past"), episodes=followed).answer, Closeness
+    )

@@ -69,7 +69,7 @@ def happens(of: Happens, asked: Asked) -> Finding:
     here = event.action == "come" and event.tense == "present"
     if here and (coming := comes(asked, event)) is not None:
         return coming
-    for told_by in (_moves, closes, trails, keeps):
+    for told_by in (_moves, closes, trails, keeps, _left_room):
         if (moves := told_by(asked, event)) is not None:
             return moves
     if is_ahead(asked, event.time, event.tense) or _all_the_way(event) or _intended(asked, event):
@@ -227,6 +227,18 @@ def _to_come(asked: Asked, event: Event) -> Finding:
     if belief is not None and not going:
         belief = with_fields(belief, expectations=besides(belief, event))
     return expected(share, *going, believed=() if belief is None else (belief,))
+
+
+def _left_room(asked: Asked, event: Event) -> Finding | None:
+    """Return how close we came to somebody whom we did not follow; None for other questions."""
+    vehicle = naming.number(event.object)
+    ours = event.action == "keep-distance" and naming.is_us(event.actor)
+    if not ours or vehicle is None or event.tense not in ("past", "perfect"):
+        return None
+    if occasion(asked, event) is not None:
+        return None
+    about = window(asked, event.time, event.tense)
+    return Finding(None, answer=closeness(asked, vehicle, about, "room"))
 
 
 def _collides(asked: Asked, event: Event) -> Finding:
