@@ -9,7 +9,7 @@ from pathlib import Path
 import msgspec
 
 from planner.record.events import Event
-from planner.record.trace import PlanTrace, WhatIf
+from planner.record.trace import READABLE, PlanTrace, WhatIf, fault_of
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.process.exit_status import UsageFault
 
@@ -100,6 +100,8 @@ def load(data: bytes) -> RecordedRide:
         raise RideFileError("not a recorded ride: its first line names no scenario")
     ride = RecordedRide(first.scenario, first.seed, first.halt)
     for line in rest:
+        if line.trace is not None:
+            _check(line.trace)
         if line.whatif is not None and line.trace is not None:
             ride.whatifs[line.whatif] = line.trace
         elif line.whatif is not None and line.failure is not None:
@@ -111,3 +113,11 @@ def load(data: bytes) -> RecordedRide:
         else:
             ride.ended = line.ended
     return ride
+
+
+def _check(trace: PlanTrace) -> None:
+    fault = fault_of(trace)
+    if trace.schema not in READABLE:
+        fault = f"trace schema is {trace.schema!r}"
+    if fault is not None:
+        raise RideFileError(f"not a recorded ride: decision {trace.decision}: {fault}")
