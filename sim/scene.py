@@ -6,8 +6,16 @@ SI units; angles in radians anticlockwise from east; simulation time in seconds.
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import Annotated
+
+from msgspec import Meta
 
 Point = tuple[float, float]  # [m] (x east, y north)
+
+# What is read from files and messages is refused beyond these bounds.
+Coordinate = Annotated[float, Meta(ge=-1e8, le=1e8)]  # [m] no map projection exceeds it
+Speed = Annotated[float, Meta(ge=-1e3, le=1e3)]  # [m/s]
+Size = Annotated[float, Meta(ge=0.0, le=1e3)]  # [m] of a road user
 
 EGO = 0  # the name of our own car, always
 
@@ -16,12 +24,12 @@ EGO = 0  # the name of our own car, always
 class VehicleState:
     """One vehicle at one instant, in the map frame."""
 
-    position: Point  # [m] centre of the front bumper
+    position: tuple[Coordinate, Coordinate]  # [m] centre of the front bumper
     heading: float  # [rad] anticlockwise from east, in (-pi, pi]
-    speed: float  # [m/s] along heading, never negative
+    speed: Speed  # [m/s] along heading, never negative
     acceleration: float  # [m/s2] along heading
-    length: float  # [m] from front to rear bumper
-    width: float  # [m]
+    length: Size  # [m] from front to rear bumper
+    width: Size  # [m]
     kind: str = "car"  # by its look: car, van, truck, bus, motorcycle, bicycle, tram, vehicle
     colour: str | None = None  # a word; None if unknown
     signals: tuple[str, ...] = ()  # lights shown: left, right, brake
@@ -31,11 +39,11 @@ class VehicleState:
 class PersonState:
     """One person outside of vehicles at one instant, in the map frame."""
 
-    position: Point  # [m] foremost point
+    position: tuple[Coordinate, Coordinate]  # [m] foremost point
     heading: float  # [rad] anticlockwise from east, in (-pi, pi]
-    speed: float  # [m/s] along heading, never negative
-    length: float  # [m] from front to back
-    width: float  # [m]
+    speed: Speed  # [m/s] along heading, never negative
+    length: Size  # [m] from front to back
+    width: Size  # [m]
     kind: str = "pedestrian"  # by its look: pedestrian, wheelchair, scooter
 
 

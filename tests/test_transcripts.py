@@ -10,7 +10,8 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from planner.record.trace import decode, encode
+from planner.record.trace import encode
+from planner.record.trace_reading import decode
 from tests import stories
 from xavi_dialogue.service.in_process import make_pipeline
 from xavi_dialogue.transcripts.coverage import measure

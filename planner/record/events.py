@@ -1,6 +1,6 @@
 """The events of a ride: what the car did, in addition to the traces of decisions."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
 import msgspec
 
@@ -53,7 +53,7 @@ class Event(msgspec.Struct, frozen=True, repr_omit_defaults=True):
     """One thing that happened to the ego."""
 
     kind: EventKind  # what happened
-    sim_time: float  # [s] when it happened
+    sim_time: Annotated[float, msgspec.Meta(ge=0.0, le=1e7)]  # [s] when it happened
     action: Action | None = None  # of the ego, which it began, ended or carried out
     decision: int | None = None  # running number of the trace in which the action was chosen
     vehicle: int | None = None  # the number of the other one

@@ -12,7 +12,6 @@ from typing import Literal
 
 import msgspec
 
-from planner.errors import TraceError
 from planner.record.hidden_record import HeldByHidden, Phantom, PhantomSample
 from planner.record.light_record import HeldByLight, LightPrediction, LightSample, LightSupposed
 from planner.record.places import LightChange, RoadFacts
@@ -270,6 +269,11 @@ class PlanTrace(msgspec.Struct, frozen=True, omit_defaults=True, dict=True):
     driving: Action | None = None  # being driven, can be abandoned; kept if as good
 
     @property
+    def shows_deeds(self) -> bool:
+        """Whether it can show what the ego carries out: an action under way, or its place."""
+        return self.under_way is not None or self.road is not None
+
+    @property
     def reckoned(self) -> Costs:
         """The costs that its rewards were computed with."""
         return self.costs or FORMER
@@ -286,62 +290,3 @@ def encode(trace: PlanTrace) -> bytes:
     Vehicles are in increasing order of their numbers, as in `Scene`.
     """
     return msgspec.json.encode(trace)
-
-
-def decode(data: bytes) -> PlanTrace:
-    """Read a trace from JSON.
-
-    Raises:
-        TraceError: too large, not JSON, not of this schema, or a field is wrong.
-    """
-    if len(data) > MAX_BYTES:
-        raise TraceError(f"trace of {len(data)} bytes; at most {MAX_BYTES} are accepted")
-    try:
-        trace = msgspec.json.decode(data, type=PlanTrace)
-    except (msgspec.ValidationError, msgspec.DecodeError) as error:
-        raise TraceError(f"not a plan trace: {error}") from error
-    if trace.schema not in READABLE:
-        known = " and ".join(repr(name) for name in READABLE)
-        raise TraceError(f"trace schema is {trace.schema!r}; this version reads {known}")
-    fault = fault_of(trace)
-    if fault is not None:
-        raise TraceError(f"not a plan trace: {fault}")
-    return trace
-
-
-def fault_of(trace: PlanTrace) -> str | None:
-    """Return the inconsistency in a trace, if any."""
-    for one in trace.rollouts:
-        parts = (value for value in one.components.values() if value is not None)
-        if not all(abs(value) <= LARGEST for value in (*parts, *one.terms.values(), one.reward)):
-            return f"rollout {one.index} has a figure that is none, or beyond {LARGEST:g}"
-    for vehicle, track in trace.history.items():
-        if not len(track.position) == len(track.heading) == len(track.speed) > 0:
-            return f"the history of vehicle {vehicle} has lists of different lengths, or is empty"
-    ways = {
-        known.vehicle: [len(g.trajectories) for g in known.goals] for known in trace.predictions
-    }
-    for vehicle, counts in ways.items():
-        if not counts or min(counts) == 0:
-            return f"vehicle {vehicle} has no goal, or one with no trajectory"
-    for light in trace.lights:
-        if light.fault is not None:
-            return light.fault
-    courses = {light.controller: len(light.courses) for light in trace.lights}
-    known = () if trace.road is None else trace.road.places.keys()
-    told = () if trace.road is None else {fact.vehicle for fact in trace.road.priority}
-    for vehicle in {*known, *told} - trace.scene.keys():
-        return f"vehicle {vehicle} is on the road and not in the scene"
-    hidden = len(trace.phantoms)
-    for rollout in trace.rollouts:
-        for s in rollout.samples:
-            counts = ways.get(s.vehicle, [])
-            if not (0 <= s.goal < len(counts) and 0 <= s.trajectory < counts[s.goal]):
-                return f"rollout {rollout.index} samples what is not predicted"
-        for drawn in rollout.lights:
-            if not 0 <= drawn.course < courses.get(drawn.controller, 0):
-                return f"rollout {rollout.index} samples what is not predicted of a light"
-        imagined = {drawn.phantom for drawn in rollout.phantoms}
-        if not imagined.union(x.phantom for x in rollout.held_by_hidden) <= {*range(hidden)}:
-            return f"rollout {rollout.index} names somebody who is not imagined"
-    return None

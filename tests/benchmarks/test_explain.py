@@ -11,7 +11,8 @@ from benchmarks.explain.dense_tables import Uneven, tables
 from benchmarks.explain.explain import ExplainReport, Growth, answer, growth, recorded, sizes
 from benchmarks.explain.synthetic_traces import FACT, FOIL, complete, made_up
 from benchmarks.figures import Watch
-from planner.record.trace import OUTCOMES, decode, encode
+from planner.record.trace import OUTCOMES, encode
+from planner.record.trace_reading import decode
 from tests.causal import oracle
 from tests.traces import s1_world, trace_of
 from xavi_dialogue.__main__ import app

@@ -7,7 +7,7 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from planner.record import trace
+from planner.record.trace_reading import decode
 from xavi_dialogue.bus.access_control import ROLES
 from xavi_dialogue.bus.catalogue import MESSAGES
 from xavi_dialogue.bus.messages import KIB, schema_name, unpack
@@ -73,7 +73,7 @@ def test_schemas_that_are_of_no_message_any_more_go(tmp_path: Path) -> None:
 def test_the_commented_example_in_the_docs_is_a_plan_trace(root: Path) -> None:
     page = (root / "docs" / "trace.md").read_text(encoding="utf-8")
     [example] = re.findall(r"^```jsonc\n(.*?)^```", page, flags=re.MULTILINE | re.DOTALL)
-    decoded = trace.decode(re.sub(r"//.*", "", example).encode())
+    decoded = decode(re.sub(r"//.*", "", example).encode())
     assert decoded.rollouts
     assert {p.vehicle for p in decoded.predictions} == set(decoded.scene) - {0}
     for rollout in decoded.rollouts:

@@ -25,6 +25,7 @@ from xavi_dialogue.vehicle.episode import clock
 TRANSCRIPTS = Path(__file__).parents[2] / "transcripts"
 S1 = TRANSCRIPTS / "rides" / "s1-0.ride.jsonl.gz"
 WHY = "Why did you change left?"
+ROADLESS = "To say that, I would have to plan again, and this record has no roads to plan on."
 WHAT_IF = "What if vehicle 1 had not been there?"
 
 
@@ -216,6 +217,7 @@ def test_without_its_roads_a_ride_answers_from_its_record_alone(tmp_path: Path) 
     assert alone.ask("What are you doing?").kind == "answer"
     found = alone.ask("What if vehicle 2 had not been there?")
     assert (found.kind, found.reason) == ("refusal", "planner-unavailable")
+    assert found.text == ROADLESS
     named = xavi.open(tmp_path / "mine.ride.jsonl.gz", scenario="s1")
     assert named.ask("What if vehicle 2 had not been there?").kind == "answer"
     with pytest.raises(xavi.XaviError, match=r"s2 has other roads .* name its own scenario"):
@@ -253,7 +255,7 @@ def test_of_a_recording_that_is_cut_off_the_rest_is_opened_with_a_warning(tmp_pa
     [
         ("gone", None, r"cannot read .*gone\.ride\.jsonl\.gz: No such file .*; give a file that"),
         ("text.ride.jsonl.gz", b"hello", r"text\.ride\.jsonl\.gz: not a recorded ride.* give a"),
-        ("other.gz", gzip.compress(b"{}\n", mtime=0), r"names no scenario; give a file that"),
+        ("other.gz", gzip.compress(b"{}\n", mtime=0), "names no scenario, seed, halt; give a file"),
         ("ride.mcap", b"hello", r"ride\.mcap is not an MCAP file"),
         ("gone.mcap", None, r"cannot read .*gone\.mcap"),
     ],
@@ -274,6 +276,14 @@ def test_wrong_arguments_are_told_with_what_is_right() -> None:
         s1().ask(WHY, at=-1)
     with pytest.raises(xavi.XaviError, match="at is nan"):
         s1().ask(WHY, at=float("nan"))
+    for at in ("8", True, [8]):
+        with pytest.raises(xavi.XaviError, match=r"at is .*; give a time \[s\] of the ride"):
+            s1().ask(WHY, at=at)  # type: ignore[arg-type]
+    for at in (-5.0, float("nan"), "8"):
+        with pytest.raises(xavi.XaviError, match=r"at is .*; give a time \[s\] of the ride"):
+            s1().map(at=at)  # type: ignore[arg-type]
+    with pytest.raises(xavi.XaviError, match="the question is None; give a text"):
+        s1().ask(None)  # type: ignore[arg-type]
     with pytest.raises(xavi.XaviError, match=r"no style 'rude'; use one of .*'paper'"):
         s1().conversation(style="rude")  # type: ignore[arg-type]
     with pytest.raises(xavi.XaviError, match="seed is -1; give one from 0"):
@@ -304,11 +314,39 @@ def test_plan_traces_of_any_planner_are_a_ride_of_decisions(tmp_path: Path) -> N
     file.write_bytes(b"\n".join(map(encode, kept)))
     ride = xavi.open(file)
     assert [one.time for one in ride.decisions] == [trace.sim_time for trace in kept]
-    assert ride.ask("Why are you changing left?", at=3.0).text.startswith("I plan to move to")
+    why = "Why are you changing left?"
+    assert ride.ask(why, at=3.0).text == s1().ask(why, at=3.0).text
     refused = ride.ask("What if vehicle 1 were not there?", at=3.0)
     assert refused.reason == "planner-unavailable"
     planned = xavi.open(file, scenario="s1").ask("What if vehicle 1 were not there?", at=3.0)
     assert planned.kind == "answer"
+
+
+def test_a_decision_goes_to_json_and_back(tmp_path: Path) -> None:
+    decision = s1().decisions[3]
+    text = decision.json()
+    assert "\n" not in text
+    again = xavi.Decision.from_json(text)
+    assert again == decision
+    assert xavi.Decision.from_json(text.encode()).trace_id == decision.trace_id
+    file = tmp_path / "traces.jsonl"
+    file.write_text("\n".join(one.json() for one in s1().decisions), encoding="utf-8")
+    assert xavi.open(file).decisions == s1().decisions
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("hello", "not a plan trace"),
+        ("{}", "not a plan trace: Object missing required field `schema`"),
+        ("\ud800", "not a plan trace"),
+        (b"\xff", "not a plan trace"),
+        (None, "give JSON as a text, not NoneType"),
+    ],
+)
+def test_what_is_no_decision_is_told(text: str, told: str) -> None:
+    with pytest.raises(xavi.XaviError, match=told):
+        xavi.Decision.from_json(text)
 
 
 def test_without_predictions_what_a_vehicle_does_is_given_no_chance(tmp_path: Path) -> None:

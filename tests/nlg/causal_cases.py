@@ -412,6 +412,8 @@ REFUSALS: tuple[Refusal, ...] = (
     Unavailable("timed-out"),
     Unavailable("busy"),
     Unavailable("planner-failed"),
+    Unavailable("planner-unavailable", roadless=True),
+    NotRecorded("no-deeds"),
 )  # fmt: skip
 
 CASES: tuple[Answer | Refusal, ...] = (

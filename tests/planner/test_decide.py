@@ -12,9 +12,9 @@ from planner.record.trace import (
     PlanTrace,
     Rollout,
     Settings,
-    decode,
     encode,
 )
+from planner.record.trace_reading import decode
 from planner.search.decide import decide
 from tests.planner.worlds import (
     Seen,

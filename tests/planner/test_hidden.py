@@ -24,7 +24,8 @@ from planner.hidden_areas.phantoms import (
 from planner.kernels.driving import READY
 from planner.manoeuvres.actions import Situation
 from planner.record.hidden_record import HeldByHidden, Phantom, PhantomSample
-from planner.record.trace import EgoGoal, PlanTrace, Settings, Track, decode, encode
+from planner.record.trace import EgoGoal, PlanTrace, Settings, Track, encode
+from planner.record.trace_reading import decode
 from planner.roads.trajectory import Roads
 from planner.search.comparison import likeliest
 from planner.search.decide import Frame, Moment, decide

@@ -7,7 +7,8 @@ import pytest
 
 from planner.counterfactuals.whatif import WhatIf, replan
 from planner.driving.driver import Driver
-from planner.record.trace import EgoGoal, PlanTrace, Settings, decode, encode
+from planner.record.trace import EgoGoal, PlanTrace, Settings, encode
+from planner.record.trace_reading import decode
 from sim.roads.netfile import read_network
 from sim.roads.network import Network
 from sim.sumo import Simulation

@@ -4,7 +4,8 @@ import pytest
 
 from planner.driving.driver import Driver
 from planner.driving.memory import HIDDEN, HISTORY, Memory
-from planner.record.trace import Settings, decode, encode
+from planner.record.trace import Settings, encode
+from planner.record.trace_reading import decode
 from sim.scene import EGO, Scene, VehicleState
 from tests.planner.worlds import LENGTH, WIDTH, before_end, goal, roads, still
 

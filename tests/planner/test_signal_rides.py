@@ -11,7 +11,8 @@ from planner.manoeuvres.actions import STANDING_TIME
 from planner.motion.tracks import lanes_at
 from planner.record.events import Event, LightPlace
 from planner.record.light_record import LightSupposed
-from planner.record.trace import EgoGoal, PlanTrace, Settings, decode, encode
+from planner.record.trace import EgoGoal, PlanTrace, Settings, encode
+from planner.record.trace_reading import decode
 from planner.roads.trajectory import Roads
 from sim.roads.netfile import read_network
 from sim.roads.network import Network

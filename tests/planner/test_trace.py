@@ -12,7 +12,8 @@ import pytest
 from planner.errors import TraceError
 from planner.record.fitting import IMPROBABLE, RECENT, fitted
 from planner.record.places import LightChange
-from planner.record.trace import MAX_BYTES, SCHEMA, PlanTrace, Rollout, Track, decode, encode
+from planner.record.trace import MAX_BYTES, SCHEMA, PlanTrace, Rollout, Track, encode
+from planner.record.trace_reading import decode
 from planner.search.decide import decide
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, still
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from planner.record import trace as plan_trace
+from planner.record import trace_reading
 from tests.simulated.loop import run
 from tests.simulated.plan import moments_of, ride_of
 from xavi_dialogue.bus.health import HealthReporter
@@ -149,7 +150,7 @@ class RecordedPlanners:
         world = self.world
         scheduler, process = world.scheduler, world.scheduler.process
         order = msgspec.json.decode(job.order, type=ReplanOrder)
-        trace = plan_trace.decode(bytes(order.trace))
+        trace = trace_reading.decode(bytes(order.trace))
         wanted = msgspec.convert(
             {**msgspec.to_builtins(order.what_if), "trace_id": trace.trace_id}, NeedRollout
         )

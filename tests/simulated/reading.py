@@ -11,7 +11,8 @@ from typing import Any
 
 import msgspec
 
-from planner.record.trace import PlanTrace, fault_of
+from planner.record.trace import PlanTrace
+from planner.record.trace_reading import fault_of
 from xavi_dialogue.bus import messages
 from xavi_dialogue.bus.messages import TraceReport
 

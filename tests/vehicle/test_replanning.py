@@ -13,7 +13,8 @@ import pytest
 
 from planner.counterfactuals.whatif import replan
 from planner.driving.driver import Driver, DriveStep
-from planner.record.trace import PlanTrace, WhatIf, decode, encode
+from planner.record.trace import PlanTrace, WhatIf, encode
+from planner.record.trace_reading import decode
 from planner.search.decide import decide
 from sim.scene import Scene
 from sim.setup.scenario import load

@@ -14,8 +14,10 @@ from typing import Annotated, ClassVar, Literal, TypeAlias, TypeVar
 import msgspec
 
 from planner.record.events import Event
+from planner.record.foreign_text import unprintable
 from planner.record.light_record import LightSupposed
-from planner.record.trace import MAX_BYTES, Action, PlanTrace, fault_of
+from planner.record.trace import MAX_BYTES, Action, PlanTrace
+from planner.record.trace_reading import fault_of
 from sim.scene import EGO, Light, PersonState, Scene, Unseen, VehicleState
 from xavi_dialogue.bus.errors import Malformed, TooLarge, WrongSchema
 from xavi_dialogue.bus.sanitize import clean, one_line
@@ -80,7 +82,7 @@ class SceneReport(Report, frozen=True, kw_only=True):
     events: Count  # reports on key `event` so far
     orders: Count = 0  # commands on standard input that the car has carried out
     scenario: Folder | None = None  # name or folder, and seed: to drive the ride again
-    seed: Whole | None = None
+    seed: Count | None = None
 
     def scene(self) -> Scene:
         """Return the scene."""
@@ -341,6 +343,8 @@ def unpack(data: bytes, kind: type[M]) -> M:
             schema = msgspec.json.decode(data, type=_Label).schema
             if schema != name:
                 raise WrongSchema(f"schema {one_line(schema)[:64]!r}; {name!r} is read here")
+        if issubclass(kind, Report) and (strange := unprintable(data)) is not None:
+            raise Malformed(f"no {name}: {strange}")
         return decode(data, kind)
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
         raise Malformed(f"no {name}: {one_line(str(error))}") from error

@@ -5,7 +5,7 @@ from functools import partial
 from typing import TypeAlias, TypeVar
 
 from planner.errors import TraceError
-from planner.record import trace as plan_trace
+from planner.record import trace_reading
 from planner.record.trace import PlanTrace
 from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.interface import Bus, Keys, NoAnswer, Outcome, Refused, TooLate, call
@@ -185,7 +185,7 @@ class Client:
             ServiceLost: there is no reply, or the decision is no longer in the record.
         """
         wanted = EvidenceRequest(request=new_request(), trace_id=trace_id)
-        return self._call("@rpc/evidence", wanted, plan_trace.decode)
+        return self._call("@rpc/evidence", wanted, trace_reading.decode)
 
     def forget(self) -> ForgetReply:
         """Erase the session; wait for the result.

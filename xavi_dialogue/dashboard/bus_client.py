@@ -4,7 +4,7 @@ import asyncio
 from dataclasses import dataclass
 
 from planner.errors import TraceError
-from planner.record import trace as plan_trace
+from planner.record import trace_reading
 from planner.record.trace import PlanTrace
 from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.interface import Bus, Keys, NoAnswer, Outcome
@@ -49,7 +49,7 @@ class BusClient:
         """
         wanted = EvidenceRequest(request=new_request(), trace_id=trace_id)
         try:
-            return plan_trace.decode(await self.request("@rpc/evidence", pack(wanted)))
+            return trace_reading.decode(await self.request("@rpc/evidence", pack(wanted)))
         except TraceError as error:
             raise Unanswered(str(error)) from error
 

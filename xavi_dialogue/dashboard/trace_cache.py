@@ -3,7 +3,8 @@
 import zlib
 from collections import OrderedDict
 
-from planner.record.trace import PlanTrace, decode, encode
+from planner.record.trace import PlanTrace, encode
+from planner.record.trace_reading import decode
 
 MAX_BYTES = 96 * 1024 * 1024  # of packed traces; the oldest are dropped first
 AT_HAND = 12  # traces that are also held unpacked

@@ -158,7 +158,8 @@ def _evidence(dialogue: Dialogue, question: Pending, need: NeedRollout) -> Pendi
     if endless:
         return replace(question, done=(*question.done, (failed("too-little-evidence"),)))
     if need in question.refused:  # it cannot be answered without the plan
-        return replace(question, done=(*question.done, (failed(question.why),)))
+        why = failed(question.why, roadless=question.roadless)
+        return replace(question, done=(*question.done, (why,)))
     return None if known is None else replace(question, extra=(*extra, known))
 
 
@@ -226,7 +227,8 @@ def _give_up(pipeline: Pipeline, dialogue: Dialogue, event: RolloutsFailed) -> S
     session, pending = _waiting(dialogue, event.request, event.session, Move.PLANNING_FAILED)
     assert pending.need is not None
     refused = (*pending.refused, pending.need)
-    return _think(pipeline, dialogue, session, replace(pending, refused=refused, why=event.reason))
+    why = replace(pending, refused=refused, why=event.reason, roadless=event.roadless)
+    return _think(pipeline, dialogue, session, why)
 
 
 def _turn_away(pipeline: Pipeline, dialogue: Dialogue, event: TurnedAway) -> Step:

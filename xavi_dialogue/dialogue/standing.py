@@ -40,6 +40,7 @@ _BY_GAP: dict[Gap, Reason] = {
     "out-of-sight": "outside-record",
     "not-sensed": "out-of-scope",
     "not-recorded": "outside-record",
+    "no-deeds": "outside-record",
     "no-way": "not-applicable",
     "not-applicable": "not-applicable",
     "others-thoughts": "out-of-scope",
@@ -71,11 +72,16 @@ def reason_of(result: Result) -> Reason | None:
     return _of_gaps(result)
 
 
-def failed(reason: Reason) -> Refusal:
-    """Return the refusal for a failure of the planner, by its reason."""
+def failed(reason: Reason, *, roadless: bool = False) -> Refusal:
+    """Return the refusal for a failure of the planner, by its reason.
+
+    Args:
+        reason: why there is no plan.
+        roadless: whether the reason is that the record holds no roads.
+    """
     match reason:
         case "planner-unavailable" | "timed-out" | "busy":
-            return Unavailable(reason)
+            return Unavailable(reason, roadless)
         case "too-little-evidence" | "effect-too-small" | "no-influence":
             return TooLittle(reason)
         case "outside-record":

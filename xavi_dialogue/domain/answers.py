@@ -263,6 +263,7 @@ class Unavailable(Value, frozen=True):
     """A failure of the planner that the answer needs."""
 
     reason: Literal["planner-unavailable", "timed-out", "busy", "planner-failed"]
+    roadless: bool = False  # the record holds no roads on which anything could be planned
 
 
 Refusal: TypeAlias = (

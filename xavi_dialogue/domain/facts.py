@@ -24,6 +24,7 @@ Gap: TypeAlias = Literal[
     "out-of-sight",  # behind a building: nobody can be seen there
     "not-sensed",  # the car has no such sense: weather, drivers' faces, horns
     "not-recorded",  # it exists but is not recorded
+    "no-deeds",  # the record shows plans, and not what was carried out
     "no-way",  # no road leads to the destination from where the car is going
     "not-applicable",  # it has no value: time to collision of vehicles that move apart
     "others-thoughts",  # what other drivers think or know

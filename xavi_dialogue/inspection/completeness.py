@@ -31,25 +31,34 @@ class _Rule:
     holds: Callable[[PlanTrace], bool]  # whether a trace has the part
 
 
-def gaps(traces: Sequence[PlanTrace]) -> tuple[Gap, ...]:
-    """Return what traces lack, most important parts first."""
+def gaps(traces: Sequence[PlanTrace], *, ride: bool = True) -> tuple[Gap, ...]:
+    """Return what traces lack, most important parts first.
+
+    Args:
+        traces: the traces.
+        ride: whether events are recorded beside them, as in a saved ride.
+    """
     found = []
     for rule in _RULES:
         count = sum(not rule.holds(trace) for trace in traces)
         if count:
             found.append(Gap(rule.part, rule.lacks, rule.answers, count))
+    if not ride:
+        found.append(Gap("events", *_EVENTS, len(traces)))
+        if not any(trace.shows_deeds for trace in traces):
+            found.append(Gap("under_way or road", *_DEEDS, len(traces)))
     return tuple(found)
 
 
-def report(traces: Sequence[PlanTrace]) -> str:
-    """Return what traces lack as text."""
+def report(traces: Sequence[PlanTrace], *, ride: bool = True) -> str:
+    """Return what traces lack as text; see `gaps`."""
     first, last = traces[0], traces[-1]
     span = f"at {first.sim_time:g} s"
     if len(traces) > 1:
         span = f"from {first.sim_time:g} to {last.sim_time:g} s"
     decisions = f"{len(traces)} decision{'s' * (len(traces) > 1)}"
     lines = [f"{decisions} of {first.vehicle!r}, {span}, {first.schema}"]
-    found = gaps(traces)
+    found = gaps(traces, ride=ride)
     for gap in found:
         count = "" if len(traces) == 1 else f" ({gap.decisions} of {decisions})"
         lines += [f"{gap.part}: {gap.lacks}{count}", f"    not answered: {gap.answers}"]
@@ -93,6 +102,15 @@ def _describes(trace: PlanTrace) -> bool:
     return all(trace.scene[vehicle].colour is not None for vehicle in _others(trace))
 
 
+_EVENTS: Final = (
+    "none, as traces alone have no place for them; a saved ride has",
+    "whom we gave way to, halts at lights, what kept us from driving faster, arrival and collision,"
+    " and when something was done to less than the time between decisions",
+)
+_DEEDS: Final = (
+    "neither an action under way nor our place on the road, and no events",
+    "which lane changes and turns were carried out, and why: only what was planned is known",
+)
 _RULES: Final = (
     _Rule(
         "rollouts", "no simulations",

@@ -1,16 +1,15 @@
 """Files that hold plan traces: one trace, lines with one each, or a recorded ride."""
 
-import gzip
-import io
 import sys
-import zlib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from planner.errors import TraceError
-from planner.record.trace import PlanTrace, decode
+from planner.record.trace import PlanTrace
+from planner.record.trace_reading import decode
 from xavi_dialogue.process.exit_status import UsageFault
-from xavi_dialogue.storage.ride_file import ENDING, RideFileError, load
+from xavi_dialogue.storage.ride_file import ENDING, RideFileError, parse, unpacked
 
 MAX_RIDE_BYTES = 64 * 1024 * 1024
 MAX_RIDE_LINES = 20_000
@@ -66,20 +65,38 @@ def read(data: bytes) -> Traces:
     if b'"scenario"' in text.partition(b"\n")[0][:4096] and text.count(b"\n") > 1:
         return _ride(text)
     lines = text.split(b"\n") if text.count(b"\n{") else [text]
-    try:
-        found = tuple(decode(line.strip()) for line in lines if line.strip())
-    except TraceError as error:
-        raise TraceFileError(str(error)) from error
+    found = {
+        number: _decoded(line.strip(), number if len(lines) > 1 else None)
+        for number, line in enumerate(lines, 1)
+        if line.strip()
+    }
     return Traces(_of_one_vehicle(found), ride=False)
 
 
-def _of_one_vehicle(traces: tuple[PlanTrace, ...]) -> tuple[PlanTrace, ...]:
-    names = sorted({trace.vehicle for trace in traces})
-    if not names:
+def _decoded(data: bytes, line: int | None) -> PlanTrace:
+    try:
+        return decode(data)
+    except TraceError as error:
+        where = "" if line is None else f"line {line}: "
+        raise TraceFileError(f"{where}{error}") from error
+
+
+def _of_one_vehicle(traces: Mapping[int, PlanTrace]) -> tuple[PlanTrace, ...]:
+    """Return the traces in order of time, given by their lines."""
+    if not traces:
         raise TraceFileError("the file is empty")
+    names = sorted({trace.vehicle for trace in traces.values()})
     if len(names) > 1:
         raise TraceFileError(f"holds traces of {' and '.join(names)}; give those of one vehicle")
-    return tuple(sorted(traces, key=lambda trace: (trace.sim_time, trace.decision)))
+    lines: dict[float, int] = {}
+    for line, trace in traces.items():
+        first = lines.setdefault(trace.sim_time, line)
+        if first != line:
+            raise TraceFileError(
+                f"lines {first} and {line} hold decisions of the same time, {trace.sim_time:g} s; "
+                "give one for each time"
+            )
+    return tuple(sorted(traces.values(), key=lambda trace: trace.sim_time))
 
 
 def choose(held: Traces, decision: int | None, at: float | None) -> PlanTrace | None:
@@ -106,7 +123,7 @@ def choose(held: Traces, decision: int | None, at: float | None) -> PlanTrace | 
 
 def _ride(text: bytes) -> Traces:
     try:
-        ride = load(gzip.compress(text, compresslevel=1, mtime=0))
+        ride = parse(text)
     except RideFileError as error:
         raise TraceFileError(str(error)) from error
     if not ride.traces:
@@ -118,10 +135,6 @@ def _unpacked(data: bytes) -> bytes:
     if not data.startswith(GZIP):
         return data
     try:
-        with gzip.GzipFile(fileobj=io.BytesIO(data)) as packed:
-            text = packed.read(MAX_RIDE_BYTES + 1)
-    except (OSError, EOFError, zlib.error) as error:
-        raise TraceFileError(f"cannot be unpacked: {error}") from error
-    if len(text) > MAX_RIDE_BYTES:
-        raise TraceFileError(f"unpacks to more than {MAX_RIDE_BYTES} bytes")
-    return text
+        return unpacked(data, MAX_RIDE_BYTES)
+    except RideFileError as error:
+        raise TraceFileError(str(error)) from error

@@ -3,11 +3,14 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Self
 
-from planner.record.trace import Action, PlanTrace
+from planner.record.trace import Action, PlanTrace, encode
+from planner.record.trace_reading import decode
 from sim.roads.network import Network
 from sim.scene import Scene
 from xavi_dialogue.inspection.comparison import Option, comparison
+from xavi_dialogue.library.errors import LibraryError, translated
 from xavi_dialogue.library.html import element, table
 from xavi_dialogue.library.pictures import Picture, View, drawn
 from xavi_dialogue.library.trajectories import Trajectory, planned
@@ -44,6 +47,26 @@ class Decision:
     def trace_id(self) -> str:
         """The id that answers name."""
         return self.trace.trace_id
+
+    def json(self) -> str:
+        """Return its whole record as JSON on one line: a plan trace, see docs/trace.md."""
+        return encode(self.trace).decode()
+
+    @classmethod
+    def from_json(cls, text: str | bytes) -> Self:
+        """Read a decision from the JSON of its plan trace.
+
+        Raises:
+            XaviError: it is none; the message names what is wrong.
+        """
+        if not isinstance(text, str | bytes):
+            raise LibraryError(f"give JSON as a text, not {type(text).__name__}")
+        try:
+            data = text.encode() if isinstance(text, str) else text
+        except UnicodeEncodeError as error:
+            raise LibraryError(f"not a plan trace: {error}") from error
+        with translated():
+            return cls(decode(data))
 
     @property
     def plan(self) -> tuple[Action, ...]:

@@ -5,6 +5,7 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias, TypeVar, get_args
 
@@ -107,8 +108,13 @@ class Ride:
 
         Args:
             at: [s]. Default: as in `ask`.
+
+        Raises:
+            XaviError: there is no such time.
         """
-        time = self.default_time if at is None else at
+        time = self.default_time if at is None else self.moment(at)
+        if not self.decisions:
+            raise LibraryError("the ride holds no decision, so that there is no map")
         scene = _latest(self.scenes, [one.time for one in self.scenes], time)
         decision = _latest(self.decisions, [one.time for one in self.decisions], time)
         return drawn(replace(decision.view, scene=scene))
@@ -173,6 +179,17 @@ class Ride:
         times = (time for time, _ in self.known if ends and time >= ends[0].sim_time - EPSILON)
         return next(times, self.end)
 
+    def moment(self, at: float) -> float:
+        """Return a time [s] that was asked for; of one after the end, the end.
+
+        Raises:
+            XaviError: it is none of the ride.
+        """
+        fits = isinstance(at, Real) and not isinstance(at, bool)
+        if not fits or math.isnan(at) or at < 0.0:
+            raise LibraryError(f"at is {at!r}; give a time [s] of the ride, 0 to {self.end:g}")
+        return min(float(at), self.end)
+
     def decision(self, trace_id: str | None) -> Decision | None:
         """Return the decision with an id; None if there is none."""
         return next((one for one in self.decisions if one.trace_id == trace_id), None)
@@ -193,6 +210,13 @@ class Ride:
 def _latest(of: Sequence[T], times: Sequence[float], time: float) -> T:
     """Return what was the latest at a time [s], else the first."""
     return of[max(bisect_right(times, time + EPSILON) - 1, 0)]
+
+
+def _text(question: str) -> str:
+    """Return a question on one line, cut where it is too long."""
+    if not isinstance(question, str):
+        raise LibraryError(f"the question is {question!r}; give a text")
+    return one_line(question)[:MAX_TEXT]
 
 
 class Conversation:
@@ -230,7 +254,7 @@ class Conversation:
         Raises:
             XaviError: there is no such time.
         """
-        text = one_line(question)[:MAX_TEXT]
+        text = _text(question)
         reply = self.reply(text, at)
         record = self.ride.record
         lines = compared(reply, (*record.traces, *record.whatifs.values()))
@@ -243,14 +267,12 @@ class Conversation:
         time = self._time(at)
         with translated():
             self._know(time)
-            return self._inner.ask(one_line(question)[:MAX_TEXT], time, self.style)
+            return self._inner.ask(_text(question), time, self.style)
 
     def _time(self, at: float | None) -> float:
         if at is None:
             return self.answers[-1].at if self.answers else self.ride.default_time
-        if math.isnan(at) or at < 0.0:
-            raise LibraryError(f"at is {at}; give a time [s] of the ride, 0 to {self.ride.end:g}")
-        return min(float(at), self.ride.end)
+        return self.ride.moment(at)
 
     def _know(self, time: float) -> None:
         """Record the ride up to a time [s]; what was known before stays known."""

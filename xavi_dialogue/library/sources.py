@@ -1,6 +1,5 @@
 """The sources of rides: driven here, saved, recorded, or plan traces of any planner."""
 
-import gzip
 import hashlib
 import tempfile
 import warnings
@@ -16,6 +15,7 @@ from sim.roads.network import Network
 from sim.scene import Scene
 from sim.setup.scenario import load as load_scenario
 from xavi_dialogue.bus.messages import EventReport, SceneReport, TraceReport, unpack
+from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.dialogue.state.events import (
     EventRecorded,
     Input,
@@ -26,6 +26,7 @@ from xavi_dialogue.dialogue.state.events import (
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.inspection import trace_files
 from xavi_dialogue.inspection.trace_files import TraceFileError
+from xavi_dialogue.library.deeds import events_of
 from xavi_dialogue.library.errors import LibraryError, translated
 from xavi_dialogue.library.ride import Known, Ride
 from xavi_dialogue.recording import player
@@ -33,11 +34,10 @@ from xavi_dialogue.service.in_process import NoPlan, Replan, inputs_of_moment, p
 from xavi_dialogue.service.reorder_buffer import PATIENCE, RideReports
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.recording_format import RecordedMessages
-from xavi_dialogue.storage.ride_file import RecordedRide, RideFileError
+from xavi_dialogue.storage.ride_file import MAX_BYTES, MAX_SEED, RecordedRide, RideFileError
 from xavi_dialogue.transcripts.replay import inputs_of
 from xavi_dialogue.vehicle.episode import clock, network_of, start
 
-MAX_SEED = 2**31 - 1
 RECORDING = ".mcap"
 COMPRESSED = ".gz"  # most likely a saved ride
 OPENED = "give a file that `xavi drive --save`, `Ride.save` or `xavi record` wrote, or plan traces"
@@ -124,9 +124,12 @@ def _saved(file: Path, scenario: str | Path | None) -> Ride:
 
 def _read(file: Path) -> RecordedRide:
     try:
-        data = file.read_bytes()
+        with file.open("rb") as source:
+            data = source.read(MAX_BYTES + 1)
     except OSError as error:
         raise LibraryError(f"cannot read {file}: {error.strerror}; {OPENED}") from error
+    if len(data) > MAX_BYTES:
+        raise LibraryError(f"{file} is larger than {MAX_BYTES} bytes, the most that is read")
     try:
         return ride_file.load(data)
     except RideFileError as error:
@@ -134,7 +137,7 @@ def _read(file: Path) -> RecordedRide:
     try:
         held = trace_files.read(data)
         if held.ride:  # not compressed
-            return ride_file.load(gzip.compress(data))
+            return ride_file.parse(data)
         return _of_traces(file, held.traces)
     except TraceFileError as error:
         fault = no_ride if file.suffix == COMPRESSED else error
@@ -142,9 +145,11 @@ def _read(file: Path) -> RecordedRide:
 
 
 def _of_traces(file: Path, traces: Sequence[PlanTrace]) -> RecordedRide:
-    """Return a ride of which decisions alone are known."""
-    last = traces[-1]
-    return RecordedRide(file.name, last.seed, last.sim_time, traces=list(traces))
+    """Return a ride of which decisions alone are known, and what these show of its events."""
+    last, shown = traces[-1], events_of(traces)
+    return RecordedRide(
+        one_line(file.name), last.seed, last.sim_time, traces=list(traces), events=list(shown)
+    )
 
 
 def _time(known: Input) -> float:
@@ -183,14 +188,15 @@ def _plans_on(network: Network | None) -> Replan:
 
 def _plans_nothing(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
     """Plan nothing, for want of roads."""
-    raise NoPlan("planner-unavailable")
+    raise NoPlan("planner-unavailable", roadless=True)
 
 
 def _recorded(file: Path, recorded: RecordedMessages) -> Ride:
     first = recorded.scene(0)
     known = list(_inputs(recorded))
     network = _roads_in(recorded)
-    return _ride(first.scenario or str(file), first.seed or 0, known, network, _digest(file))
+    name = first.scenario or one_line(str(file))
+    return _ride(name, first.seed or 0, known, network, _digest(file))
 
 
 def _digest(file: Path) -> str:

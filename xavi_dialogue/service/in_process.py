@@ -43,9 +43,10 @@ Replan: TypeAlias = Callable[[PlanTrace, NeedRollout], PlanTrace]
 class NoPlan(XaviError):
     """A plan is not available; the reason is the one that the passenger gets."""
 
-    def __init__(self, reason: Reason) -> None:
+    def __init__(self, reason: Reason, *, roadless: bool = False) -> None:
         super().__init__(reason)
         self.reason = reason
+        self.roadless = roadless  # the record holds no roads on which anything could be planned
 
 
 def make_pipeline() -> Pipeline:
@@ -105,7 +106,7 @@ class Conversation:
         except (StopIteration, WhatIfError):
             return RolloutsFailed(request, SESSION, "planner-failed")
         except NoPlan as none:
-            return RolloutsFailed(request, SESSION, none.reason)
+            return RolloutsFailed(request, SESSION, none.reason, none.roadless)
 
     def _tell(self, event: Input) -> Output | None:
         self.dialogue, outputs = advance(self.pipeline, self.dialogue, event)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import msgspec
 
 from planner.errors import TraceError
-from planner.record import trace as plan_trace
+from planner.record import trace_reading
 from planner.record.trace import PlanTrace
 from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.health import HealthReporter
@@ -183,7 +183,7 @@ def planned(outcome: Outcome) -> PlanTrace | Reason:
     match outcome:
         case bytes():
             try:
-                return plan_trace.decode(outcome)
+                return trace_reading.decode(outcome)
             except TraceError:
                 return "planner-failed"
         case Refused(payload=payload):

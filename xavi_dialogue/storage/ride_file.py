@@ -3,17 +3,26 @@
 import gzip
 import hashlib
 import zlib
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import msgspec
 
+from planner.errors import TraceError
 from planner.record.events import Event
-from planner.record.trace import READABLE, PlanTrace, WhatIf, fault_of
+from planner.record.foreign_text import unprintable
+from planner.record.trace import PlanTrace, WhatIf
+from planner.record.trace_reading import LATEST, check
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.process.exit_status import UsageFault
 
 ENDING = ".ride.jsonl.gz"
+GZIP = 31  # the format in zlib's numbers: of gzip, with any window
+MAX_BYTES = 512 * 1024 * 1024  # of a ride, unpacked
+MAX_SEED = 2**31 - 1
+MAX_NAME = 4096  # letters of a scenario, which may be a path
+MAX_AT_ONCE = 16  # events that may share a moment
 
 
 class RideFileError(UsageFault):
@@ -92,32 +101,126 @@ def load(data: bytes) -> RecordedRide:
         RideFileError: the data is no recorded ride.
     """
     try:
-        lines = gzip.decompress(data).splitlines()
-        first, *rest = (msgspec.json.decode(line, type=_Line) for line in lines)
-    except (OSError, EOFError, ValueError, zlib.error, msgspec.MsgspecError) as error:
+        text = unpacked(data, MAX_BYTES)
+    except RideFileError as error:
         raise RideFileError(f"not a recorded ride: {error}") from error
-    if first.scenario is None or first.seed is None or first.halt is None:
-        raise RideFileError("not a recorded ride: its first line names no scenario")
-    ride = RecordedRide(first.scenario, first.seed, first.halt)
-    for line in rest:
-        if line.trace is not None:
-            _check(line.trace)
-        if line.whatif is not None and line.trace is not None:
-            ride.whatifs[line.whatif] = line.trace
-        elif line.whatif is not None and line.failure is not None:
-            ride.failures[line.whatif] = line.failure
-        elif line.trace is not None:
-            ride.traces.append(line.trace)
-        elif line.event is not None:
-            ride.events.append(line.event)
-        else:
-            ride.ended = line.ended
+    return parse(text)
+
+
+def unpacked(data: bytes, most: int) -> bytes:
+    """Unpack the text of a gzipped file, of which no more than a limit is ever unpacked.
+
+    Raises:
+        RideFileError: it is empty, not packed so, cut off, too large, or more follows it.
+    """
+    if not data:
+        raise RideFileError("the file is empty")
+    inflater = zlib.decompressobj(GZIP)
+    try:
+        text = inflater.decompress(data, most + 1)
+    except zlib.error as error:
+        raise RideFileError(f"it cannot be unpacked: {error}") from error
+    if len(text) > most:
+        raise RideFileError(f"it unpacks to more than {most} bytes, the most that is read")
+    if not inflater.eof:
+        raise RideFileError("it is cut off; copy the file again")
+    if inflater.unused_data:
+        extra = len(inflater.unused_data)
+        raise RideFileError(f"{extra} bytes follow its end; copy the file again")
+    return text
+
+
+def parse(text: bytes) -> RecordedRide:
+    """Read a ride from the unpacked text of its file.
+
+    Raises:
+        RideFileError: it is no recorded ride.
+    """
+    ride: RecordedRide | None = None
+    for number, data in enumerate(text.splitlines(), 1):
+        if not data.strip():
+            continue
+        try:
+            line = _line(data)
+            if ride is None:
+                ride = _header(line)
+            else:
+                _add(ride, line)
+        except (RideFileError, TraceError) as error:
+            raise RideFileError(f"not a recorded ride: line {number}: {error}") from error
+    if ride is None:
+        raise RideFileError("not a recorded ride: it holds no line")
     return ride
 
 
-def _check(trace: PlanTrace) -> None:
-    fault = fault_of(trace)
-    if trace.schema not in READABLE:
-        fault = f"trace schema is {trace.schema!r}"
-    if fault is not None:
-        raise RideFileError(f"not a recorded ride: decision {trace.decision}: {fault}")
+def _line(data: bytes) -> _Line:
+    try:
+        strange = unprintable(data)
+        if strange is not None:
+            raise RideFileError(strange)
+        return msgspec.json.decode(data, type=_Line)
+    except RecursionError as error:
+        raise RideFileError("it is nested too deeply") from error
+    except (msgspec.MsgspecError, UnicodeDecodeError) as error:
+        raise RideFileError(str(error)) from error
+
+
+def _header(line: _Line) -> RecordedRide:
+    if line.scenario is None or line.seed is None or line.halt is None:
+        missing = [name for name in ("scenario", "seed", "halt") if getattr(line, name) is None]
+        raise RideFileError(f"it names no {', '.join(missing)}")
+    if not 0 < len(line.scenario) <= MAX_NAME:
+        raise RideFileError(f"`scenario` has no letter, or more than {MAX_NAME}")
+    if not 0 <= line.seed <= MAX_SEED:
+        raise RideFileError(f"`seed` is not a number from 0 to {MAX_SEED}")
+    return RecordedRide(line.scenario, line.seed, _moment("halt", line.halt))
+
+
+def _add(ride: RecordedRide, line: _Line) -> None:
+    """Add what a line tells; each thing is told once, and in order of time.
+
+    Raises:
+        RideFileError: it is not.
+        TraceError: its trace is none.
+    """
+    if line.trace is not None:
+        check(line.trace)
+    if line.whatif is not None:
+        if line.whatif in ride.whatifs or line.whatif in ride.failures:
+            raise RideFileError(f"`whatif` {line.whatif} comes twice")
+        if line.trace is not None:
+            ride.whatifs[line.whatif] = line.trace
+        elif line.failure is not None:
+            ride.failures[line.whatif] = line.failure
+        else:
+            raise RideFileError(f"`whatif` {line.whatif} has no result")
+    elif line.trace is not None:
+        _check_order("decisions", ride.traces, line.trace)
+        ride.traces.append(line.trace)
+    elif line.event is not None:
+        _check_order("events", ride.events, line.event)
+        ride.events.append(line.event)
+    elif line.ended is not None and ride.ended is None:
+        ride.ended = _moment("ended", line.ended)
+    else:
+        raise RideFileError("it tells nothing, or the end a second time")
+
+
+def _moment(name: str, time: float) -> float:
+    if not 0.0 <= time <= LATEST:
+        raise RideFileError(f"`{name}` is {time:g}; give 0 to {LATEST:g} s")
+    return time
+
+
+def _check_order(
+    name: str, before: Sequence[PlanTrace] | Sequence[Event], one: PlanTrace | Event
+) -> None:
+    """Check that something comes after what is there; events may share a moment, if they differ."""
+    if not before:
+        return
+    last = before[-1].sim_time
+    if one.sim_time < last or (isinstance(one, PlanTrace) and one.sim_time == last):
+        late = f"{one.sim_time:g} s after {last:g} s"
+        raise RideFileError(f"{name} are not in order of time, or come twice: {late}")
+    if one in before[-MAX_AT_ONCE:]:
+        raise RideFileError(f"{name} come twice: that at {one.sim_time:g} s")

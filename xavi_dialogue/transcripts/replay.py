@@ -15,7 +15,8 @@ from pathlib import Path
 
 from planner.counterfactuals.whatif import WhatIfError
 from planner.errors import TraceError
-from planner.record.trace import PlanTrace, decode
+from planner.record.trace import PlanTrace
+from planner.record.trace_reading import decode
 from sim.setup.scenario import load as load_scenario
 from xavi_dialogue.dialogue.pipeline import Pipeline
 from xavi_dialogue.dialogue.state.events import EventRecorded, Input, RideEnded, TraceRecorded

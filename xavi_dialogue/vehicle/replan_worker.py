@@ -20,6 +20,7 @@ from planner.counterfactuals.whatif import Inapplicable, NotInView, WhatIfError,
 from planner.driving.driver import Driver
 from planner.errors import TraceError
 from planner.record import trace as plan_trace
+from planner.record import trace_reading
 from planner.record.trace import EgoGoal, Settings, WhatIf
 from planner.roads.trajectory import Roads
 from planner.search.decide import root_at
@@ -51,7 +52,7 @@ class Result(msgspec.Struct, frozen=True):
 def obey(order: ReplanOrder, network: Network) -> Result:
     """Plan again as ordered."""
     try:
-        trace = replan(plan_trace.decode(bytes(order.trace)), network, order.what_if)
+        trace = replan(trace_reading.decode(bytes(order.trace)), network, order.what_if)
     except (WhatIfError, TraceError) as error:
         failure = Failure(reason=_reason(error), detail=str(error))
         return Result(False, msgspec.Raw(msgspec.json.encode(failure)))

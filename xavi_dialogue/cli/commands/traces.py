@@ -67,9 +67,10 @@ def _check(shell: Streams) -> Callable[..., None]:
         from xavi_dialogue.inspection import completeness, trace_files
 
         with shell.errors():
-            traces = trace_files.read(trace_files.content(file)).traces
-            found = completeness.gaps(traces)
-        shell.write(to_json(list(map(asdict, found))) if as_json else completeness.report(traces))
+            held = trace_files.read(trace_files.content(file))
+            found = completeness.gaps(held.traces, ride=held.ride)
+            text = completeness.report(held.traces, ride=held.ride)
+        shell.write(to_json(list(map(asdict, found))) if as_json else text)
         raise typer.Exit(ExitStatus.FAILED if found else ExitStatus.ANSWERED)
 
     return check

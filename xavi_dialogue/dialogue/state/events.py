@@ -92,6 +92,7 @@ class RolloutsFailed:
     request: str
     session: str
     reason: Reason
+    roadless: bool = False  # the record holds no roads on which anything could be planned
 
 
 @dataclass(frozen=True, slots=True)

@@ -44,6 +44,7 @@ class Pending:
     extra: tuple[PlanTrace, ...] = ()  # plans that have arrived for it
     refused: tuple[NeedRollout, ...] = ()  # plans that could not be made for it
     why: Reason = "planner-failed"  # why the last of these could not be made
+    roadless: bool = False  # because the record holds no roads
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import At, Between, Exists, Nobody, Related, Veh
 from xavi_dialogue.explain.answers import causal, factual
 from xavi_dialogue.explain.answers.lights import lights
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.occasions import lacks_deeds
 from xavi_dialogue.explain.answers.reference.reading import event_of
 from xavi_dialogue.explain.answers.sight import hidden_areas
 from xavi_dialogue.explain.facts.world import World
@@ -103,7 +104,9 @@ def _seen(question: Question) -> Question:
 
 
 def _doubted(result: Refusal | NeedRollout, ride: Ride) -> Refusal | NeedRollout:
-    """Return the result; or another, if it denies what a lost part of the record may contain."""
+    """Return the result; or another, if it denies what the record may lack."""
+    if isinstance(result, DidNotHappen) and lacks_deeds(ride, result.asked):
+        return NotRecorded("no-deeds")
     if not isinstance(result, DidNotHappen) or result.planned is not None or not ride.gaps:
         return result
     if result.instead or result.elsewhen is not None:

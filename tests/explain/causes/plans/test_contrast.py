@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.record.trace import COMPONENTS, FORMER, PlanTrace, decode, encode
+from planner.record.trace import COMPONENTS, FORMER, PlanTrace, encode
+from planner.record.trace_reading import decode
 from planner.rollouts.reward import COSTS
 from tests.explain.causes.rides import recorded, single, told
 from tests.stories import even, squeezed

@@ -3,7 +3,8 @@
 import pytest
 from msgspec.structs import replace
 
-from planner.record.trace import PlanTrace, fault_of
+from planner.record.trace import PlanTrace
+from planner.record.trace_reading import fault_of
 from tests.explain.answers.stated import scene
 from tests.explain.causes.decisions import decided, ride
 from tests.explain.trust import trusted

@@ -10,6 +10,7 @@ from xavi_dialogue.domain.answers import (
     Closeness,
     MotionReason,
     NeedRollout,
+    NotRecorded,
     Priority,
     Verdict,
     Wavered,
@@ -42,7 +43,7 @@ from xavi_dialogue.explain.answers.propositions.weighing import weigh
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import Finding
 from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, number
-from xavi_dialogue.explain.answers.reference.occasions import occasion
+from xavi_dialogue.explain.answers.reference.occasions import lacks_deeds, occasion
 from xavi_dialogue.explain.answers.ride.onward import WAYS, whether_ours
 from xavi_dialogue.explain.answers.suppositions.own_suppositions import claimed, of_us
 
@@ -70,6 +71,8 @@ def whether(question: Whether, asked: Asked) -> Answer:
     if (why := _disputed(that, asked)) is not None:
         return why
     found = _seen_since(that, weigh(that, asked), asked)
+    if found.holds is False and isinstance(that, Happens) and lacks_deeds(asked.ride, that.event):
+        raise Unanswered(NotRecorded("no-deeds"))
     if question.tag and that != question.that and found.holds and found.answer is None:
         told = _seen_since(Not(that), found.negated(), asked)
         return told.verdict(Not(that), claim=True)  # "actually", as "yes" is open

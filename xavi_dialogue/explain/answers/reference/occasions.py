@@ -13,6 +13,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, was_said, window
 from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, known, number
 from xavi_dialogue.explain.causes.vehicles.when import LEEWAY
+from xavi_dialogue.explain.history.ride import Ride
 
 PAUSE = 0.5  # [s] between two episodes of one kind, from which they are different ones
 CHANGED: frozenset[ActionName] = frozenset(("change-left", "change-right"))
@@ -37,6 +38,11 @@ OTHERWISE: dict[ActionName, tuple[ActionName, ...]] = {
     "overtake": ("pass",),
     "cross": ("exit-straight", "turn"),
 }
+#: Actions of ours that are known from the macro actions that we carried out.
+OURS: frozenset[ActionName] = frozenset(
+    ("change-left", "change-right", "change-lane", "exit-left", "exit-right", "exit-straight",
+     "continue-next-exit", "turn", "merge")
+)  # fmt: skip
 #: Actions of one family: what was done instead is looked for there first.
 FAMILIES: tuple[frozenset[ActionName], ...] = (
     frozenset(("stop", "stand", "wait", "brake", "slow-down", "give-way", "let-go")),
@@ -164,6 +170,12 @@ def did_not_happen(
     return Unanswered(
         DidNotHappen(event, others, planned=planned, elsewhen=elsewhen, answer=answer)
     )
+
+
+def lacks_deeds(ride: Ride, event: Event) -> bool:
+    """Check whether an event is an action of ours, and the record shows only what was planned."""
+    shown = ride.events or not ride.traces or any(trace.shows_deeds for trace in ride.traces)
+    return event.action in OURS and is_us(event.actor) and not shown
 
 
 def instead(asked: Asked, event: Event, about: Window) -> tuple[Episode, ...]:

@@ -163,4 +163,4 @@ def plan_cannot_say(answer: CannotSay, context: SpeechContext) -> Plan:
 
 def plan_unavailable(answer: Unavailable, context: SpeechContext) -> Plan:
     """Plan that the planner behind the answer failed."""
-    return Plan((message("UNAVAILABLE", reason=answer.reason),))
+    return Plan((message("UNAVAILABLE", reason=answer.reason, roadless=answer.roadless),))
