@@ -184,3 +184,60 @@ def test_all_that_computes_results_belongs_to_the_program() -> None:
     loaded = set(done.stdout.splitlines())
     assert len(loaded) > 100
     assert loaded <= known
+
+
+def test_a_fault_of_ours_costs_one_ride(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise KeyError("\x1b[31mego")
+
+    monkeypatch.setattr("xavi_dialogue.audit.work.look_through", fail)
+    result = work(Task("key", program(), sources()[0], QUESTIONS))
+    assert isinstance(result, Failed)
+    assert result.why.startswith("a fault of this program at test_running.py, line ")
+    assert "\x1b" not in result.why
+
+
+def test_a_recording_that_cannot_be_read_fails_alone(
+    root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rides = tmp_path / "rides"
+    rides.mkdir()
+    shutil.copy(root / "transcripts" / "rides" / "s1-0.ride.jsonl.gz", rides / "a.ride.jsonl.gz")
+    shutil.copy(root / "transcripts" / "rides" / "s1-0.ride.jsonl.gz", rides / "b.ride.jsonl.gz")
+    read_bytes = Path.read_bytes
+
+    def refuse(path: Path) -> bytes:
+        if path.name.startswith("b."):
+            raise PermissionError(13, "Permission denied")
+        return read_bytes(path)
+
+    monkeypatch.setattr(Path, "read_bytes", refuse)
+    one, two = recorded(rides)
+    assert one.content
+    assert not two.content
+    result = work(Task("key", program(), two, QUESTIONS))
+    assert result == Failed(f"cannot read {two.place}: Permission denied")
+
+
+def test_a_page_names_recordings_as_seen_from_its_folder(root: Path, tmp_path: Path) -> None:
+    rides = tmp_path / "rides"
+    rides.mkdir()
+    shutil.copy(root / "transcripts" / "rides" / "s1-0.ride.jsonl.gz", rides / "a.ride.jsonl.gz")
+    found = in_processes(tmp_path / "out", recorded(rides), Watched(), jobs=1)
+    assert not found.failed
+    page = (tmp_path / "out" / "audit.html").read_text(encoding="utf-8")
+    assert "xavi explain ../rides/a.ride.jsonl.gz" in page
+    assert str(tmp_path) not in page
+
+
+def test_a_stored_ride_that_was_spoilt_is_driven_again(whole: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "spoilt"
+    shutil.copytree(whole, folder)
+    ride = sorted((folder / "rides").iterdir())[0]
+    data = bytearray(ride.read_bytes())
+    data[len(data) // 2] ^= 0xFF
+    ride.write_bytes(data)
+    answers = sorted((folder / "answers").iterdir())[0]
+    answers.write_bytes(answers.read_bytes()[:-9])
+    in_processes(folder, sources(), Watched(), jobs=1)
+    assert content(folder) == content(whole)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from os.path import relpath
 from pathlib import Path
 from typing import TypeAlias
 
@@ -104,5 +105,6 @@ def _collected(
 
 def _file(store: Store, source: Source, key: str) -> str:
     if source.seed is None:
-        return Path(source.place).as_posix()
+        # from where the folder really is, as `..` leads out of that
+        return Path(relpath(source.place, store.folder.resolve())).as_posix()
     return store.ride(key).relative_to(store.folder).as_posix()

@@ -10,7 +10,7 @@ import msgspec
 from xavi_dialogue.audit.audit import Audit
 from xavi_dialogue.audit.results.changes import Earlier, changes
 from xavi_dialogue.audit.results.findings import KINDS, Finding, findings
-from xavi_dialogue.audit.results.page import TITLES, page
+from xavi_dialogue.audit.results.page import ONE, TITLES, page
 from xavi_dialogue.audit.results.plots import plots
 from xavi_dialogue.audit.results.reports import write_reports
 from xavi_dialogue.audit.results.tables import tables
@@ -37,7 +37,7 @@ class Summary(msgspec.Struct, frozen=True):
         asked = len(self.questions)
         rides = f"{self.rides} ride{'s' * (self.rides != 1)}"
         lines = [f"{rides}, {asked} question{'s' * (asked != 1)} each"]
-        lines += [f"{count:6} {TITLES[kind].lower()}" for kind, count in self.findings.items()]
+        lines += [f"{count:6} {_named(kind, count)}" for kind, count in self.findings.items()]
         lines += [f"failed: {ride}: {why}" for ride, why in self.failed.items()]
         return "\n".join(lines)
 
@@ -79,6 +79,11 @@ def write(
     )
     store.write(LIST, msgspec.json.format(msgspec.json.encode(summary)) + b"\n")
     return summary
+
+
+def _named(kind: str, count: int) -> str:
+    """Return a kind of findings in words, of one or of several."""
+    return (ONE if count == 1 else TITLES)[kind].lower()
 
 
 def page_of(folder: Path) -> Path:

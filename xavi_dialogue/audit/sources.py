@@ -12,8 +12,9 @@ from sim.errors import SimError
 from sim.setup.scenario import Scenario, available, load
 from xavi_dialogue.audit.errors import AuditError
 from xavi_dialogue.audit.program import LENGTH, digest
-from xavi_dialogue.library.sources import MAX_SEED, RECORDING
-from xavi_dialogue.storage.ride_file import ENDING
+from xavi_dialogue.bus.sanitize import one_line
+from xavi_dialogue.library.sources import RECORDING
+from xavi_dialogue.storage.ride_file import ENDING, MAX_SEED
 from xavi_dialogue.vehicle.episode import network_of
 
 MOST: Final = 100_000  # rides of one audit
@@ -97,7 +98,7 @@ def recorded(folder: Path) -> tuple[Source, ...]:
     if not folder.is_dir():
         raise AuditError(f"{folder} is no folder; give one with recordings")
     found = tuple(
-        Source(path.relative_to(folder).as_posix(), str(path.resolve()), _hash(path))
+        Source(one_line(path.relative_to(folder).as_posix()), str(path.resolve()), _found(path))
         for path in sorted(_files(folder))
     )
     if not found:
@@ -131,6 +132,14 @@ def _files(folder: Path) -> Iterator[Path]:
         path for path in folder.rglob("*") if path.name.endswith((ENDING, RECORDING))
         if path.is_file()
     )  # fmt: skip
+
+
+def _found(path: Path) -> str:
+    """Return the hash of a recording; nothing of one that cannot be read, which then fails."""
+    try:
+        return _hash(path)
+    except AuditError:
+        return ""
 
 
 def _hash(path: Path) -> str:

@@ -10,6 +10,7 @@ import socket
 import tempfile
 import threading
 import time
+import traceback
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -30,6 +31,7 @@ from xavi_dialogue.library.ride import Ride
 from xavi_dialogue.storage import ride_file
 
 AFTERWARDS: Final = 1.0  # [s] after a moment at which it is asked about
+MAX_WHY: Final = 300  # letters of a fault
 _ONE_AT_A_TIME: Final = threading.Lock()  # SUMO has one simulation in a process
 
 
@@ -54,6 +56,15 @@ def work(task: Task) -> Done | Failed:
             return _done(task)
         except XaviError as error:
             return Failed(one_line(str(error)))
+        except Exception as error:  # a fault of this program costs one ride and not the audit
+            return Failed(fault_of(error))
+
+
+def fault_of(error: Exception) -> str:
+    """Return a fault of this program in words, with the line that it comes from."""
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    what = one_line(f"{type(error).__name__}: {error}")[:MAX_WHY]
+    return f"a fault of this program at {Path(last.filename).name}, line {last.lineno}: {what}"
 
 
 def _done(task: Task) -> Done:

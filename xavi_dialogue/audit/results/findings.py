@@ -154,7 +154,7 @@ def _refusals(rides: Sequence[Looked]) -> Iterator[tuple[float, Finding]]:
                 groups.setdefault((answer.question, answer.when, why), []).append((one, answer))
     for (question, _, why), several in groups.items():
         ride, first = several[0]
-        text = f"{why}, {len(several)} times: “{question}” “{first.text}”"
+        text = f"{why}, {_times(len(several))}: “{question}” “{first.text}”"
         yield (
             -len(several),
             Finding("refusal", 0, ride.source.ride, first.at, len(several), "", text,
@@ -175,3 +175,7 @@ def _changes(changes: Sequence[Change]) -> Iterator[tuple[float, Finding]]:
 
 def _percent(chance: float) -> str:
     return f"{chance:.0%}"
+
+
+def _times(count: int) -> str:
+    return "once" if count == 1 else f"{count} times"

@@ -27,6 +27,15 @@ TITLES: Final = {
     "refusal": "Questions declined or asked back",
     "changed-answer": "Changed answers",
 }
+ONE: Final = {  # the same of a single finding
+    "collision": "Collision",
+    "close-call": "Closest call",
+    "hard-braking": "Hardest braking",
+    "wrong-prediction": "Wrong prediction that mattered",
+    "close-decision": "Close decision",
+    "refusal": "Question declined or asked back",
+    "changed-answer": "Changed answer",
+}
 NOTES: Final = {
     "collision": "The car touched somebody.",
     "close-call": "The shortest time to a collision of each ride, up to 10 s, had nobody braked.",

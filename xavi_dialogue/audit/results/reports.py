@@ -9,7 +9,6 @@ from xavi_dialogue.audit.audit import Audit, Looked
 from xavi_dialogue.audit.program import digest
 from xavi_dialogue.audit.results.findings import Finding, Kind
 from xavi_dialogue.audit.store import DIGITS, Store
-from xavi_dialogue.errors import XaviError
 from xavi_dialogue.library import sources as rides
 from xavi_dialogue.process.program import program_hash
 
@@ -74,7 +73,7 @@ def _write(store: Store, name: str, ride: Looked, moment: str) -> bool:
             warnings.simplefilter("ignore")
             opened = rides.open_ride(store.folder / ride.file, scenario=place)
             page = opened.report(moment).html()
-    except XaviError:
+    except Exception:  # also for a fault of this program: the page then shows the command
         return False
     store.write(name, page.encode())
     return True

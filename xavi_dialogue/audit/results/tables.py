@@ -62,6 +62,12 @@ _CHANGES: Final = _schema(
 )  # fmt: skip
 
 
+_SCHEMAS: Final = {
+    RIDES: _RIDES, ANSWERS: _ANSWERS, DECISIONS: _DECISIONS, MISTAKES: _MISTAKES,
+    FINDINGS: _FINDINGS, CHANGES: _CHANGES,
+}  # fmt: skip
+
+
 class TableFault(XaviError):
     """A table that cannot be read."""
 
@@ -112,13 +118,16 @@ def ride_row(program: str, one: "Looked") -> dict[str, Any]:
 
 
 def read(path: Path) -> list[dict[str, Any]]:
-    """Read a table.
+    """Read a table that `tables` wrote; its name says which.
 
     Raises:
         TableFault: it cannot be read.
     """
     try:
-        rows: list[dict[str, Any]] = pq.read_table(path).to_pylist()
+        found = pq.read_table(path)
+        if not found.schema.equals(_SCHEMAS[path.name]):
+            raise TableFault(f"{path.name} has other columns")
+        rows: list[dict[str, Any]] = found.to_pylist()
     except (OSError, pa.ArrowException) as error:
         why = "is missing" if isinstance(error, FileNotFoundError) else "cannot be read"
         raise TableFault(f"{path.name} {why}") from error
