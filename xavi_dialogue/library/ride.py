@@ -179,16 +179,16 @@ class Ride:
         times = (time for time, _ in self.known if ends and time >= ends[0].sim_time - EPSILON)
         return next(times, self.end)
 
-    def moment(self, at: float) -> float:
+    def moment(self, at: object) -> float:
         """Return a time [s] that was asked for; of one after the end, the end.
 
         Raises:
             XaviError: it is none of the ride.
         """
-        fits = isinstance(at, Real) and not isinstance(at, bool)
-        if not fits or math.isnan(at) or at < 0.0:
+        time = float(at) if isinstance(at, Real) and not isinstance(at, bool) else math.nan
+        if math.isnan(time) or time < 0.0:
             raise LibraryError(f"at is {at!r}; give a time [s] of the ride, 0 to {self.end:g}")
-        return min(float(at), self.end)
+        return min(time, self.end)
 
     def decision(self, trace_id: str | None) -> Decision | None:
         """Return the decision with an id; None if there is none."""
