@@ -267,16 +267,9 @@ class Unavailable(Value, frozen=True):
 
 
 Refusal: TypeAlias = (
-    NotUnderstood
-    | WhichOne
-    | NoSuchVehicle
-    | DidNotHappen
-    | NotApplicable
-    | TooLittle
-    | NotRecorded
-    | CannotSay
-    | Unavailable
-)
+    NotUnderstood | WhichOne | NoSuchVehicle | DidNotHappen | NotApplicable | TooLittle
+    | NotRecorded | CannotSay | Unavailable
+)  # fmt: skip
 Answer: TypeAlias = (
     ChoiceReason
     | MotionReason

@@ -185,7 +185,7 @@ class Ride:
         Raises:
             XaviError: it is none of the ride.
         """
-        time = float(at) if isinstance(at, Real) and not isinstance(at, bool) else math.nan
+        time = math.nan if isinstance(at, bool) or not isinstance(at, Real) else float(at)
         if math.isnan(time) or time < 0.0:
             raise LibraryError(f"at is {at!r}; give a time [s] of the ride, 0 to {self.end:g}")
         return min(time, self.end)
