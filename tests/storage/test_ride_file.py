@@ -25,7 +25,7 @@ def lines() -> Lines:
 
 
 def packed(lines: Lines) -> bytes:
-    return gzip.compress("\n".join(map(json.dumps, lines)).encode())
+    return gzip.compress("\n".join(map(json.dumps, lines)).encode(), mtime=0)
 
 
 def header(**change: Any) -> Callable[[Lines], Lines]:
@@ -50,13 +50,16 @@ def test_the_recorded_rides_are_read(path: Path) -> None:
     ("data", "problem"),
     [
         (b"", "the file is empty"),
-        (gzip.compress(b""), "it holds no line"),
+        (gzip.compress(b"", mtime=0), "it holds no line"),
         (b"hello", "not a recorded ride: it cannot be unpacked"),
-        (gzip.compress(b"[1, 2]"), "line 1: Expected `object`, got `array`"),
-        (gzip.compress(b"[" * 100_000), "line 1"),
-        (gzip.compress(b'{"event": ' * 100_000), "line 1"),
-        (gzip.compress(b'{"x": "\\n", "y": ' + b"[" * 100_000), "line 1: it is nested too deeply"),
-        (gzip.compress(b'{"scenario": "\xff"}'), "line 1"),
+        (gzip.compress(b"[1, 2]", mtime=0), "line 1: Expected `object`, got `array`"),
+        (gzip.compress(b"[" * 100_000, mtime=0), "line 1"),
+        (gzip.compress(b'{"event": ' * 100_000, mtime=0), "line 1"),
+        (
+            gzip.compress(b'{"x": "\\n", "y": ' + b"[" * 100_000, mtime=0),
+            "line 1: it is nested too deeply",
+        ),
+        (gzip.compress(b'{"scenario": "\xff"}', mtime=0), "line 1"),
         (RIDE.read_bytes()[:20_000], "it is cut off"),
         (RIDE.read_bytes() + b"garbage", "7 bytes follow its end"),
     ],
@@ -125,7 +128,7 @@ def test_a_trace_that_is_none_is_refused_with_its_line(
 
 def test_no_more_than_the_limit_is_unpacked(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ride_file, "MAX_BYTES", 1000)
-    bomb = gzip.compress(b" " * 1_000_000)
+    bomb = gzip.compress(b" " * 1_000_000, mtime=0)
     with pytest.raises(RideFileError, match="unpacks to more than 1000 bytes"):
         load(bomb)
 
