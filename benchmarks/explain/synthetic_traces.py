@@ -19,11 +19,13 @@ from planner.record.trace import (
     TrajectoryPrediction,
     VehiclePrediction,
 )
+from sim.scene import EGO, VehicleState
 
 ACTIONS: tuple[Action, ...] = ("continue", "change-left", "stop")
 FACT: Action = "change-left"
 FOIL: Action = "continue"
 GOALS: tuple[Action, ...] = ("exit-right", "continue")
+STANDING = VehicleState((0.0, 0.0), 0.0, 0.0, 0.0, 4.5, 1.8)
 WAYS = 2  # trajectories of a goal
 EVERY_SO_OFTEN = 9  # one of this many rollouts collides
 
@@ -87,7 +89,7 @@ def _trace(
         goal=EgoGoal("out", 80.0, None),
         under_way=None,
         history={},
-        scene={},
+        scene={EGO: STANDING},
         predictions=seen,
         rollouts=tuple(_rollout(k, plan, drawn) for k, (plan, drawn) in enumerate(rows)),
         not_applicable=(),
