@@ -1,6 +1,6 @@
 """Check of texts that come from outside: what would act on a screen instead of being shown there.
 
-Names, colours and reasons of a record are told to people, on terminals and on pages. A control
+Names, colours and reasons of a record are shown to people, on terminals and on pages. A control
 character in them could move the cursor; an invisible one could turn the order of letters round.
 """
 

@@ -177,11 +177,11 @@ def _header(line: _Line) -> RecordedRide:
 
 
 def _add(ride: RecordedRide, line: _Line) -> None:
-    """Add what a line tells; each thing is told once, and in order of time.
+    """Add what a line holds.
 
     Raises:
-        RideFileError: it is not.
-        TraceError: its trace is none.
+        RideFileError: the line is empty, repeats an earlier one, or is out of order of time.
+        TraceError: its trace is of an unknown schema, or contradicts itself.
     """
     if line.trace is not None:
         check(line.trace)

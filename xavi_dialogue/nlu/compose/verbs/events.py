@@ -247,7 +247,8 @@ def _exit_meant(place: Related) -> tuple[Thing | None, Related | None]:
     return None, place
 
 
-_ALMOST, _HARDLY = frozenset({"nearly", "almost"}), frozenset({"barely", "hardly", "scarcely"})
+_ALMOST = frozenset({"nearly", "almost"})
+_HARDLY = frozenset({"barely", "hardly", "scarcely"})
 _PACES: dict[str, Manner] = {
     "fast": "fast", "slow": "slowly", "soon": "early", "early": "early", "late": "late",
 }  # fmt: skip
