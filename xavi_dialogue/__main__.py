@@ -4,7 +4,6 @@ Commands import what they need when they run, so that the small ones start fast.
 """
 
 import contextlib
-import signal
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -29,6 +28,7 @@ from xavi_dialogue.cli.commands import inspect as looking
 from xavi_dialogue.cli.commands.common import Streams, to_json
 from xavi_dialogue.process.exit_status import ExitStatus
 from xavi_dialogue.process.kernel_cache import find_place
+from xavi_dialogue.process.termination import end_on_signals
 
 
 class _Commands(TyperGroup):
@@ -189,8 +189,8 @@ for room in ROOMS:
 
 
 def main() -> NoReturn:
-    """Run the command line; SIGTERM ends it like an exception, so that resources are released."""
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(ExitStatus.TERMINATED))
+    """Run the command line; signals end it like an exception, so that resources are released."""
+    end_on_signals()
     find_place()
     app()
     sys.exit(ExitStatus.ANSWERED)

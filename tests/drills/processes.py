@@ -12,6 +12,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -83,6 +84,7 @@ class Process:
     def order(self, *lines: str) -> None:
         """Write lines to its standard input."""
         assert self.popen.stdin is not None
+        assert self.popen.poll() is None, self.said
         self.popen.stdin.write("".join(f"{line}\n" for line in lines))
         self.popen.stdin.flush()
 
@@ -186,7 +188,8 @@ class Crew:
         for one in self.started:
             one.popen.wait()
             if one.popen.stdin is not None:
-                one.popen.stdin.close()
+                with suppress(BrokenPipeError):  # what was written to it came too late
+                    one.popen.stdin.close()
 
     def leavings(self) -> list[str]:
         """What is left once all should have ended: processes, shared memory, tracebacks."""

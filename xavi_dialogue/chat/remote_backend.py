@@ -24,7 +24,7 @@ from xavi_dialogue.terminal.slash_commands import CommandError
 
 PATIENCE = 20.0  # [s] for a hub, a service and a car to talk with
 BRIEFLY = 5.0  # [s] the same for one question
-BACK = 15.0  # [s] for a service to come back
+BACK = 30.0  # [s] for a service to come back; a busy machine takes 15 s to start one
 POLL = 0.1  # [s]
 NAMED = 10  # greatest number of cars that are listed
 DECLINED = "Only the program that started the car sets its pace."

@@ -1,0 +1,53 @@
+"""A signal ends the program even when Python drops the exception that it raises."""
+
+import signal
+import subprocess
+import sys
+
+import pytest
+
+DROPPED = """
+import os, signal, time
+from xavi_dialogue.process.termination import end_on_signals
+
+class Finalised:
+    def __del__(self):
+        os.kill(os.getpid(), signal.{name})
+        time.sleep(0.01)
+
+end_on_signals()
+try:
+    Finalised()
+    print("went on", flush=True)
+    time.sleep(20.0)
+finally:
+    print("released")
+"""
+
+
+@pytest.mark.parametrize(("name", "status"), [("SIGTERM", 143), ("SIGINT", -signal.SIGINT)])
+def test_a_signal_in_a_finaliser_ends_the_program(name: str, status: int) -> None:
+    ignored = "signal.signal(signal.SIGINT, signal.default_int_handler)\nend_on_signals()\n"
+    program = DROPPED.format(name=name).replace("end_on_signals()\n", ignored)
+    ended = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+    )
+    assert ended.returncode == status
+    assert ended.stdout == "went on\nreleased\n"
+    assert "ignored" not in ended.stderr
+
+
+def test_other_errors_of_finalisers_are_reported_as_ever() -> None:
+    program = """
+from xavi_dialogue.process.termination import end_on_signals
+class Finalised:
+    def __del__(self):
+        raise ValueError("in the finaliser")
+end_on_signals()
+Finalised()
+"""
+    ended = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+    )
+    assert ended.returncode == 0
+    assert "in the finaliser" in ended.stderr
