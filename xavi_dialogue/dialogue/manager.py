@@ -48,6 +48,7 @@ from xavi_dialogue.dialogue.state.states import (
 from xavi_dialogue.dialogue.state.turn import Turn
 from xavi_dialogue.dialogue.understanding import understand
 from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.explain.history.record import Record
 
 MAX_ROUNDS = 12  # maximum of new plans for one act of a question
 MAX_TRACES = 300  # maximum of decisions of a ride that are remembered; the oldest are forgotten
@@ -128,14 +129,13 @@ def _ask(pipeline: Pipeline, dialogue: Dialogue, asked: Asked) -> Step:
         return _tell(dialogue, session, asked, turn_away(now, "busy"))
     understood = understand(now, _open_turn(session))
     session = replace(session, phase=phase)
-    return _think(pipeline, dialogue, session, Pending(asked, understood))
+    return _think(dialogue, session, now, Pending(asked, understood))
 
 
-def _think(pipeline: Pipeline, dialogue: Dialogue, session: Session, question: Pending) -> Step:
+def _think(dialogue: Dialogue, session: Session, now: Situation, question: Pending) -> Step:
     """Answer act by act; plans that were made before are used again."""
     while True:
         assert question.understood is not None
-        now = _situation(pipeline, dialogue, session, question)
         found = reply_to(now, question.understood, question.done)
         if isinstance(found, Said):
             return _speak(dialogue, session, question.asked, found)
@@ -144,6 +144,7 @@ def _think(pipeline: Pipeline, dialogue: Dialogue, session: Session, question: P
         if step is None:
             return _want(dialogue, session, replace(question, need=found.need))
         question = step
+        now = replace(now, record=_record_for(dialogue, question))
 
 
 def _evidence(dialogue: Dialogue, question: Pending, need: NeedRollout) -> Pending | None:
@@ -166,8 +167,12 @@ def _evidence(dialogue: Dialogue, question: Pending, need: NeedRollout) -> Pendi
 def _situation(
     pipeline: Pipeline, dialogue: Dialogue, session: Session, question: Pending
 ) -> Situation:
-    record = dialogue.record(question.asked.at, question.extra, question.refused)
-    return Situation(pipeline, remember(session.turns, dialogue.ride_id), question.asked, record)
+    memory = remember(session.turns, dialogue.ride_id)
+    return Situation(pipeline, memory, question.asked, _record_for(dialogue, question))
+
+
+def _record_for(dialogue: Dialogue, question: Pending) -> Record:
+    return dialogue.record(question.asked.at, question.extra, question.refused)
 
 
 def _want(dialogue: Dialogue, session: Session, pending: Pending) -> Step:
@@ -198,7 +203,7 @@ def _go_on(pipeline: Pipeline, dialogue: Dialogue, event: RolloutsArrived) -> St
     assert pending.need is not None
     dialogue = _planned(dialogue, pending.need, event.trace)
     pending = replace(pending, extra=(*pending.extra, event.trace))
-    return _think(pipeline, dialogue, session, pending)
+    return _think(dialogue, session, _situation(pipeline, dialogue, session, pending), pending)
 
 
 def _planned(dialogue: Dialogue, need: NeedRollout, trace: PlanTrace) -> Dialogue:
@@ -228,7 +233,7 @@ def _give_up(pipeline: Pipeline, dialogue: Dialogue, event: RolloutsFailed) -> S
     assert pending.need is not None
     refused = (*pending.refused, pending.need)
     why = replace(pending, refused=refused, why=event.reason, roadless=event.roadless)
-    return _think(pipeline, dialogue, session, why)
+    return _think(dialogue, session, _situation(pipeline, dialogue, session, why), why)
 
 
 def _turn_away(pipeline: Pipeline, dialogue: Dialogue, event: TurnedAway) -> Step:

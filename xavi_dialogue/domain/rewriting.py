@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Iterator
 from functools import cache
-from types import NoneType
-from typing import Any, Final, TypeVar
+from types import UnionType
+from typing import Annotated, Any, Final, Literal, TypeVar, Union, get_args, get_origin
 
 import msgspec
 from msgspec.structs import replace
@@ -46,27 +46,61 @@ def with_wanted(value: T, thing: object) -> T:
 
 def parts(value: object, sort: type[V] | tuple[type[V], ...]) -> Iterator[V]:
     """Yield every part of a sort, outermost and leftmost first."""
+    sorts: tuple[type, ...] = sort if isinstance(sort, tuple) else (sort,)
     left = [value]  # parts still to visit; the next one is last
     while left:
         part = left.pop()
         if isinstance(part, sort):
             yield part
-        kind: type = type(part)
-        if kind in _PLAIN:
-            continue
         if isinstance(part, tuple):
             left.extend(reversed(part))
         elif isinstance(part, msgspec.Struct):
-            left.extend([getattr(part, name) for name in _fields(kind)])
-
-
-_PLAIN: Final = frozenset((str, int, float, bool, NoneType))
+            left.extend([getattr(part, name) for name in _fields(type(part), sorts)])
 
 
 @cache
-def _fields(kind: type[msgspec.Struct]) -> tuple[str, ...]:
-    """Return the names of fields, the last one first."""
-    return tuple(reversed(kind.__struct_fields__))
+def _fields(kind: type[msgspec.Struct], sorts: tuple[type, ...]) -> tuple[str, ...]:
+    """Return the names of the fields that may contain parts of some sorts, the last one first."""
+    fields = reversed(_declared(kind))
+    return tuple(name for name, declared in fields if _may_contain(declared, sorts))
+
+
+@cache
+def _declared(kind: type[msgspec.Struct]) -> tuple[tuple[str, object], ...]:
+    """Return the names of the fields with their declared types."""
+    return tuple((field.name, field.type) for field in msgspec.structs.fields(kind))
+
+
+def _may_contain(declared: object, sorts: tuple[type, ...]) -> bool:
+    """Check whether a value of a declared type may be of one of the sorts, or contain one."""
+    return any(
+        not isinstance(one, type) or any(issubclass(one, s) or issubclass(s, one) for s in sorts)
+        for one in _within(declared)
+    )
+
+
+@cache
+def _within(declared: object) -> frozenset[object]:
+    """Return the types of all values within a declared type; those of unknown ones as they are."""
+    left, found = [declared], set[object]()
+    while left:
+        one = left.pop()
+        if one in found:
+            continue
+        if get_origin(one) is Literal:
+            found.update(type(value) for value in get_args(one))
+        elif get_origin(one) in _CONTAINERS:
+            left.extend(part for part in get_args(one) if part is not Ellipsis)
+        else:
+            found.add(one)
+            if isinstance(one, type) and issubclass(one, msgspec.Struct):
+                left.extend(inner for _, inner in _declared(one))
+                left.extend(one.__subclasses__())
+    return frozenset(found)
+
+
+#: Types of which the arguments are the types of parts.
+_CONTAINERS: Final = frozenset((tuple, Union, UnionType, Annotated))
 
 
 def first(value: object, sort: type[V] | tuple[type[V], ...]) -> V | None:
