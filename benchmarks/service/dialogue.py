@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -16,6 +17,7 @@ from benchmarks.figures import (
     in_columns,
     targets_table,
 )
+from benchmarks.language.questions import FOLDER, LEARN, read_folder
 from benchmarks.service.passengers import Load, Question, ask_all
 from sim.roads.network import Network
 from sim.setup.scenario import load
@@ -53,6 +55,8 @@ DEEPER = (
 )
 MOMENTS = tuple(round(2.0 + 0.1 * k, 1) for k in range(40))  # [s] times of questions
 RATES = (20, 50, 100, 200)  # questions per second, of all passengers together
+UNLIKE_RATES = (10, 20, 40)  # the same where no text was asked before
+UNLIKE = ", all different"
 OVER_THE_BUS = "over the bus"
 TAILS = {"from the record": 15.0, "planned again": 150.0}  # targets [ms] of p99, over the bus
 LOADS = {"all at once": 2500.0, "200 a second": 50.0}  # targets [ms] of p99, many passengers
@@ -186,12 +190,21 @@ def _crowded(
     before = _counters(backend)["resident_bytes"]
     note(f"{sessions} passengers, all at once")
     loads.append(ask_all(bus, keys, "all at once", asked(sessions, 0.0)))
-    each = (_counters(backend)["resident_bytes"] - before) / sessions
+    grown = (_counters(backend)["resident_bytes"] - before) / sessions
     for rate in RATES:
         note(f"{sessions} passengers, {rate} questions a second")
         count = round(rate * seconds)
         loads.append(ask_all(bus, keys, f"{rate} a second", asked(count, rate)))
-    return tuple(loads), (round(each), _counters(backend)["resident_bytes"])
+    texts = iter(dict.fromkeys(one.text for one in read_folder(FOLDER / LEARN)))
+    for rate in UNLIKE_RATES:
+        name = f"{rate} a second{UNLIKE}"
+        note(f"{sessions} passengers, {name}")
+        each = [
+            replace(one, text=text)
+            for one, text in zip(asked(round(rate * seconds), rate), texts, strict=False)
+        ]
+        loads.append(ask_all(bus, keys, name, each))
+    return tuple(loads), (round(grown), _counters(backend)["resident_bytes"])
 
 
 def _counters(backend: LocalBackend) -> dict[str, float]:
