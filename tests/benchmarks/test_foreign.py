@@ -270,7 +270,7 @@ def test_what_is_no_file_of_rides_is_wrong_usage(tmp_path: Path) -> None:
 def town(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with a small network that has lights, and no traffic."""
     folder = tmp_path_factory.mktemp("town")
-    kind = ("-g", "--grid.number", "3", "--grid.length", "100", "--grid.attach-length", "100")
+    kind = ("-g", "--grid.number", "2", "--grid.length", "100", "--grid.attach-length", "100")
     generate((*kind, "--default-junction-type", "traffic_light"), folder / "grid.net.xml")
     return folder
 
