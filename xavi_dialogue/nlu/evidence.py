@@ -42,10 +42,13 @@ def missing(unit: Node, acts: tuple[Act, ...]) -> tuple[Leaf, ...]:
     """List the informative words of a unit that left nothing in its acts."""
     if not acts or any(isinstance(act, _TALK) for act in acts):
         return ()
+    telling = tuple(_telling(unit))
+    if not telling:
+        return ()
     found = set(atoms(acts))
     if Request in found:
         found.add(Quantity)  # why a request is refused does not depend on its speed
-    return tuple(leaf for leaf in _telling(unit) if not _is_in(leaf, found))
+    return tuple(leaf for leaf in telling if not _is_in(leaf, found))
 
 
 def _telling(part: Part) -> Iterator[Leaf]:

@@ -20,6 +20,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import islice, product
+from math import inf
 
 from msgspec import structs
 
@@ -185,8 +186,14 @@ def _whole(typed: Typed, budget: Budget) -> tuple[Reading, ...]:
     return tuple(readings)
 
 
-def _understood(lattice: Lattice, budget: Budget) -> list[Reading]:
-    """Read a lattice strictly; if that costs much, also skip words and try rarer units."""
+def _understood(lattice: Lattice, budget: Budget, limit: float = inf) -> list[Reading]:
+    """Read a lattice strictly; if that costs much, also skip words and try rarer units.
+
+    Args:
+        lattice: the words.
+        budget: the remaining steps.
+        limit: cost from which a reading is of no use.
+    """
     found = leaves(lattice)
     readings: list[Reading] = []
     nodes: Nodes = {}
@@ -194,11 +201,11 @@ def _understood(lattice: Lattice, budget: Budget) -> list[Reading]:
     try:
         strict = Chart(grammar(), without_skips(found), budget, nodes)
         paths = segment(strict, lattice, found, CLAUSES)
-        readings = _readings(paths, lattice, units)
+        readings = _readings(paths, lattice, units, limit)
         if not readings or not _plain(readings[0]):
             loose = Chart(grammar(), found, budget, nodes)
             paths = segment(loose, lattice, found, CLAUSES + RARE)
-            others = _readings(paths, lattice, units)
+            others = _readings(paths, lattice, units, limit)
             readings = unlike([*readings, *others])
     except ChartLimitError:
         pass
@@ -221,7 +228,7 @@ def _by_ear(typed: Typed, lattice: Lattice, plain: list[Reading], budget: Budget
     heard = build(typed, known.vocabulary, known.nouns, by_ear=True)
     if limit <= HEARD or heard.edges == lattice.edges:
         return []  # nothing by ear can be cheap enough, or no word sounds like another
-    found = _understood(heard, budget)
+    found = _understood(heard, budget, limit)
     return [r for r in found[:1] if r.acts and not r.unknown and not r.unread and r.cost < limit]
 
 
@@ -263,11 +270,13 @@ def _plain(reading: Reading) -> bool:
     return bool(count) and not reading.unknown and reading.cost <= limit
 
 
-def _readings(paths: list[Path], lattice: Lattice, units: Units) -> list[Reading]:
+def _readings(
+    paths: list[Path], lattice: Lattice, units: Units, limit: float
+) -> list[Reading]:  # fmt: skip
     found: list[_Draft] = []
-    best = float("inf")
+    best = inf
     for path in paths:
-        most = best + (SPREAD if len(found) < ENOUGH else NEAR)
+        most = min(best + (SPREAD if len(found) < ENOUGH else NEAR), limit)
         if path.cost > most:
             break
         try:
