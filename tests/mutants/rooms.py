@@ -41,7 +41,7 @@ TESTS = (
     "tests/truth",
 )
 #: What compares with a file that is written anew from the code.
-GOLDEN = ("tests/planner/test_golden.py",)
+GOLDEN = ("tests/planner/search/test_golden.py",)
 
 
 def modules() -> list[tuple[str, str]]:

@@ -8,7 +8,7 @@ from planner.motion.tracks import Side
 from planner.prediction.goals import goals_in_view
 from planner.prediction.indication import indicated
 from sim.scene import VehicleState
-from tests.planner.test_recognise import beliefs, probability
+from tests.planner.prediction.test_recognise import beliefs, probability
 from tests.planner.worlds import VIEW, Seen, before_end, roads, situation, still
 
 NEAR, FAR = 15.0, 80.0  # [m] before the junction

@@ -3,7 +3,7 @@
 Where a change of the planner is meant to change the search, write the file anew, and look at
 what changed before you commit it:
 
-    python -m tests.planner.test_golden
+    python -m tests.planner.search.test_golden
 """
 
 import json

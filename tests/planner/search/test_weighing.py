@@ -6,7 +6,7 @@ import pytest
 
 from planner.record.trace import Sample
 from planner.search.comparison import Samples, weighted
-from tests.planner.test_comparison import Known, beliefs
+from tests.planner.search.test_comparison import Known, beliefs
 
 
 def goals(*chances: float) -> Known:

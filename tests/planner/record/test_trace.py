@@ -192,7 +192,7 @@ def test_in_a_great_crowd_predictions_lose_their_lines_too(trace: PlanTrace) -> 
 
 def test_the_id_does_not_depend_on_the_hash_seed(trace: PlanTrace, root: Path) -> None:
     program = (
-        "from tests.planner.test_trace import decision; import sys;"
+        "from tests.planner.record.test_trace import decision; import sys;"
         "sys.stdout.write(decision().trace_id)"
     )
     found = set()

@@ -7,7 +7,7 @@ import pytest
 
 from planner.record.trace import Settings
 from tests.planner.drives import SIZE, avenue, eastward
-from tests.planner.test_recognise_drawn import beliefs, chances
+from tests.planner.prediction.test_recognise_drawn import beliefs, chances
 
 
 def moved_off(lead: int, follower: int) -> dict[str, float]:
