@@ -16,7 +16,7 @@ from benchmarks.drive import drive as bench_drive
 from benchmarks.drive.runs import Run
 from planner.record.trace import encode
 from sim.setup import scenario
-from tests.sim.test_configuration import configured
+from tests.sim.setup.test_configuration import configured
 from xavi_dialogue.__main__ import _note, app
 from xavi_dialogue.chat import main as chat
 from xavi_dialogue.cli import ask

@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 
 from planner.record.places import RoadFacts, RoadPlace
+from tests.nlu.grounding.acts.test_asked import BRAKED, CARS, FOCUS, Grounded, asked, whether
 from tests.nlu.grounding.fakes import FakeWorld, did, talk
-from tests.nlu.grounding.test_asked import BRAKED, CARS, FOCUS, Grounded, asked, whether
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.meaning import (
     Ask,

@@ -4,8 +4,7 @@ from typing import Any
 
 import pytest
 
-from tests.nlu.grounding.fakes import did, talk
-from tests.nlu.grounding.test_asked import (
+from tests.nlu.grounding.acts.test_asked import (
     BRAKE,
     BRAKED,
     BUS,
@@ -16,6 +15,7 @@ from tests.nlu.grounding.test_asked import (
     asked,
     whether,
 )
+from tests.nlu.grounding.fakes import did, talk
 from xavi_dialogue.domain.discourse import Discourse, Span
 from xavi_dialogue.domain.meaning import (
     Ask,

@@ -5,9 +5,9 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
+from tests.nlu.grounding.completion.test_completion import WHY, completed
+from tests.nlu.grounding.completion.test_discussed import SLOWED, grounder
 from tests.nlu.grounding.fakes import talk
-from tests.nlu.grounding.test_completion import WHY, completed
-from tests.nlu.grounding.test_discussed import SLOWED, grounder
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.meaning import (
     Changed,

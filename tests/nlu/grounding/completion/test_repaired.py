@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 from msgspec.structs import replace
 
+from tests.nlu.grounding.completion.test_discussed import SLOWED, grounder
 from tests.nlu.grounding.fakes import talk
-from tests.nlu.grounding.test_discussed import SLOWED, grounder
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.meaning import (
     Act,

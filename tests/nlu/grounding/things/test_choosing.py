@@ -6,7 +6,7 @@ import pytest
 from msgspec.structs import replace
 
 from tests.nlu.grounding.fakes import Car, FakeWorld, did, talk
-from tests.nlu.grounding.test_looks import PLAIN
+from tests.nlu.grounding.things.test_looks import PLAIN
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Described, Vehicle, Vehicles

@@ -6,7 +6,7 @@ import pytest
 
 from planner.record.places import RoadFacts, RoadPlace
 from tests.nlu.grounding.fakes import Car, did
-from tests.nlu.grounding.test_things import BLUE, BUS, RED, Meant
+from tests.nlu.grounding.things.test_things import BLUE, BUS, RED, Meant
 from xavi_dialogue.domain.terms import (
     At,
     Both,

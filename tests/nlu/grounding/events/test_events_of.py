@@ -6,8 +6,8 @@ import pytest
 from msgspec.structs import replace
 
 from planner.record.places import RoadFacts, RoadPlace
+from tests.nlu.grounding.events.test_events import BRAKE, TWO, Said, route
 from tests.nlu.grounding.fakes import did, talk
-from tests.nlu.grounding.test_events import BRAKE, TWO, Said, route
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.terms import (
     At,
