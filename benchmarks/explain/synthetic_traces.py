@@ -89,7 +89,7 @@ def _trace(
         goal=EgoGoal("out", 80.0, None),
         under_way=None,
         history={},
-        scene={EGO: STANDING},
+        scene=dict.fromkeys((EGO, *(one.vehicle for one in seen)), STANDING),
         predictions=seen,
         rollouts=tuple(_rollout(k, plan, drawn) for k, (plan, drawn) in enumerate(rows)),
         not_applicable=(),

@@ -69,6 +69,7 @@ def _faults(trace: PlanTrace) -> Iterator[str]:
     yield from _chances(trace)
     yield from _lists(trace)
     yield from _drawn(trace)
+    yield from _named(trace)
 
 
 def _times(trace: PlanTrace) -> Iterator[str]:
@@ -160,6 +161,25 @@ def _drawn(trace: PlanTrace) -> Iterator[str]:
                 yield f"rollout {one.index} samples what is not predicted of a light"
         if not _imagined(one) <= hidden:
             yield f"rollout {one.index} names somebody who is not imagined"
+
+
+def _named(trace: PlanTrace) -> Iterator[str]:
+    """Yield where somebody is named who is not in the scene, which holds all that are seen."""
+    others = trace.scene.keys() - {EGO}
+    for known in trace.predictions:
+        who = f"vehicle {known.vehicle} in `predictions`"
+        if known.vehicle not in others:
+            yield f"{who} is not another one in `scene`"
+        ways = (way for goal in known.goals for way in goal.trajectories)
+        if not {held.vehicle for way in ways for held in way.held_up} <= trace.scene.keys():
+            yield f"`held_up` of {who} names a vehicle that is not in `scene`"
+    for one in trace.rollouts:
+        struck = set() if one.collided_with is None else {one.collided_with}
+        held = {held.vehicle for held in one.held_up}
+        for field, named in (("collided_with", struck), ("held_up", held)):
+            for vehicle in sorted(named - others):
+                of = f"`{field}` of rollout {one.index} names vehicle {vehicle}"
+                yield f"{of}, which is not another one in `scene`"
 
 
 def _imagined(rollout: Rollout) -> set[int]:

@@ -210,6 +210,11 @@ def test_the_id_does_not_depend_on_the_hash_seed(trace: PlanTrace, root: Path) -
     assert found == {trace.trace_id}
 
 
+HELD = {
+    "vehicle": 99, "from": 2.0, "to": 4.0, "how": "leader", "speed_from": 8.0, "speed_to": 8.0
+}  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("change", "fault"),
     [
@@ -225,6 +230,26 @@ def test_the_id_does_not_depend_on_the_hash_seed(trace: PlanTrace, root: Path) -
         (
             lambda t: {"road": {"places": {}, "priority": [{"vehicle": 7, "who": "ego"}]}},
             "vehicle 7 is on the road and not in the scene",
+        ),
+        (
+            lambda t: {"scene": {k: v for k, v in t["scene"].items() if k != "0"}},
+            "the ego, 0, is missing in `scene`",
+        ),
+        (
+            lambda t: {"rollouts": [{**t["rollouts"][0], "collided_with": 99}]},
+            "`collided_with` of rollout 0 names vehicle 99, which is not another one in `scene`",
+        ),
+        (
+            lambda t: {"rollouts": [{**t["rollouts"][0], "collided_with": 0}]},
+            "`collided_with` of rollout 0 names vehicle 0, which is not another one in `scene`",
+        ),
+        (
+            lambda t: {"rollouts": [{**t["rollouts"][0], "held_up": [HELD]}]},
+            "`held_up` of rollout 0 names vehicle 99, which is not another one in `scene`",
+        ),
+        (
+            lambda t: {"predictions": [{**t["predictions"][0], "vehicle": 99}], "rollouts": []},
+            "vehicle 99 in `predictions` is not another one in `scene`",
         ),
     ],
 )
