@@ -9,6 +9,7 @@ from typing import Literal, TypeAlias
 
 from msgspec.structs import replace
 
+from xavi_dialogue.dialogue.risked import risked
 from xavi_dialogue.dialogue.state.assertions import event_of
 from xavi_dialogue.dialogue.state.memory import is_about_drive
 from xavi_dialogue.dialogue.state.turn import Turn
@@ -114,8 +115,10 @@ def _recast(act: Act, last: Turn) -> Act:
         return act if isinstance(found, str) else found
     match act:
         case Ask(question=HowKnow(of=None | That())):
-            event = _blamed(_main(last))
-            return act if event is None else Ask(HowKnow(Happens(event)))
+            event = _blamed(result)
+            of = risked(result, None if result is None else _asked(result, last))
+            of = of if event is None else Happens(event)
+            return act if of is None else Ask(HowKnow(of))
         case Ask(question=HowSure(of=None | That(), changed=False) as question):
             event = _doubted(_main(last))
             return act if event is None else Ask(replace(question, of=Happens(event)))

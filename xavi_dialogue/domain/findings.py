@@ -261,6 +261,7 @@ class Assurance(Value, frozen=True):
     stands: bool = False
     yields: Literal["we", "they"] | None = None  # who must let the other one go first
     behind: bool = False  # it drives behind us
+    decided: float | None = None  # [s] the decision whose risk it is; None: that of now
 
 
 class Slowing(Value, frozen=True):

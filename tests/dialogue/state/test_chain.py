@@ -19,6 +19,7 @@ from xavi_dialogue.domain.answers import (
     Cause,
     Certainty,
     ChoiceReason,
+    Closeness,
     Comforting,
     Contrast,
     Decided,
@@ -60,6 +61,7 @@ from xavi_dialogue.domain.meaning import (
     Social,
     WhatIf,
     WhatWouldChange,
+    Whether,
     Why,
 )
 from xavi_dialogue.domain.terms import (
@@ -69,8 +71,10 @@ from xavi_dialogue.domain.terms import (
     Event,
     Exists,
     Happens,
+    Is,
     Measured,
     Not,
+    Now,
     That,
     Vehicle,
 )
@@ -255,6 +259,43 @@ def test_how_we_know_and_how_sure_we_are_is_of_what_was_expected() -> None:
     ahead = turn(PlanAhead((("stop", 11.0),)))
     to_come = Event("stop", tense="future", modal="will")
     assert asked(Ask(HowSure()), ahead) == Ask(HowSure(Happens(to_come)))
+
+
+CRASH = Event("collide", Ego(), time=Now(), tense="present")
+WAS = Closeness(3, None, risk=0.01, asked="dangerous", time=9.0)
+SAID = Event("collide")
+
+
+@pytest.mark.parametrize(
+    ("result", "of"),
+    [
+        (WAS, Believed(Happens(replace(CRASH, time=At(9.0))), time=At(9.0))),
+        (
+            replace(WAS, planned=7.0),
+            Believed(Happens(replace(CRASH, time=At(7.0))), time=At(7.0)),
+        ),
+        (replace(WAS, past=False), Happens(CRASH)),
+        (replace(WAS, risk=None), None),
+        (
+            Verdict(Happens(SAID), None, probability=0.01),
+            Happens(replace(SAID, time=Now(), tense="present")),
+        ),
+        (
+            Verdict(Happens(replace(SAID, time=At(4.0))), None, probability=0.01),
+            Believed(Happens(replace(SAID, time=At(4.0))), time=At(4.0)),
+        ),
+        (Verdict(Happens(SAID), None), None),
+    ],
+)
+def test_how_we_know_a_risk_is_of_what_it_rests_on(result: Any, of: Any) -> None:
+    assert asked(Ask(HowKnow()), turn(result)) == Ask(HowKnow(of))
+
+
+def test_how_we_know_the_risk_with_somebody_is_of_that_one() -> None:
+    told = turn(WAS, act=Ask(Whether(Is("dangerous", Vehicle(3)))))
+    crash = replace(CRASH, object=Vehicle(3), time=At(9.0))
+    known = Believed(Happens(crash), time=At(9.0))
+    assert asked(Ask(HowKnow(That())), told) == Ask(HowKnow(known))
 
 
 @pytest.mark.parametrize(

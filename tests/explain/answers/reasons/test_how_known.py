@@ -23,6 +23,8 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import HowDecide, HowKnow
 from xavi_dialogue.domain.terms import (
+    At,
+    Believed,
     Ego,
     Event,
     Happens,
@@ -176,3 +178,12 @@ def test_that_somebody_may_come_out_before_us_is_known_by_the_rule(
     told.setattr(room, "comes_before", lambda *_: told_of)
     told.setattr(room, "assured", lambda *_: "assured")
     assert known(Event("pull-out", IT, tense="future")) == answer
+
+
+@pytest.mark.parametrize(("whom", "vehicle"), [(IT, 1), (None, None)])
+def test_an_earlier_risk_rests_on_what_was_simulated_then(
+    whom: Any, vehicle: Any, told: pytest.MonkeyPatch
+) -> None:
+    told.setattr(room, "was_assured", lambda _, *told_of: told_of)
+    crash = Event("collide", US, whom, time=At(4.0), tense="present")
+    assert known(Believed(Happens(crash), time=At(4.0))) == (vehicle, 4.0)

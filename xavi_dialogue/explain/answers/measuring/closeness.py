@@ -100,6 +100,14 @@ def _tightest(asked: Asked, about: Window) -> int | None:
     return who if least < TIGHT else None
 
 
+def was_assured(asked: Asked, vehicle: int | None, at: float) -> Closeness:
+    """Return on what the risk of a collision rested at an earlier time [s]."""
+    situations, struck = simulated(asked, at, vehicle)
+    risk = collision_chance(asked, at, vehicle)
+    grounds = Assurance(situations, struck, decided=at)
+    return Closeness(vehicle, None, None, risk, "grounds", at, grounds=grounds)
+
+
 def assured(asked: Asked, vehicle: int | None) -> Closeness:
     """Return why no collision is expected: what is expected of a vehicle, and what was simulated.
 

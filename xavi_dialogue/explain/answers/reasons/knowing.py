@@ -17,7 +17,17 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Belief, Episode
 from xavi_dialogue.domain.meaning import HowDecide, HowKnow, HowSure
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Now, Proposition, Related, Vehicle
+from xavi_dialogue.domain.terms import (
+    At,
+    Believed,
+    Ego,
+    Event,
+    Happens,
+    Now,
+    Proposition,
+    Related,
+    Vehicle,
+)
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.events.beliefs import denied, ruled, since_when
 from xavi_dialogue.explain.answers.expectations.foreseen import (
@@ -28,7 +38,7 @@ from xavi_dialogue.explain.answers.expectations.foreseen import (
     is_behind,
     unconsidered,
 )
-from xavi_dialogue.explain.answers.measuring.closeness import assured
+from xavi_dialogue.explain.answers.measuring.closeness import assured, was_assured
 from xavi_dialogue.explain.answers.measuring.nearing import BEFORE_US, POSSIBLE, comes_before
 from xavi_dialogue.explain.answers.reasons import choices, others
 from xavi_dialogue.explain.answers.reasons.motions import motion
@@ -77,6 +87,10 @@ def how_know(question: HowKnow, scene: Asked) -> Answer:
         Unanswered: nothing was believed of the vehicle; or the record lacks it.
     """
     of, _ = unwrapped(question.of)
+    if isinstance(of, Believed) and isinstance(of.time, At):
+        crash = event_of(of.content)
+        if crash is not None and crash.action in COLLIDING:
+            return was_assured(scene, vehicle_in(crash.object), of.time.at)
     event = event_of(of)
     vehicle = _whom(scene, of, event)
     yields = event is not None and event.action in YIELDS | {"wait"}

@@ -8,7 +8,7 @@ from xavi_dialogue.nlg.content.clauses.facts import belief_message, episode_mess
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import message
-from xavi_dialogue.nlg.surface.values import Chance, Number, Quantity, Who
+from xavi_dialogue.nlg.surface.values import Chance, Moment, Number, Quantity, Who
 
 LIKELY = 0.5  # minimum probability that is stated with a rule
 SOME = 0.5  # [m] braking distance below which braking is hardly needed
@@ -63,6 +63,8 @@ def plan_slowing(answer: Slowing, context: SpeechContext) -> Plan:
 
 def plan_assured(answer: Closeness, of: Assurance, context: SpeechContext) -> Plan:
     """Plan why no collision is expected: the risk, what is expected, what was simulated."""
+    if of.decided is not None and of.situations and answer.risk is not None:
+        return _was_assured(answer.risk, of, of.decided, answer.vehicle)
     known = of.belief is not None and of.belief.expectations and not of.stands
     who = None if answer.vehicle is None else Who(Vehicle(answer.vehicle))
     first = message(
@@ -85,6 +87,19 @@ def plan_assured(answer: Closeness, of: Assurance, context: SpeechContext) -> Pl
         who=who,
     )
     return Plan((first,), (simulated,))
+
+
+def _was_assured(risk: float, of: Assurance, decided: float, vehicle: int | None) -> Plan:
+    """Plan on what an earlier risk rested: what was simulated then, and the risk from that."""
+    basis = message(
+        "RISK_BASIS",
+        when=Moment(decided),
+        situations=Number(of.situations, "situation"),
+        one=of.situations == 1,
+        struck=Number(of.struck, "situation") if of.struck else None,
+        who=None if vehicle is None else Who(Vehicle(vehicle)),
+    )
+    return Plan((basis, message("RISK_FROM", risk=Chance(risk))))
 
 
 def _quantity(of: Measure | None, unit: str) -> Quantity | None:
