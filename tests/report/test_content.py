@@ -2,10 +2,12 @@
 
 import hashlib
 import math
+from itertools import pairwise
 from typing import get_args
 
 import msgspec
 import pytest
+from msgspec.structs import replace
 
 import xavi_dialogue as xavi
 from planner.record.events import RestraintKind
@@ -29,7 +31,9 @@ from tests.report.records import (
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.report.content import DecisionRow, Incident, encode
 from xavi_dialogue.report.figures import Figure
+from xavi_dialogue.report.jumps import FAR, jumps
 from xavi_dialogue.report.render.words import phrase
+from xavi_dialogue.report.tracks import Tracks
 from xavi_dialogue.service.in_process import NoPlan
 from xavi_dialogue.storage.ride_file import RecordedRide
 
@@ -676,3 +680,54 @@ def test_what_restrained_the_car_is_in_the_timeline() -> None:
 def test_every_restraint_has_words() -> None:
     for kind in get_args(RestraintKind):
         assert phrase("restraint", kind) != kind or kind == "nothing"
+
+
+# --- what moved far from one decision to the next -------------------------------------------------
+
+
+def test_a_collision_that_becomes_probable_at_once_is_told_with_what_was_seen() -> None:
+    (jump,) = incident(UNHEEDED).jumps
+    assert (jump.vehicle, jump.before, jump.number) == (None, 9, 10)
+    rows = {row.number: row for row in incident(UNHEEDED).decisions}
+    assert (jump.was, jump.now) == (rows[9].collision, rows[10].collision)
+    known = traces(UNHEEDED)
+    kinds = [one.kind for one in jump.changes]
+    assert kinds == ["signals", "moved", "speed", "expected"]
+    assert {one.vehicle for one in jump.changes} == {1}
+    lights, _, speed, expected = jump.changes
+    assert lights.words == ("brake", "")
+    assert speed.was is not None
+    assert speed.was.value == known[9].scene[1].speed
+    assert expected.was is not None
+    assert expected.now is not None
+    assert expected.now.value - expected.was.value > 1.0
+
+
+@every_case
+def test_every_belief_that_moves_far_is_told_once(path, at) -> None:
+    report = incident(path, at)
+    told = {(one.vehicle, one.before, one.number) for one in report.jumps}
+    assert len(told) == len(report.jumps)
+    for known in report.beliefs:
+        for goal in known.goals:
+            for first, then in pairwise(goal.points):
+                numbers = (first.source.number, then.source.number)
+                in_a_row = (numbers[0] or 0) + 1 == numbers[1]
+                if in_a_row and abs(then.probability - first.probability) >= FAR:
+                    assert (known.vehicle, *numbers) in told
+
+
+def test_a_belief_that_moves_without_anything_seen_is_told_without_a_reason() -> None:
+    before = traces(TOWN)[22]
+    at, known = next((k, one) for k, one in enumerate(before.predictions) if one.vehicle == 5)
+    chances = sorted((goal.probability for goal in known.goals), reverse=True)
+    turned = [replace(g, probability=p) for g, p in zip(known.goals, chances[::-1], strict=True)]
+    others = (*before.predictions[:at], *before.predictions[at + 1 :])
+    after = replace(
+        before,
+        decision=23,
+        sim_time=22.1,
+        predictions=(replace(known, goals=tuple(turned)), *others),
+    )
+    (jump,) = jumps([before, after], Tracks({}, {}, math.inf), [5])
+    assert (jump.vehicle, jump.changes) == (5, ())

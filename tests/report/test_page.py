@@ -8,12 +8,14 @@ import pytest
 from msgspec.structs import replace
 
 from tests.report.records import BRAKING, LIGHT, TOWN, UNHEEDED, incident, report, traces
-from xavi_dialogue.report.content import Incident
+from xavi_dialogue.report.content import Incident, Jump
 from xavi_dialogue.report.figures import Figure, Source
+from xavi_dialogue.report.render.jumps import told_jump
 from xavi_dialogue.report.render.markup import Markup, joined, tag
 from xavi_dialogue.report.render.notes import TIE, Notes, percent, told
+from xavi_dialogue.report.render.observations import Page
 from xavi_dialogue.report.render.page import CAUTION, html
-from xavi_dialogue.report.render.words import decisions_words, seconds
+from xavi_dialogue.report.render.words import Names, decisions_words, seconds
 
 EVIL = "<script>alert('x')</script>"
 CASES = [(UNHEEDED, None), (BRAKING, "hardest braking"), (LIGHT, "red light")]
@@ -142,7 +144,7 @@ def test_columns_say_what_their_probabilities_are_of() -> None:
     assert "Probability of a collision with anybody, as believed then" in crash
     assert "a collision has two figures. The share of the rollouts is what the reward" in crash
     braking = read(report(BRAKING, "hardest braking").html()).text
-    assert re.search(r"Probability of braking at \d\.?\d* m/s² or more, as believed then", braking)
+    assert re.search(r"Probability of braking at \d\.?\d* m/s² or more by \d+\.\d s, as", braking)
     light = read(report(LIGHT, "red light").html()).text
     assert "Probability that a light holds the car up, as believed then" in light
     assert "Decision 8: changed what to do next" in crash
@@ -228,3 +230,32 @@ def test_numbers_of_decisions_and_times_are_told_shortly() -> None:
     assert decisions_words((3, 4, 5, 8)) == "decisions 3 to 5 and 8"
     assert decisions_words((3,)) == "decision 3"
     assert [seconds(t) for t in (21.65, 11.1, 3.0)] == ["21.65 s", "11.1 s", "3.0 s"]
+
+
+def test_what_moved_far_is_told_with_what_changed() -> None:
+    crash = re.sub(r"(?<=[%h])\d+", "", read(report(UNHEEDED).html()).text)
+    assert "the share of the rollouts of the plan that collide went from 0 % to 85 %" in crash
+    assert "vehicle 1 (blue truck) drove 26.5 km/h where 22.3 km/h had been expected" in crash
+    town = read(report(TOWN, "hardest braking").html()).text
+    assert "vehicle 5 (blue bus) came from a junction to road C3_D3" in town
+
+
+def test_a_jump_without_anything_seen_says_that_the_record_does_not_show_why() -> None:
+    content = report(TOWN, "hardest braking").content
+    page = Page(content, Names(content.involved), Notes())
+    text = told_jump(page, Jump(5, 22, 23, None, None, "exit-right", "the road to the right"))
+    assert "turns right (the road to the right) went from “not among its goals” to" in text
+    assert text.endswith("so it does not show why.")
+
+
+def test_colours_are_said_to_be_those_of_the_drawings() -> None:
+    page = report(UNHEEDED).html()
+    assert "they are not those of the vehicles" in page
+    assert page.count('class="key"') == 3  # this car, the other and anybody else
+
+
+def test_braking_alone_is_told_apart_from_the_options() -> None:
+    text = read(report(UNHEEDED).html()).text
+    assert text.count("Apart from the options: braking at 7 m/s² on its own line") == 2
+    assert "Options begin at decisions, which come 1 s apart" in text
+    assert "what was expected of the option, not what was driven" in text

@@ -21,6 +21,7 @@ from xavi_dialogue.report.content import (
     Subject,
     TraceHash,
 )
+from xavi_dialogue.report.jumps import jumps
 from xavi_dialogue.report.limits import AFTER, BEFORE, limitations
 from xavi_dialogue.report.maps import strip
 from xavi_dialogue.report.moments import ReportError, choose
@@ -78,6 +79,7 @@ def build(ridden: Ridden, at: float | str | None = None) -> Incident:
         lights=lit,
         precedence=precedence(ridden, window),
         beliefs=believed,
+        jumps=jumps(ridden.between(*window), tracks, others),
         decisions=tuple(
             row(ridden, trace, traces[k - 1] if k else None)
             for k, trace in enumerate(traces)

@@ -20,6 +20,9 @@ MomentKind = Literal["collision", "hardest-braking", "closest-approach", "red-li
 Role = Literal[
     "collided", "near", "gave-way", "in-the-way", "held-up", "leader", "right-of-way", "follower"
 ]  # fmt: skip
+ChangeKind = Literal[
+    "plan", "in-view", "road", "signals", "light", "speed", "expected", "moved", "turned"
+]
 Examined = Literal["in-force", "last-change", "changed", "last-chance", "last-way"]
 Limit = Literal[
     "no-roads", "other-roads", "no-scenes", "ends-early", "begins-late", "lost", "lacks",
@@ -195,6 +198,30 @@ class Beliefs(msgspec.Struct, frozen=True):
     speeds: tuple[SpeedExpected, ...] = ()  # by the decisions that are examined
 
 
+class Change(msgspec.Struct, frozen=True, omit_defaults=True):
+    """Something that was seen or planned otherwise at one decision than at the one before."""
+
+    kind: ChangeKind
+    vehicle: int | None = None
+    was: Figure | None = None
+    now: Figure | None = None
+    words: tuple[str, str] = ("", "")  # before and now, of what is no figure
+    source: Source | None = None  # of what is no figure
+
+
+class Jump(msgspec.Struct, frozen=True, omit_defaults=True):
+    """A probability that moved far from one decision to the next, and what changed in between."""
+
+    vehicle: int | None  # whose goal it is; None: of a collision under the plan
+    before: int  # number of the decision
+    number: int  # of the next one
+    was: Figure | None  # None: the decision before did not ascribe that goal
+    now: Figure | None  # None: the next one does not ascribe it
+    goal: Action | None = None
+    place: str = ""
+    changes: tuple[Change, ...] = ()  # (): the record shows none
+
+
 class Choice(msgspec.Struct, frozen=True):
     """A first action that a decision compared."""
 
@@ -302,6 +329,7 @@ class Incident(msgspec.Struct, frozen=True):
     lights: tuple[LightSpan, ...]
     precedence: tuple[Precedence, ...]
     beliefs: tuple[Beliefs, ...]
+    jumps: tuple[Jump, ...]
     decisions: tuple[DecisionRow, ...]
     decided: tuple[Decided, ...]  # those that are shown in full, oldest first
     cases: tuple[Cases, ...]  # of those of them that were planned again

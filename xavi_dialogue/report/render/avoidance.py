@@ -1,6 +1,6 @@
 """The section on from when a mishap could have been avoided, and how."""
 
-from xavi_dialogue.explain.causes.plans.avoidance import SELDOM
+from xavi_dialogue.explain.causes.plans.avoidance import LEEWAY, SELDOM
 from xavi_dialogue.report.alternatives import Avoidability, Chance, LightStop, Way
 from xavi_dialogue.report.avoiding import keeps_route
 from xavi_dialogue.report.render.markup import Markup, joined, table, tag
@@ -21,10 +21,23 @@ def avoidance(page: Page) -> Markup:
                 f"the {_believed(known)}. ", _rule(known), _more(known)),
             tag("p", tag("b", last_chance(known))),
             *(tag("p", text) for text in emergencies(page, known)),
+            tag("p", _apart(page)) if known.emergency else None,
             *(() if known.light is None else _light(page, known.light)),
             tag("div", _ways(page, known), class_="wide"),
         )
     )  # fmt: skip
+
+
+def _apart(page: Page) -> str:
+    """Return why braking alone and the options end at different times."""
+    period = page.report.subject.settings.period
+    return (
+        f"The two ask different things. Options begin at decisions, which come {period:g} s apart, "
+        "are driven as the planner would drive them, and are judged by what was believed of the "
+        "others, too. Braking alone is tried from every sample, at one rate, against the other as "
+        "it drove, which was not known then. So it may suffice after the last decision with an "
+        "option."
+    )
 
 
 def _mishap(known: Avoidability) -> str:
@@ -175,12 +188,14 @@ def emergencies(page: Page, known: Avoidability) -> list[Markup]:
         note = page.notes.ref(one.source)
         if one.latest is None:
             text = (
-                f"Braking at {one.rate:g} m/s² from {one.looked_from:.1f} s on, or from any later "
+                f"Apart from the options: braking at {one.rate:g} m/s² from "
+                f"{one.looked_from:.1f} s on, or from any later "
                 "sample, would not have avoided contact with the other as it drove"
             )
         else:
             text = (
-                f"Braking at {one.rate:g} m/s² on its own line, begun at {one.latest:.1f} s "
+                f"Apart from the options: braking at {one.rate:g} m/s² on its own line, whatever "
+                f"the planner would have done, begun at {one.latest:.1f} s "
                 f"({one.before:.1f} s before) or earlier, "
                 "would have kept this car clear of the other as it drove"
             )
@@ -197,8 +212,10 @@ def _ways(page: Page, known: Avoidability) -> Markup:
     ]
     replayed = ("Share of its lines that touch the other as it drove", "Least distance to it")
     of_crash = replayed if crash else ("Probability of a collision, as believed then",)
-    believed = f"{capital(_believed(known))}, as believed then"
-    head = ("Decision", "Option", believed, *of_crash, "Hardest braking", "Avoids it")
+    until = f" by {known.at + LEEWAY:.1f} s" if known.mishap == "brake" else ""
+    believed = f"{capital(_believed(known))}{until}, as believed then"
+    braking = "Hardest braking up to the end of the rollouts"
+    head = ("Decision", "Option", believed, *of_crash, braking, "Avoids it")
     return table(head, rows, "long")
 
 

@@ -1,11 +1,14 @@
 """Source notes: every figure gets the number of the note that names its source."""
 
+import math
+
 from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.render.markup import Markup, joined, tag
 
 KMH = 3.6
-UNITS = {"m/s": "km/h", "m/s2": "m/s²"}
-DIGITS = {"m/s": 1, "m/s2": 1, "m": 1, "s": 1}
+UNITS = {"m/s": "km/h", "m/s2": "m/s²", "rad": "°"}
+SCALES = {"m/s": KMH, "rad": math.degrees(1.0)}  # from the unit that is recorded
+DIGITS = {"m/s": 1, "m/s2": 1, "m": 1, "s": 1, "rad": 0}
 TIE = "\N{NO-BREAK SPACE}"  # between a number and its unit
 SMALLEST = 0.001  # probability that is told apart from 0
 
@@ -14,7 +17,7 @@ def number(value: float, unit: str) -> str:
     """Return a number in the unit that is shown, without the unit."""
     if unit == "":
         return percent(value)
-    shown = value * KMH if unit == "m/s" else value
+    shown = value * SCALES.get(unit, 1.0)
     return f"{shown:.{DIGITS.get(unit, 2)}f}".replace("-", "\N{MINUS SIGN}")
 
 

@@ -8,7 +8,7 @@ from xavi_dialogue.explain.causes.plans.avoidance import SELDOM
 from xavi_dialogue.report.content import Entry, Incident, LightSpan
 from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.render.charts import Axes, Line, bands, chart
-from xavi_dialogue.report.render.colours import LIGHTS, colour, stroke
+from xavi_dialogue.report.render.colours import LIGHTS, REST, colour, stroke
 from xavi_dialogue.report.render.drawings import strip
 from xavi_dialogue.report.render.markup import EMPTY, Markup, joined, table, tag
 from xavi_dialogue.report.render.notes import KMH, TIE, Notes, percent, told
@@ -149,12 +149,18 @@ def maps(page: Page) -> Markup:
     """Return the strip of maps."""
     shown, report = page.report.map, page.report
     text = "Boxes are true to scale, with their front in white; thin lines are the ways driven."
+    known = [tag("span", page.names.shown(v), class_="key") for v in (EGO, *page.names.order)]
+    rest = tag("span", class_="swatch", style=f"background:{REST}")
+    grey = tag("span", rest, "anybody else", class_="key")
+    legend = tag("p", "Colours stand for road users, as in the charts of speeds and "
+                 "distances; they are not those of the vehicles: ", *known, grey)  # fmt: skip
     if not shown.roads:
         text += " The roads are not at hand."
     source = page.notes.ref(shown.frames[0].source) if shown.frames else EMPTY
     return joined(
         (
             tag("p", text, f" North is up. Roads: network {report.hashes.network}.", source),
+            legend,
             strip(shown, report.moment.time, page.names.order),
         )
     )

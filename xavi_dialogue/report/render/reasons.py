@@ -4,6 +4,7 @@ from xavi_dialogue.report.alternatives import Cases, Holding, Tested
 from xavi_dialogue.report.content import Beliefs, Choice, Decided, GoalBelief, SpeedExpected
 from xavi_dialogue.report.render.charts import Line, chart
 from xavi_dialogue.report.render.colours import OTHERS, STROKES
+from xavi_dialogue.report.render.jumps import told_jump
 from xavi_dialogue.report.render.markup import Markup, joined, listed, table, tag
 from xavi_dialogue.report.render.notes import percent
 from xavi_dialogue.report.render.observations import Page
@@ -65,6 +66,11 @@ def _beliefs(page: Page, known: Beliefs) -> list[Markup]:
     return [
         chart(page.axes, "Probability of its goals [%]", drawn, high=100.0),
         table(head, rows),
+        *(
+            tag("p", told_jump(page, one))
+            for one in page.report.jumps
+            if one.vehicle == known.vehicle
+        ),
         *_speeds(page, known.speeds),
     ]
 
@@ -115,9 +121,13 @@ def decisions(page: Page) -> Markup:
         "what the reward counts. But rollouts err: the next column is the probability that this "
         "car would tell its passengers, made from such a share and from how often SUMO bore "
         "rollouts out. The last column compares options over the same situations where both were "
-        "tried in them, so it need not be the difference of the expected rewards."
+        "tried in them, so it need not be the difference of the expected rewards. The hardest "
+        "braking is that of the rollouts, from the decision up to their ends: what was expected "
+        "of the option, not what was driven, which the timeline tells."
     )
-    short = joined((table(head, rows, "long"), tag("p", text) if report.decided else None))
+    moved = [tag("p", told_jump(page, one)) for one in report.jumps if one.vehicle is None]
+    asked = tag("p", text) if report.decided else None
+    short = joined((table(head, rows, "long"), *moved, asked))
     whole = [_decided(page, one) for one in report.decided]
     return joined((tag("h3", "All decisions of these seconds"), short, *whole))
 

@@ -6,6 +6,7 @@ from xavi_dialogue.report.alternatives import Cases, Tested
 from xavi_dialogue.report.content import Choice
 from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.render.avoidance import emergencies, last_chance, light_told
+from xavi_dialogue.report.render.jumps import told_jump
 from xavi_dialogue.report.render.markup import Markup, Part, joined, listed
 from xavi_dialogue.report.render.notes import KMH, number, percent
 from xavi_dialogue.report.render.observations import Page
@@ -37,6 +38,7 @@ def summary(page: Page) -> Markup:
             *_light(page),
             *_believed(page),
             *_decided(page),
+            *_moved(page),
             *_restrained(page),
             *_expected_speeds(page),
             *_held(page),
@@ -177,6 +179,14 @@ def _expected(page: Page, choice: Choice) -> Markup:
         share = page.notes.figure(crash)
         parts += [f" and a collision{with_whom} in ", share, " of the rollouts"]
     return joined(parts)
+
+
+def _moved(page: Page) -> Iterator[Markup]:
+    """Yield where the probability of a collision moved far before the moment."""
+    times = {row.number: row.time for row in page.report.decisions}
+    for jump in page.report.jumps:
+        if jump.vehicle is None and times[jump.number] <= page.report.moment.time + 1e-6:
+            yield told_jump(page, jump)
 
 
 def _restrained(page: Page) -> Iterator[Markup]:
