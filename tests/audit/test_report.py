@@ -6,8 +6,11 @@ import shutil
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import msgspec
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from tests.audit.made import answered, audit, choice, facts, mistake
@@ -92,6 +95,68 @@ def test_what_cannot_be_compared_is_said(tmp_path: Path) -> None:
     write(audit((facts(), other)), Store(tmp_path / "old"), 10, None)
     with pytest.raises(AuditError, match="asked no ride"):
         write(some(), Store(tmp_path / "new"), 10, earlier(tmp_path / "old"))
+
+
+def _empty(folder: Path) -> None:
+    for path in folder.iterdir():
+        shutil.rmtree(path) if path.is_dir() else path.unlink()
+
+
+def _cut(folder: Path) -> None:
+    data = (folder / ANSWERS).read_bytes()
+    (folder / ANSWERS).write_bytes(data[:-20])
+
+
+def _column(name: str, values: Any) -> Any:
+    """Return what replaces a column of the answers."""
+
+    def spoil(folder: Path) -> None:
+        table = pq.read_table(folder / ANSWERS)
+        at, column = table.schema.get_field_index(name), pa.array([values] * table.num_rows)
+        pq.write_table(table.set_column(at, name, column), folder / ANSWERS)
+
+    return spoil
+
+
+def _doubled(folder: Path) -> None:
+    table = pq.read_table(folder / ANSWERS)
+    pq.write_table(pa.concat_tables([table, table]), folder / ANSWERS)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "told"),
+    [
+        (_empty, r"answers\.parquet is missing"),
+        (_cut, r"answers\.parquet cannot be read"),
+        (lambda folder: (folder / ANSWERS).write_bytes(b""), r"answers\.parquet cannot be read"),
+        (lambda folder: (folder / RIDES).unlink(), r"rides\.parquet is missing"),
+        (lambda folder: shutil.copy(folder / RIDES, folder / ANSWERS), "has other columns"),
+        (
+            lambda folder: pq.write_table(pa.table({"a": [1]}), folder / ANSWERS),
+            "has other columns",
+        ),
+        (_column("at", "x"), "has other columns"),
+        (_column("text", "\x1b[31mred"), r"answers\.parquet: .*U\+001B, which cannot be printed"),
+        (_doubled, "has two rows of the same ride and question and when"),
+    ],
+)
+def test_a_foreign_or_spoilt_folder_is_no_earlier_audit(
+    spoil: Any, told: str, tmp_path: Path
+) -> None:
+    write(some(), Store(tmp_path), 10, None)
+    spoil(tmp_path)
+    with pytest.raises(AuditError, match=rf"holds no audit: .*{told}.*; give the folder of an"):
+        earlier(tmp_path)
+
+
+def test_an_earlier_audit_with_empty_fields_is_refused(tmp_path: Path) -> None:
+    write(some(), Store(tmp_path), 10, None)
+    table = pq.read_table(tmp_path / RIDES)
+    nothing = pa.array([None] * table.num_rows, pa.string())
+    at = table.schema.get_field_index("ride_hash")
+    pq.write_table(table.set_column(at, "ride_hash", nothing), tmp_path / RIDES)
+    with pytest.raises(AuditError, match="has rows that lack ride or ride_hash or program"):
+        earlier(tmp_path)
 
 
 class _Elements(HTMLParser):

@@ -258,6 +258,8 @@ def test_of_a_recording_that_is_cut_off_the_rest_is_opened_with_a_warning(tmp_pa
         ("other.gz", gzip.compress(b"{}\n", mtime=0), "names no scenario, seed, halt; give a file"),
         ("ride.mcap", b"hello", r"ride\.mcap is not an MCAP file"),
         ("gone.mcap", None, r"cannot read .*gone\.mcap"),
+        ("noending", b"", r"noending: the file is empty; give a file"),
+        (".", None, r"cannot read .*: Is a directory; give a file"),
     ],
 )
 def test_what_cannot_be_opened_is_told_with_its_name(
@@ -267,6 +269,13 @@ def test_what_cannot_be_opened_is_told_with_its_name(
         (tmp_path / name).write_bytes(data)
     with pytest.raises(xavi.XaviError, match=told):
         xavi.open(tmp_path / name)
+
+
+def test_a_saved_ride_is_opened_by_its_content_and_of_its_car_alone(tmp_path: Path) -> None:
+    (tmp_path / "mine").write_bytes(S1.read_bytes())
+    assert xavi.open(tmp_path / "mine", car="car").decisions
+    with pytest.raises(xavi.XaviError, match=r"mine is a ride of 'car', not of 'other'"):
+        xavi.open(tmp_path / "mine", car="other")
 
 
 def test_wrong_arguments_are_told_with_what_is_right() -> None:

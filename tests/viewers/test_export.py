@@ -244,6 +244,57 @@ def test_the_command_writes_both_files_and_overwrites_none(tmp_path: Path) -> No
     assert CliRunner().invoke(app, [*command, "--force"]).exit_code == 0
 
 
+def test_a_ride_is_not_written_over_nor_two_files_into_one(tmp_path: Path) -> None:
+    ride = tmp_path / "mine.ride.jsonl.gz"
+    ride.write_bytes(S1.read_bytes())
+    (tmp_path / "link").symlink_to(ride)
+    for source, target in ((ride, ride), (tmp_path / "mine", ride), (ride, tmp_path / "link")):
+        done = CliRunner().invoke(app, ["export", str(source), str(target), "--force"])
+        assert done.exit_code == 1
+        assert "is the ride itself; give another file to write" in done.stderr
+    out = str(tmp_path / "out.mcap")
+    done = CliRunner().invoke(app, ["export", str(ride), out, "--layout", out])
+    assert done.exit_code == 1
+    assert not Path(out).exists()
+    assert ride.read_bytes() == S1.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("data", "told"),
+    [
+        (b"", "is not an MCAP file"),
+        (b"\x89PNG\r\n\x1a\n", "is not an MCAP file"),
+        (S1.read_bytes(), "is not an MCAP file"),
+    ],
+)
+def test_what_is_no_recording_is_not_exported(data: bytes, told: str, tmp_path: Path) -> None:
+    foreign, out = tmp_path / "foreign.mcap", tmp_path / "out.mcap"
+    foreign.write_bytes(data)
+    done = CliRunner().invoke(app, ["export", str(foreign), str(out)])
+    assert (done.exit_code, out.exists()) == (2, False)
+    assert told in done.stderr
+
+
+def test_a_recording_that_was_cut_off_or_spoilt_is_not_exported(
+    exported: Path, tmp_path: Path
+) -> None:
+    whole, out = exported.read_bytes(), tmp_path / "out.mcap"
+    spoilt = bytearray(whole)
+    spoilt[len(whole) // 2] ^= 0xFF
+    for data in (whole[: len(whole) // 2], whole[:60], bytes(spoilt)):
+        (tmp_path / "bad.mcap").write_bytes(data)
+        done = CliRunner().invoke(app, ["export", str(tmp_path / "bad.mcap"), str(out)])
+        assert (done.exit_code, out.exists()) == (2, False)
+        assert "bad.mcap" in done.stderr
+
+
+def test_an_export_that_cannot_be_written_is_told(tmp_path: Path) -> None:
+    for target in (tmp_path / "nowhere" / "out.mcap", Path("/proc/out.mcap")):
+        done = CliRunner().invoke(app, ["export", str(S1), str(target)])
+        assert done.exit_code == 1
+        assert f"cannot write {target}" in done.stderr
+
+
 def test_a_layout_that_cannot_be_written(tmp_path: Path) -> None:
     (tmp_path / "there").touch()
     with pytest.raises(FileThere, match="--force"):

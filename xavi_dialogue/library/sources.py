@@ -82,13 +82,18 @@ def open_ride(path: str | Path, scenario: str | Path | None = None, car: str | N
         car: of a recording with several cars, which one.
 
     Raises:
-        XaviError: the file cannot be read, or the scenario is not that of the ride.
+        XaviError: the file cannot be read, or the scenario or car is not that of the ride.
     """
-    file = ride_file.named(Path(path))
+    given, saved = Path(path), ride_file.named(Path(path))
+    file = given if given.is_file() or (given.exists() and not saved.is_file()) else saved
     with translated():
         if file.suffix == RECORDING:
             return _recorded(file, player.load(file, car, _warn))
-        return _saved(file, scenario)
+        ride = _saved(file, scenario)
+        own = ride.record.traces[0].vehicle
+        if car not in (None, own):
+            raise LibraryError(f"{file} is a ride of {own!r}, not of {car!r}")
+        return ride
 
 
 def _ride(

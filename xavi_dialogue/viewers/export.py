@@ -14,6 +14,7 @@ from xavi_dialogue.dashboard.views.labels import event_words, plan_words
 from xavi_dialogue.library.answers import Answer
 from xavi_dialogue.library.decisions import Decision
 from xavi_dialogue.library.ride import Ride
+from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.mcap_file import McapWriter
 from xavi_dialogue.storage.recording_format import Entry, FileThere, Unwritable
 from xavi_dialogue.viewers import drawing, messages, motion, recorded, roads
@@ -38,6 +39,7 @@ class ExportOptions:
     questions: Sequence[str] = ()
     at: float | None = None  # [s] when they are asked
     overwrite: bool = False
+    layout: Path | None = None  # file for the layout of panels
 
 
 @dataclass
@@ -71,8 +73,9 @@ def export(ride: Ride, options: ExportOptions) -> dict[str, int]:
         The number of messages by topic.
 
     Raises:
-        XaviError: the file cannot be written, or a question cannot be asked.
+        XaviError: the files cannot be written, or are one; or a question cannot be asked.
     """
+    _check_apart(options)
     answers = [ride.ask(question, options.at) for question in options.questions]
     out = _Export()
     if ride.network is not None:
@@ -85,7 +88,20 @@ def export(ride: Ride, options: ExportOptions) -> dict[str, int]:
         file.describe("xavi.ride", {"scenario": ride.scenario, "seed": str(ride.seed)})
         if options.source.suffix == RECORDING:
             _copy(out, file, options.source, ride)
-        return out.write(file)
+        told = out.write(file)
+    if options.layout is not None:
+        write_layout(options.layout, overwrite=options.overwrite)
+    return told
+
+
+def _check_apart(options: ExportOptions) -> None:
+    """Check that no file is written over the ride, or over another one of the export."""
+    written = {options.target.resolve(), *([options.layout.resolve()] if options.layout else ())}
+    source = ride_file.named(options.source) if not options.source.is_file() else options.source
+    if source.resolve() in written:
+        raise Unwritable(f"{source} is the ride itself; give another file to write")
+    if options.layout is not None and len(written) == 1:
+        raise Unwritable(f"{options.layout} is the ride's file; give another one for the layout")
 
 
 def write_layout(path: Path, *, overwrite: bool = False) -> None:

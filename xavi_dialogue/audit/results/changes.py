@@ -6,6 +6,7 @@ from typing import Any
 
 import msgspec
 
+from planner.record.foreign_text import unprintable
 from xavi_dialogue.audit.audit import Audit
 from xavi_dialogue.audit.errors import AuditError
 from xavi_dialogue.audit.results import tables
@@ -43,12 +44,10 @@ def earlier(folder: Path) -> Earlier:
     """
     if not folder.is_dir():
         raise AuditError(f"{folder} is no folder; {REMEDY}")
-    answers = {
-        (row["ride"], row["question"], row["when"]): row for row in _rows(folder, tables.ANSWERS)
-    }
-    rows = _rows(folder, tables.RIDES)
-    rides = {row["ride"]: row["ride_hash"] for row in rows}
-    return Earlier(answers, rides, next((row["program"] for row in rows), ""))
+    answers = _keyed(folder, tables.ANSWERS, ("ride", "question", "when"), ("text",))
+    rides = _keyed(folder, tables.RIDES, ("ride",), ("ride_hash", "program"))
+    hashes = {name: row["ride_hash"] for (name,), row in rides.items()}
+    return Earlier(answers, hashes, next((row["program"] for row in rides.values()), ""))
 
 
 def changes(before: Earlier, audit: Audit) -> tuple[Change, ...]:
@@ -77,8 +76,33 @@ def changes(before: Earlier, audit: Audit) -> tuple[Change, ...]:
     return tuple(found)
 
 
-def _rows(folder: Path, name: str) -> list[dict[str, Any]]:
+def _keyed(
+    folder: Path, name: str, keys: tuple[str, ...], stated: tuple[str, ...]
+) -> dict[Any, dict[str, Any]]:
+    """Return the rows of a table by some columns, in their order.
+
+    Args:
+        folder: of the audit.
+        name: of the table.
+        keys: the columns, which tell rows apart.
+        stated: further columns in which something has to stand.
+
+    Raises:
+        AuditError: it cannot be read, or no audit wrote it.
+    """
     try:
-        return tables.read(folder / name)
+        rows = tables.read(folder / name)
+        texts = [text for row in rows for text in row.values() if isinstance(text, str)]
+        strange = unprintable(msgspec.json.encode([text.replace("\n", " ") for text in texts]))
     except tables.TableFault as fault:
         raise AuditError(f"{folder} holds no audit: {fault}; {REMEDY}") from fault
+    found = {tuple(row[key] for key in keys): row for row in rows}
+    if strange is not None:
+        why = f"{name}: {strange}"
+    elif any(row[column] is None for row in rows for column in (*keys, *stated)):
+        why = f"{name} has rows that lack {' or '.join((*keys, *stated))}"
+    elif len(found) < len(rows):
+        why = f"{name} has two rows of the same {' and '.join(keys)}"
+    else:
+        return found
+    raise AuditError(f"{folder} holds no audit: {why}; {REMEDY}")

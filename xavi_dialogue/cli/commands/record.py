@@ -134,12 +134,11 @@ def _export(shell: Streams) -> Callable[..., None]:
         from xavi_dialogue.library.sources import open_ride
 
         with shell.errors():
-            from xavi_dialogue.viewers.export import ExportOptions, export, write_layout
+            from xavi_dialogue.viewers.export import ExportOptions, export
 
             ride = open_ride(source, scenario, car)
-            told = export(ride, ExportOptions(source, target, tuple(ask or ()), at, force))
-            if layout is not None:
-                write_layout(layout, overwrite=force)
+            asked = tuple(ask or ())
+            told = export(ride, ExportOptions(source, target, asked, at, force, layout))
         shell.write("\n".join(f"{topic:12} {count}" for topic, count in told.items()))
 
     return export
