@@ -3,6 +3,7 @@
 import hashlib
 import math
 from itertools import pairwise
+from pathlib import Path
 from typing import get_args
 
 import msgspec
@@ -35,6 +36,7 @@ from xavi_dialogue.report.jumps import FAR, jumps
 from xavi_dialogue.report.render.words import phrase
 from xavi_dialogue.report.tracks import Tracks
 from xavi_dialogue.service.in_process import NoPlan
+from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.ride_file import RecordedRide
 
 CASES = [(UNHEEDED, "collision"), (BRAKING, "hardest braking"), (LIGHT, "red light")]
@@ -731,3 +733,23 @@ def test_a_belief_that_moves_without_anything_seen_is_told_without_a_reason() ->
     )
     (jump,) = jumps([before, after], Tracks({}, {}, math.inf), [5])
     assert (jump.vehicle, jump.changes) == (5, ())
+
+
+def test_a_collision_with_somebody_never_seen_is_reported_from_the_event(tmp_path: Path) -> None:
+    known = ride_file.load(UNHEEDED.read_bytes())
+    known.events = [
+        replace(event, vehicle=99) if event.kind == "collided" else event for event in known.events
+    ]
+    ride_file.save(known, tmp_path / "mine.ride.jsonl.gz")
+    told = xavi.open(tmp_path / "mine").report("collision")
+    party = next(one for one in told.content.involved if one.vehicle == 99)
+    assert (party.roles, party.length, party.nearest) == (("collided",), None, None)
+    assert any(one.kind == "unseen" and one.vehicles == (99,) for one in told.content.limits)
+    avoided = told.content.avoidability
+    assert avoided is not None
+    assert (avoided.last, avoided.emergency) == (None, ())
+    assert all(way.avoids is None for chance in avoided.chances for way in chance.ways)
+    page = told.html()
+    assert "had an option that the record shows to avoid it" in page
+    assert "This car and vehicle 99 touched at" in page
+    assert "Vehicle 99 is named by an event alone" in page

@@ -50,7 +50,7 @@ def avoidability(
         for trace in inquiry.ridden.between(since, moment.time)
         if trace.sim_time < moment.time - 1e-6
     ]
-    braked = moment.vehicle is not None and kind == "collide"
+    seen = moment.vehicle in tracks.shapes and kind == "collide"
     return Avoidability(
         mishap=kind,
         threshold=threshold,
@@ -60,7 +60,7 @@ def avoidability(
         last=_last(found, lost=True),
         last_on_route=_last(found, lost=False),
         emergency=emergencies(tracks, moment.vehicle, moment.time)
-        if braked and moment.vehicle is not None
+        if seen and moment.vehicle is not None
         else (),
         light=light_stop(inquiry.ridden, tracks, moment.time, since) if kind == "stop" else None,
     )
@@ -226,6 +226,8 @@ class _Case:
         """Return an option with whether it avoids the mishap; None: the record does not show it."""
         if way.believed is None:
             return way
+        if self.kind == "collide" and self.moment.vehicle not in (None, *self.tracks.shapes):
+            return way  # the other was never seen
         seldom = way.believed.value <= SELDOM
         if self.kind == "collide":
             replay = None if way.replayed is None else way.replayed.value <= SELDOM

@@ -26,7 +26,7 @@ ChangeKind = Literal[
 Examined = Literal["in-force", "last-change", "changed", "last-chance", "last-way"]
 Limit = Literal[
     "no-roads", "other-roads", "no-scenes", "ends-early", "begins-late", "lost", "lacks",
-    "not-predicted", "not-planned", "other-program", "hidden", "rollout-lines", "model",
+    "unseen", "not-predicted", "not-planned", "other-program", "hidden", "rollout-lines", "model",
     "others-inside", "perfect-sight", "simulated",
 ]  # fmt: skip
 
@@ -47,8 +47,8 @@ class Party(msgspec.Struct, frozen=True):
     vehicle: int
     kind: str
     colour: str | None
-    length: float  # [m]
-    width: float  # [m]
+    length: float | None  # [m] None: it was never seen; an event alone names it
+    width: float | None  # [m]
     roles: tuple[Role, ...]
     source: Source
     nearest: Figure | None = None  # [m] least distance of the bodies in the window

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
+from planner.motion.road_users import road_users_in
 from planner.record.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.explain.causes.plans.ranges import table
@@ -60,6 +61,11 @@ def _of_decisions(
             continue
         yield Limitation("lacks", f"{gap.part}: {gap.lacks} ({gap.decisions} of {len(traces)} "
                          f"decisions); so not: {gap.answers}")  # fmt: skip
+    known = {vehicle for trace in inquiry.ridden.record.traces for vehicle in trace.scene}
+    known |= {vehicle for scene in inquiry.ridden.scenes for vehicle in road_users_in(scene)}
+    unseen = tuple(vehicle for vehicle in involved if vehicle not in known)
+    if unseen:
+        yield Limitation("unseen", vehicles=unseen)
     for vehicle in involved:
         seen = [t for t in traces if vehicle in t.scene and vehicle != EGO]
         without = [t.decision for t in seen if predicted(t, vehicle) is None]

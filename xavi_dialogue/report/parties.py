@@ -46,7 +46,9 @@ def party(
     window: tuple[float, float],
 ) -> Party:
     """Return a road user with its look and its least distance from the car."""
-    shape = tracks.shapes[vehicle]
+    shape = tracks.shapes.get(vehicle)
+    if shape is None:
+        return _unseen(ridden, vehicle, roles)
     gaps = [
         (gap, time)
         for time in tracks.times(EGO, *window)
@@ -70,6 +72,14 @@ def party(
         ),
         nearest_at=at,
     )
+
+
+def _unseen(ridden: Ridden, vehicle: int, roles: tuple[Role, ...]) -> Party:
+    """Return a road user that events alone name: it came after the last decision, say."""
+    events = enumerate(ridden.record.events)
+    k, event = next((k, one) for k, one in events if one.vehicle == vehicle)
+    source = Source("event", "vehicle", k, event.sim_time)
+    return Party(vehicle, "", None, None, None, roles, source)
 
 
 def _seen_last(ridden: Ridden, tracks: Tracks, vehicle: int, until: float) -> Source:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from planner.record.places import First
 from sim.scene import EGO
 from xavi_dialogue.explain.causes.plans.avoidance import SELDOM
-from xavi_dialogue.report.content import Entry, Incident, LightSpan
+from xavi_dialogue.report.content import Entry, Incident, LightSpan, Party
 from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.render.charts import Axes, Line, bands, chart
 from xavi_dialogue.report.render.colours import LIGHTS, REST, colour, stroke
@@ -56,7 +56,7 @@ def involved(page: Page) -> Markup:
         (
             names.shown(one.vehicle),
             "; ".join(phrase("role", role) for role in one.roles),
-            joined((f"{one.length:.1f} × {one.width:.1f} m", page.notes.ref(one.source))),
+            joined((_size(one), page.notes.ref(one.source))),
             page.notes.figure(one.nearest),
             "–" if one.nearest_at is None else seconds(one.nearest_at).replace(" ", TIE),
         )
@@ -73,6 +73,12 @@ def involved(page: Page) -> Markup:
     rest = tag("p", f"Also in view in these seconds: {others}.", class_="muted") if others else None
     own = tag("p", names.shown(EGO), ", number 0, is the car that made the record.")
     return joined((own, known, rest))
+
+
+def _size(one: Party) -> str:
+    if one.length is None or one.width is None:
+        return "not seen"
+    return f"{one.length:.1f} × {one.width:.1f} m"
 
 
 def timeline(page: Page) -> Markup:
