@@ -2,9 +2,19 @@
 
 import pytest
 
-from xavi_dialogue.domain.meaning import Act, Ask, Claim, HowMuch, Listing, Reading, WhatIf, Why
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Claim,
+    HowDecide,
+    HowMuch,
+    Listing,
+    Reading,
+    WhatIf,
+    Why,
+)
 from xavi_dialogue.domain.rewriting import first
-from xavi_dialogue.domain.terms import Described, Event, Happens, Measured, Pronoun
+from xavi_dialogue.domain.terms import Described, Ego, Event, Feature, Happens, Measured, Pronoun
 from xavi_dialogue.nlu.demands import demanded, is_met
 from xavi_dialogue.nlu.interpret import interpret
 from xavi_dialogue.nlu.parse import Parser
@@ -160,3 +170,32 @@ def test_what_is_so_is_the_ground_of_a_why_and_supposes_nothing(text: str) -> No
     assert first(acts, WhatIf) is None
     otherwise = interpret("If it was red, why would you wait?")[0].acts
     assert first(otherwise, WhatIf) is not None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Why are we going this way?",
+        "why this way",
+        "Is this the fastest way?",
+        "Isn't there a quicker way to go?",
+        "Is there another way there?",
+        "Are we taking a detour?",
+        "Why did you choose this route?",
+        "Wouldn't the other road have been faster?",
+        "How do you choose the way?",
+        "How do you know which way to go?",
+    ],
+)
+def test_why_we_go_the_way_that_we_go_is_asked_in_many_ways(text: str) -> None:
+    own = Happens(Event("go", Ego(), Feature("way")))
+    assert interpret(text)[0].acts == (Ask(HowDecide(own)),)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["Which way are we going?", "Is there a faster way around him?", "Why did he go this way?",
+     "What other options did you have?"],
+)  # fmt: skip
+def test_other_ways_are_not_ours(text: str) -> None:
+    assert all(first(one.acts, HowDecide) is None for one in interpret(text)[:1])

@@ -26,7 +26,9 @@ class WayStep(Value, frozen=True):
 class Course(Value, frozen=True):
     """Our way ahead: the way we take, the turns that are left, whether we stay on the road."""
 
-    form: Literal["way", "route", "turns", "junctions", "roundabouts", "road", "nearly", "halt"]
+    form: Literal[
+        "way", "route", "choice", "turns", "junctions", "roundabouts", "road", "nearly", "halt"
+    ]  # "choice": why we take the route
     steps: tuple[WayStep, ...]
     holds: bool | None = None  # the reply to a yes or no question
     left: float | None = None  # [m] to the destination

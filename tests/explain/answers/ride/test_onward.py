@@ -181,3 +181,4 @@ def test_the_route_is_stated_where_we_turn_more_than_once() -> None:
     )
     assert room.route_ahead(ahead(OVER, RIGHT)) is None
     assert room.route_ahead(ahead()) is None
+    assert room.way_chosen(ahead(OVER, RIGHT)) == way((RIGHT, 2), form="choice")

@@ -130,6 +130,15 @@ def route_ahead(asked: Asked) -> Course | None:
     return course(asked, "route", turning) if len(turning) > 1 else None
 
 
+def way_chosen(asked: Asked) -> Course:
+    """Return why we take our way, with the turns on it in their order.
+
+    Raises:
+        Unanswered: the record does not hold our way.
+    """
+    return course(asked, "choice", _turning(steps_ahead(asked), Event("turn")))
+
+
 def turns_left(asked: Asked, event: Event) -> Course:
     """Return how many turns are left, and which; roundabouts count."""
     return course(asked, "turns", _turning(steps_ahead(asked), event))

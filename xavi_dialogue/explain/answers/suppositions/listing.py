@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Method, Options, Weighing
+from xavi_dialogue.domain.answers import Course, Method, Options, Weighing
 from xavi_dialogue.domain.facts import OptionValue
 from xavi_dialogue.domain.meaning import HowDecide, Listing
-from xavi_dialogue.domain.terms import At, Event
+from xavi_dialogue.domain.terms import At, Event, Feature
 from xavi_dialogue.explain.answers.expectations.foreseen import collision_chance
 from xavi_dialogue.explain.answers.reasons import choices
 from xavi_dialogue.explain.answers.reasons.against import against
@@ -19,6 +19,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
     subject,
     unwrapped,
 )
+from xavi_dialogue.explain.answers.ride.onward import way_chosen
 from xavi_dialogue.explain.causes.plans import options
 from xavi_dialogue.explain.causes.plans.premise import Premise, Subject, premise
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
@@ -62,8 +63,10 @@ def margin(scene: Asked, events: Sequence[Event]) -> Options | None:
     return replace(_told(scene, found, *options.with_rival(scene.ride, found, foil)), named=True)
 
 
-def how_decide(question: HowDecide, scene: Asked) -> Method:
+def how_decide(question: HowDecide, scene: Asked) -> Method | Course:
     """Return what was compared at a decision, and on how many situations that rests.
+
+    Of our way: where it leads; it is always chosen by the same rule.
 
     Raises:
         Unanswered: what the question names did not happen; or there is too little evidence.
@@ -72,6 +75,8 @@ def how_decide(question: HowDecide, scene: Asked) -> Method:
     event = event_of(of)
     ride = scene.ride
     own = event if event is not None and is_own(event.actor) else None
+    if own is not None and own.object == Feature("way"):
+        return way_chosen(scene)
     if own is not None and negated:
         found = against(own, scene, before=is_past(scene, own)).found
     elif own is None or not choices.is_choice(own):

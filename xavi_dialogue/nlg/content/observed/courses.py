@@ -21,6 +21,8 @@ def plan_course(answer: Course, context: SpeechContext) -> Plan:
         return Plan((_turns(answer),))
     if answer.form == "route":
         return Plan((message("COURSE_ROUTE", items=_listed(answer), left=_left(answer)),))
+    if answer.form == "choice":
+        return Plan((message("COURSE_CHOICE", items=_listed(answer), left=_left(answer)),))
     if answer.form == "halt":
         return Plan((_halt(answer),))
     if answer.form == "nearly":

@@ -25,6 +25,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Exists,
+    Feature,
     Happens,
     Is,
     Measured,
@@ -64,6 +65,7 @@ _MOVING = frozenset({"go", "pull-out", "head", "move", "turn", "leave", "take-tu
                      "exit-left", "exit-right", "change-lane"})  # fmt: skip
 
 
+_WAY = Feature("way")
 _PASSING = frozenset({"go", "move", "cross", "enter", "pass", "come", "pull-out", "merge"})
 
 
@@ -227,7 +229,7 @@ class Asking(What, WhichOne):
                     return HowKnow(fact(value))
                 return HowKnow(_embedded(clause) if content is None else content)
             case "decide" | "choose" | "plan" | "consider":
-                return HowDecide(value.content or propose(value.object))
+                return HowDecide(value.content or _own_way(value) or propose(value.object))
             case "prevent" | "improve":
                 return HowAvoid(value.content or propose(value.object))
             case "score":
@@ -300,3 +302,9 @@ def _onward(clause: Clause) -> bool:
         or clause.has("be")
         or clause.modal in ("must", "want", "should")
     )
+
+
+def _own_way(value: Special) -> Proposition | None:
+    """Return that we go our way, if a way or route is decided on: "how do you choose the way?"."""
+    route = isinstance(value.object, Measure) and value.object.of.attribute == "route"
+    return Happens(Event("go", Ego(), _WAY)) if route or as_thing(value.object) == _WAY else None
