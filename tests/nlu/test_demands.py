@@ -31,6 +31,7 @@ BARE = (
     "What was that about?",
     "What's the reason?",
     "What's the idea?",
+    "What's the rush?",
 )
 CONDUCT = (
     ("We braked again.", "brake"),

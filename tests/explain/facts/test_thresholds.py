@@ -34,7 +34,7 @@ def test_the_thresholds_are_in_order() -> None:
     [(0.6, "slow-down", False), (1.2, "brake", False), (2.5, "brake", False), (4.0, "brake", True)],
 )
 def test_slowing_down_is_braking_and_hard_by_its_rate(rate: float, action: str, hard: bool) -> None:
-    marks = ((0.0, 14.0), (2.0, 14.0), (4.0, 14.0 - 2.0 * rate), (8.0, 14.0 - 2.0 * rate))
+    marks = ((0.0, 14.0), (2.0, 14.0), (5.0, 14.0 - 3.0 * rate), (8.0, 14.0 - 3.0 * rate))
     found = world(speeds(0.0, 0.0, marks))
     (episode,) = found.episodes(Ego(), ("slow-down", "brake"))
     assert episode.action == action

@@ -24,3 +24,10 @@ def test_who_crossed_while_we_stood_was_let_go() -> None:
     let = Event("let-go", Ego(), Vehicle(1))
     assert alike(let, crossed, stood) == (crossed,)
     assert crossed not in alike(let, crossed, did("stop", 10.0, 12.0))
+
+
+def test_whom_we_passed_is_who_went_past_us_and_nobody_else() -> None:
+    theirs, other = did("pass", 5.0, who=1, whom=0), did("pass", 8.0, who=0, whom=2)
+    assert alike(Event("pass", Ego(), Vehicle(1)), theirs, other) == (theirs,)
+    assert alike(Event("pass", Ego(), Vehicle(1)), other) == ()
+    assert alike(Event("overtake", Ego(), Vehicle(1)), theirs) == ()

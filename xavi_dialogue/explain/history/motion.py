@@ -9,7 +9,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import accumulate, pairwise
+from itertools import accumulate, chain, pairwise
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -27,6 +27,7 @@ from xavi_dialogue.explain.history.thresholds import (
     CHANGED,
     LANE_SHIFT,
     LANE_TIME,
+    PAUSE,
     REBOUND,
     SLANT,
     STANDING,
@@ -41,6 +42,7 @@ Array: TypeAlias = NDArray[np.float64]
 Trend: TypeAlias = Literal["slowing", "steady", "speeding-up", "standing"]
 
 EPSILON = 1e-6  # [s]
+LEVEL = 0.05  # [m/s] within which two speeds are the same
 BORE = 0.1  # [rad] minimum change of heading that passengers feel
 STRAIGHT = 0.01  # [rad] range of headings below which no lane was changed
 
@@ -120,10 +122,10 @@ class Motion:
 
         For changes of speed and stops, lane changes and turns are not computed.
         """
-        found: Iterable[Sighting]
         if action in ("slow-down", "speed-up"):
             sign = -1.0 if action == "slow-down" else 1.0
-            found = (s for part in self.parts() for s in part._changes_of_speed(action, sign))
+            runs = (part._changes_of_speed(action, sign) for part in self.parts())
+            found: Iterable[Sighting] = chain.from_iterable(runs)
         elif action == "stop":
             found = (s for part in self.parts() for s in part._stops())
         else:
@@ -144,8 +146,11 @@ class Motion:
         """Yield the stretches over which the speed grows, or falls if the sign is -1."""
         foot = start = best = 0  # reference sample; begin of the change; its end so far
         for k in range(1, len(self.speed) + 1):
-            if k == len(self.speed) or sign * (self.speed[k] - self.speed[best]) < -REBOUND:
-                least = BEGINNING if k == len(self.speed) else CHANGED
+            ended = k == len(self.speed)
+            still = None if ended else self._paused(k, start, best, sign)
+            best = best if still is None else still
+            if ended or still is not None or sign * (self.speed[k] - self.speed[best]) < -REBOUND:
+                least = BEGINNING if ended else CHANGED
                 if sign * (self.speed[best] - self.speed[foot]) >= least:
                     yield Sighting(action, self.time[start], self.time[best])
                 foot = start = best = k
@@ -157,6 +162,13 @@ class Motion:
                 start = best = k
             elif sign * (self.speed[k] - self.speed[best]) > 0.0:
                 best = k
+
+    def _paused(self, k: int, start: int, best: int, sign: float) -> int | None:
+        """Return the sample at which a change paused that began before; None: it goes on."""
+        since = bisect_right(self.time, self.time[k] - PAUSE) - 1
+        most = max(sign * self.speed[j] for j in (k, max(best, since)))
+        flat = (j for j in range(since, k + 1) if sign * self.speed[j] >= most - LEVEL)
+        return next(flat) if start < since and most <= sign * self.speed[since] + LEVEL else None
 
     def _stops(self) -> list[Sighting]:
         """Return the stops, without a standstill from the first sample on."""
@@ -311,16 +323,13 @@ def foretold(goal: GoalPrediction, way: TrajectoryPrediction, action: ActionName
 def foresees(way: TrajectoryPrediction, action: ActionName) -> bool:
     """Check whether a predicted trajectory contains an action or a change of speed.
 
-    A vehicle that stands already stops if it stays, or stops again. If the trace has no line for
-    the trajectory, only the actions are known.
+    A vehicle that stands already stops if it stays. Without a line, only the actions are known.
     """
-    if not way.speed:
-        return any(step in _means(action) for step in way.actions)
-    if action == "slow-down":
+    if way.speed and action == "slow-down":
         return min(way.speed) <= way.speed[0] - CHANGED
-    if action == "speed-up":
+    if way.speed and action == "speed-up":
         return max(way.speed) >= min(way.speed) + CHANGED
-    if action in ("stop", "give-way"):
+    if way.speed and action in ("stop", "give-way"):
         return "stop" in way.actions or _halts(way.speed)
     return any(step in _means(action) for step in way.actions)
 

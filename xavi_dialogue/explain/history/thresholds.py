@@ -8,6 +8,7 @@ MOVING = 1.0  # [m/s] from which a vehicle that stood is under way again
 CHANGED = 1.5  # [m/s] minimum change of a speed that counts
 BEGINNING = 0.4  # [m/s] minimum for a change that is going on at the end of the record
 WAVER = 0.15  # [m/s] variation of speed that is no change of it
+PAUSE = 2.0  # [s] of a speed that does not change, which end a change of speed
 REBOUND = 0.3  # [m/s] by which a speed may turn without ending a change of speed
 TREND_TIME = 1.0  # [s] over which a trend is judged
 TREND = 0.4  # [m/s2] minimum acceleration of a trend

@@ -5,7 +5,7 @@ from typing import Final
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Event, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlu.grounding.context import Context
 
@@ -14,6 +14,7 @@ _HALTING: Final[tuple[ActionName, ...]] = ("stand", "stop", "wait", "give-way")
 _SHIFTING: Final[tuple[ActionName, ...]] = ("change-lane", "change-left", "change-right")
 
 _PASSING: Final = frozenset[ActionName](("overtake", "pass"))
+_MUTUAL: Final[tuple[ActionName, ...]] = ("pass", "cross")
 _LETTING: Final = frozenset[ActionName](("let-go",))
 _HELD: Final[tuple[ActionName, ...]] = ("stop", "brake")
 
@@ -49,7 +50,8 @@ KIN: Final[dict[ActionName, tuple[ActionName, ...]]] = {
 def like(context: Context, event: Event, begin: float, end: float) -> tuple[Episode, ...]:
     """Find the episodes that people may mean by an event, though they are of another action.
 
-    They are of the closest action that has any. Else the event is looked for without its object.
+    They are of the closest action that has any. Else the event is looked for without its object;
+    but whom we passed is meant, and nobody else.
     """
     for action in KIN.get(event.action, ()):
         if action in _SHIFTING and event.object is not None and event.action in _PASSING:
@@ -65,9 +67,20 @@ def like(context: Context, event: Event, begin: float, end: float) -> tuple[Epis
         ]
         if any(_meets(one, halt, context) for one in crossed for halt in halts):
             return crossed
+    if event.action in _PASSING and isinstance(event.object, Vehicle | Vehicles):
+        ours = event.action == "pass" and event.actor == Ego()
+        return _passed(context, event.object, begin, end) if ours else ()
     if event.object is not None and not isinstance(event.actor, Vehicle):
         return context.holds(replace(event, object=None), begin, end)
     return ()
+
+
+def _passed(
+    context: Context, whom: Vehicle | Vehicles, begin: float, end: float
+) -> tuple[Episode, ...]:
+    """Find when somebody whom we passed went past us, which is the same."""
+    found = (context.holds(Event(action, whom, Ego()), begin, end) for action in _MUTUAL)
+    return next((episodes for episodes in found if episodes), ())
 
 
 def _meets(one: Episode, other: Episode, context: Context) -> bool:

@@ -19,9 +19,10 @@ from xavi_dialogue.domain.meaning import (
     HowMuch,
     Reading,
     TokenShare,
+    Why,
 )
 from xavi_dialogue.domain.rewriting import first
-from xavi_dialogue.domain.terms import Both, Feature, Thing
+from xavi_dialogue.domain.terms import Both, Ego, Event, Feature, Happens, Proposition, Thing
 from xavi_dialogue.nlu.demands import default, demanded, is_met
 from xavi_dialogue.nlu.grounding.doubts import SMALL
 from xavi_dialogue.nlu.intents.classifier import Intent, judge
@@ -38,6 +39,7 @@ OFFERED: Final = 3  # intents of which the plain question is offered, at most
 LIKELY: Final = 0.33  # probability from which on it is, where the grammar leaves words unread ...
 CERTAIN: Final = 0.7  # ... and where it leaves none
 UNMET: Final = 1.0  # cost of each demand of a sentence that a reading leaves unmet
+BARE: Final = 0.3  # cost of a bare "why" where it can be told of what
 LOOKED: Final = 8  # intents that are looked at for one that meets it
 FITTING: Final = 0.05  # least probability of those that do
 DEFAULT: Final = 0.6  # what a plain question of unmet demands is taken for as a probability
@@ -48,7 +50,9 @@ SURE: Final = 0.5  # probability from which on it need not be said how a text wa
 def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
     """Give the readings of a text and the plain questions that it may come to, likeliest first."""
     wanted = _demands(text, readings[0])
-    readings = sorted((_charged(one, wanted) for one in readings), key=lambda one: one.cost)
+    told = any(_names_deed(one) for one in readings)
+    readings = [_charged(one, wanted, told=told) for one in readings]
+    readings.sort(key=lambda one: one.cost)
     best = readings[0]
     unmet = _unmet(best, wanted)
     asked = asking(text, best.shares)
@@ -100,13 +104,28 @@ def _unmet(reading: Reading, wanted: Sequence[_Demand]) -> list[_Demand]:
     return [demand for demand in wanted if not demand.is_met(reading.acts)]
 
 
-def _charged(reading: Reading, wanted: Sequence[_Demand]) -> Reading:
+def _charged(reading: Reading, wanted: Sequence[_Demand], *, told: bool) -> Reading:
     """Let a reading cost more that leaves unmet what a sentence demands.
 
-    One without acts owns up to it.
+    One without acts owns up to it. So does a bare "why" cost more where another reading says of
+    which deed of ours (`told`).
     """
     unmet = len(_unmet(reading, wanted)) if reading.acts else 0
-    return replace(reading, cost=round(reading.cost + UNMET * unmet, 3)) if unmet else reading
+    more = UNMET * unmet + (BARE if told and Elliptic(form="why") in reading.acts else 0.0)
+    return replace(reading, cost=round(reading.cost + more, 3)) if more else reading
+
+
+def _names_deed(reading: Reading) -> bool:
+    """Tell whether a reading asks for the reason of something that we did."""
+    whys = (act.question for act in reading.acts if isinstance(act, Ask))
+    return any(isinstance(one, Why) and _is_past(one.of) for one in whys)
+
+
+def _is_past(of: Proposition) -> bool:
+    match of:
+        case Happens(event=Event(actor=Ego(), tense="past", action=action)):
+            return action != "do"
+    return False
 
 
 def _defaults(reading: Reading, unmet: Sequence[_Demand]) -> Iterator[tuple[Intent, Plain]]:

@@ -40,6 +40,15 @@ def test_slowing_down_and_braking(slower: float, action: str, peak: float) -> No
     assert found.end == 8.0
 
 
+def test_a_speed_that_stays_ends_a_slowing() -> None:
+    """Two brakings with some seconds between them are two, though the speed never grew."""
+    marks = ((0.0, 12.0), (2.0, 12.0), (4.0, 9.0), (9.0, 9.0), (11.0, 5.0))
+    first, second = told(marks, until=14.0)
+    assert (first.action, first.speed_to, second.speed_to) == ("brake", 9.0, 5.0)
+    assert first.end == pytest.approx(4.0, abs=0.3)
+    assert second.begin == pytest.approx(9.0, abs=0.3)
+
+
 def test_speeding_up_has_no_peak() -> None:
     (found,) = told(((0.0, 4.0), (4.0, 4.0), (8.0, 8.0)))
     assert (found.action, found.peak, found.standing) == ("speed-up", None, False)

@@ -1,5 +1,7 @@
 """Pronouns: by what was spoken of, else by the scene."""
 
+from msgspec.structs import replace
+
 from tests.nlu.grounding.fakes import Car, FakeWorld, asked, did, question_of, talk
 from xavi_dialogue.domain.answers import NoSuchVehicle
 from xavi_dialogue.domain.discourse import Discourse
@@ -43,6 +45,14 @@ def test_they_may_be_several_or_one() -> None:
     assert meant("they", discourse=talk(Vehicle(3))) == Vehicle(3)
     assert meant("them-all", discourse=talk(Vehicles((1, 2)))) == Vehicles((1, 2))
     assert meant("them-all") == Everyone()
+
+
+def test_they_are_people_on_foot_rather_than_a_vehicle_of_the_same_breath() -> None:
+    spoken = talk(Vehicle(3), Vehicles((1, 2)))
+    fresh = tuple(replace(m, salience=m.salience + 2.0) for m in spoken.mentions)
+    for kind, whom in (("pedestrian", Vehicles((1, 2))), ("car", Vehicle(3))):
+        world = FakeWorld({3: Car(8.0), **{n: Car(10.0 + n, 0.0, kind) for n in (1, 2)}})
+        assert meant("they", world, replace(spoken, mentions=fresh)) == whom
 
 
 def test_without_mentions_they_are_the_people_who_cross() -> None:

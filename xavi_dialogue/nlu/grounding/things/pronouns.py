@@ -8,7 +8,7 @@ from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import NoSuchVehicle
 from xavi_dialogue.domain.terms import Ego, Everyone, Pronoun, Thing, Vehicle, Vehicles
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Unclear, Window
-from xavi_dialogue.nlu.grounding.salience import group, vehicles_of
+from xavi_dialogue.nlu.grounding.salience import FRESH, group, vehicles_of
 from xavi_dialogue.nlu.grounding.things.descriptions import MISSING
 from xavi_dialogue.nlu.grounding.things.scene import interacting, most_prominent, on_foot
 
@@ -79,12 +79,18 @@ def _spoken(g: Grounder) -> tuple[int, ...]:
 
 
 def _group_leads(g: Grounder) -> bool:
-    """Tell whether a group was spoken of at least as clearly as any single vehicle."""
-    for mention in g.context.discourse.mentions:
+    """Tell whether a group was spoken of at least as clearly as any single vehicle.
+
+    People on foot are "they" rather than a vehicle that was named in the same breath.
+    """
+    mentions = g.context.discourse.mentions
+    people = [m for m in mentions if m.salience >= FRESH and isinstance(m.thing, Vehicles)]
+    afoot = any(all(walks(n, g) for n in _numbers(m.thing)) for m in people)
+    for mention in mentions:
         if isinstance(mention.thing, Vehicles) and len(mention.thing.numbers) > 1:
             return True
         if isinstance(mention.thing, Vehicle) and mention.salience > 0.9:
-            return False
+            return afoot and not walks(mention.thing.number, g)
     return False
 
 
