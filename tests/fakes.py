@@ -7,7 +7,7 @@ import msgspec
 
 from planner.driving.driver import DriveStep
 from planner.record.events import Event
-from planner.record.trace import PlanTrace, WhatIf
+from planner.record.trace import PlanTrace, Rollout, WhatIf
 from sim.scene import Command, Scene, VehicleState
 from tests.traces import Ride, s1_ride
 from xavi_dialogue.bus.messages import WhatIfRequest
@@ -39,8 +39,26 @@ def moments_of(ride: Ride, *, step: float = 0.5, until: float | None = None) -> 
 def again(trace: PlanTrace, need: NeedRollout | WhatIfRequest) -> PlanTrace:
     """Plan again without a planner: the same decision, said to be what was wanted."""
     what_if = msgspec.convert(msgspec.to_builtins(need), WhatIf)
-    scene = {vehicle: state for vehicle, state in trace.scene.items() if vehicle != need.removed}
-    return msgspec.structs.replace(trace, what_if=what_if, scene=scene)
+    gone = need.removed
+    return msgspec.structs.replace(
+        trace,
+        what_if=what_if,
+        scene={vehicle: state for vehicle, state in trace.scene.items() if vehicle != gone},
+        predictions=tuple(one for one in trace.predictions if one.vehicle != gone),
+        rollouts=tuple(
+            _without(one, gone)
+            for one in trace.rollouts
+            if gone is None or one.collided_with != gone
+        ),
+    )
+
+
+def _without(one: Rollout, gone: int | None) -> Rollout:
+    return msgspec.structs.replace(
+        one,
+        samples=tuple(drawn for drawn in one.samples if drawn.vehicle != gone),
+        held_up=tuple(held for held in one.held_up if held.vehicle != gone),
+    )
 
 
 def s1_moments() -> Iterator[Moment]:
