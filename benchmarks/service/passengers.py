@@ -120,6 +120,8 @@ def _end(outcome: Outcome) -> str:
     try:
         if isinstance(outcome, Refused):
             reason: str | None = unpack(outcome.payload, Failure).reason
+            if reason == "not-understood":  # the request itself, not its text
+                return "lost"
         elif isinstance(outcome, NoAnswer):
             return "lost"
         else:
