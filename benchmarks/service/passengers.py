@@ -36,7 +36,7 @@ class Load(msgspec.Struct, frozen=True):
     answered: int  # questions with any answer, including a clear refusal
     busy: int  # questions rejected because there were too many
     timed_out: int
-    lost: int  # questions without a readable reply
+    lost: int  # questions without a readable reply, or whose request was rejected
     offered_per_s: float
     answered_per_s: float  # rate from the first question to the last reply
     p50_ms: float | None  # of those answered, from question to reply

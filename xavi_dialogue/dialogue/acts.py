@@ -7,7 +7,6 @@ from msgspec.structs import replace as changed
 
 from xavi_dialogue.dialogue.chain import BOTTOM
 from xavi_dialogue.dialogue.claims import NOTED, is_ground, kept, told
-from xavi_dialogue.dialogue.fitting import fits, instead, untried
 from xavi_dialogue.dialogue.objections import foreseen_then
 from xavi_dialogue.dialogue.pipeline import Said, Situation, speak
 from xavi_dialogue.dialogue.reply import Reply
@@ -100,9 +99,7 @@ def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRol
         beside: there are other acts in the turn.
     """
     match act.act:
-        case Ask():
-            return _fitted(now, act)
-        case Claim() | Request():
+        case Ask() | Claim() | Request():
             return _explained(now, act)
         case Feel() as feel:
             return _comfort(now, act, feel, beside)
@@ -121,21 +118,6 @@ def replies(now: Situation, act: GroundedAct, beside: bool) -> Results | NeedRol
             return (CannotSay(topic, words),)
         case Elliptic():
             return (NotUnderstood(),)
-
-
-def _fitted(now: Situation, act: GroundedAct) -> Results | NeedRollout:
-    """Answer a question; one whose answer does not tell what it asks, by a more general one."""
-    found = _explained(now, act)
-    if isinstance(found, NeedRollout) or fits(act, found):
-        return found
-    for other in instead(act):
-        general = _explained(now, other)
-        if isinstance(general, NeedRollout):
-            return general
-        if fits(other, general):
-            return general
-    lacking = untried(act)
-    return found if lacking is None else (lacking,)
 
 
 def _explained(now: Situation, act: GroundedAct) -> Results | NeedRollout:

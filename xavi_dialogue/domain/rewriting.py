@@ -81,7 +81,7 @@ def _may_contain(declared: object, sorts: tuple[type, ...]) -> bool:
 
 @cache
 def _within(declared: object) -> frozenset[object]:
-    """Return the types of all values within a declared type; those of unknown ones as they are."""
+    """Return the types of all values within a declared type; those of unknown sorts as declared."""
     left, found = [declared], set[object]()
     while left:
         one = left.pop()

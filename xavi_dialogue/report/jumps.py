@@ -57,7 +57,7 @@ def _of_collision(
 
 
 def _risk(trace: PlanTrace) -> Figure | None:
-    """Return the probability of a collision under the plan, as it is told of each decision."""
+    """Return the probability of a collision under the plan; None if there is no plan."""
     plan = chosen_plan(CausalModel(trace))
     return None if plan is None else collision(Ground(trace), plan)
 
