@@ -14,6 +14,7 @@ class Scheduler:
     """Open questions, by session and request name."""
 
     open: dict[Name, Question] = field(default_factory=dict)  # in the order in which they came
+    _sessions: dict[str, list[Question]] = field(default_factory=dict)  # the same, by session
     _turns: FairQueue[Question] = field(default_factory=FairQueue)  # those that are ready
     _deadlines: list[tuple[float, int, Question]] = field(default_factory=list)  # a heap
     _taken: int = 0
@@ -21,11 +22,22 @@ class Scheduler:
     def take(self, question: Question) -> None:
         """Add a question; it waits for the record until `let_wait`."""
         self.open[question.name] = question
+        self._sessions.setdefault(question.asked.session, []).append(question)
         if len(self._deadlines) > len(self.open) + SPENT:
             self._deadlines = [one for one in self._deadlines if self.has(one[2])]
             heapq.heapify(self._deadlines)
         self._taken += 1
         heapq.heappush(self._deadlines, (question.deadline, self._taken, question))
+
+    def remove(self, name: Name) -> Question | None:
+        """Remove a question and return it; None if it is not open."""
+        question = self.open.pop(name, None)
+        if question is not None:
+            session = question.asked.session
+            self._sessions[session].remove(question)
+            if not self._sessions[session]:
+                del self._sessions[session]
+        return question
 
     def has(self, question: Question) -> bool:
         """Check whether it is still open."""
@@ -33,7 +45,7 @@ class Scheduler:
 
     def of(self, session: str) -> list[Question]:
         """Return the open questions of a session, oldest first."""
-        return [one for one in self.open.values() if one.asked.session == session]
+        return list(self._sessions.get(session, ()))
 
     def let_wait(self, question: Question) -> None:
         """Queue a question that from now on only waits for its turn."""

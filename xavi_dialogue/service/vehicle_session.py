@@ -90,7 +90,7 @@ class VehicleSession:
 
     def cancel(self, wanted: CancelRequest) -> Question | None:
         """Drop a question; return None if it is not open."""
-        question = self.scheduler.open.pop((wanted.session, wanted.request), None)
+        question = self.scheduler.remove((wanted.session, wanted.request))
         if question is None:
             return None
         if question.begun:
@@ -102,7 +102,7 @@ class VehicleSession:
         """Erase a session; return the number of its turns, and its questions, now dropped."""
         dropped = self.scheduler.of(session)
         for question in dropped:
-            del self.scheduler.open[question.name]
+            self.scheduler.remove(question.name)
         self._tell(Forgotten(session))
         return len(self.past.pop(session, ())), dropped
 
@@ -283,7 +283,7 @@ class VehicleSession:
         session, request = question.name
         if self._is_engaged(session):
             self._tell(Cancelled(request, session))
-        del self.scheduler.open[question.name]
+        self.scheduler.remove(question.name)
         self._release(session)
         return [Answer(question, sorry(question.asked, self._moment(question)), None)]
 
@@ -297,7 +297,8 @@ class VehicleSession:
                 case Answered(request, session, reply, turn):
                     if turn is not None:
                         self.resume(session, (*self.past.get(session, ()), turn))
-                    question = self.scheduler.open.pop((session, request))
+                    question = self.scheduler.open[session, request]
+                    self.scheduler.remove(question.name)
                     if question.begun:
                         self._release(session)
                     yield Answer(question, reply, turn)
