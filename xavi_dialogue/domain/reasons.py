@@ -104,6 +104,7 @@ class MotionReason(Value, frozen=True):
     form: Literal["why", "necessary", "did"] = "why"  # "did": asked why not, but we did it
     cleared: tuple[int, ...] = ()  # vehicles that make no difference, tested by planning again
     past: bool = False  # the question is in the past tense, though it may go on
+    over: bool = False  # the question is in the present tense, though it ended seconds ago
     halted: float | None = None  # [s] when we decided to stop, while slowing down already
     causation: Causation | None = None  # None: nobody was suspected
     of_causes: bool = False  # the question is who or what causes it

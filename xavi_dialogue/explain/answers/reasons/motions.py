@@ -54,6 +54,7 @@ FREE = frozenset(("limit", "plan", "starting"))  # kinds of reasons for which no
 STANDING = 0.3  # [m/s]
 CREEPING = 2.5  # [m/s] above which we have not stopped
 RISKY = 0.05  # minimum extra risk of driving on that counts if somebody is in the way
+OVER = 4.0  # [s] since its end, from which what is asked about as present is denied
 BEGUN = 0.3  # [s] after a decision from which what it led to has begun
 WIDER = 4.0  # [s] within which episodes that begin belong to one moment
 
@@ -279,6 +280,7 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
         cleared=reasons.cleared,
         causation=reasons.causation,
         past=(event.tense == "past" and deed.end is not None) or _before(scene),
+        over=_over(scene, event, deed),
         halted=_halted(scene, deed, reasons),
         peak=peak(scene, event, deed),
     )
@@ -294,6 +296,13 @@ def _before(scene: Asked) -> bool:
     """Check whether the question names a past moment: "why not three seconds ago?"."""
     named = scene.past
     return named is not None and named.said and named.end < scene.now - when.RECENT / 2.0
+
+
+def _over(scene: Asked, event: Event, deed: Episode) -> bool:
+    """Check whether the question takes for present what ended seconds ago."""
+    named = scene.span is not None and scene.span.said
+    ended = deed.end is not None and deed.end < scene.now - OVER
+    return event.tense == "present" and ended and not named
 
 
 def _halted(scene: Asked, deed: Episode, reasons: Reasons) -> float | None:

@@ -158,6 +158,8 @@ def _driving(answer: MotionReason, context: SpeechContext, past: bool) -> Messag
         assert answer.asked is not None
         denied = denial(answer.asked, past=past)
         deed = _only(deed, answer)
+    elif answer.over and answer.asked is not None:
+        slots["over"] = denial(answer.asked, past=False)
     return message("DRIVING", deed=deed, denied=denied, did=answer.form == "did", **slots)
 
 
