@@ -59,6 +59,7 @@ class Memory:
         self._roads = roads
         self._seen: dict[int, deque[tuple[float, VehicleState]]] = {}
         self._lost: dict[int, Lost] = {}
+        self._assumed: dict[int, deque[tuple[float, float]]] = {}  # [s] spans out of sight
         self._watched: dict[str, Watched] = {}
         self._controllers: frozenset[str] = frozenset()  # in view
         self.counts = Counts()  # of vehicles on roads that lead out of hidden areas
@@ -69,7 +70,9 @@ class Memory:
         for vehicle in [x for x in self._seen if x not in everybody]:
             self._recall(vehicle, scene)
         for vehicle, state in everybody.items():
-            self._lost.pop(vehicle, None)
+            lost = self._lost.pop(vehicle, None)
+            if lost is not None:
+                self._assumed.setdefault(vehicle, deque()).append((lost.since, scene.time))
             self._note(vehicle, scene.time, state)
         self._watch(scene)
 
@@ -93,17 +96,25 @@ class Memory:
         return _resampled(self._seen[vehicle], time)
 
     def recorded(self, vehicle: int, time: float) -> Track:
-        """Return the history with the vehicle's lights, as the trace records it."""
+        """Return the history with what the vehicle showed and when it was hidden."""
         track = self.track(vehicle, time)
-        if self._seen[vehicle][-1][1].kind in ON_FOOT:
-            return track
-        return msgspec.structs.replace(track, lights=_lights(self._seen[vehicle], track.start))
+        lights: tuple[LightChange, ...] = ()
+        if self._seen[vehicle][-1][1].kind not in ON_FOOT:
+            lights = _lights(self._seen[vehicle], track.start)
+        spans = [*self._assumed.get(vehicle, ())]
+        if vehicle in self._lost:
+            spans.append((self._lost[vehicle].since, time))
+        assumed = tuple((round(a, 3), round(b, 3)) for a, b in spans if b > track.start)
+        return msgspec.structs.replace(track, lights=lights, assumed=assumed)
 
     def _note(self, vehicle: int, time: float, state: VehicleState) -> None:
         seen = self._seen.setdefault(vehicle, deque())
         seen.append((time, _rounded(state)))
         while seen[0][0] < time - HISTORY - 1e-6:
             seen.popleft()
+        spans = self._assumed.get(vehicle)
+        while spans and spans[0][1] < time - HISTORY:
+            spans.popleft()
 
     def _watch(self, scene: Scene) -> None:
         """Store what traffic lights show."""
@@ -123,6 +134,7 @@ class Memory:
         if state is None or not hidden(state, scene):
             del self._seen[vehicle]
             self._lost.pop(vehicle, None)
+            self._assumed.pop(vehicle, None)
             return
         self._lost[vehicle] = lost
         self._note(vehicle, scene.time, state)

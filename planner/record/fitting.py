@@ -78,6 +78,7 @@ def _recent(track: Track) -> Track:
         track.heading[-RECENT:],
         track.speed[-RECENT:],
         (*shown, *since),
+        tuple(span for span in track.assumed if span[1] > start),
     )
 
 

@@ -116,6 +116,8 @@ class Track(msgspec.Struct, frozen=True, omit_defaults=True):
     heading: tuple[float, ...]  # [rad] [N]
     speed: tuple[float, ...]  # [m/s] [N]
     lights: tuple[LightChange, ...] = ()  # at its start, and every change since; () unknown
+    #: [s] from when it was lost from sight until it was seen again, or now: samples are assumed
+    assumed: tuple[tuple[float, float], ...] = ()
 
 
 class HeldUp(msgspec.Struct, frozen=True):

@@ -103,6 +103,10 @@ def _seen(trace: PlanTrace) -> Iterator[str]:
             yield from _outside(f"position {of}", axis, -FARTHEST, FARTHEST, "m")
         yield from _outside(f"speed {of}", track.speed, -FASTEST, FASTEST, "m/s")
         yield from _outside(f"start {of}", (track.start,), -LATEST, LATEST, "s")
+        for span in track.assumed:
+            yield from _outside(f"time in `assumed` {of}", span, -LATEST, LATEST, "s")
+            if span[0] > span[1]:
+                yield f"a span in `assumed` {of} ends before it begins"
 
 
 def _chances(trace: PlanTrace) -> Iterator[str]:

@@ -260,9 +260,26 @@ def test_beliefs_of_a_decision_add_up(path, at) -> None:
 
 
 def test_where_a_vehicle_went_in_the_end_is_told() -> None:
-    goals = {goal.edge: goal.came for goal in incident(UNHEEDED).beliefs[0].goals}
-    assert goals["north_out"] is True
-    assert goals["east_out"] is False
+    goals = {g.edge: g.came for g in incident(TOWN, "hardest braking").beliefs[0].goals}
+    assert goals["C3_D3"] is True
+    assert goals["D3_E3"] is False
+
+
+def test_who_is_still_in_the_junction_as_the_record_ends_has_not_taken_a_road() -> None:
+    found = incident(UNHEEDED)
+    assert {goal.came for goal in found.beliefs[0].goals} == {None}
+    assert found.beliefs[0].vehicle == found.moment.vehicle
+
+
+@every_case
+def test_who_was_seen_to_cross_is_told_so(path, at) -> None:
+    found = incident(path, at)
+    episodes = [one for one in found.timeline if one.kind == "episode"]
+    crossed = {one.vehicle for one in episodes if one.what == "cross"}
+    for known in found.beliefs:
+        for goal in known.goals:
+            if goal.kind == "cross" and known.vehicle in crossed:
+                assert goal.came is True
 
 
 def test_maps_show_everybody_where_they_were() -> None:
@@ -675,7 +692,9 @@ def test_what_restrained_the_car_is_in_the_timeline() -> None:
     told = [(one.time, one.what) for one in found.timeline if one.kind == "restrained"]
     events = [one for one in ride(TOWN).events if one.kind == "restrained"]
     inside = [one for one in events if found.since <= one.sim_time <= found.until]
-    assert told == [(one.sim_time, one.by) for one in inside]
+    before = [one for one in events if one.sim_time < found.since]
+    assert told == [(one.sim_time, one.by) for one in (*before[-1:], *inside)]
+    assert before
     assert "bend" in [what for _, what in told]
 
 
@@ -688,7 +707,7 @@ def test_every_restraint_has_words() -> None:
 
 
 def test_a_collision_that_becomes_probable_at_once_is_told_with_what_was_seen() -> None:
-    (jump,) = incident(UNHEEDED).jumps
+    (jump,) = (one for one in incident(UNHEEDED).jumps if one.goal is None)
     assert (jump.vehicle, jump.before, jump.number) == (None, 9, 10)
     rows = {row.number: row for row in incident(UNHEEDED).decisions}
     assert (jump.was, jump.now) == (rows[9].collision, rows[10].collision)
@@ -705,10 +724,22 @@ def test_a_collision_that_becomes_probable_at_once_is_told_with_what_was_seen() 
     assert expected.now.value - expected.was.value > 1.0
 
 
+def test_an_option_that_was_given_up_as_it_became_dangerous_is_told() -> None:
+    found = incident(UNHEEDED)
+    (jump,) = (one for one in found.jumps if one.vehicle is None and one.goal is not None)
+    rows = {row.number: row for row in found.decisions}
+    assert rows[jump.before].plan[0] == jump.goal != rows[jump.number].plan[0]
+    assert jump.now is not None
+    assert jump.now.value >= FAR
+    chosen = next(one for one in found.decided if one.number == jump.number)
+    option = next(one for one in chosen.choices if one.action == jump.goal)
+    assert option.chances["collision"].value == pytest.approx(jump.now.value, abs=0.01)
+
+
 @every_case
 def test_every_belief_that_moves_far_is_told_once(path, at) -> None:
     report = incident(path, at)
-    told = {(one.vehicle, one.before, one.number) for one in report.jumps}
+    told = {(one.vehicle, one.goal, one.before, one.number) for one in report.jumps}
     assert len(told) == len(report.jumps)
     for known in report.beliefs:
         for goal in known.goals:
@@ -716,7 +747,7 @@ def test_every_belief_that_moves_far_is_told_once(path, at) -> None:
                 numbers = (first.source.number, then.source.number)
                 in_a_row = (numbers[0] or 0) + 1 == numbers[1]
                 if in_a_row and abs(then.probability - first.probability) >= FAR:
-                    assert (known.vehicle, *numbers) in told
+                    assert (known.vehicle, *numbers) in {(v, *n) for v, _, *n in told}
 
 
 def test_a_belief_that_moves_without_anything_seen_is_told_without_a_reason() -> None:

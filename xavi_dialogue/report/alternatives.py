@@ -138,4 +138,5 @@ class Avoidability(msgspec.Struct, frozen=True):
     last: int | None  # the last decision with an option that avoids it ...
     last_on_route: int | None  # ... and does not lose the way to the goal
     emergency: tuple[Emergency, ...]  # of collisions
+    supposed_from: float | None = None  # [s] from which on the other is not recorded any more
     light: LightStop | None = None  # of stops at a light

@@ -62,8 +62,15 @@ def avoidability(
         emergency=emergencies(tracks, moment.vehicle, moment.time)
         if seen and moment.vehicle is not None
         else (),
+        supposed_from=_recorded_until(tracks, moment.vehicle) if seen else None,
         light=light_stop(inquiry.ridden, tracks, moment.time, since) if kind == "stop" else None,
     )
+
+
+def _recorded_until(tracks: Tracks, vehicle: int | None) -> float | None:
+    """Return the time [s] of the last sample of the other."""
+    times = () if vehicle is None else tracks.motion(vehicle).time
+    return times[-1] if times else None
 
 
 def _last(found: Sequence[Chance], *, lost: bool) -> int | None:

@@ -6,7 +6,7 @@ from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.report.content import BeliefPoint, Beliefs, GoalBelief
 from xavi_dialogue.report.expected import expected_speeds
 from xavi_dialogue.report.parties import of_trace
-from xavi_dialogue.report.ridden import Ridden, predicted
+from xavi_dialogue.report.ridden import Inquiry, Ridden, predicted
 from xavi_dialogue.report.tracks import Tracks
 
 LEAST = 0.01  # probability that a goal reaches somewhere in the window to be listed
@@ -15,7 +15,7 @@ Name = tuple[Action, str | None]  # of a goal: its kind and its edge
 
 
 def beliefs(
-    ridden: Ridden,
+    inquiry: Inquiry,
     tracks: Tracks,
     vehicle: int,
     window: tuple[float, float],
@@ -24,12 +24,13 @@ def beliefs(
     """Return the goals that the decisions of a window [s] ascribed to a road user.
 
     Args:
-        ridden: the ride.
+        inquiry: the record.
         tracks: where everybody was.
         vehicle: the road user.
         window: [s] begin and end.
         examined: the decisions of which the speeds that they expected are told, too.
     """
+    ridden = inquiry.ridden
     points: dict[Name, list[BeliefPoint]] = {}
     places: dict[Name, str] = {}
     without = []
@@ -47,6 +48,7 @@ def beliefs(
             points.setdefault(name, []).append(point)
     listed = {name: row for name, row in points.items() if _most(row) >= LEAST}
     taken = _taken(ridden, vehicle, listed)
+    crossed = _crossed(inquiry, vehicle, window[0])
     ranked = sorted(listed.items(), key=lambda item: (-_most(item[1]), item[0][0]))
     goals = tuple(
         GoalBelief(
@@ -54,12 +56,16 @@ def beliefs(
             place=places[kind, edge],
             edge=edge,
             points=tuple(row),
-            came=None if not taken or edge is None else edge in taken,
+            came=crossed if kind == "cross" else _came(edge, taken),
         )
         for (kind, edge), row in ranked
     )
     speeds = expected_speeds(examined, tracks, vehicle)
     return Beliefs(vehicle, goals, tuple(without), speeds)
+
+
+def _came(edge: str | None, taken: set[str]) -> bool | None:
+    return None if not taken or edge is None else edge in taken
 
 
 def _most(row: list[BeliefPoint]) -> float:
@@ -74,9 +80,18 @@ def _taken(ridden: Ridden, vehicle: int, listed: dict[Name, list[BeliefPoint]]) 
     taken: set[str] = set()
     for trace in ridden.between(begin, ridden.end):
         place = None if trace.road is None else trace.road.places.get(vehicle)
-        if place is None:
+        if place is None or place.in_junction:  # it is not on the road yet that it leads to
             continue
         here = here or place.edge
         if place.edge != here and place.edge in edges:
             taken.add(place.edge)
     return taken
+
+
+def _crossed(inquiry: Inquiry, vehicle: int, since: float) -> bool | None:
+    """Check whether somebody on foot was seen to cross the car's way from a time [s] on.
+
+    None if not: it may have crossed later, or out of sight.
+    """
+    seen = inquiry.world.episodes((vehicle,), ("cross",), since, inquiry.ridden.end)
+    return True if any(episode.action == "cross" for episode in seen) else None

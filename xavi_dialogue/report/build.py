@@ -61,7 +61,7 @@ def build(ridden: Ridden, at: float | str | None = None) -> Incident:
     avoided = avoidability(inquiry, tracks, moment, since)
     examined = _examined(ridden, moment, window, avoided)
     shown = [trace for trace, why in examined if TESTED.intersection(why)]
-    believed = tuple(beliefs(ridden, tracks, vehicle, window, shown) for vehicle in others)
+    believed = tuple(beliefs(inquiry, tracks, vehicle, window, shown) for vehicle in others)
     tested = tuple(cases(inquiry, trace, others[:SUPPOSED]) for trace in shown)
     traces = ridden.record.traces
     return Incident(

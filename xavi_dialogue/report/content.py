@@ -212,12 +212,12 @@ class Change(msgspec.Struct, frozen=True, omit_defaults=True):
 class Jump(msgspec.Struct, frozen=True, omit_defaults=True):
     """A probability that moved far from one decision to the next, and what changed in between."""
 
-    vehicle: int | None  # whose goal it is; None: of a collision under the plan
+    vehicle: int | None  # whose goal it is; None: of a collision, see `goal`
     before: int  # number of the decision
     number: int  # of the next one
     was: Figure | None  # None: the decision before did not ascribe that goal
     now: Figure | None  # None: the next one does not ascribe it
-    goal: Action | None = None
+    goal: Action | None = None  # of a collision: the option that was given up; None: the plan
     place: str = ""
     changes: tuple[Change, ...] = ()  # (): the record shows none
 

@@ -48,12 +48,32 @@ def jumps(traces: Sequence[PlanTrace], tracks: Tracks, involved: Sequence[int]) 
 def _of_collision(
     before: PlanTrace, trace: PlanTrace, tracks: Tracks, involved: Sequence[int]
 ) -> Iterator[Jump]:
-    was, now = _risk(before), _risk(trace)
-    if was is None or now is None or abs(now.value - was.value) < FAR:
+    moved: list[tuple[Action | None, Figure | None, Figure | None]] = []
+    moved.append((None, _risk(before), _risk(trace)))
+    given_up = planned(before)[:1]
+    if given_up and given_up != planned(trace)[:1]:
+        action = given_up[0]
+        moved.append((action, _risk_of(before, action), _risk_of(trace, action)))
+    far = [
+        (action, was, now)
+        for action, was, now in moved
+        if was is not None and now is not None and abs(now.value - was.value) >= FAR
+    ]
+    if not far:
         return
     own = [*_plans(before, trace), *_lights(before, trace), *_speeds(before, trace, EGO)]
     others = [one for v in involved for one in _observed(before, trace, tracks, v)]
-    yield Jump(None, before.decision, trace.decision, was, now, changes=(*own, *others))
+    changes = (*own, *others)
+    for option, was, now in far:
+        yield Jump(None, before.decision, trace.decision, was, now, goal=option, changes=changes)
+
+
+def _risk_of(trace: PlanTrace, action: Action) -> Figure | None:
+    """Return the probability of a collision of an option; None if it was not tried."""
+    model = CausalModel(trace)
+    found = model.intervene((action,)) if action in model.options() else None
+    of = f"of the rollouts that begin with {action}"
+    return None if found is None else collision(Ground(trace), found, of)
 
 
 def _risk(trace: PlanTrace) -> Figure | None:

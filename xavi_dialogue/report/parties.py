@@ -55,6 +55,11 @@ def party(
         if (gap := tracks.gap(vehicle, time)) is not None
     ]
     nearest, at = min(gaps, default=(None, None))
+    how = "least distance of bodies in the window"
+    source = tracks.source("position", EGO, vehicle, how=how)
+    for k, event in enumerate(ridden.record.events):
+        if event.kind == "collided" and event.vehicle == vehicle and "collided" in roles:
+            nearest, at, source = 0.0, event.sim_time, Source("event", "kind", k, event.sim_time)
     return Party(
         vehicle=vehicle,
         kind=shape.kind,
@@ -68,7 +73,7 @@ def party(
         else Figure(
             rounded(nearest),
             "m",
-            tracks.source("position", EGO, vehicle, how="least distance of bodies in the window"),
+            source,
         ),
         nearest_at=at,
     )

@@ -1,6 +1,7 @@
 """Replays: whether the car on another line would have touched another that drives as recorded.
 
-After the last sample of the other, it is carried on straight at its last speed. It does not react.
+After the last sample of the other, it is carried on straight. For a second its speed changes as it
+did in the second before; from then on, it stays. It does not react.
 """
 
 import math
@@ -19,6 +20,7 @@ from xavi_dialogue.report.tracks import Tracks
 STEP = 0.1  # [s]
 AFTER = 4.0  # [s] after the contact up to which a replay goes
 BACK = 7.0  # [s] before the contact from which braking is tried
+GOES_ON = 1.0  # [s] for which the speed of somebody who is not seen any more changes as before
 RATES = (FIRM, EMERGENCY)  # [m/s2]
 
 Driven = Callable[[float], VehicleState | None]
@@ -53,10 +55,16 @@ def carried_on(tracks: Tracks, vehicle: int, time: float) -> VehicleState | None
     last = tracks.state(vehicle, motion.time[-1])
     if last is None:
         return None
-    way = last.speed * (time - motion.time[-1])
+    first = motion.index(motion.time[-1] - GOES_ON) or 0
+    span = motion.time[-1] - motion.time[first]
+    rate = (last.speed - motion.speed[first]) / span if span > 0.0 else 0.0
+    after = time - motion.time[-1]
+    changing = min(after, GOES_ON, last.speed / -rate if rate < 0.0 else GOES_ON)
+    speed = max(last.speed + rate * changing, 0.0)
+    way = (last.speed + speed) / 2.0 * changing + speed * (after - changing)
     x, y = last.position
     there = (x + way * math.cos(last.heading), y + way * math.sin(last.heading))
-    return replace(last, position=there)
+    return replace(last, position=there, speed=speed)
 
 
 def _least(tracks: Tracks, ours: Driven, vehicle: int, since: float, until: float) -> float | None:

@@ -77,8 +77,14 @@ def _moment(moment: Chosen) -> Iterator[Entry]:
 
 def _events(ridden: Ridden, window: tuple[float, float]) -> Iterator[Entry]:
     waited: dict[int | None, float] = {}
-    for k, event in enumerate(ridden.record.events):
-        if window[0] <= event.sim_time <= window[1] and event.kind in FROM_EVENTS:
+    told = ridden.record.events
+    earlier = [
+        k for k, one in enumerate(told) if one.kind == "restrained" and one.sim_time < window[0]
+    ]
+    in_force = earlier[-1] if earlier else None  # as the window begins
+    for k, event in enumerate(told):
+        inside = window[0] <= event.sim_time <= window[1]
+        if (inside or k == in_force) and event.kind in FROM_EVENTS:
             if event.kind == "gave-way":
                 before = waited.get(event.vehicle, -AGAIN)
                 waited[event.vehicle] = event.sim_time

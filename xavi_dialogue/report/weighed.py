@@ -75,9 +75,10 @@ def decided(trace: PlanTrace, why: tuple[Examined, ...]) -> Decided:
     weights = compared(trace)
     rows = weights or _by_model(model)
     here = model.intervene(plan[:1]) if plan else None
+    own = rows.get(plan[0], ()) if plan else ()
     found = [
-        _choice(model, action, weighed, here, chosen=(action,) == plan[:1])
-        for action, weighed in rows.items()
+        _choice(model, action, known, here, own, chosen=(action,) == plan[:1])
+        for action, known in rows.items()
     ]
     found.sort(key=lambda one: (not one.chosen, -one.value.value, ACTIONS.index(one.action)))
     return Decided(
@@ -127,7 +128,13 @@ def _by_model(model: CausalModel) -> dict[Action, Weighed]:
 
 
 def _choice(
-    model: CausalModel, action: Action, rows: Weighed, here: Intervention | None, *, chosen: bool
+    model: CausalModel,
+    action: Action,
+    rows: Weighed,
+    here: Intervention | None,
+    own: Weighed,
+    *,
+    chosen: bool,
 ) -> Choice:
     ground = Ground(model.trace)
     where = "rollouts[*]"
@@ -162,7 +169,7 @@ def _choice(
         time=arrival(ground, rows, of),
         braking=hardest(ground, rows, of),
         terms=_terms(ground, rows, of),
-        behind=None if chosen or here is None or there is None else _behind(model, there, here),
+        behind=None if chosen else _behind(model, (own, rows), (there, here)),
         samples=len({(one.samples, one.lights, one.phantoms) for one, _ in rows}),
         rollouts=len(rows),
     )
@@ -180,18 +187,48 @@ def _terms(ground: Ground, rows: Weighed, of: str) -> dict[RewardTerm, Figure]:
     }
 
 
-def _behind(model: CausalModel, there: Intervention, here: Intervention) -> Figure:
-    """Return by how much [s] the chosen action is better, with the error of the comparison."""
-    known = differences(model, there, here)
-    how = "expected reward of the chosen action minus that of this one, by samples of both"
+def _behind(
+    model: CausalModel,
+    compared_rows: tuple[Weighed, Weighed],
+    plans: tuple[Intervention | None, Intervention | None],
+) -> Figure | None:
+    """Return by how much [s] the chosen action is better, with the error of the comparison.
+
+    Args:
+        model: of the decision.
+        compared_rows: the rollouts by which the decision compared the chosen action and this one.
+        plans: the same two of the causal model, this one first, for where these do not pair up.
+    """
+    ours, theirs = compared_rows
+    if ours and [_situation(one) for one, _ in ours] == [_situation(one) for one, _ in theirs]:
+        leads = [a.reward - b.reward for (a, _), (b, _) in zip(ours, theirs, strict=True)]
+        weights = [weight for _, weight in ours]
+        value = sum(w * lead for w, lead in zip(weights, leads, strict=True))
+        error = standard_error(weights, leads)
+        how = "in the same situations"
+    else:
+        there, here = plans
+        if there is None or here is None:
+            return None
+        known = differences(model, there, here)
+        value, error = known.value, known.error
+        how = "each by its own samples"
     return Figure(
-        rounded(known.value),
+        rounded(value),
         "s",
-        Ground(model.trace).source("rollouts[*].terms", how),
-        rounded(known.value - 2.0 * known.error),
-        rounded(known.value + 2.0 * known.error),
+        Ground(model.trace).source(
+            "rollouts[*].reward",
+            f"expected reward of the chosen action minus that of this one, {how}",
+        ),
+        rounded(value - 2.0 * error),
+        rounded(value + 2.0 * error),
         BETWEEN_ERRORS,
     )
+
+
+def _situation(rollout: Rollout) -> tuple[object, ...]:
+    """Return what a rollout drew of the world."""
+    return rollout.samples, rollout.lights, rollout.phantoms
 
 
 def collision(

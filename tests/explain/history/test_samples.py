@@ -213,6 +213,24 @@ def test_a_speed_between_samples_is_that_of_both_unless_it_was_not_seen() -> Non
     assert still_to(ride, 30.0, 17.0) == 30.0
 
 
+def test_what_was_assumed_of_somebody_hidden_goes_once_he_is_seen_again() -> None:
+    speeds = (6.0, 6.0, 6.0, 6.0, 4.0)  # the three in the middle are assumed
+    places = tuple((1.2 * k, 0.0) for k in range(5))
+    tracks = [
+        {0: Track(17.2, ((0.0, 0.0),) * n, (0.0,) * n, (0.0,) * n),
+         1: Track(17.2, places[:n], (0.0,) * n, speeds[:n], (), ((17.2, until),))}
+        for n, until in ((3, 17.6), (5, 18.0))
+    ]  # fmt: skip
+    first = replace(plan(17.6), history=tracks[0], unseen={1: 17.2})
+    second = replace(plan(18.0), history=tracks[1])
+    later = Ride(Record(18.0, (first, second)))
+    assert later.motion(1).time == (17.2, 18.0)
+    assert later.motion(1).speed == (6.0, 4.0)
+    before = Ride(Record(17.7, (first, second)))  # what was known then, whatever came later
+    assert before.motion(1).time == (17.2, 17.4, 17.6)
+    assert Ride(Record(17.7, (first,))).motion(1) == before.motion(1)
+
+
 def test_a_way_to_the_destination_may_be_that_of_an_earlier_decision() -> None:
     knows = RoadFacts({0: place()}, (step(60.0),), 200.0)
     lost = RoadFacts({0: place()}, (step(90.0),), None)

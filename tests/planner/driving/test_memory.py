@@ -50,6 +50,20 @@ def test_who_is_hidden_is_taken_to_go_on() -> None:
     assert len(memory.track(2, 3.0).speed) == 16
 
 
+def test_the_history_names_the_times_in_which_nothing_was_seen() -> None:
+    memory = seen_until(1.0)
+    for k in range(11, 21):
+        memory.observe(scene(k * STEP, car=False))
+    assert memory.recorded(2, 2.0).assumed == ((1.0, 2.0),)
+    assert memory.recorded(1, 2.0).assumed == ()
+    for k in range(21, 31):
+        memory.observe(scene(k * STEP))
+    assert memory.recorded(2, 3.0).assumed == ((1.0, 2.1),)
+    for k in range(31, 131):
+        memory.observe(scene(k * STEP))
+    assert memory.recorded(2, 13.0).assumed == ()  # longer ago than a history reaches
+
+
 def test_who_is_hidden_for_long_is_forgotten() -> None:
     memory = seen_until(1.0)
     for k in range(11, 11 + round(HIDDEN / STEP) + 2):

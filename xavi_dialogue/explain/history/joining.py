@@ -6,7 +6,8 @@ decisions are added; an earlier state of it is a part of what is kept.
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from planner.record.places import LightChange
 from planner.record.trace import SAMPLE_PERIOD, PlanTrace, Track
@@ -21,19 +22,41 @@ Span = tuple[float, float]  # [s]
 NOTHING = Motion((), (), (), ())
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Seen:
     """What was seen of one vehicle."""
 
-    motion: Motion = NOTHING
+    recorded: Motion = NOTHING  # with what was assumed
     lights: tuple[LightChange, ...] = ()  # oldest first; () unknown
     hidden: tuple[Span, ...] = ()  # when it was behind something, and its motion estimated
+    assumed: tuple[Span, ...] = ()  # such times that are over: it was seen again
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The motion, without what was assumed of times after which it was seen again.
+
+        What it really did shows when it is seen again: an assumption would look like a jerk.
+        """
+        known = self.recorded
+        if not self.assumed:
+            return known
+        seen = [
+            k for k, t in enumerate(known.time)
+            if not any(a + EPSILON < t < b - EPSILON for a, b in self.assumed)
+        ]  # fmt: skip
+        return Motion(
+            tuple(known.time[k] for k in seen),
+            tuple(known.position[k] for k in seen),
+            tuple(known.heading[k] for k in seen),
+            tuple(known.speed[k] for k in seen),
+        )
 
     def until(self, time: float) -> "Seen":
         """Return what was known at the time [s] of a decision."""
         lights = tuple(change for change in self.lights if change.time <= time + EPSILON)
         hidden = tuple((a, min(b, time)) for a, b in self.hidden if a < time - EPSILON)
-        return Seen(self.motion.until(time), lights, hidden)
+        assumed = tuple(span for span in self.assumed if span[1] <= time + EPSILON)
+        return Seen(self.recorded.until(time), lights, hidden, assumed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +87,7 @@ class Joined:
         """Return the same with the first few decisions only."""
         time = traces[-1].sim_time
         seen = {v: known.until(time) for v, known in self.seen.items()}
-        return Joined(traces, {v: known for v, known in seen.items() if known.motion.time})
+        return Joined(traces, {v: known for v, known in seen.items() if known.recorded.time})
 
     def reaching(self, scene: Scene) -> "Joined":
         """Return the same with what was seen after the last decision.
@@ -77,13 +100,14 @@ class Joined:
             if vehicle in seen and vehicle not in scene.vehicles:
                 known = seen[vehicle]
                 hidden = (*(span for span in known.hidden if span[0] != since), (since, scene.time))
-                seen[vehicle] = Seen(known.motion, known.lights, hidden)
+                seen[vehicle] = replace(known, hidden=hidden)
         for vehicle, state in scene.vehicles.items():
             known = seen.get(vehicle, Seen())
             lights, shown = known.lights, state.signals
             if not lights or lights[-1].shown != shown:
                 lights = (*lights, LightChange(scene.time, shown))
-            seen[vehicle] = Seen(_reaching(known.motion, scene.time, state), lights, known.hidden)
+            moved = _reaching(known.recorded, scene.time, state)
+            seen[vehicle] = replace(known, recorded=moved, lights=lights)
         return Joined(self.traces, seen)
 
 
@@ -143,13 +167,14 @@ class _Part:
 
     def __init__(self, known: Seen) -> None:
         self._known = known
-        self._last = known.motion.time[-1] if known.motion.time else float("-inf")
+        self._last = known.recorded.time[-1] if known.recorded.time else float("-inf")
         self._time: list[float] = []
         self._position: list[tuple[float, float]] = []
         self._heading: list[float] = []
         self._speed: list[float] = []
         self._lights = list(known.lights)
         self._hidden = list(known.hidden)
+        self._assumed = dict.fromkeys(known.assumed)
 
     def add(self, trace: PlanTrace, vehicle: int, track: Track) -> None:
         """Add the samples of a decision that those before it lack."""
@@ -159,6 +184,9 @@ class _Part:
             if self._hidden and self._hidden[-1][0] == since:
                 self._hidden.pop()
             self._hidden.append((since, trace.sim_time))
+        for span in track.assumed:
+            if since is None or span[1] < trace.sim_time - EPSILON:
+                self._assumed[span] = None
         first, count = 0, len(track.speed)
         if self._last >= track.start - SAMPLE_PERIOD / 2.0:
             first = int((self._last - track.start) / SAMPLE_PERIOD + 0.5 + EPSILON) + 1
@@ -182,7 +210,7 @@ class _Part:
 
     def seen(self) -> Seen:
         """Return all that is known of the vehicle now."""
-        motion = self._known.motion
+        motion = self._known.recorded
         if self._time:
             motion = Motion(
                 motion.time + tuple(self._time),
@@ -190,4 +218,5 @@ class _Part:
                 tuple(motion.heading) + tuple(self._heading),
                 motion.speed + tuple(self._speed),
             )
-        return Seen(motion, tuple(self._lights), tuple(self._hidden))
+        assumed = tuple(self._assumed)
+        return Seen(motion, tuple(self._lights), tuple(self._hidden), assumed)

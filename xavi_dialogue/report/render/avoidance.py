@@ -19,6 +19,7 @@ def avoidance(page: Page) -> Markup:
             tag("p", f"Examined is {_mishap(known)} at {known.at:.1f} s, at every decision of the "
                 "seconds before. An option is judged by its rollouts, as it was believed then: by "
                 f"the {_believed(known)}. ", _rule(known), _more(known)),
+            _supposed(page, known),
             tag("p", tag("b", last_chance(known))),
             *(tag("p", text) for text in emergencies(page, known)),
             tag("p", _apart(page)) if known.emergency else None,
@@ -26,6 +27,20 @@ def avoidance(page: Page) -> Markup:
             tag("div", _ways(page, known), class_="wide"),
         )
     )  # fmt: skip
+
+
+def _supposed(page: Page, known: Avoidability) -> Markup | None:
+    """Return from when on the other is supposed to drive on, and how; None if nothing is told."""
+    if known.supposed_from is None or known.vehicle is None:
+        return None
+    who = page.names.of(known.vehicle)
+    return tag(
+        "p",
+        f"The record has {who} up to {known.supposed_from:.1f} s. From then on, “as it really "
+        "drove” is a supposition: straight on, for a second with its speed changing as in the "
+        "second before, then at a steady speed. So an option whose lines pass it closely after "
+        "that time may or may not have touched it.",
+    )
 
 
 def _apart(page: Page) -> str:

@@ -24,6 +24,8 @@ def told_jump(page: Page, jump: Jump) -> Markup:
 
 
 def _what(page: Page, jump: Jump) -> str:
+    if jump.vehicle is None and jump.goal is not None:
+        return f"the share of rollouts that collide, of the option to {action_words(jump.goal)},"
     if jump.vehicle is None:
         return "the share of the rollouts of the plan that collide"
     what = goal(jump.goal or "continue", jump.place)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from importlib.resources import files
 
 from xavi_dialogue.report.content import Incident
-from xavi_dialogue.report.render import avoidance, closing, observations, reasons
+from xavi_dialogue.report.render import avoidance, closing, observations, priority, reasons
 from xavi_dialogue.report.render.markup import Markup, joined, tag
 from xavi_dialogue.report.render.notes import Notes
 from xavi_dialogue.report.render.observations import Page
@@ -17,7 +17,7 @@ SECTIONS: tuple[tuple[str, str, Callable[[Page], Markup]], ...] = (
     ("timeline", "Timeline", observations.timeline),
     ("maps", "Maps", observations.maps),
     ("motion", "Speeds and distances", observations.motions),
-    ("lights", "Lights and right of way", observations.lights),
+    ("lights", "Lights and right of way", priority.lights),
     ("beliefs", "What was believed, and how it moved", reasons.beliefs),
     ("decision", "What was decided", reasons.decisions),
     ("causes", "What it hangs on", reasons.causes),

@@ -62,7 +62,7 @@ def _beliefs(page: Page, known: Beliefs) -> list[Markup]:
             for p in (first, last)
         ]
         rows.append((f"{k + 1}: {goal(one.kind, one.place)}", *ends, came[one.came]))
-    head = ("Goal", "First in the window", "Last in the window", "Took that road later in the ride")
+    head = ("Goal", "First in the window", "Last in the window", "Did so, as far as seen")
     return [
         chart(page.axes, "Probability of its goals [%]", drawn, high=100.0),
         table(head, rows),
@@ -120,9 +120,9 @@ def decisions(page: Page) -> Markup:
         "In the tables of options below, a collision has two figures. The share of the rollouts is "
         "what the reward counts. But rollouts err: the next column is the probability that this "
         "car would tell its passengers, made from such a share and from how often SUMO bore "
-        "rollouts out. The last column compares options over the same situations where both were "
-        "tried in them, so it need not be the difference of the expected rewards. The hardest "
-        "braking is that of the rollouts, from the decision up to their ends: what was expected "
+        "rollouts out. The last column compares options over the same situations if both were "
+        "tried in all of them, else each by its own; its source says which. The hardest braking is "
+        "that of the rollouts, from the decision up to their ends: what was expected "
         "of the option, not what was driven, which the timeline tells."
     )
     moved = [tag("p", told_jump(page, one)) for one in report.jumps if one.vehicle is None]

@@ -141,7 +141,7 @@ def _believed(page: Page) -> Iterator[Markup]:
         last = max(time for time, *_ in rows)
         now = [row for row in rows if row[0] == last]
         _, chance, one, point = max(now, key=lambda row: row[1])
-        came = {True: "; it did so later", False: "; it did not do so", None: ""}[one.came]
+        came = {True: "; it did so", False: "; it did not do so", None: ""}[one.came]
         who = page.names.of(known.vehicle)
         text = f"Last belief about {who}: {goal(one.kind, one.place)}, {percent(chance)}"
         note = page.notes.ref(point.source)

@@ -21,12 +21,23 @@ from xavi_dialogue.domain.terms import Compares, Ego, Event, Measured
 from xavi_dialogue.domain.vocabulary import ActionName, Manner
 from xavi_dialogue.explain.answers.expectations.plans import is_halting
 from xavi_dialogue.explain.answers.reasons.kept import coming_to, going_on, peak, with_yielding
+from xavi_dialogue.explain.answers.reasons.premises import (
+    BEGUN,
+    CREEPING,
+    SLOWING,
+    STILL,
+    halted_at,
+    is_before,
+    is_over,
+    is_stopping,
+    was_given_up,
+)
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import is_own, is_past, vehicle_in
 from xavi_dialogue.explain.causes.driving.freed import driven_for
 from xavi_dialogue.explain.causes.driving.roadside import limit_at, setting_off
 from xavi_dialogue.explain.causes.driving.slowness import AT_LIMIT, Slowness, slowness, with_nearest
-from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons, as_of
+from xavi_dialogue.explain.causes.driving.stated_reasons import as_of
 from xavi_dialogue.explain.causes.plans.natural import stopping
 from xavi_dialogue.explain.causes.plans.premise import episode_of
 from xavi_dialogue.explain.causes.plans.terms import RISK
@@ -34,7 +45,6 @@ from xavi_dialogue.explain.causes.vehicles import when
 from xavi_dialogue.explain.history.nearing import speed_at, tellable
 from xavi_dialogue.explain.history.ride import chose
 
-SLOWING: tuple[ActionName, ...] = ("slow-down", "brake")
 #: By action that a question names: rows of actions that it may mean. The first row that has an
 #: episode counts; from the second one on, the question's name is not right.
 KINDS: dict[ActionName, tuple[tuple[ActionName, ...], ...]] = {
@@ -49,13 +59,9 @@ KINDS: dict[ActionName, tuple[tuple[ActionName, ...], ...]] = {
     "block": (("stop", "stand"), SLOWING),
     "avoid": (SLOWING, ("stop", "stand")),
 }
-STILL: tuple[ActionName, ...] = ("stop", "stand")
 FREE = frozenset(("limit", "plan", "starting"))  # kinds of reasons for which nothing is in our way
 STANDING = 0.3  # [m/s]
-CREEPING = 2.5  # [m/s] above which we have not stopped
 RISKY = 0.05  # minimum extra risk of driving on that counts if somebody is in the way
-OVER = 4.0  # [s] since its end, from which what is asked about as present is denied
-BEGUN = 0.3  # [s] after a decision from which what it led to has begun
 WIDER = 4.0  # [s] within which episodes that begin belong to one moment
 
 
@@ -259,7 +265,7 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
         end = scene.moment if deed.end is None else deed.end
         reasons = with_yielding(scene, reasons, deed.begin, end)
     ours = [cause for cause in reasons.causes if cause.vehicle is not None]
-    stops = _stops(scene, deed, named)
+    stops = is_stopping(scene, deed, named)
     lit = any(cause.kind == "light" for cause in reasons.causes) and not stops
     decided = scene.ride.latest if stops else reasons.trace
     if not lit and deed.action in (*STILL, *SLOWING) and chose(decided, "stop"):
@@ -267,7 +273,7 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
         contrast = stopping(scene.ride, decided, going_on=still)
         if _speaks(contrast, somebody=bool(ours)):
             return ChoiceReason("why", deed, contrast, past=is_past(scene, event))
-        if not ours and _given_up(scene, deed):
+        if not ours and was_given_up(scene, deed):
             reasons = dataclasses.replace(reasons, causes=(MotionCause("given-up"),))
     return MotionReason(
         deed=deed,
@@ -279,38 +285,11 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
         limit=limit_at(scene.ride, deed.begin),
         cleared=reasons.cleared,
         causation=reasons.causation,
-        past=(event.tense == "past" and deed.end is not None) or _before(scene),
-        over=_over(scene, event, deed),
-        halted=_halted(scene, deed, reasons),
+        past=(event.tense == "past" and deed.end is not None) or is_before(scene),
+        over=is_over(scene, event, deed),
+        halted=halted_at(scene, deed, reasons),
         peak=peak(scene, event, deed),
     )
-
-
-def _stops(scene: Asked, deed: Episode, named: ActionName) -> bool:
-    """Check whether we brake for a stop that is asked about and is the decision in force."""
-    braking = deed.action in SLOWING and deed.end is None
-    return named == "stop" and braking and chose(scene.ride.latest, "stop")
-
-
-def _before(scene: Asked) -> bool:
-    """Check whether the question names a past moment: "why not three seconds ago?"."""
-    named = scene.past
-    return named is not None and named.said and named.end < scene.now - when.RECENT / 2.0
-
-
-def _over(scene: Asked, event: Event, deed: Episode) -> bool:
-    """Check whether the question takes for present what ended seconds ago."""
-    named = scene.span is not None and scene.span.said
-    ended = deed.end is not None and deed.end < scene.now - OVER
-    return event.tense == "present" and ended and not named
-
-
-def _halted(scene: Asked, deed: Episode, reasons: Reasons) -> float | None:
-    """Return when [s] we decided to stop while already slowing down; None: we did not."""
-    stops = chose(reasons.trace, "stop") and not chose(scene.ride.latest, "continue")
-    later = reasons.trace.sim_time > deed.begin + BEGUN
-    given_up = any(cause.kind == "given-up" for cause in reasons.causes)
-    return reasons.trace.sim_time if stops and later and not given_up else None
 
 
 def _speaks(contrast: Contrast, *, somebody: bool) -> bool:
@@ -322,13 +301,6 @@ def _speaks(contrast: Contrast, *, somebody: bool) -> bool:
         return False
     slower = contrast.decisive in ("late", "time") and bool(contrast.causes)
     return slower or contrast.decisive == "dead"
-
-
-def _given_up(scene: Asked, deed: Episode) -> bool:
-    """Check whether a stop that had been decided was given up before we stood."""
-    if deed.action in STILL or chose(scene.ride.latest, "stop"):
-        return False
-    return deed.speed_to is None or deed.speed_to > CREEPING
 
 
 def _state(scene: Asked, event: Event, named: ActionName) -> Answer:

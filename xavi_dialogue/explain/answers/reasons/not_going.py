@@ -9,6 +9,7 @@ from xavi_dialogue.domain.answers import Answer, DidNotHappen, NotApplicable, Ve
 from xavi_dialogue.domain.terms import Ego, Event, Exit, Is, Junction
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reasons import choices, motions
+from xavi_dialogue.explain.answers.reasons.premises import CREEPING
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import is_past
 from xavi_dialogue.explain.history.nearing import speed_at
@@ -75,6 +76,6 @@ def _first(scene: Asked) -> Actions:
 def moving_on(scene: Asked, where: object = None) -> Answer | None:
     """Return that we are moving, for a question that presupposes that we stand; None if we do."""
     speed = scene.world.measure("speed", Ego(), scene.now)
-    if where is not None or scene.past is not None or (speed.value or 0.0) < motions.CREEPING:
+    if where is not None or scene.past is not None or (speed.value or 0.0) < CREEPING:
         return None
     return Verdict(Is("stationary", Ego(), tense="present"), False, (speed,), claim=True)

@@ -19,7 +19,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.explain.answers.measuring.durations import halted
-from xavi_dialogue.explain.answers.reasons import choices, motions
+from xavi_dialogue.explain.answers.reasons import choices, motions, premises
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import event_of, subject
 from xavi_dialogue.explain.answers.suppositions.undone import GOING
@@ -72,7 +72,7 @@ def driven(scene: Asked, then: Event | None) -> Episode | None:
         return None
     if choices.is_choice(then):
         return None
-    for kinds in motions.KINDS.get(then.action, (motions.SLOWING,)):
+    for kinds in motions.KINDS.get(then.action, (premises.SLOWING,)):
         found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
         chosen = scene.pick(found, lambda e: (e.begin, e.end))
         if chosen is not None:
@@ -91,7 +91,7 @@ def was_done(scene: Asked, then: Event) -> bool:
         return True
     if choices.is_choice(then):
         return happened(scene.ride, subject(scene, then).names, scene.span) is not None
-    kinds = (*motions.KINDS.get(then.action, (motions.SLOWING,))[0], *motions.STILL)
+    kinds = (*motions.KINDS.get(then.action, (premises.SLOWING,))[0], *premises.STILL)
     found = [e for e in scene.world.episodes(Ego(), kinds) if e.action in kinds]
     if scene.past is not None and scene.past.said:
         return scene.pick(found, lambda e: (e.begin, e.end)) is not None

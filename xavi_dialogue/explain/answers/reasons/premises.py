@@ -1,0 +1,49 @@
+"""Premises: what a question takes for granted of how we drove, and whether it is so."""
+
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Event
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
+from xavi_dialogue.explain.causes.vehicles import when
+from xavi_dialogue.explain.history.ride import chose
+
+SLOWING: tuple[ActionName, ...] = ("slow-down", "brake")
+STILL: tuple[ActionName, ...] = ("stop", "stand")
+CREEPING = 2.5  # [m/s] above which we have not stopped
+OVER = 4.0  # [s] since its end, from which what is asked about as present is denied
+BEGUN = 0.3  # [s] after a decision from which what it led to has begun
+
+
+def is_stopping(scene: Asked, deed: Episode, named: ActionName) -> bool:
+    """Check whether we brake for a stop that is asked about and is the decision in force."""
+    braking = deed.action in SLOWING and deed.end is None
+    return named == "stop" and braking and chose(scene.ride.latest, "stop")
+
+
+def is_over(scene: Asked, event: Event, deed: Episode) -> bool:
+    """Check whether the question takes for present what ended seconds ago."""
+    named = scene.span is not None and scene.span.said
+    ended = deed.end is not None and deed.end < scene.now - OVER
+    return event.tense == "present" and ended and not named
+
+
+def is_before(scene: Asked) -> bool:
+    """Check whether the question names a past moment: "why not three seconds ago?"."""
+    named = scene.past
+    return named is not None and named.said and named.end < scene.now - when.RECENT / 2.0
+
+
+def halted_at(scene: Asked, deed: Episode, reasons: Reasons) -> float | None:
+    """Return when [s] we decided to stop while already slowing down; None: we did not."""
+    stops = chose(reasons.trace, "stop") and not chose(scene.ride.latest, "continue")
+    later = reasons.trace.sim_time > deed.begin + BEGUN
+    given_up = any(cause.kind == "given-up" for cause in reasons.causes)
+    return reasons.trace.sim_time if stops and later and not given_up else None
+
+
+def was_given_up(scene: Asked, deed: Episode) -> bool:
+    """Check whether a stop that had been decided was given up before we stood."""
+    if deed.action in STILL or chose(scene.ride.latest, "stop"):
+        return False
+    return deed.speed_to is None or deed.speed_to > CREEPING
