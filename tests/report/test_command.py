@@ -30,6 +30,30 @@ def test_a_report_is_written_and_its_file_named(
     assert written == report(UNHEEDED).html()
 
 
+def test_a_report_is_written_over_a_report_and_over_nothing_else(tmp_path: Path) -> None:
+    asked = ("report", str(UNHEEDED), "--scenario", str(WORLD), "--out")
+    html, notes = tmp_path / "it.html", tmp_path / "notes.html"
+    assert run(*asked, str(html)).exit_code == run(*asked, str(html)).exit_code == 0
+    assert run(*asked, str(html), "--json").exit_code == run(*asked, str(html)).exit_code == 0
+    notes.write_text("keep", encoding="utf-8")
+    done = run(*asked, str(notes))
+    assert done.exit_code == 2
+    assert "is no report; --force overwrites it" in done.stderr
+    assert notes.read_text(encoding="utf-8") == "keep"
+    assert run(*asked, str(notes), "--force").exit_code == 0
+
+
+def test_a_report_is_never_written_over_its_ride(tmp_path: Path) -> None:
+    ride = tmp_path / UNHEEDED.name
+    ride.write_bytes(UNHEEDED.read_bytes())
+    asked = ("report", str(ride), "--scenario", str(WORLD), "--out", str(ride))
+    for extra in ((), ("--force",)):
+        done = run(*asked, *extra)
+        assert done.exit_code == 2
+        assert "is the ride itself" in done.stderr
+    assert ride.read_bytes() == UNHEEDED.read_bytes()
+
+
 def test_json_goes_to_the_output_or_into_a_file(tmp_path: Path) -> None:
     asked = ("report", str(UNHEEDED), "--scenario", str(WORLD), "--at", "collision", "--json")
     done = run(*asked)

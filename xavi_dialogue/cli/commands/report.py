@@ -7,6 +7,10 @@ from typing import Annotated
 import typer
 
 from xavi_dialogue.cli.commands.common import Streams
+from xavi_dialogue.process.exit_status import UsageFault
+from xavi_dialogue.report.content import SCHEMA
+
+HEAD = 1024  # [byte] of a file, in which a report names its schema
 
 
 def add(app: typer.Typer, shell: Streams) -> None:
@@ -42,6 +46,9 @@ def _report(shell: Streams) -> Callable[..., None]:
         car: Annotated[
             str | None, typer.Option(metavar="NAME", help="Which car of a recording.")
         ] = None,
+        force: Annotated[
+            bool, typer.Option("--force", help="Write over a file that is no report, too.")
+        ] = False,
     ) -> None:
         """Report what a ride's record shows of an incident, as one HTML file.
 
@@ -52,13 +59,32 @@ def _report(shell: Streams) -> Callable[..., None]:
 
         with shell.errors():
             opened = open_ride(ride, scenario, car)
+            if out is not None:
+                _check_target(out, ride, force=force)
             shell.note("planning again ...")
             found = opened.report(at)
             if as_json and out is None:
                 shell.write(found.json())
                 return
             file = out or Path(f"{ride.name.partition('.')[0]}-{found.time:g}s.html")
+            _check_target(file, ride, force=force)
             found.save(file, as_json=as_json)
         shell.write(str(file))
 
     return report
+
+
+def _check_target(file: Path, ride: Path, *, force: bool) -> None:
+    """Check that a report is not written over the ride, nor over a file that is no report.
+
+    Raises:
+        UsageFault: it would be.
+    """
+    if not file.is_file():
+        return
+    if ride.exists() and file.samefile(ride):
+        raise UsageFault(f"{file} is the ride itself; give another file to write")
+    with file.open("rb") as known:
+        head = known.read(HEAD)
+    if not force and SCHEMA.encode() not in head:
+        raise UsageFault(f"{file} is there already, and is no report; --force overwrites it")

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from importlib.resources import files
 
-from xavi_dialogue.report.content import Incident
+from xavi_dialogue.report.content import SCHEMA, Incident
 from xavi_dialogue.report.render import avoidance, closing, observations, priority, reasons
 from xavi_dialogue.report.render.markup import Markup, joined, tag
 from xavi_dialogue.report.render.notes import Notes
@@ -53,6 +53,7 @@ def html(report: Incident) -> str:
     head = tag(
         "head",
         tag("meta", charset="utf-8"),
+        tag("meta", name="generator", content=SCHEMA),
         tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
         tag("meta", http_equiv="Content-Security-Policy", content=POLICY),
         tag("title", _title(report)),
