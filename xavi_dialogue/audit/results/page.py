@@ -124,6 +124,8 @@ def _section(
 def _again(audit: Audit, ride: Looked, finding: Finding) -> str:
     """Return the command that asks about a finding again."""
     question = finding.question or _QUESTIONS[finding.kind]
+    if finding.kind == "close-call" and finding.vehicle is not None:
+        question = f"How close did we get to vehicle {finding.vehicle}?"
     at = "" if finding.at is None else f" --at {_asked(ride, finding):g}"
     return f"xavi explain {quote(ride.file)} {quote(question)}{at}"
 

@@ -68,6 +68,9 @@ def _collision(ride: Ride, known: World) -> Peak | None:
 
 
 def _braking(known: World) -> Peak | None:
+    """Return the hardest braking; None if answers would not call anything braking."""
+    if not known.episodes(Ego(), ("brake", "slow-down")):
+        return None
     found = known.extreme("deceleration", Ego(), "highest", known.begin, known.now)
     return Peak(found.value, round(found.time, 3)) if found.value else None
 

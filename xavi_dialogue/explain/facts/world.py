@@ -122,6 +122,8 @@ class World:
         named = mirrored(event)
         actors = happening.actors_of(self.states, named)
         found = self.episodes(actors, (named.action,), begin, end)
+        if named.action in LETTING_GO:  # whom we stand behind we do not let go first
+            found = tuple(e for e in found if e.how in (None, "right-of-way"))
         return happening.such(found, named, begin)
 
     def account(self, begin: float, end: float) -> tuple[Episode, ...]:
@@ -168,6 +170,7 @@ class World:
 
 
 _kept: list[World] = []  # latest first
+LETTING_GO = frozenset[ActionName](("give-way", "let-go"))
 KEPT = 2  # worlds that are kept for the questions that follow
 
 

@@ -35,7 +35,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, expected, known, unknown
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, is_ahead, window
 from xavi_dialogue.explain.answers.reference.occasions import instead, occasion, occasions, overlaps
-from xavi_dialogue.explain.answers.ride.leaving import apart, left_behind, still_there
+from xavi_dialogue.explain.answers.ride.leaving import apart, by_road, left_behind, still_there
 from xavi_dialogue.explain.answers.ride.onward import other_exit
 from xavi_dialogue.explain.answers.sight.sight import comes, sees
 from xavi_dialogue.explain.history.thresholds import MOVING
@@ -140,7 +140,7 @@ def _intended(asked: Asked, event: Event) -> bool:
 
 def _has_been(asked: Asked, event: Event) -> Finding:
     """Check whether an event happened or goes on: with its episode, or what was done instead."""
-    found = occasion(asked, event)
+    found = occasion(asked, event) or by_road(asked, event)
     about = window(asked, event.time, event.tense)
     if found is not None and found.action == "cross" and event.tense in ("present", "perfect"):
         over = found.end is not None and found.end < asked.now - RECENT

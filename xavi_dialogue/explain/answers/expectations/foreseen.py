@@ -15,6 +15,7 @@ from xavi_dialogue.domain.facts import Belief, Episode, Expectation
 from xavi_dialogue.domain.terms import Event, Feature, Road, Unsaid, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.precedence import before_us, first, into_our_road
+from xavi_dialogue.explain.answers.expectations.taken import last_turn, took
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
@@ -246,15 +247,25 @@ def wrong_belief(asked: Asked, event: Event, about: Window, came: bool) -> Belie
     vehicle = number(event.actor)
     if vehicle is None or not macros(event) or event.action in ("overtake", "pass"):
         return None  # passing in its own lane contradicts no expected lane change
-    known = asked.world.beliefs(vehicle, max(about.begin - BEFORE, asked.world.begin), about.end)
-    for belief in reversed(known):
+    since = max(about.begin - BEFORE, asked.world.begin, last_turn(asked, vehicle, about.begin))
+    for belief in reversed(asked.world.beliefs(vehicle, since, about.end)):
         first = belief.expectations[0] if belief.expectations else None
         if first is None or first.probability < CLEAR:
             continue
         same = matches(first, event)
-        if same is not None and same != came:
+        if same is None or same == came or took(asked, belief, first):
+            continue
+        if came or _went_elsewhere(asked, belief, first):
             return belief
     return None
+
+
+def _went_elsewhere(asked: Asked, belief: Belief, expected: Expectation) -> bool:
+    """Check whether a vehicle was seen to take another way than the one expected."""
+    done = came_of(asked, belief.vehicle, belief.time)
+    if done is None or done.action == "stop":
+        return False
+    return matches(expected, Event(done.action, Vehicle(belief.vehicle))) is not True
 
 
 def came_of(asked: Asked, vehicle: int, since: float) -> Episode | None:

@@ -25,6 +25,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Measured,
+    Nobody,
     Not,
     Now,
     Proposition,
@@ -119,6 +120,8 @@ def _as_it_was(that: Proposition, asked: Asked) -> Proposition:
     """Read overtaking of somebody who stood or came towards us as driving past."""
     if not isinstance(that, Happens) or that.event.action != "overtake":
         return that
+    if isinstance(that.event.actor, Nobody) or isinstance(that.event.object, Nobody):
+        return that  # nobody overtook: then somebody who came towards us matters not
     world, passed = asked.world, replace(that.event, action="pass")
     if world.holds(that.event, world.begin, asked.now):
         return that

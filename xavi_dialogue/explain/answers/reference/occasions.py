@@ -7,7 +7,16 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, DidNotHappen, NotRecorded
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Event, Everyone, Junction, Thing, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Everyone,
+    Junction,
+    Nobody,
+    Thing,
+    Vehicle,
+    Vehicles,
+)
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, was_said, window
@@ -90,6 +99,8 @@ def _otherwise(event: Event) -> tuple[ActionName, ...]:
     """Return other actions that an event may mean: leaving a roundabout is turning right."""
     if event.action == "turn" and event.side == "left":
         return ()
+    if event.action == "overtake" and Nobody in map(type, (event.actor, event.object)):
+        return ()  # whoever drives past towards us overtakes nobody
     if event.action == "leave" and event.object == Junction("roundabout"):
         return ("exit-right", "exit-straight", "exit-left")
     if event.action == "leave" and event.object is None and not is_us(event.actor):
@@ -107,8 +118,7 @@ def _held(asked: Asked, event: Event) -> list[Episode]:
             found += _seen(asked, single)
         else:
             found += world.holds(single, world.begin, asked.now)
-    yields = event.action in ("give-way", "let-go")
-    return [e for e in found if not yields or e.how in (None, "right-of-way")]
+    return found
 
 
 def _seen(asked: Asked, event: Event) -> list[Episode]:

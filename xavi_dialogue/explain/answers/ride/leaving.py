@@ -1,13 +1,19 @@
-"""Leaving: who is behind us by now, who is still there, and how far two others are apart."""
+"""Leaving: who is behind us by now, is still there or took an exit; how far others are apart."""
 
 from sim.scene import EGO
-from xavi_dialogue.domain.facts import Fact
+from xavi_dialogue.domain.facts import Episode, Fact
 from xavi_dialogue.domain.terms import Ego, Event, Related, Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.expectations.foreseen import sided
+from xavi_dialogue.explain.answers.expectations.taken import on_road
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.reference.moments import window
 from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, look_of, number
 from xavi_dialogue.explain.answers.reference.occasions import occasion
+
+#: Actions that lead into another road.
+ROADS = frozenset[ActionName](("exit-left", "exit-right", "exit-straight", "leave"))
 
 
 def left_behind(asked: Asked, event: Event) -> Finding | None:
@@ -47,3 +53,23 @@ def apart(asked: Asked, event: Event) -> Finding:
         return Finding(True, (crash,))
     gap = asked.world.measure("distance", event.actor, at, event.object)
     return unknown("not-recorded", *known(gap))
+
+
+def by_road(asked: Asked, event: Event) -> Episode | None:
+    """Return that a vehicle took a road, known by where it was seen later; None if unknown.
+
+    Exits of motorways, and some turns, bend too little to be seen as such.
+    """
+    vehicle, meant = number(event.actor), sided(event)
+    if vehicle is None or event.tense not in ("past", "perfect"):
+        return None
+    names = ("exit-left", "exit-right") if meant == "turn" else (meant,)
+    if not ROADS.issuperset(names):
+        return None
+    for belief in reversed(asked.world.beliefs(vehicle, asked.world.begin, asked.now)):
+        for expected in belief.expectations:
+            since = on_road(asked, belief, expected)
+            done = next((action for action in expected.actions if action in names), None)
+            if since is not None and done is not None:
+                return Episode(Vehicle(vehicle), done, belief.time, since, event.object)
+    return None

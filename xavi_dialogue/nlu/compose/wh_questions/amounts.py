@@ -5,7 +5,7 @@ from typing import Any, cast
 from msgspec import structs
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import HowLong, HowMany, HowMuch, HowSure, Question, When
+from xavi_dialogue.domain.meaning import HowLong, HowMany, HowMuch, HowSure, Listing, Question, When
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -38,6 +38,7 @@ from xavi_dialogue.nlu.compose.wh_questions.grades import (
 )
 from xavi_dialogue.nlu.compose.wh_questions.lasting import (
     SAVING,
+    how_often,
     left_over,
     long_lasting,
     measured,
@@ -49,6 +50,8 @@ from xavi_dialogue.nlu.compose.wh_questions.towards import reference
 
 def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -> Question:
     """Ask "how many cars", "how much time" of a clause; "how many more turns" are to come."""
+    if isinstance(sem, Noun) and sem.key == "wrong-prediction":
+        return Listing("wrong-predictions", time=clause.time)  # "how many mistakes ..."
     if isinstance(sem, Event) and _to_come(clause, value, words, sem):
         return HowMany(cast(Event, with_fields(sem, tense="future")))
     actor = as_thing(clause.subject)
@@ -58,7 +61,7 @@ def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -
     if (isinstance(sem, Moment) and sem.unit == "times" and not lost) or counting:
         if event is not None and isinstance(event.actor, Unknown):
             event = with_fields(event, actor=Ego())  # it is the word "times"
-        return HowMany(event or Event("do", time=clause.time))
+        return how_often(value, event) or HowMany(Event("do", time=clause.time))
     if (isinstance(sem, Moment) and (lost or sem.unit in ("s", "min", "h"))) or (
         isinstance(sem, Noun) and sem.key == "time"
     ):

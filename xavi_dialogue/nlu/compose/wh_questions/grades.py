@@ -47,6 +47,7 @@ from xavi_dialogue.nlu.compose.clauses.sem import Measure, as_thing, between, ea
 from xavi_dialogue.nlu.compose.clauses.times import is_moment
 from xavi_dialogue.nlu.compose.states.predicates import tense_of
 from xavi_dialogue.nlu.compose.wh_questions.lasting import (
+    how_often,
     left_over,
     long_lasting,
     meanwhile,
@@ -101,7 +102,7 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
         case "likely":
             return sure_of(clause, value)
         case "often":
-            return HowMany(event) if event is not None else HowMany(Event("do"))
+            return how_often(value, event) or HowMany(Event("do"))
         case "late":
             if event is not None:
                 return When(Happens(event))

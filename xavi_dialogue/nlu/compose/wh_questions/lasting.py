@@ -2,7 +2,7 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.meaning import HowLong, HowMuch, Peak, Question, When
+from xavi_dialogue.domain.meaning import HowLong, HowMany, HowMuch, Listing, Peak, Question, When
 from xavi_dialogue.domain.terms import (
     Compares,
     Described,
@@ -277,3 +277,10 @@ def until(anchor: Any) -> Question:
     if anchor is not None and not isinstance(anchor, Ego | Pronoun):
         return When(Happens(Event("arrive", Ego(), anchor, tense="future")))
     return HowMuch(Measured("time-to-go"))
+
+
+def how_often(value: object, event: Event | None) -> Question | None:
+    """Ask how often something was done, or how often we were wrong; None: of nothing known."""
+    if isinstance(value, Is) and value.state == "wrong":
+        return Listing("wrong-predictions", time=value.time)
+    return None if event is None else HowMany(event)

@@ -51,9 +51,10 @@ def measured(
 ) -> Measured:  # fmt: skip
     """Ground a measure; `extreme`: over all of the time that is said."""
     spoken = _corefer(spoken, g)
-    anybody = spoken.thing in (Described(definite=False), Described("car", definite=False))
-    if extreme and anybody and isinstance(spoken.to, Ego):
-        spoken = replace(spoken, thing=Ego(), to=None)  # "the closest anyone came to us"
+    both = (spoken.thing, spoken.to)
+    nearest = extreme and Ego() in both and any(map(_is_anybody, both))
+    if nearest:  # "the closest anyone came to us", "how close did we get to anybody?"
+        spoken = replace(spoken, thing=Ego(), to=None)
     event = spoken.event
     if event is not None:
         event = g.event(event, "presupposed" if event.tense == "past" else "asked", outer)
@@ -65,13 +66,21 @@ def measured(
     about = spoken.about
     if about is not None:
         about = g.proposition(about, "supposed", None)
-    spoken = _to_whom(spoken, g)
+    spoken = spoken if nearest else _to_whom(spoken, g)
     to = None if spoken.to is None else g.thing(spoken.to, window)
     thing = g.thing(spoken.thing, window)
     time = _moment(spoken, window, g, extreme=extreme)
     if isinstance(time, At) and isinstance(spoken.time, Relative | Back | Ago):
         g.notes.span = Span(time.at, time.at, said=True)
     return replace(spoken, thing=thing, to=to, event=event, about=about, time=time)
+
+
+def _is_anybody(thing: Thing | None) -> bool:
+    """Tell whether a thing is whoever there was, and nobody in particular."""
+    if not isinstance(thing, Described) or thing.kind not in ("vehicle", "car"):
+        return False
+    plain = Described(thing.kind, other=thing.other, plural=thing.plural, definite=False)
+    return thing == plain
 
 
 def _corefer(spoken: Measured, g: Grounder) -> Measured:
