@@ -5,6 +5,11 @@ from pathlib import Path
 import pytest
 
 import xavi_dialogue as xavi
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Ego, Event
+from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.explain.history.ride import Ride
 
 RIDES = Path(__file__).parents[3] / "transcripts" / "rides"
 OPENED: dict[str, xavi.Ride] = {}
@@ -30,6 +35,20 @@ def test_the_nearest_of_all_is_of_the_whole_ride_and_not_of_those_in_view(name: 
 def test_who_comes_towards_us_overtakes_nobody(name: str) -> None:
     told = asked(name, "Did anyone overtake us?")
     assert told.startswith("No, nobody overtook us")
+
+
+def test_way_is_given_by_right_of_way_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    record = xavi.open(RIDES / "s3-0.ride.jsonl.gz").record
+    end = record.traces[-1].sim_time
+    world = World(Ride(Record(end, tuple(record.traces), tuple(record.events))))
+    waits = tuple(
+        Episode(Ego(), "give-way", 2.0 * k, 2.0 * k + 1.0, how=how)
+        for k, how in enumerate(("leader", "right-of-way", None))
+    )
+    monkeypatch.setattr(World, "episodes", lambda *_args, **_named: waits)
+    assert world.holds(Event("wait", Ego()), 0.0, end) == waits
+    assert world.holds(Event("give-way", Ego()), 0.0, end) == waits[1:]
+    assert world.holds(Event("let-go", Ego()), 0.0, end) == waits[1:]
 
 
 def test_whom_we_only_stood_behind_we_did_not_give_way_to() -> None:

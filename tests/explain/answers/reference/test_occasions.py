@@ -87,19 +87,6 @@ def test_its_own_name_goes_before_any_other() -> None:
     assert names(room.occasions(asked, Event("let-go"))) == [("give-way", 8.0)]
 
 
-def test_way_is_given_by_right_of_way_alone() -> None:
-    asked = scene(
-        episodes=(
-            did("give-way", 2.0, 3.0, how="leader"),
-            did("give-way", 5.0, 6.0, how="right-of-way"),
-            did("give-way", 8.0, 9.0),
-        )
-    )
-    assert begins(room.occasions(asked, Event("give-way"))) == [5.0, 8.0]
-    assert begins(room.occasions(asked, Event("let-go"))) == [5.0, 8.0]
-    assert begins(room.occasions(asked, Event("wait"))) == [2.0, 5.0, 8.0]
-
-
 def test_we_see_a_vehicle_from_when_it_comes_into_view() -> None:
     def late(time: float) -> Any:
         return look(1) if time >= 4.0 else None

@@ -17,6 +17,7 @@ from xavi_dialogue.explain.answers.expectations.foreseen import (
     is_open,
     macros,
     unconsidered,
+    went_elsewhere,
     wrong_belief,
 )
 from xavi_dialogue.explain.answers.expectations.plans import foreseen, is_halting
@@ -156,7 +157,7 @@ def _has_been(asked: Asked, event: Event) -> Finding:
     if lost is not None:
         return lost
     wrong = wrong_belief(asked, event, about, came=False) if _was_to_tell(asked, event) else None
-    if wrong is not None and is_open(asked, wrong):
+    if wrong is not None and (is_open(asked, wrong) or not went_elsewhere(asked, wrong)):
         wrong = None
     facts: tuple[Fact, ...] = _how_hard(asked, event) or still_there(asked, event)
     facts = facts or instead(asked, event, about)

@@ -30,6 +30,7 @@ MOVING = 1.0  # [m/s] minimum speed, or gain in speed, of a vehicle that goes
 OPEN = 0.1  # minimum probability of another alternative that an answer adds
 CLEAR = 0.6  # minimum probability of a belief that may have been wrong
 BEFORE = 10.0  # [s] before an event in which it may have been predicted
+CHANGING = frozenset[ActionName](("change-left", "change-right", "change-lane"))
 SOLE = 0.95  # minimum prior of a road that was the only one considered
 
 #: By action of a question without a side: the macro actions that predict it.
@@ -253,19 +254,19 @@ def wrong_belief(asked: Asked, event: Event, about: Window, came: bool) -> Belie
         if first is None or first.probability < CLEAR:
             continue
         same = matches(first, event)
-        if same is None or same == came or took(asked, belief, first):
-            continue
-        if came or _went_elsewhere(asked, belief, first):
+        right = event.action not in CHANGING and took(asked, belief, first)
+        if same is not None and same != came and not right:
             return belief
     return None
 
 
-def _went_elsewhere(asked: Asked, belief: Belief, expected: Expectation) -> bool:
-    """Check whether a vehicle was seen to take another way than the one expected."""
+def went_elsewhere(asked: Asked, belief: Belief) -> bool:
+    """Check whether a vehicle was seen to take another way than the likeliest by a belief."""
     done = came_of(asked, belief.vehicle, belief.time)
     if done is None or done.action == "stop":
         return False
-    return matches(expected, Event(done.action, Vehicle(belief.vehicle))) is not True
+    way = Event(done.action, Vehicle(belief.vehicle))
+    return matches(belief.expectations[0], way) is not True
 
 
 def came_of(asked: Asked, vehicle: int, since: float) -> Episode | None:
