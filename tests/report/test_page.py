@@ -121,7 +121,7 @@ def test_whatever_was_recorded_is_escaped() -> None:
 def test_what_the_summary_says_stands_in_the_content() -> None:
     text = read(report(UNHEEDED).html()).text
     assert "This car and vehicle 1 (blue truck) touched at 11.1 s" in text
-    assert "this car goes first (decision 11)" in text
+    assert "this car goes before the other (decision 11)" in text
     assert "decision 9, 2.1 s before: to stop" in text.replace("\n", " ")
     assert (
         "Decision 9 (\N{MINUS SIGN}2.1 s) expected vehicle 1 (blue truck) to drive 11.5 km/h"

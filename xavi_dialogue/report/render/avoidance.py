@@ -11,6 +11,10 @@ from xavi_dialogue.report.render.words import action_words, capital, decisions_w
 def avoidance(page: Page) -> Markup:
     """Return from when it could have been avoided, and how."""
     known = page.report.avoidability
+    if known is None and page.report.moment.kind == "time":
+        return tag("p", "The moment is a time that was asked for. What could have been avoided is "
+                   "examined for a moment that is asked for as “collision”, “hardest braking” "
+                   "or “red light”.")  # fmt: skip
     if known is None:
         return tag("p", "There was no collision, no hard braking and no stop at a light at this "
                    "moment, so there is nothing to be avoided.")  # fmt: skip
