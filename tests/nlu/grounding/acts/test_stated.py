@@ -243,3 +243,30 @@ def test_whether_that_is_allowed_is_of_the_speed_just_asked_for() -> None:
     within = Compares(Measured("speed", time=Now()), "at-most", limit)
     assert found.act == Ask(Whether(within))
     assert found.notes.leaned
+
+
+def test_whether_one_may_overtake_asks_what_keeps_us_from_it() -> None:
+    for action in ("overtake", "change-left", "change-lane"):
+        event = Event(action, tense="present")  # type: ignore[arg-type]
+        found = Grounded(Ask(Whether(Is("allowed", event=event)))).act
+        assert isinstance(found, Ask)
+        assert isinstance(found.question, Why)
+        denied = found.question.of
+        assert isinstance(denied, Not)
+        assert isinstance(denied.content, Happens)
+        assert denied.content.event.action == action
+
+
+def test_how_close_we_came_to_anybody_is_to_nobody_in_particular() -> None:
+    for whom in (Described(definite=False), Described(other=True, definite=False)):
+        for of in (Measured("distance", to=whom, tense="past"),
+                   Measured("distance", whom, to=Ego(), tense="past")):  # fmt: skip
+            found = Grounded(Ask(HowMuch(of, "lowest"))).act
+            assert isinstance(found, Ask)
+            assert isinstance(found.question, HowMuch)
+            assert found.question.of.thing == Ego()
+            assert found.question.of.to is None
+    bus = Grounded(Ask(HowMuch(Measured("distance", to=BUS, tense="past"), "lowest"))).act
+    assert isinstance(bus, Ask)
+    assert isinstance(bus.question, HowMuch)
+    assert bus.question.of.to is not None

@@ -57,6 +57,8 @@ _PARTING: Final = ("go", "come", "move", "leave", "disappear", "slow-down", "spe
 EARLIER: Final = 3.0  # [s] ago, with which it is compared how far somebody is
 _CHANGING: Final = ("change-plan", "change-lane", "change-left", "change-right")
 
+_PAST_OTHERS: Final = ("overtake", "change-left", "change-right", "change-lane")
+
 
 def of_others(spoken: Question, g: Grounder) -> Question | None:
     """Put the question that is meant in the place of one about others; None: it is another one."""
@@ -91,6 +93,12 @@ def of_others(spoken: Question, g: Grounder) -> Question | None:
             g.notes.leaned = True
             asked = g.context.discourse.question
             return HowSure(asked.of if isinstance(asked, HowSure) else None, changed=True)
+        case Whether(
+            that=Is(
+                state="allowed", event=Event(action=action, actor=Ego(), tense="present") as event
+            )
+        ) if action in _PAST_OTHERS:
+            return Why(Not(Happens(event)))  # "are we allowed to overtake?": what keeps us
         case Identify(thing=Described("vehicle", doing=Event("do", actor, Wanted()))):
             return Doing(actor, tense="past")  # "what was the last thing it did?"
         case Whether(that=Happens(event=Event("keep-distance", Ego(), whom) as event)) if (
