@@ -67,13 +67,13 @@ class TurnLog:
     _missed: list[New] = field(default_factory=list)  # not yet written
     _unforgotten: set[str] = field(default_factory=set)  # sessions that are still to be erased
     _unpurged: bool = False  # something is erased, and still in the files
-    _purged: float = 0.0  # [s] wall time of the latest attempt to purge the files
+    _purged: float = float("-inf")  # [s] on the monotonic clock: the latest attempt to purge
     _failing: bool = False
     _unread: bool = False  # reading has failed, too
     _again: float = 0.0  # [s] on the monotonic clock: when the file is tried again
     _unsynced: bool = False  # written, but not yet on the disk itself
     _synced: float = float("-inf")  # [s] on the monotonic clock, when it was last flushed
-    _expired: float = 0.0  # [s] wall time when old turns were last erased
+    _expired: float = float("-inf")  # [s] on the monotonic clock: old turns were last erased
 
     def recall(self, session: str) -> tuple[Turn, ...]:
         """Return the turns of a session, oldest first; none if they can never be read again.
@@ -219,11 +219,13 @@ class TurnLog:
     def _tidy(self, store: Store, days: int, now: float, idle: bool) -> None:
         if self._is_due(FLUSHED_EVERY if idle else OVERDUE):
             self._flush(store)
-        if now >= self._expired + EXPIRED_EVERY:
-            self._expired = self._purged = now
+        # The wall clock may be set back; then nothing would be erased for as long.
+        passed = system.monotonic()
+        if passed >= self._expired + EXPIRED_EVERY:
+            self._expired = self._purged = passed
             store.expire(days, now)
-        if idle and self._unpurged and now >= self._purged + PURGED_EVERY:
-            self._purged = now
+        if idle and self._unpurged and passed >= self._purged + PURGED_EVERY:
+            self._purged = passed
             store.purge()
             self._unpurged = False
 
