@@ -26,7 +26,7 @@ from xavi_dialogue.service.ride_tracker import RideTracker
 from xavi_dialogue.service.server import Service
 from xavi_dialogue.storage.conversations import Store
 from xavi_dialogue.storage.database import on_disk
-from xavi_dialogue.storage.turn_log import TurnLog
+from xavi_dialogue.storage.turn_log import PURGED_EVERY, TurnLog
 
 LIMIT = 150.0  # [s] by which everybody must have got what was asked for
 REST = 2.0  # [s] that everything has to come to rest in the end
@@ -345,6 +345,7 @@ class World:
                 self.problems.append(f"after {LIMIT:g} s {', '.join(waits)} have no answer yet")
             scheduler.run(lambda: False, scheduler.now + REST)
             scheduler.run(self._is_quiet, scheduler.now + REST)  # strangers go on, and the car
+            scheduler.run(self._is_purged, scheduler.now + PURGED_EVERY + REST)
         except OutOfHand as error:
             self.problems.append(str(error))
         self.problems += scheduler.failures
@@ -357,6 +358,10 @@ class World:
             return True
         waiting = service.handler.waiting() or memory._unsynced
         return service._inbox.empty() and not waiting
+
+    def _is_purged(self) -> bool:
+        """Check whether nothing that was erased is left in the files; it is tried now and then."""
+        return self.memory is None or not self.memory._unpurged
 
     def _outcome(self) -> Outcome:
         figures = {
