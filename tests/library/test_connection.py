@@ -49,6 +49,14 @@ def test_a_program_that_waits(hub: str) -> None:
         session = car.session
     with xavi.connect(hub, session=session) as again:  # the conversation goes on
         assert again.ask("what did I ask first?").kind != "refusal"
+        for wrong, told in (
+            ((None,), "the question is None; give a text"),
+            ((WHERE, "8"), r"at is '8'; give a time \[s\] of the ride"),
+            ((WHERE, float("nan")), r"at is nan; give a time \[s\] of the ride"),
+            ((WHERE, None, "rude"), "there is no style 'rude'"),
+        ):
+            with pytest.raises(xavi.XaviError, match=told):
+                again.ask(*wrong)  # type: ignore[arg-type]
     with pytest.raises(xavi.XaviError):
         car.ask(WHERE)
 

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import pytest
@@ -295,13 +296,55 @@ def test_wrong_arguments_are_told_with_what_is_right() -> None:
         s1().ask(None)  # type: ignore[arg-type]
     with pytest.raises(xavi.XaviError, match=r"no style 'rude'; use one of .*'paper'"):
         s1().conversation(style="rude")  # type: ignore[arg-type]
-    with pytest.raises(xavi.XaviError, match="seed is -1; give one from 0"):
-        xavi.drive("s1", seed=-1)
-    for duration in (0.0, -1.0, float("nan")):
+    for seed in (-1, "a", 1.5, True):
+        with pytest.raises(xavi.XaviError, match=r"seed is .*; give a whole number from 0"):
+            xavi.drive("s1", seed=seed)  # type: ignore[arg-type]
+    for duration in (0.0, -1.0, float("nan"), "9"):
         with pytest.raises(xavi.XaviError, match=r"duration is .*; give seconds greater than 0"):
-            xavi.drive("s1", duration=duration)
+            xavi.drive("s1", duration=duration)  # type: ignore[arg-type]
     with pytest.raises(xavi.XaviError, match="there is no scenario 'nowhere'; those that exist"):
         xavi.drive("nowhere")
+    with pytest.raises(xavi.XaviError, match="scenario is None; give the path"):
+        xavi.drive(None)  # type: ignore[arg-type]
+    with pytest.raises(xavi.XaviError, match="vehicle is '1'; give its number, such as 1"):
+        s1().curves("1")  # type: ignore[arg-type]
+    planned = s1().decisions[0].planned
+    assert planned is not None
+    for time in (float("nan"), "8"):
+        with pytest.raises(xavi.XaviError, match=r"time is .*; give a time \[s\]"):
+            planned.at(time)  # type: ignore[arg-type]
+    assert planned.at(float("inf")) is planned.at(-1.0) is None
+
+
+@pytest.mark.parametrize("path", [None, 0, "", "a\0b", "\ud800", ["s1"]])
+def test_what_is_no_path_is_told(path: object) -> None:
+    for use in (xavi.open, s1().save, s1().map().save, s1().report(6.0).save):
+        with pytest.raises(xavi.XaviError, match=r"path is .*; give the path of a file"):
+            use(path)  # type: ignore[operator]
+
+
+def test_a_folder_without_a_name_is_no_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for path in (".", "/"):
+        with pytest.raises(xavi.XaviError, match=r"cannot read .*: Is a directory"):
+            xavi.open(path)
+        with pytest.raises(xavi.XaviError, match=r"cannot write .*: Is a directory"):
+            s1().save(path)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"endpoint": 5}, {"vehicle": None}, {"session": 5}, {"zenoh": 5},
+        {"patience": "x"}, {"patience": float("nan")}, {"patience": -1.0},
+    ],
+)  # fmt: skip
+def test_what_is_wrong_with_a_connection_is_told_at_once(wrong: dict[str, Any]) -> None:
+    ((name, _),) = wrong.items()
+    with pytest.raises(xavi.XaviError, match=f"^{name} is .*; give "):
+        xavi.connect(**wrong)
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from xavi_dialogue.library.arguments import path_of
 from xavi_dialogue.library.errors import LibraryError, translated
 from xavi_dialogue.library.html import framed
 
@@ -44,7 +45,7 @@ class Report:
         Raises:
             XaviError: it cannot be written.
         """
-        file = Path(path)
+        file = path_of(path)
         try:
             file.write_text(self.json() if as_json else self.html(), encoding="utf-8")
         except OSError as error:
