@@ -323,6 +323,23 @@ def test_what_is_no_path_is_told(path: object) -> None:
             use(path)  # type: ignore[operator]
 
 
+def test_a_path_that_no_file_can_have_is_told(tmp_path: Path) -> None:
+    name = "a" * 5000
+    for what, use in (
+        ("cannot read", lambda: xavi.open(name)),
+        ("cannot read", lambda: xavi.open(S1, scenario=name)),
+        ("cannot read", lambda: xavi.drive(name)),
+        ("cannot write", lambda: s1().save(name)),
+        ("there is no scenario", lambda: xavi.drive("~who-is-not-there/x")),
+    ):
+        with pytest.raises(xavi.XaviError, match=what):
+            use()
+    ride = ride_file.load(S1.read_bytes())
+    ride.scenario = name[:4000]
+    ride_file.save(ride, tmp_path / "mine.ride.jsonl.gz")
+    assert xavi.open(tmp_path / "mine").network is None
+
+
 def test_a_folder_without_a_name_is_no_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

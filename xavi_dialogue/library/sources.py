@@ -90,8 +90,7 @@ def open_ride(path: str | Path, scenario: str | Path | None = None, car: str | N
         XaviError: the file cannot be read, or the scenario or car is not that of the ride.
     """
     given = path_of(path)
-    saved = ride_file.named(given)
-    file = given if given.is_file() or (given.exists() and not saved.is_file()) else saved
+    file = _file(given, ride_file.named(given))
     with translated():
         if file.suffix == RECORDING:
             return _recorded(file, player.load(file, car, _warn))
@@ -100,6 +99,14 @@ def open_ride(path: str | Path, scenario: str | Path | None = None, car: str | N
         if car not in (None, own):
             raise LibraryError(f"{file} is a ride of {own!r}, not of {car!r}")
         return ride
+
+
+def _file(given: Path, saved: Path) -> Path:
+    """Return the file that is there, as it is given or with the ending of saved rides."""
+    try:
+        return given if given.is_file() or (given.exists() and not saved.is_file()) else saved
+    except OSError as error:
+        raise LibraryError(f"cannot read {given}: {error.strerror}; {OPENED}") from error
 
 
 def _scenario(given: object) -> str:
