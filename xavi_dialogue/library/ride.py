@@ -35,6 +35,7 @@ from xavi_dialogue.transcripts.replay import keeping
 
 if TYPE_CHECKING:
     from xavi_dialogue.library.tables import DataFrame
+    from xavi_dialogue.report.ridden import Ridden
 
 T = TypeVar("T")
 
@@ -156,19 +157,13 @@ class Ride:
         """Report what the record shows of an incident.
 
         Args:
-            at: a time [s], or "collision", "hardest braking", "closest approach" or "red light".
-                Default: the most remarkable moment.
+            at: a time [s], also as "1:05", or "collision", "hardest braking", "closest approach"
+                or "red light". Default: the most remarkable moment.
 
         Raises:
             XaviError: there is no such moment.
         """
-        from xavi_dialogue.report.ridden import Ridden
-
-        again = keeping(self.again, self.record)
-        inputs = [one for _, one in self.known]
-        gaps = fold(make_pipeline(), inputs, Dialogue()).gaps
-        ridden = Ridden(self.record, self.scenes, again, self.network, self.digest, gaps)
-        return report_of(ridden, at)
+        return report_of(_ridden(self), at)
 
     @cached_property
     def default_time(self) -> float:
@@ -204,6 +199,28 @@ class Ride:
             if before is None or before.plan != one.plan
         ]
         return element("p", repr(self)[1:-1]) + html.table(("from [s]", "plan"), changes)
+
+
+def check_moment(ride: Ride, at: float | str | None) -> None:
+    """Check that a ride has a moment of which a report can be made, which takes longer.
+
+    Raises:
+        XaviError: there is no such moment.
+    """
+    from xavi_dialogue.report.build import moment_of
+
+    with translated():
+        moment_of(_ridden(ride), at)
+
+
+def _ridden(ride: Ride) -> "Ridden":
+    """Return a ride as reports are made of it."""
+    from xavi_dialogue.report.ridden import Ridden
+
+    again = keeping(ride.again, ride.record)
+    inputs = [one for _, one in ride.known]
+    gaps = fold(make_pipeline(), inputs, Dialogue()).gaps
+    return Ridden(ride.record, ride.scenes, again, ride.network, ride.digest, gaps)
 
 
 def _latest(of: Sequence[T], times: Sequence[float], time: float) -> T:
