@@ -2,6 +2,7 @@
 
 import dataclasses
 import gzip
+import pickle
 import subprocess
 import sys
 from functools import cache
@@ -89,6 +90,35 @@ def test_an_answer_is_a_frozen_value() -> None:
     assert found.evidence.traces == (found.decision.trace_id,)
     with pytest.raises(dataclasses.FrozenInstanceError):
         found.text = "otherwise"  # type: ignore[misc]
+
+
+def test_values_can_be_collected_in_sets() -> None:
+    decision = s1().decisions[3]
+    for value, same in (
+        (s1().ask(WHY), s1().ask(WHY)),
+        (decision, xavi.Decision.from_json(decision.json())),
+        (decision.options[0], xavi.Decision.from_json(decision.json()).options[0]),
+        (s1().report(6.0), s1().report(6.0)),
+    ):
+        assert value is not same
+        assert value == same
+        assert len({value, same}) == 1
+    assert len(set(s1().decisions)) == len(s1().decisions)
+
+
+def test_rides_and_conversations_can_be_pickled() -> None:
+    ride = xavi.open(S1)
+    conversation = ride.conversation()
+    conversation.ask(WHY, at=8.0)
+    again, follow_up = pickle.loads(pickle.dumps((ride, conversation)))
+    assert again.record == ride.record
+    assert again.report(6.0) == ride.report(6.0)
+    again.record.whatifs.clear()  # so that it plans again
+    assert again.ask(WHAT_IF) == ride.ask(WHAT_IF)
+    assert again.record.whatifs
+    text = "and if it had not been there?"
+    assert follow_up.ask(text) == conversation.ask(text)
+    assert follow_up.answers == conversation.answers
 
 
 def test_a_refusal_is_a_value_with_its_reason() -> None:

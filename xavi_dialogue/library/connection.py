@@ -20,7 +20,7 @@ from xavi_dialogue.chat.remote_backend import BRIEFLY, RemoteBackend, RemoteCar,
 from xavi_dialogue.dashboard.views import map as roads
 from xavi_dialogue.dashboard.views.evidence import traces_of
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.library.answers import Answer, answer
+from xavi_dialogue.library.answers import Answer, answer, told_so_far
 from xavi_dialogue.library.arguments import check_style, path_of, question_of, real
 from xavi_dialogue.library.decisions import Decision
 from xavi_dialogue.library.errors import LibraryError
@@ -157,6 +157,9 @@ class Car:
 
     def __repr__(self) -> str:
         return f"<Car {self.vehicle}, conversation {self.session}>"
+
+    def _repr_html_(self) -> str:
+        return told_so_far(self, self.answers)
 
     def __enter__(self) -> Self:
         return self

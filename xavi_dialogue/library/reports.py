@@ -24,6 +24,9 @@ class Report:
     kind: "MomentKind"  # collision, hardest-braking, closest-approach, red-light or time
     time: float  # [s] the moment
 
+    def __hash__(self) -> int:
+        return hash((self.kind, self.time, self.content.hashes.ride))
+
     def _repr_html_(self) -> str:
         return framed(self.html())
 

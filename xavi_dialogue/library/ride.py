@@ -16,7 +16,7 @@ from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.events import Input
 from xavi_dialogue.dialogue.state.state import EPSILON, Dialogue
 from xavi_dialogue.library import html
-from xavi_dialogue.library.answers import Answer, answer
+from xavi_dialogue.library.answers import Answer, answer, told_so_far
 from xavi_dialogue.library.arguments import check_style, path_of, question_of, real, whole
 from xavi_dialogue.library.curves import Curves, curves
 from xavi_dialogue.library.decisions import Decision
@@ -249,7 +249,7 @@ class Conversation:
         return f"<Conversation about {self.ride.scenario}, seed {self.ride.seed}: {count} answers>"
 
     def _repr_html_(self) -> str:
-        return "".join(one._repr_html_() for one in self.answers) or element("p", repr(self)[1:-1])
+        return told_so_far(self, self.answers)
 
     def ask(self, question: str, at: float | None = None) -> Answer:
         """Return the answer to a question, which may refer to those before.
