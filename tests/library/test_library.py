@@ -334,7 +334,7 @@ def test_wrong_arguments_are_told_with_what_is_right() -> None:
             xavi.drive("s1", duration=duration)  # type: ignore[arg-type]
     with pytest.raises(xavi.XaviError, match="there is no scenario 'nowhere'; those that exist"):
         xavi.drive("nowhere")
-    with pytest.raises(xavi.XaviError, match="scenario is None; give the path"):
+    with pytest.raises(xavi.XaviError, match="scenario is None; give the name of one, or the path"):
         xavi.drive(None)  # type: ignore[arg-type]
     with pytest.raises(xavi.XaviError, match="vehicle is '1'; give its number, such as 1"):
         s1().curves("1")  # type: ignore[arg-type]

@@ -12,7 +12,7 @@ from xavi_dialogue.library.errors import LibraryError
 from xavi_dialogue.nlg.context import Style
 
 
-def path_of(given: object, name: str = "path") -> Path:
+def path_of(given: object, name: str = "path", wanted: str = "the path of a file") -> Path:
     """Return the path of a file.
 
     Raises:
@@ -23,9 +23,9 @@ def path_of(given: object, name: str = "path") -> Path:
         written = os.fsdecode(written)
         os.fsencode(written)
     except (TypeError, UnicodeError):
-        raise LibraryError(f"{name} is {given!r}; give the path of a file") from None
+        raise LibraryError(f"{name} is {given!r}; give {wanted}") from None
     if not written or "\0" in written:
-        raise LibraryError(f"{name} is {given!r}; give the path of a file")
+        raise LibraryError(f"{name} is {given!r}; give {wanted}")
     return Path(written)
 
 

@@ -111,7 +111,7 @@ def _file(given: Path, saved: Path) -> Path:
 
 def _scenario(given: object) -> str:
     """Return the name of a scenario, or its path."""
-    return str(path_of(given, "scenario"))
+    return str(path_of(given, "scenario", "the name of one, or the path of its folder or file"))
 
 
 def _ride(
