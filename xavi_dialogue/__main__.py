@@ -5,6 +5,7 @@ Commands import what they need when they run, so that the small ones start fast.
 
 import contextlib
 import sys
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
@@ -182,6 +183,23 @@ def _note(text: str) -> None:
     print(f"{line}\n", end="", file=sys.stderr, flush=True)  # one write, so that it stays whole
 
 
+def _warn(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: object = None,
+    line: str | None = None,
+) -> None:
+    """Tell a warning to the user in one line; those to programmers stay as they are."""
+    if issubclass(category, UserWarning) and category.__module__ == "builtins":
+        from xavi_dialogue.bus.sanitize import one_line
+
+        _note(f"warning: {one_line(str(message))}")
+    else:
+        sys.stderr.write(warnings.formatwarning(message, category, filename, lineno, line))
+
+
 SHELL = Streams(_errors, _write, _note, _lines)
 ROOMS = (chat, dashboard, serve, record, report, looking, traces, audit, sessions, keys, doctor)
 for room in ROOMS:
@@ -192,6 +210,7 @@ def main() -> NoReturn:
     """Run the command line; signals end it like an exception, so that resources are released."""
     end_on_signals()
     find_place()
+    warnings.showwarning = _warn
     app()
     sys.exit(ExitStatus.ANSWERED)
 

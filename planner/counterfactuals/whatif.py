@@ -132,6 +132,7 @@ def _check(trace: PlanTrace, network: Network, request: WhatIf) -> None:
         raise WhatIfError(f"the trace is of network {trace.network}, not of {network.hash}")
     if trace.what_if is not None:
         raise WhatIfError("the trace is of a what-if itself; ask about the decision behind it")
+    _check_record(trace, network)
     depth = trace.settings.depth
     if max(len(request.actions), len(request.vehicle_actions)) > depth:
         raise WhatIfError(f"at most {depth} actions in a row are possible; give fewer")
@@ -160,6 +161,16 @@ def _check(trace: PlanTrace, network: Network, request: WhatIf) -> None:
             raise NotInView(f"{where} was not in view at {trace.sim_time} s")
     if not seen_past(request) <= frozenset(range(len(trace.phantoms))):
         raise NotInView(f"no phantom of that number was recorded at {trace.sim_time} s")
+
+
+def _check_record(trace: PlanTrace, network: Network) -> None:
+    """Check that a trace, which any planner may have written, holds what planning begins with."""
+    edge = trace.goal.edge
+    if all(lane.internal or lane.edge != edge for lane in network.lanes.values()):
+        raise WhatIfError(f"the goal is the edge {edge!r}, which is not in the roads")
+    missing = sorted(trace.scene.keys() - trace.history.keys())
+    if missing:
+        raise WhatIfError(f"`history` lacks vehicle {missing[0]}, which is in `scene`")
 
 
 def changes_world(request: WhatIf) -> bool:

@@ -20,6 +20,17 @@ FARTHEST: Final = 1e8  # [m] maximum of a coordinate; no map projection exceeds 
 FASTEST: Final = 1e3  # [m/s] maximum of a speed
 MOST: Final = 2**53 - 1  # maximum of a vehicle's number; every language reads it exactly
 HEAVIEST: Final = 1e9  # maximum of a weight
+#: The least and the most of each setting: planning again with them ends in a bearable time.
+SETTINGS: Final = (
+    ("rollouts", 0.0, 10_000.0, ""),
+    ("min_rollouts", 0.0, 10_000.0, ""),
+    ("comparisons", 0.0, 10_000.0, ""),
+    ("depth", 1.0, 100.0, ""),
+    ("horizon", 1.0, 600.0, "s"),
+    ("period", 0.0, LATEST, "s"),
+    ("rationality", 0.0, 1e3, ""),
+    ("view_radius", 0.0, FARTHEST, "m"),
+)
 
 
 def decode(data: bytes) -> PlanTrace:
@@ -73,10 +84,9 @@ def _faults(trace: PlanTrace) -> Iterator[str]:
 
 
 def _times(trace: PlanTrace) -> Iterator[str]:
-    settings = trace.settings
     yield from _outside("sim_time", (trace.sim_time,), 0.0, LATEST, "s")
-    yield from _outside("settings.horizon", (settings.horizon,), 0.0, LATEST, "s")
-    yield from _outside("settings.period", (settings.period,), 0.0, LATEST, "s")
+    for name, least, most, unit in SETTINGS:
+        yield from _outside(f"settings.{name}", (getattr(trace.settings, name),), least, most, unit)
 
 
 def _figures(trace: PlanTrace) -> Iterator[str]:
@@ -200,5 +210,5 @@ def _outside(
     for value in values:
         if not least - ROUNDING <= value <= most + ROUNDING:
             unit = f" {unit}" if unit else ""
-            yield f"{what} is {value:g}; give {least:g} to {most:g}{unit}"
+            yield f"{what} is {value:.10g}; give {least:g} to {most:g}{unit}"
             return

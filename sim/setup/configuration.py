@@ -51,8 +51,16 @@ class Inspected:
 
 def is_place(text: str) -> bool:
     """Check whether a text is the place of a configuration."""
-    file = Path(text.partition("?")[0]).expanduser()
+    file = expanded(Path(text.partition("?")[0]))
     return file.name.endswith(ENDINGS) or (file.suffix in (".xml", ".cfg") and file.is_file())
+
+
+def expanded(path: Path) -> Path:
+    """Return a path with the home folder for `~`; that of an unknown user stays as it is."""
+    try:
+        return path.expanduser()
+    except RuntimeError:
+        return path
 
 
 def split_place(place: str) -> tuple[Path, dict[str, str]]:
@@ -77,7 +85,7 @@ def split_place(place: str) -> tuple[Path, dict[str, str]]:
 
 def _file(name: str) -> Path:
     if not name.startswith(PACKAGED):
-        return Path(name).expanduser().resolve()
+        return expanded(Path(name)).resolve()
     try:
         return package_folder() / name.removeprefix(PACKAGED)
     except NetconvertMissing as error:

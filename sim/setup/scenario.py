@@ -138,12 +138,15 @@ def with_rider(place: str) -> str:
 
 @contextmanager
 def _invalid() -> Iterator[None]:
-    """Turn errors in a file into errors of the scenario."""
+    """Turn errors in a file, or in reaching it, into errors of the scenario."""
     try:
         yield
     except TableError as error:
         missing = isinstance(error.__cause__, NetconvertMissing)
         raise (NeedsMaps if missing else ScenarioInvalid)(str(error)) from error
+    except OSError as error:
+        problem = f"cannot read {error.filename}: {error.strerror}"
+        raise ScenarioInvalid(f"{problem}; give another folder or file") from error
 
 
 def _read(folder: Path) -> Scenario:
@@ -244,7 +247,7 @@ def _radius(top: Table) -> float:
 def _folder(name_or_path: str | Path) -> Path:
     if isinstance(name_or_path, str) and name_or_path in available():
         return Path(str(files("sim").joinpath("scenarios", name_or_path)))
-    folder = Path(name_or_path).expanduser()
+    folder = configuration.expanded(Path(name_or_path))
     if not (folder / CONFIG).is_file():
         raise ScenarioNotFound(str(name_or_path))
     return folder.resolve()

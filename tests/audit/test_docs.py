@@ -11,6 +11,7 @@ from xavi_dialogue.__main__ import app
 from xavi_dialogue.audit import values
 from xavi_dialogue.audit.questions import MOMENTS
 from xavi_dialogue.audit.results import tables
+from xavi_dialogue.audit.results.page import NOTES
 
 
 def page(root: Path) -> str:
@@ -35,6 +36,12 @@ def test_moments_and_files_are_described(root: Path) -> None:
     for name in (tables.FINDINGS, tables.CHANGES):
         assert f"`{name}`" in text
     assert values.Cost.__struct_fields__
+
+
+def test_the_page_and_the_document_define_closest_calls_alike(root: Path) -> None:
+    defined = "along the way if one follows the other, else straight on, unless one of them is"
+    assert defined in page(root)
+    assert defined in NOTES["close-call"]
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """The command line: what it prints, and how it ends."""
 
+import gzip
 import io
 import json
 import shutil
@@ -16,6 +17,7 @@ from benchmarks.drive import drive as bench_drive
 from benchmarks.drive.runs import Run
 from planner.record.trace import encode
 from sim.setup import scenario
+from tests.recording.test_player import recorded_in, ride_moments
 from tests.sim.setup.test_configuration import configured
 from xavi_dialogue.__main__ import _note, app
 from xavi_dialogue.chat import main as chat
@@ -24,6 +26,7 @@ from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.domain.answers import Reason
 from xavi_dialogue.inspection.trace_files import read
 from xavi_dialogue.process.exit_status import status_of
+from xavi_dialogue.storage import ride_file
 from xavi_dialogue.vehicle import main as drive
 
 KEYS = [
@@ -281,12 +284,52 @@ def test_traces_are_checked_and_explained_without_a_car(tmp_path: Path) -> None:
     declined = xavi("explain", str(tmp_path / "roadless.json"), what_if)
     assert declined.exit_code == 5
     assert "no roads of it are known here; --scenario names" in " ".join(declined.stderr.split())
-    (tmp_path / "bad.json").write_text("{}", encoding="utf-8")
-    for command in (("trace", "check"), ("explain",)):
-        asked = (why,) if command == ("explain",) else ()
-        failed = xavi(*command, str(tmp_path / "bad.json"), *asked)
+    assert xavi("explain", ride, why, "--car", "car").exit_code == 0
+    other = xavi("explain", ride, why, "--car", "other")
+    assert (other.exit_code, "is a ride of 'car', not of 'other'" in other.stderr) == (2, True)
+
+
+RIDE = Path(__file__).parents[2] / "transcripts" / "rides" / "s1-0.ride.jsonl.gz"
+
+
+@pytest.mark.parametrize(
+    ("data", "told"),
+    [
+        (b"{}", "not a plan trace"),
+        (b"", "the file is empty"),
+        (gzip.decompress(RIDE.read_bytes()).partition(b"\n")[0], "the ride holds no decision"),
+        (gzip.decompress(RIDE.read_bytes())[:30] + b"\n", "not a recorded ride: line 1: "),
+        (gzip.decompress(RIDE.read_bytes())[:-9], "not a recorded ride: line 39: "),
+        (RIDE.read_bytes()[:500], "it is cut off; copy the file again"),
+        (b"\x89MCAP0\r\n", "it is a recording, which `xavi explain` and `xavi report` read"),
+    ],
+)
+def test_files_without_traces_are_named_with_how_to_mend_it(
+    data: bytes, told: str, tmp_path: Path
+) -> None:
+    (tmp_path / "bad").write_bytes(data)
+    for command in (("trace", "check"), ("trace", "show"), ("explain",)):
+        asked = ("Why?",) if command == ("explain",) else ()
+        failed = xavi(*command, str(tmp_path / "bad"), *asked)
         assert failed.exit_code == 2
-        assert "not a plan trace" in failed.stderr
+        assert f"{tmp_path / 'bad'}: " in failed.stderr
+        assert told in failed.stderr
+        assert "; give " in failed.stderr
+
+
+def test_a_warning_is_told_in_a_line(tmp_path: Path) -> None:
+    path = tmp_path / "cut.mcap"
+    recorded_in(path, ride_moments(ride_file.load(RIDE.read_bytes())))
+    path.write_bytes(path.read_bytes()[:-30])
+    done = subprocess.run(
+        [sys.executable, "-m", "xavi_dialogue", "explain", str(path), "What are you doing?"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0
+    [line] = done.stderr.splitlines()
+    assert line.startswith(f"xavi: warning: {path}: it was cut off")
 
 
 def test_notes_at_a_terminal_break_at_spaces_alone(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,5 +1,7 @@
 """What was found out of a record is kept, and found out anew where the record is another."""
 
+import copy
+import pickle
 from dataclasses import replace
 from typing import Any
 
@@ -36,6 +38,13 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 
 def test_bounds() -> None:
     assert (MAX_RIDES, MAX_RESULTS) == (64, 256)
+
+
+def test_a_copy_begins_empty(asked: list[Any]) -> None:
+    memory = Recollection()
+    memory.explain(speed(1), RECORD)
+    for copied in (copy.deepcopy(memory), pickle.loads(pickle.dumps(memory))):
+        assert copied == Recollection()
 
 
 def test_the_same_is_not_explained_twice(asked: list[Any]) -> None:

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pyarrow.parquet as pq
 import pytest
 
 import xavi_dialogue as xavi
@@ -108,6 +109,15 @@ def test_the_command_lines_of_a_page_run(page: Path, tmp_path: Path) -> None:
             run(command, tmp_path)
             ran += 1
     assert ran >= 2 or page not in GUIDES
+
+
+@pytest.mark.slow
+def test_the_question_to_many_rides_is_asked_and_answered(tmp_path: Path) -> None:
+    page = ROOT / "docs" / "guides" / "researchers.md"
+    (command,) = (one for one in commands(page) if one.startswith("xavi audit"))
+    run(command, tmp_path)
+    (answer,) = pq.read_table(tmp_path / "audits" / "answers.parquet").to_pylist()
+    assert answer["kind"] == "answer"
 
 
 @pytest.mark.parametrize("page", [*GUIDES, *OTHERS], ids=lambda page: page.stem)

@@ -34,6 +34,7 @@ def hub() -> Iterator[str]:
 
 def test_a_program_that_waits(hub: str) -> None:
     with xavi.connect(hub) as car:
+        assert car._repr_html_() == f"<p>Car car, conversation {car.session}</p>"
         assert car.now is not None
         assert car.now > 7.0
         answer = car.ask("Why did you change left?")
@@ -46,9 +47,18 @@ def test_a_program_that_waits(hub: str) -> None:
         follow_up = car.ask("and if it had not been there?")
         assert follow_up.text == "Without the blue car, I would have stayed in my lane instead."
         assert car.answers == (answer, follow_up)
+        assert car._repr_html_() == answer._repr_html_() + follow_up._repr_html_()
         session = car.session
     with xavi.connect(hub, session=session) as again:  # the conversation goes on
         assert again.ask("what did I ask first?").kind != "refusal"
+        for wrong, told in (
+            ((None,), "the question is None; give a text"),
+            ((WHERE, "8"), r"at is '8'; give a time \[s\] of the ride"),
+            ((WHERE, float("nan")), r"at is nan; give a time \[s\] of the ride"),
+            ((WHERE, None, "rude"), "there is no style 'rude'"),
+        ):
+            with pytest.raises(xavi.XaviError, match=told):
+                again.ask(*wrong)  # type: ignore[arg-type]
     with pytest.raises(xavi.XaviError):
         car.ask(WHERE)
 

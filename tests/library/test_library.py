@@ -2,10 +2,12 @@
 
 import dataclasses
 import gzip
+import pickle
 import subprocess
 import sys
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import pytest
@@ -88,6 +90,35 @@ def test_an_answer_is_a_frozen_value() -> None:
     assert found.evidence.traces == (found.decision.trace_id,)
     with pytest.raises(dataclasses.FrozenInstanceError):
         found.text = "otherwise"  # type: ignore[misc]
+
+
+def test_values_can_be_collected_in_sets() -> None:
+    decision = s1().decisions[3]
+    for value, same in (
+        (s1().ask(WHY), s1().ask(WHY)),
+        (decision, xavi.Decision.from_json(decision.json())),
+        (decision.options[0], xavi.Decision.from_json(decision.json()).options[0]),
+        (s1().report(6.0), s1().report(6.0)),
+    ):
+        assert value is not same
+        assert value == same
+        assert len({value, same}) == 1
+    assert len(set(s1().decisions)) == len(s1().decisions)
+
+
+def test_rides_and_conversations_can_be_pickled() -> None:
+    ride = xavi.open(S1)
+    conversation = ride.conversation()
+    conversation.ask(WHY, at=8.0)
+    again, follow_up = pickle.loads(pickle.dumps((ride, conversation)))
+    assert again.record == ride.record
+    assert again.report(6.0) == ride.report(6.0)
+    again.record.whatifs.clear()  # so that it plans again
+    assert again.ask(WHAT_IF) == ride.ask(WHAT_IF)
+    assert again.record.whatifs
+    text = "and if it had not been there?"
+    assert follow_up.ask(text) == conversation.ask(text)
+    assert follow_up.answers == conversation.answers
 
 
 def test_a_refusal_is_a_value_with_its_reason() -> None:
@@ -295,13 +326,72 @@ def test_wrong_arguments_are_told_with_what_is_right() -> None:
         s1().ask(None)  # type: ignore[arg-type]
     with pytest.raises(xavi.XaviError, match=r"no style 'rude'; use one of .*'paper'"):
         s1().conversation(style="rude")  # type: ignore[arg-type]
-    with pytest.raises(xavi.XaviError, match="seed is -1; give one from 0"):
-        xavi.drive("s1", seed=-1)
-    for duration in (0.0, -1.0, float("nan")):
+    for seed in (-1, "a", 1.5, True):
+        with pytest.raises(xavi.XaviError, match=r"seed is .*; give a whole number from 0"):
+            xavi.drive("s1", seed=seed)  # type: ignore[arg-type]
+    for duration in (0.0, -1.0, float("nan"), "9"):
         with pytest.raises(xavi.XaviError, match=r"duration is .*; give seconds greater than 0"):
-            xavi.drive("s1", duration=duration)
+            xavi.drive("s1", duration=duration)  # type: ignore[arg-type]
     with pytest.raises(xavi.XaviError, match="there is no scenario 'nowhere'; those that exist"):
         xavi.drive("nowhere")
+    with pytest.raises(xavi.XaviError, match="scenario is None; give the name of one, or the path"):
+        xavi.drive(None)  # type: ignore[arg-type]
+    with pytest.raises(xavi.XaviError, match="vehicle is '1'; give its number, such as 1"):
+        s1().curves("1")  # type: ignore[arg-type]
+    planned = s1().decisions[0].planned
+    assert planned is not None
+    for time in (float("nan"), "8"):
+        with pytest.raises(xavi.XaviError, match=r"time is .*; give a time \[s\]"):
+            planned.at(time)  # type: ignore[arg-type]
+    assert planned.at(float("inf")) is planned.at(-1.0) is None
+
+
+@pytest.mark.parametrize("path", [None, 0, "", "a\0b", "\ud800", ["s1"]])
+def test_what_is_no_path_is_told(path: object) -> None:
+    for use in (xavi.open, s1().save, s1().map().save, s1().report(6.0).save):
+        with pytest.raises(xavi.XaviError, match=r"path is .*; give the path of a file"):
+            use(path)  # type: ignore[operator]
+
+
+def test_a_path_that_no_file_can_have_is_told(tmp_path: Path) -> None:
+    name = "a" * 5000
+    for what, use in (
+        ("cannot read", lambda: xavi.open(name)),
+        ("cannot read", lambda: xavi.open(S1, scenario=name)),
+        ("cannot read", lambda: xavi.drive(name)),
+        ("cannot write", lambda: s1().save(name)),
+        ("there is no scenario", lambda: xavi.drive("~who-is-not-there/x")),
+    ):
+        with pytest.raises(xavi.XaviError, match=what):
+            use()
+    ride = ride_file.load(S1.read_bytes())
+    ride.scenario = name[:4000]
+    ride_file.save(ride, tmp_path / "mine.ride.jsonl.gz")
+    assert xavi.open(tmp_path / "mine").network is None
+
+
+def test_a_folder_without_a_name_is_no_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for path in (".", "/"):
+        with pytest.raises(xavi.XaviError, match=r"cannot read .*: Is a directory"):
+            xavi.open(path)
+        with pytest.raises(xavi.XaviError, match=r"cannot write .*: Is a directory"):
+            s1().save(path)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"endpoint": 5}, {"vehicle": None}, {"session": 5}, {"zenoh": 5},
+        {"patience": "x"}, {"patience": float("nan")}, {"patience": -1.0},
+    ],
+)  # fmt: skip
+def test_what_is_wrong_with_a_connection_is_told_at_once(wrong: dict[str, Any]) -> None:
+    ((name, _),) = wrong.items()
+    with pytest.raises(xavi.XaviError, match=f"^{name} is .*; give "):
+        xavi.connect(**wrong)
 
 
 @pytest.mark.slow

@@ -29,7 +29,7 @@ def ride(path: Path) -> xavi.Ride:
 
 
 @cache
-def report(path: Path, at: str | None = None) -> xavi.Report:
+def report(path: Path, at: float | str | None = None) -> xavi.Report:
     """Return the report of a moment of a ride."""
     return ride(path).report(at)
 

@@ -68,6 +68,9 @@ def test_json_goes_to_the_output_or_into_a_file(tmp_path: Path) -> None:
     ("arguments", "told"),
     [
         (("--at", "tea"), "'tea' names no moment; give a time"),
+        (("--at", "nan"), "'nan' names no moment; give a time"),
+        (("--at", "0:61"), "'0:61' names no moment; give a time"),
+        (("--at", "1:05"), "the ride has no moment 65 s; give one from 0 to 11.1"),
         (("--at", "99"), "the ride has no moment 99 s; give one from 0 to 11.1"),
         (("--at", "red light"), "the ride has no red light; give a time"),
     ],
@@ -76,6 +79,19 @@ def test_a_moment_that_is_not_there_is_an_error(arguments: tuple[str, ...], told
     done = run("report", str(UNHEEDED), *arguments)
     assert done.exit_code != 0
     assert told in done.stderr
+    assert "planning again" not in done.stderr
+
+
+@pytest.mark.parametrize("at", [True, [6.0], float("nan")])
+def test_what_is_no_moment_is_an_error_of_the_library(at: object) -> None:
+    with pytest.raises(xavi.XaviError, match="names no moment; give a time"):
+        xavi.open(UNHEEDED).report(at)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("at", [5, "5", "5 s", " 0:05 ", "0:05.0"])
+def test_a_moment_may_be_written_in_minutes(at: float | str) -> None:
+    found = report(UNHEEDED, at)
+    assert (found.kind, found.time) == ("time", 5.0)
 
 
 def test_a_file_that_cannot_be_written_is_named(tmp_path: Path) -> None:

@@ -156,7 +156,7 @@ def test_a_stop_at_a_light_is_found_by_its_event() -> None:
         ("collision", "the ride has no collision; give a time"),
         (1e6, "no moment 1e.06 s; give one from 0 to"),
         (-1, "no moment -1 s"),
-        (math.nan, "no moment nan s"),
+        (math.nan, "nan names no moment; give a time"),
     ],
 )
 def test_a_moment_that_is_not_there_is_refused(at: object, told: str) -> None:

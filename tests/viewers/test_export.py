@@ -170,7 +170,7 @@ def test_our_own_messages_stay_beside_those_for_viewers(tmp_path: Path) -> None:
     source, target = tmp_path / "ride.mcap", tmp_path / "out.mcap"
     recorded_in(source, ride_moments(s1().record), load_scenario("s1").network)
     ride = xavi.open(source)
-    told = export.export(ride, export.ExportOptions(source, target))
+    told = export.export(ride, export.ExportOptions(source, target)).messages
     assert told["xavi/v1/car/trace"] == len(ride.decisions)
     assert told["/vehicles"] >= len(ride.decisions)
     again = xavi.open(target)
@@ -242,6 +242,41 @@ def test_the_command_writes_both_files_and_overwrites_none(tmp_path: Path) -> No
     assert layout.read_bytes() == export.layout()
     assert CliRunner().invoke(app, command).exit_code == 2
     assert CliRunner().invoke(app, [*command, "--force"]).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("asked", "status", "told"),
+    [
+        (("foo bar baz",), 4, ("no /ghost for 'foo bar baz': I am sorry, I did not understand",)),
+        (("Why did you stop?", WHY), 3, ("no /ghost for 'Why did you stop?': ",)),
+        (("What are you doing?",), 0, ("no /ghost for 'What are you doing?': ",)),
+        ((WHY, "--at", "99"), 0, ("99 s is after the end: what was asked is asked at 19.1 s",)),
+        ((WHY, "--at", "19"), 0, ()),
+        (("--at", "99"), 0, ()),
+    ],
+)
+def test_what_is_not_shown_of_a_question_is_told(
+    asked: tuple[str, ...], status: int, told: tuple[str, ...], tmp_path: Path
+) -> None:
+    options = [part for one in asked for part in (("--ask", one) if " " in one else (one,))]
+    done = CliRunner().invoke(app, ["export", str(S1), str(tmp_path / "out.mcap"), *options])
+    assert done.exit_code == status
+    assert (tmp_path / "out.mcap").exists()
+    notes = done.stderr.splitlines()
+    assert len(notes) == len(told)
+    for note, begin in zip(notes, told, strict=True):
+        assert note.startswith(f"xavi: {begin}")
+
+
+@pytest.mark.parametrize("kept", [0.05, 0.5, 0.99])
+def test_an_export_that_is_cut_off_is_told_to_be_one(
+    kept: float, exported: Path, tmp_path: Path
+) -> None:
+    whole, cut = exported.read_bytes(), tmp_path / "cut.mcap"
+    cut.write_bytes(whole[: int(kept * len(whole))])
+    told = r"cut off .*; it is an export for viewers: give the ride that it was made of"
+    with pytest.raises(xavi.XaviError, match=told):
+        xavi.open(cut)
 
 
 def test_a_ride_is_not_written_over_nor_two_files_into_one(tmp_path: Path) -> None:

@@ -41,6 +41,10 @@ class Recollection:
 
     _known: dict[_Key, _Known] = field(default_factory=dict)  # most recently used last
 
+    def __reduce__(self) -> tuple[type["Recollection"], tuple[()]]:
+        """Copy it empty: its keys are identities, which copies of records do not share."""
+        return Recollection, ()
+
     def ground(
         self, readings: tuple[Reading, ...], record: Record, discourse: Discourse
     ) -> Grounding:

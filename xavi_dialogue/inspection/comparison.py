@@ -25,6 +25,9 @@ class Option:
     collision: float | None  # the probability of a collision that answers state
     chosen: bool  # by the decision
 
+    def __hash__(self) -> int:
+        return hash((self.action, self.value, self.samples, self.chosen))
+
 
 def comparison(trace: PlanTrace) -> tuple[Option, ...]:
     """Return the first actions that a decision compared, best first; none for older traces."""

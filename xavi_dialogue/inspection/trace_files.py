@@ -5,6 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import msgspec
+
 from planner.errors import TraceError
 from planner.record.trace import PlanTrace
 from planner.record.trace_reading import decode
@@ -14,6 +16,9 @@ from xavi_dialogue.storage.ride_file import ENDING, RideFileError, parse, unpack
 MAX_RIDE_BYTES = 64 * 1024 * 1024
 MAX_RIDE_LINES = 20_000
 GZIP = b"\x1f\x8b"
+MCAP = b"\x89MCAP"  # what a recording begins with
+HEADER = 4096  # bytes of a line, within which the scenario is named if it begins a saved ride
+WANTED = "give plan traces, or a ride that `xavi drive --save` or `Ride.save` wrote"
 EPSILON = 1e-6  # [s]
 
 
@@ -27,6 +32,19 @@ class Traces:
 
     traces: tuple[PlanTrace, ...]
     ride: bool  # whether it is a recorded ride
+
+
+def load(name: str) -> Traces:
+    """Read a file; `-` is standard input, and a saved ride needs no ending.
+
+    Raises:
+        TraceFileError: it cannot be opened, or holds no trace; the message names it.
+    """
+    data = content(name)
+    try:
+        return read(data)
+    except TraceFileError as error:
+        raise TraceFileError(f"{name}: {error}; {WANTED}") from error
 
 
 def content(name: str) -> bytes:
@@ -59,10 +77,14 @@ def read(data: bytes) -> Traces:
     Raises:
         TraceFileError: it is neither.
     """
+    if data.startswith(MCAP):
+        raise TraceFileError(
+            "it is a recording, which `xavi explain` and `xavi report` read; its name ends in .mcap"
+        )
     text = _unpacked(data)
     if text.count(b"\n") > MAX_RIDE_LINES:
         raise TraceFileError(f"has more than {MAX_RIDE_LINES} lines")
-    if b'"scenario"' in text.partition(b"\n")[0][:4096] and text.count(b"\n") > 1:
+    if _begins_ride(text.partition(b"\n")[0]):
         return _ride(text)
     lines = text.split(b"\n") if text.count(b"\n{") else [text]
     found = {
@@ -71,6 +93,16 @@ def read(data: bytes) -> Traces:
         if line.strip()
     }
     return Traces(_of_one_vehicle(found), ride=False)
+
+
+def _begins_ride(line: bytes) -> bool:
+    """Check whether a line, which may be broken, is the first one of a saved ride."""
+    if b'"scenario"' not in line[:HEADER]:
+        return False
+    try:
+        return "schema" not in msgspec.json.decode(line, type=dict[str, msgspec.Raw])
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
+        return b'"schema"' not in line[:HEADER]
 
 
 def _decoded(data: bytes, line: int | None) -> PlanTrace:
@@ -127,7 +159,7 @@ def _ride(text: bytes) -> Traces:
     except RideFileError as error:
         raise TraceFileError(str(error)) from error
     if not ride.traces:
-        raise TraceFileError("the ride holds no decision")
+        raise TraceFileError("the ride holds no decision; drive it again, and longer")
     return Traces(tuple(ride.traces), ride=True)
 
 

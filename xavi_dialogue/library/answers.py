@@ -1,5 +1,6 @@
 """Answers: what the car replies to a question, as a value."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -36,6 +37,9 @@ class Answer:
 
     def __str__(self) -> str:
         return self.text
+
+    def __hash__(self) -> int:
+        return hash((self.question, self.at, self.text, self.kind, self.reason))
 
     @property
     def map(self) -> Picture | None:
@@ -81,6 +85,11 @@ def answer(question: str, reply: Reply, decision: Decision | None, lines: Compar
         planned=lines.planned,
         ghost=lines.ghost,
     )
+
+
+def told_so_far(owner: object, answers: Iterable[Answer]) -> str:
+    """Return the answers of a conversation as HTML, or what it is if there are none yet."""
+    return "".join(one._repr_html_() for one in answers) or element("p", repr(owner)[1:-1])
 
 
 def _evidence_of(reply: Reply) -> Evidence:

@@ -10,18 +10,18 @@ from types import TracebackType
 from typing import Self
 
 from planner.record.trace import PlanTrace
+from planner.record.trace_reading import LATEST
 from sim.roads.netfile import NetworkError
 from sim.roads.network import Network
 from xavi_dialogue.bus.interface import Keys, NoAnswer, call
 from xavi_dialogue.bus.link import Link
-from xavi_dialogue.bus.messages import MAX_TEXT
-from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.chat.client import Client, ServiceLost, new_request
 from xavi_dialogue.chat.remote_backend import BRIEFLY, RemoteBackend, RemoteCar, meet
 from xavi_dialogue.dashboard.views import map as roads
 from xavi_dialogue.dashboard.views.evidence import traces_of
 from xavi_dialogue.dialogue.reply import Reply
-from xavi_dialogue.library.answers import Answer, answer
+from xavi_dialogue.library.answers import Answer, answer, told_so_far
+from xavi_dialogue.library.arguments import check_style, path_of, question_of, real
 from xavi_dialogue.library.decisions import Decision
 from xavi_dialogue.library.errors import LibraryError
 from xavi_dialogue.library.trajectories import compared
@@ -32,6 +32,8 @@ from xavi_dialogue.storage import resume
 from xavi_dialogue.vehicle.map_server import NETWORK
 
 ROADS_PATIENCE = 5.0  # [s] for a car to send its roads
+MOMENTS = f"a time [s] of the ride, 0 to {LATEST:g}"
+PATIENCES = f"seconds from 0 to {LATEST:g}"
 
 
 class Car:
@@ -71,10 +73,11 @@ class Car:
             style: `passenger`, or `paper` for the wording of the paper.
 
         Raises:
-            XaviError: the service does not answer, or the connection is closed.
+            XaviError: there is no such time or style, the service does not answer, or the
+                connection is closed.
         """
-        text = self._asked(question)
-        return self._answer(text, self._client.ask(text, at, style))
+        text, time = self._asked(question, at, style)
+        return self._answer(text, self._client.ask(text, time, style))
 
     async def ask_async(
         self, question: str, at: float | None = None, style: Style = "passenger"
@@ -84,7 +87,8 @@ class Car:
         Raises:
             XaviError: see `ask`.
         """
-        text, request = self._asked(question), new_request()
+        text, time = self._asked(question, at, style)
+        request = new_request()
         loop = asyncio.get_running_loop()
         coming: asyncio.Future[Reply | ServiceLost] = loop.create_future()
 
@@ -96,7 +100,7 @@ class Car:
             with suppress(RuntimeError):  # the loop is closed: nobody waits any more
                 loop.call_soon_threadsafe(settle, came)
 
-        self._client.send(text, done, at=at, style=style, request=request)
+        self._client.send(text, done, at=time, style=style, request=request)
         try:
             came = await coming
         except asyncio.CancelledError:
@@ -119,10 +123,20 @@ class Car:
         except (NoAnswer, NetworkError):
             return None
 
-    def _asked(self, question: str) -> str:
+    def _asked(self, question: str, at: float | None, style: Style) -> tuple[str, float | None]:
+        """Return a question and its time [s] as they are sent.
+
+        Raises:
+            LibraryError: there is no such question, time or style, or no connection.
+        """
+        text = question_of(question)
+        check_style(style)
+        time = None if at is None else real(at, "at", MOMENTS)
+        if time is not None and not 0.0 <= time <= LATEST:
+            raise LibraryError(f"at is {at!r}; give {MOMENTS}")
         if not self._backend.bus.linked:
             raise LibraryError("there is no connection to the bus; connect again")
-        return one_line(question)[:MAX_TEXT]
+        return text, time
 
     def _answer(self, question: str, reply: Reply) -> Answer:
         own = () if reply.trace_id is None else (reply.trace_id,)
@@ -143,6 +157,9 @@ class Car:
 
     def __repr__(self) -> str:
         return f"<Car {self.vehicle}, conversation {self.session}>"
+
+    def _repr_html_(self) -> str:
+        return told_so_far(self, self.answers)
 
     def __enter__(self) -> Self:
         return self
@@ -186,10 +203,24 @@ def connect(
     Raises:
         XaviError: there is no hub, service or car, or the key may not ask.
     """
-    link = Link.to_hub(endpoint, None if zenoh is None else Path(zenoh))
+    _check(endpoint or "", vehicle, session or "", patience)
+    link = Link.to_hub(endpoint, None if zenoh is None else path_of(zenoh, "zenoh"))
     check(link, "ask")
     name = session or resume.fresh(datetime.now().astimezone(), token_hex(2)).session
     return Car(RemoteCar(link, vehicle), name, patience)
+
+
+def _check(endpoint: object, vehicle: object, session: object, patience: object) -> None:
+    """Check the kinds of arguments.
+
+    Raises:
+        LibraryError: one of them is of another kind.
+    """
+    for name, given in (("endpoint", endpoint), ("vehicle", vehicle), ("session", session)):
+        if not isinstance(given, str):
+            raise LibraryError(f"{name} is {given!r}; give a text")
+    if not 0.0 <= real(patience, "patience", PATIENCES) <= LATEST:
+        raise LibraryError(f"patience is {patience!r}; give {PATIENCES}")
 
 
 async def connect_async(

@@ -109,6 +109,9 @@ class Decision:
             for goal in sorted(known.goals, key=lambda one: -one.probability)
         )
 
+    def __hash__(self) -> int:
+        return hash(self.trace_id)
+
     def __repr__(self) -> str:
         return f"<Decision {self.number} at {self.time:g} s: {', '.join(self.plan) or 'stop'}>"
 

@@ -10,6 +10,7 @@ from planner.record.trace import PlanTrace
 from sim.roads.network import Network
 from sim.scene import EGO, PersonState, Point, Scene, VehicleState
 from xavi_dialogue.library import paint
+from xavi_dialogue.library.arguments import path_of
 from xavi_dialogue.library.errors import LibraryError
 from xavi_dialogue.library.paint import Rgb
 from xavi_dialogue.library.trajectories import Trajectory
@@ -36,7 +37,7 @@ class Picture:
         Raises:
             XaviError: it cannot be written.
         """
-        file = Path(path)
+        file = path_of(path)
         try:
             file.write_text(self.svg, encoding="utf-8")
         except OSError as error:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from xavi_dialogue.library.arguments import path_of
 from xavi_dialogue.library.errors import LibraryError, translated
 from xavi_dialogue.library.html import framed
 
@@ -22,6 +23,9 @@ class Report:
     content: "Incident" = field(repr=False)  # all that it says, as frozen values
     kind: "MomentKind"  # collision, hardest-braking, closest-approach, red-light or time
     time: float  # [s] the moment
+
+    def __hash__(self) -> int:
+        return hash((self.kind, self.time, self.content.hashes.ride))
 
     def _repr_html_(self) -> str:
         return framed(self.html())
@@ -44,7 +48,7 @@ class Report:
         Raises:
             XaviError: it cannot be written.
         """
-        file = Path(path)
+        file = path_of(path)
         try:
             file.write_text(self.json() if as_json else self.html(), encoding="utf-8")
         except OSError as error:

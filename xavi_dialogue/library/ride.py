@@ -1,26 +1,23 @@
 """A ride that can be asked about, and conversations about it."""
 
-import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias, TypeVar, get_args
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from planner.record.events import Event
 from sim.roads.network import Network
 from sim.scene import Scene
-from xavi_dialogue.bus.messages import MAX_TEXT
-from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.dialogue.manager import fold
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.reply import Reply
 from xavi_dialogue.dialogue.state.events import Input
 from xavi_dialogue.dialogue.state.state import EPSILON, Dialogue
 from xavi_dialogue.library import html
-from xavi_dialogue.library.answers import Answer, answer
+from xavi_dialogue.library.answers import Answer, answer, told_so_far
+from xavi_dialogue.library.arguments import check_style, path_of, question_of, real, whole
 from xavi_dialogue.library.curves import Curves, curves
 from xavi_dialogue.library.decisions import Decision
 from xavi_dialogue.library.errors import LibraryError, translated
@@ -38,6 +35,7 @@ from xavi_dialogue.transcripts.replay import keeping
 
 if TYPE_CHECKING:
     from xavi_dialogue.library.tables import DataFrame
+    from xavi_dialogue.report.ridden import Ridden
 
 T = TypeVar("T")
 
@@ -125,7 +123,8 @@ class Ride:
         Raises:
             XaviError: no decision considered it.
         """
-        found = curves(self.record.traces, vehicle)
+        wanted = whole(vehicle, "vehicle", "its number, such as 1")
+        found = curves(self.record.traces, wanted)
         if found is None:
             seen = {one.vehicle for trace in self.record.traces for one in trace.predictions}
             raise LibraryError(
@@ -150,7 +149,7 @@ class Ride:
         Raises:
             XaviError: it cannot be written.
         """
-        file = ride_file.named(Path(path))
+        file = ride_file.named(path_of(path))
         ride_file.save(self.record, file)
         return file
 
@@ -158,19 +157,13 @@ class Ride:
         """Report what the record shows of an incident.
 
         Args:
-            at: a time [s], or "collision", "hardest braking", "closest approach" or "red light".
-                Default: the most remarkable moment.
+            at: a time [s], also as "1:05", or "collision", "hardest braking", "closest approach"
+                or "red light". Default: the most remarkable moment.
 
         Raises:
             XaviError: there is no such moment.
         """
-        from xavi_dialogue.report.ridden import Ridden
-
-        again = keeping(self.again, self.record)
-        inputs = [one for _, one in self.known]
-        gaps = fold(make_pipeline(), inputs, Dialogue()).gaps
-        ridden = Ridden(self.record, self.scenes, again, self.network, self.digest, gaps)
-        return report_of(ridden, at)
+        return report_of(_ridden(self), at)
 
     @cached_property
     def default_time(self) -> float:
@@ -185,9 +178,10 @@ class Ride:
         Raises:
             XaviError: it is none of the ride.
         """
-        time = math.nan if isinstance(at, bool) or not isinstance(at, Real) else float(at)
-        if math.isnan(time) or time < 0.0:
-            raise LibraryError(f"at is {at!r}; give a time [s] of the ride, 0 to {self.end:g}")
+        wanted = f"a time [s] of the ride, 0 to {self.end:g}"
+        time = real(at, "at", wanted)
+        if time < 0.0:
+            raise LibraryError(f"at is {at!r}; give {wanted}")
         return min(time, self.end)
 
     def decision(self, trace_id: str | None) -> Decision | None:
@@ -207,16 +201,31 @@ class Ride:
         return element("p", repr(self)[1:-1]) + html.table(("from [s]", "plan"), changes)
 
 
+def check_moment(ride: Ride, at: float | str | None) -> None:
+    """Check that a ride has a moment of which a report can be made, which takes longer.
+
+    Raises:
+        XaviError: there is no such moment.
+    """
+    from xavi_dialogue.report.build import moment_of
+
+    with translated():
+        moment_of(_ridden(ride), at)
+
+
+def _ridden(ride: Ride) -> "Ridden":
+    """Return a ride as reports are made of it."""
+    from xavi_dialogue.report.ridden import Ridden
+
+    again = keeping(ride.again, ride.record)
+    inputs = [one for _, one in ride.known]
+    gaps = fold(make_pipeline(), inputs, Dialogue()).gaps
+    return Ridden(ride.record, ride.scenes, again, ride.network, ride.digest, gaps)
+
+
 def _latest(of: Sequence[T], times: Sequence[float], time: float) -> T:
     """Return what was the latest at a time [s], else the first."""
     return of[max(bisect_right(times, time + EPSILON) - 1, 0)]
-
-
-def _text(question: str) -> str:
-    """Return a question on one line, cut where it is too long."""
-    if not isinstance(question, str):
-        raise LibraryError(f"the question is {question!r}; give a text")
-    return one_line(question)[:MAX_TEXT]
 
 
 class Conversation:
@@ -228,8 +237,7 @@ class Conversation:
         Raises:
             LibraryError: there is no such style.
         """
-        if style not in get_args(Style):
-            raise LibraryError(f"there is no style {style!r}; use one of {get_args(Style)}")
+        check_style(style)
         self.ride = ride
         self.style = style
         self.answers: tuple[Answer, ...] = ()
@@ -241,7 +249,7 @@ class Conversation:
         return f"<Conversation about {self.ride.scenario}, seed {self.ride.seed}: {count} answers>"
 
     def _repr_html_(self) -> str:
-        return "".join(one._repr_html_() for one in self.answers) or element("p", repr(self)[1:-1])
+        return told_so_far(self, self.answers)
 
     def ask(self, question: str, at: float | None = None) -> Answer:
         """Return the answer to a question, which may refer to those before.
@@ -254,7 +262,7 @@ class Conversation:
         Raises:
             XaviError: there is no such time.
         """
-        text = _text(question)
+        text = question_of(question)
         reply = self.reply(text, at)
         record = self.ride.record
         lines = compared(reply, (*record.traces, *record.whatifs.values()))
@@ -267,7 +275,7 @@ class Conversation:
         time = self._time(at)
         with translated():
             self._know(time)
-            return self._inner.ask(_text(question), time, self.style)
+            return self._inner.ask(question_of(question), time, self.style)
 
     def _time(self, at: float | None) -> float:
         if at is None:

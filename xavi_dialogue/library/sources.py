@@ -26,6 +26,7 @@ from xavi_dialogue.dialogue.state.events import (
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.inspection import trace_files
 from xavi_dialogue.inspection.trace_files import TraceFileError
+from xavi_dialogue.library.arguments import path_of, real, whole
 from xavi_dialogue.library.deeds import events_of
 from xavi_dialogue.library.errors import LibraryError, translated
 from xavi_dialogue.library.ride import Known, Ride
@@ -42,6 +43,9 @@ RECORDING = ".mcap"
 COMPRESSED = ".gz"  # most likely a saved ride
 OPENED = "give a file that `xavi drive --save`, `Ride.save` or `xavi record` wrote, or plan traces"
 
+SEEDS = f"a whole number from 0 to {MAX_SEED}"
+DURATIONS = "seconds greater than 0"
+
 
 def drive(
     scenario: str | Path = "s1", seed: int | None = None, duration: float | None = None
@@ -56,19 +60,20 @@ def drive(
     Raises:
         XaviError: the scenario cannot be used, or SUMO or the car fails.
     """
-    if seed is not None and not 0 <= seed <= MAX_SEED:
-        raise LibraryError(f"seed is {seed}; give one from 0 to {MAX_SEED}")
-    if duration is not None and not duration > 0.0:  # nor is it for nan
-        raise LibraryError(f"duration is {duration}; give seconds greater than 0")
+    place = _scenario(scenario)
+    if seed is not None and not 0 <= whole(seed, "seed", SEEDS) <= MAX_SEED:
+        raise LibraryError(f"seed is {seed}; give {SEEDS}")
+    if duration is not None and real(duration, "duration", DURATIONS) <= 0.0:
+        raise LibraryError(f"duration is {duration}; give {DURATIONS}")
     with translated():
-        loaded = load_scenario(str(scenario))
+        loaded = load_scenario(place)
         for warning in loaded.warnings:
             warnings.warn(warning, stacklevel=2)
         network = network_of(loaded)
-        number = loaded.seed if seed is None else seed
-        with start(loaded, number, network, duration=duration) as moments:
+        own = loaded.seed if seed is None else int(seed)
+        with start(loaded, own, network, duration=duration) as moments:
             known = [(clock(m), one) for m in moments for one in inputs_of_moment(m)]
-    return _ride(str(scenario), number, known, network)
+    return _ride(place, own, known, network)
 
 
 def open_ride(path: str | Path, scenario: str | Path | None = None, car: str | None = None) -> Ride:
@@ -84,16 +89,29 @@ def open_ride(path: str | Path, scenario: str | Path | None = None, car: str | N
     Raises:
         XaviError: the file cannot be read, or the scenario or car is not that of the ride.
     """
-    given, saved = Path(path), ride_file.named(Path(path))
-    file = given if given.is_file() or (given.exists() and not saved.is_file()) else saved
+    given = path_of(path)
+    file = _file(given, ride_file.named(given))
     with translated():
         if file.suffix == RECORDING:
             return _recorded(file, player.load(file, car, _warn))
-        ride = _saved(file, scenario)
+        ride = _saved(file, None if scenario is None else _scenario(scenario))
         own = ride.record.traces[0].vehicle
         if car not in (None, own):
             raise LibraryError(f"{file} is a ride of {own!r}, not of {car!r}")
         return ride
+
+
+def _file(given: Path, saved: Path) -> Path:
+    """Return the file that is there, as it is given or with the ending of saved rides."""
+    try:
+        return given if given.is_file() or (given.exists() and not saved.is_file()) else saved
+    except OSError as error:
+        raise LibraryError(f"cannot read {given}: {error.strerror}; {OPENED}") from error
+
+
+def _scenario(given: object) -> str:
+    """Return the name of a scenario, or its path."""
+    return str(path_of(given, "scenario", "the name of one, or the path of its folder or file"))
 
 
 def _ride(
@@ -117,7 +135,7 @@ def _ride(
     return Ride(record, scenes, tuple(known), _plans_on(network), network, digest)
 
 
-def _saved(file: Path, scenario: str | Path | None) -> Ride:
+def _saved(file: Path, scenario: str | None) -> Ride:
     record = _read(file)
     if not record.traces:
         raise LibraryError(f"{file} holds no decision; drive the ride again, and longer")
@@ -168,14 +186,14 @@ def _time(known: Input) -> float:
     raise AssertionError(known)
 
 
-def _roads(record: RecordedRide, scenario: str | Path | None) -> Network | None:
+def _roads(record: RecordedRide, scenario: str | None) -> Network | None:
     """Return the roads of a saved ride, if they can be found.
 
     Raises:
         LibraryError: the scenario that is named has other roads.
     """
     try:
-        network = network_of(load_scenario(str(scenario or record.scenario)))
+        network = network_of(load_scenario(scenario or record.scenario))
     except SimError:
         if scenario is not None:
             raise

@@ -12,6 +12,7 @@ from xavi_dialogue.dashboard.views.contrast import sides
 from xavi_dialogue.dashboard.views.decision import chosen_plan
 from xavi_dialogue.dashboard.views.trajectories import likeliest
 from xavi_dialogue.dialogue.reply import Reply
+from xavi_dialogue.library.arguments import real
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,11 +32,15 @@ class Trajectory:
         return self.start + self.period * (len(self.points) - 1)
 
     def at(self, time: float) -> Point | None:
-        """Return where [m] it is at a time [s]; None before and after it."""
-        place = (time - self.start) / self.period
-        index = int(place)
+        """Return where [m] it is at a time [s]; None before and after it.
+
+        Raises:
+            XaviError: it is no time.
+        """
+        place = (real(time, "time", "a time [s]") - self.start) / self.period
         if not 0.0 <= place <= len(self.points) - 1:
             return None
+        index = int(place)
         here, there = self.points[index], self.points[min(index + 1, len(self.points) - 1)]
         share = place - index
         return (

@@ -1,12 +1,21 @@
 """Exit statuses of commands, and the errors that commands report."""
 
 from enum import IntEnum
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from xavi_dialogue.errors import XaviError
 
-if TYPE_CHECKING:  # the command line needs the numbers at once, but replies late or never
-    from xavi_dialogue.dialogue.reply import Reply
+
+class Told(Protocol):
+    """A reply to a question, or an answer of the library."""
+
+    @property
+    def kind(self) -> str:
+        """Answer, refusal or clarification."""
+
+    @property
+    def reason(self) -> str | None:
+        """Why it was not answered."""
 
 
 class UsageFault(XaviError, ValueError):
@@ -31,7 +40,7 @@ class ExitStatus(IntEnum):
     TERMINATED = 143
 
 
-def status_of(reply: "Reply") -> ExitStatus:
+def status_of(reply: Told) -> ExitStatus:
     """Return the exit status for a reply."""
     if reply.kind == "answer":
         return ExitStatus.ANSWERED

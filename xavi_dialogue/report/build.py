@@ -48,9 +48,7 @@ def build(ridden: Ridden, at: float | str | None = None) -> Incident:
     Raises:
         ReportError: there is no such moment, or no decision in the ride.
     """
-    if not ridden.record.traces:
-        raise ReportError("the ride holds no decision; drive it again, and longer")
-    moment = choose(ridden, tracks_of(ridden, ridden.end), at)
+    moment = moment_of(ridden, at)
     since = max(moment.time - BEFORE, ridden.begin)
     until = min(moment.time + AFTER, ridden.end)
     window, inquiry = (since, until), Inquiry(ridden, until)
@@ -91,6 +89,17 @@ def build(ridden: Ridden, at: float | str | None = None) -> Incident:
         limits=limitations(inquiry, moment.time, window, others, tested),
         hashes=_hashes(ridden, window),
     )
+
+
+def moment_of(ridden: Ridden, at: float | str | None) -> Chosen:
+    """Return the moment that a report is about.
+
+    Raises:
+        ReportError: as `build` says.
+    """
+    if not ridden.record.traces:
+        raise ReportError("the ride holds no decision; drive it again, and longer")
+    return choose(ridden, tracks_of(ridden, ridden.end), at)
 
 
 def _next_decision(ridden: Ridden, until: float) -> float:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TypeAlias
 
 import msgspec
@@ -58,12 +59,12 @@ def make_pipeline() -> Pipeline:
 
 
 def planner_for(network: Network) -> Replan:
-    """Return a function that plans again on a network."""
+    """Return a function that plans again on a network; it can be pickled."""
+    return partial(_again, network)
 
-    def again(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
-        return replan(trace, network, msgspec.convert(msgspec.to_builtins(need), WhatIf))
 
-    return again
+def _again(network: Network, trace: PlanTrace, need: NeedRollout) -> PlanTrace:
+    return replan(trace, network, msgspec.convert(msgspec.to_builtins(need), WhatIf))
 
 
 def inputs_of_moment(moment: Moment) -> tuple[Input, ...]:

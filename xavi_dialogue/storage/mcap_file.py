@@ -19,7 +19,17 @@ import msgspec
 import zstandard
 from mcap.data_stream import RecordBuilder
 from mcap.exceptions import EndOfFile, McapError
-from mcap.records import Attachment, Channel, Chunk, DataEnd, Footer, Header, McapRecord, Message
+from mcap.records import (
+    Attachment,
+    Channel,
+    Chunk,
+    DataEnd,
+    Footer,
+    Header,
+    McapRecord,
+    Message,
+    Metadata,
+)
 from mcap.stream_reader import StreamReader, breakup_chunk
 from mcap.writer import MCAP0_MAGIC, CompressionType, Writer
 
@@ -28,11 +38,13 @@ from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.storage.growing_file import create, write_at
 from xavi_dialogue.storage.message_format import MessageFormat, schema_to_view
 from xavi_dialogue.storage.recording_format import (
+    EXPORT,
     MIB,
     PROFILE,
     AttachedFile,
     Entry,
     FileThere,
+    ForViewers,
     NotARecording,
     Piece,
     Truncation,
@@ -292,6 +304,8 @@ def _pieces(records: Iterator[McapRecord]) -> Iterator[Piece]:
                         yield _entry(record, keys)
                     case Attachment(name=name, data=data):
                         yield AttachedFile(name, data)
+                    case Metadata(name=name) if name == EXPORT:
+                        yield ForViewers()
     except EndOfFile:
         yield Truncation("it was cut off while it was written")
     except _DAMAGE as error:

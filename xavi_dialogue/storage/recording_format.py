@@ -31,6 +31,7 @@ from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.process.exit_status import RunFault, UsageFault
 
 PROFILE = "xavi"
+EXPORT = "xavi.export"  # name of the facts that mark an export for viewers
 NETWORK_ENDING = ".net.xml.gz"
 MIB = 1024 * 1024
 MAX_NETWORK = 64 * MIB  # bytes of a road network, unpacked
@@ -98,7 +99,12 @@ class Truncation:
     why: str
 
 
-Piece: TypeAlias = Entry | AttachedFile | Truncation
+@dataclass(frozen=True, slots=True)
+class ForViewers:
+    """The mark at the beginning of an export, which need not hold a ride to play."""
+
+
+Piece: TypeAlias = Entry | AttachedFile | Truncation | ForViewers
 
 
 def kind_of(key: str) -> type[Report | TurnReport] | None:
@@ -190,6 +196,7 @@ class _Reading:
     networks: dict[str, list[bytes]] = field(default_factory=dict)
     why: str | None = None  # the reason why the recording ends too early, if it does
     size: int = 0  # bytes
+    exported: bool = False  # whether it is an export for viewers
 
     def take(self, piece: Piece, only: str | None) -> None:
         """Add a piece of the recording.
@@ -215,6 +222,8 @@ class _Reading:
                     self.networks.setdefault(vehicle, []).append(data)
             case Truncation(why):
                 self.why = why
+            case ForViewers():
+                self.exported = True
 
     def _count(self, size: int) -> None:
         self.size += size + OVERHEAD
@@ -277,7 +286,10 @@ def _chosen(reading: _Reading, vehicle: str | None) -> str:
     names = tuple(reading.tracks)
     listed = ", ".join(names)
     if not names:
-        why = reading.why or "an export of a saved ride is for viewers alone; give the saved ride"
+        why = "an export of a saved ride is for viewers alone; give the saved ride"
+        if reading.why is not None:
+            rest = "; it is an export for viewers: give the ride that it was made of"
+            why = reading.why + (rest if reading.exported else "")
         raise NothingToPlay(f"it holds no ride: {why}")
     if vehicle is None and len(names) > 1:
         raise NothingToPlay(f"it holds several cars; name one with --car: {listed}")

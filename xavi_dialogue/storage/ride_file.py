@@ -79,7 +79,7 @@ def dump(ride: RecordedRide) -> bytes:
 
 def named(path: Path) -> Path:
     """Return a path with the ending of recorded rides, unless it has one of its own."""
-    return path if path.suffix else path.with_name(path.name + ENDING)
+    return path if path.suffix or not path.name else path.with_name(path.name + ENDING)
 
 
 def save(ride: RecordedRide, path: Path) -> None:

@@ -11,6 +11,7 @@ import gzip
 import zlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from planner.counterfactuals.whatif import WhatIfError
@@ -190,20 +191,20 @@ def inputs_of(ride: RecordedRide) -> tuple[Input, ...]:
 
 def keeping(again: Replan, ride: RecordedRide) -> Replan:
     """Return what is planned again from a recorded ride, and store in it what it lacks."""
+    return partial(_kept, again, ride)
 
-    def planned(trace: PlanTrace, need: NeedRollout) -> PlanTrace:
-        name = key(need)
-        if name in ride.failures:
-            raise WhatIfError(ride.failures[name])
-        if name not in ride.whatifs:
-            try:
-                ride.whatifs[name] = again(trace, need)
-            except WhatIfError as error:
-                ride.failures[name] = str(error)
-                raise
-        return ride.whatifs[name]
 
-    return planned
+def _kept(again: Replan, ride: RecordedRide, trace: PlanTrace, need: NeedRollout) -> PlanTrace:
+    name = key(need)
+    if name in ride.failures:
+        raise WhatIfError(ride.failures[name])
+    if name not in ride.whatifs:
+        try:
+            ride.whatifs[name] = again(trace, need)
+        except WhatIfError as error:
+            ride.failures[name] = str(error)
+            raise
+    return ride.whatifs[name]
 
 
 def _as_recorded(path: Path, ride: RecordedRide) -> bool:

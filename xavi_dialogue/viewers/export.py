@@ -16,7 +16,7 @@ from xavi_dialogue.library.decisions import Decision
 from xavi_dialogue.library.ride import Ride
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.mcap_file import McapWriter
-from xavi_dialogue.storage.recording_format import Entry, FileThere, Unwritable
+from xavi_dialogue.storage.recording_format import EXPORT, Entry, FileThere, Unwritable
 from xavi_dialogue.viewers import drawing, messages, motion, recorded, roads
 from xavi_dialogue.viewers.messages import Message, form, stamp
 
@@ -66,17 +66,22 @@ class _Export:
         return dict(sorted(Counter(topic for _, topic, _ in self.made).items()))
 
 
-def export(ride: Ride, options: ExportOptions) -> dict[str, int]:
-    """Write a ride for viewers.
+@dataclass(frozen=True, slots=True)
+class Exported:
+    """What an export wrote."""
 
-    Returns:
-        The number of messages by topic.
+    messages: dict[str, int]  # their number by topic
+    answers: tuple[Answer, ...]  # to the questions; not each has a ghost
+
+
+def export(ride: Ride, options: ExportOptions) -> Exported:
+    """Write a ride for viewers.
 
     Raises:
         XaviError: the files cannot be written, or are one; or a question cannot be asked.
     """
     _check_apart(options)
-    answers = [ride.ask(question, options.at) for question in options.questions]
+    answers = tuple(ride.ask(question, options.at) for question in options.questions)
     out = _Export()
     if ride.network is not None:
         surface = messages.entity("roads", 0.0, roads.drawn(ride.network))
@@ -86,12 +91,13 @@ def export(ride: Ride, options: ExportOptions) -> dict[str, int]:
     _log(out, ride, answers)
     with McapWriter(options.target, __version__, overwrite=options.overwrite) as file:
         file.describe("xavi.ride", {"scenario": ride.scenario, "seed": str(ride.seed)})
+        file.describe(EXPORT, {"for": "viewers"})
         if options.source.suffix == RECORDING:
             _copy(out, file, options.source, ride)
-        told = out.write(file)
+        counts = out.write(file)
     if options.layout is not None:
         write_layout(options.layout, overwrite=options.overwrite)
-    return told
+    return Exported(counts, answers)
 
 
 def _check_apart(options: ExportOptions) -> None:

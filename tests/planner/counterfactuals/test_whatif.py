@@ -169,6 +169,25 @@ def test_an_ego_off_the_road_is_refused(trace: PlanTrace, network: Network) -> N
         replan(lost, network, WhatIf())
 
 
+def test_a_goal_that_is_not_in_the_roads_is_refused(trace: PlanTrace, network: Network) -> None:
+    elsewhere = msgspec.structs.replace(trace.goal, edge="nowhere")
+    lost = msgspec.structs.replace(trace, goal=elsewhere)
+    with pytest.raises(WhatIfError, match="the goal is the edge 'nowhere', which is not in the"):
+        replan(lost, network, WhatIf(removed=1))
+    with pytest.raises(WhatIfError, match="'nowhere'"):
+        decide_again(lost, network, lost.settings)
+
+
+def test_a_record_without_the_history_of_somebody_seen_is_refused(
+    trace: PlanTrace, network: Network
+) -> None:
+    for who, kept in ((0, {}), (1, {0: trace.history[0], 4: trace.history[4]})):
+        lost = msgspec.structs.replace(trace, history=kept)
+        for request in (WhatIf(removed=4), WhatIf(("stop",))):
+            with pytest.raises(WhatIfError, match=f"`history` lacks vehicle {who}, which is in"):
+                replan(lost, network, request)
+
+
 def test_several_vehicles_can_be_removed(trace: PlanTrace, network: Network) -> None:
     without = replan(trace, network, WhatIf(removed=(1, 4)))
     assert set(without.scene) == {0}

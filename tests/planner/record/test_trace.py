@@ -251,6 +251,26 @@ HELD = {
             lambda t: {"predictions": [{**t["predictions"][0], "vehicle": 99}], "rollouts": []},
             "vehicle 99 in `predictions` is not another one in `scene`",
         ),
+        (
+            lambda t: {"settings": {**t["settings"], "rollouts": 2**31}},
+            r"settings\.rollouts is 2147483648; give 0 to 10000",
+        ),
+        (
+            lambda t: {"settings": {**t["settings"], "horizon": 0}},
+            r"settings\.horizon is 0; give 1 to 600 s",
+        ),
+        (
+            lambda t: {"settings": {**t["settings"], "horizon": 1e6}},
+            r"settings\.horizon is 1000000; give 1 to 600 s",
+        ),
+        (
+            lambda t: {"settings": {**t["settings"], "depth": 0}},
+            r"settings\.depth is 0; give 1 to 100",
+        ),
+        (
+            lambda t: {"settings": {**t["settings"], "rationality": -900.0}},
+            r"settings\.rationality is -900; give 0 to 1000",
+        ),
     ],
 )
 def test_a_trace_that_does_not_fit_together_is_refused(

@@ -38,7 +38,9 @@ ONE: Final = {  # the same of a single finding
 }
 NOTES: Final = {
     "collision": "The car touched somebody.",
-    "close-call": "The shortest time to a collision of each ride, up to 10 s, had nobody braked.",
+    "close-call": "The shortest time to a collision of each ride without one, up to 10 s, had both "
+    "kept their speeds: along the way if one follows the other, else straight on, unless one of "
+    "them is turning.",
     "hard-braking": "The hardest braking of each ride.",
     "wrong-prediction": "Where another goal was held more likely than the one a vehicle went to; "
     "planned again with the truth, the decision is another one.",

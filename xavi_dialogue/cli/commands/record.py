@@ -130,16 +130,28 @@ def _export(shell: Streams) -> Callable[..., None]:
         ] = None,
         force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.")] = False,
     ) -> None:
-        """Write a ride as a file that Foxglove and Lichtblick show in 3-D."""
+        """Write a ride as a file that Foxglove and Lichtblick show in 3-D.
+
+        What --ask asks and is not answered is told, with the exit status of `xavi explain`.
+        """
+        from xavi_dialogue.bus.sanitize import one_line
         from xavi_dialogue.library.sources import open_ride
+        from xavi_dialogue.process.exit_status import ExitStatus, status_of
 
         with shell.errors():
             from xavi_dialogue.viewers.export import ExportOptions, export
 
             ride = open_ride(source, scenario, car)
             asked = tuple(ask or ())
-            told = export(ride, ExportOptions(source, target, asked, at, force, layout))
-        shell.write("\n".join(f"{topic:12} {count}" for topic, count in told.items()))
+            made = export(ride, ExportOptions(source, target, asked, at, force, layout))
+        shell.write("\n".join(f"{topic:12} {count}" for topic, count in made.messages.items()))
+        if asked and at is not None and at > ride.end:
+            shell.note(f"{at:g} s is after the end: what was asked is asked at {ride.end:g} s")
+        for answer in made.answers:
+            if answer.ghost is None:
+                shell.note(f"no /ghost for {answer.question!r}: {one_line(answer.text)}")
+        declined = (status for one in made.answers if (status := status_of(one)))
+        raise typer.Exit(next(declined, ExitStatus.ANSWERED))
 
     return export
 

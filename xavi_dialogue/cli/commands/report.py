@@ -27,8 +27,8 @@ def _report(shell: Streams) -> Callable[..., None]:
             str | None,
             typer.Option(
                 metavar="MOMENT",
-                help="A time [s], or: collision, hardest braking, closest approach, red light. "
-                "Default: the most remarkable moment.",
+                help="A time [s or m:ss], or: collision, hardest braking, closest approach, "
+                "red light. Default: the most remarkable moment.",
             ),
         ] = None,
         out: Annotated[
@@ -55,12 +55,14 @@ def _report(shell: Streams) -> Callable[..., None]:
         It covers 7 s before and after the moment. Decisions are planned again where the roads are
         known, which takes up to a minute. The same ride, moment and program give the same bytes.
         """
+        from xavi_dialogue.library.ride import check_moment
         from xavi_dialogue.library.sources import open_ride
 
         with shell.errors():
             opened = open_ride(ride, scenario, car)
             if out is not None:
                 _check_target(out, ride, force=force)
+            check_moment(opened, at)
             shell.note("planning again ...")
             found = opened.report(at)
             if as_json and out is None:

@@ -47,7 +47,7 @@ def _show(shell: Streams) -> Callable[..., None]:
         from xavi_dialogue.inspection import trace_files
 
         with shell.errors():
-            held = trace_files.read(trace_files.content(file))
+            held = trace_files.load(file)
             trace = trace_files.choose(held, decision, at)
             extent = text.Extent(depth, everything)
             shown = text.listing(held.traces) if trace is None else text.show(trace, extent)
@@ -67,7 +67,7 @@ def _check(shell: Streams) -> Callable[..., None]:
         from xavi_dialogue.inspection import completeness, trace_files
 
         with shell.errors():
-            held = trace_files.read(trace_files.content(file))
+            held = trace_files.load(file)
             found = completeness.gaps(held.traces, ride=held.ride)
             text = completeness.report(held.traces, ride=held.ride)
         shell.write(to_json(list(map(asdict, found))) if as_json else text)
@@ -89,6 +89,9 @@ def _explain(shell: Streams) -> Callable[..., None]:
             str | None,
             typer.Option(help="Scenario with the roads, to plan again what would have been."),
         ] = None,
+        car: Annotated[
+            str | None, typer.Option(metavar="NAME", help="Which car of a recording.")
+        ] = None,
         style: Annotated[
             Literal["passenger", "paper"],
             typer.Option(help="Wording for passengers, or as in the paper's tables."),
@@ -101,7 +104,7 @@ def _explain(shell: Streams) -> Callable[..., None]:
         from xavi_dialogue.process.exit_status import status_of
 
         with shell.errors():
-            ride = open_ride(file, scenario)
+            ride = open_ride(file, scenario, car)
             reply = ride.conversation(style).reply(text, at)
         if ride.network is None and reply.reason == "planner-unavailable":
             shell.note(ROADLESS)
