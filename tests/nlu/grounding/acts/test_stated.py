@@ -25,6 +25,7 @@ from xavi_dialogue.domain.meaning import (
     HowMuch,
     Request,
     Whether,
+    Which,
     Why,
 )
 from xavi_dialogue.domain.terms import (
@@ -270,3 +271,13 @@ def test_how_close_we_came_to_anybody_is_to_nobody_in_particular() -> None:
     assert isinstance(bus, Ask)
     assert isinstance(bus.question, HowMuch)
     assert bus.question.of.to is not None
+
+
+def test_whether_anybody_was_hidden_asks_for_all_who_were() -> None:
+    for whom in (Described(definite=False), Described(other=True, definite=False)):
+        found = Grounded(Ask(Whether(Is("hidden", whom, tense="past")))).act
+        assert isinstance(found, Ask)
+        assert isinstance(found.question, Which)
+    bus = Grounded(Ask(Whether(Is("hidden", BUS, tense="past")))).act
+    assert isinstance(bus, Ask)
+    assert isinstance(bus.question, Whether)

@@ -20,6 +20,7 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
+    SOMEBODY_ELSE,
     Ago,
     Both,
     Compares,
@@ -126,8 +127,12 @@ def _is_done_to(deed: Event) -> bool:
 
 
 def _reworded(spoken: Question, g: Grounder) -> Question | None:
-    """Read who is aboard, to whom we have to yield, and whether somebody comes nearer."""
+    """Read who is aboard or hidden, to whom we yield, and whether somebody comes nearer."""
     match spoken:
+        case Whether(that=Is(state="hidden", thing=Described(definite=False) as thing) as of) if (
+            thing in (Described(definite=False), SOMEBODY_ELSE)
+        ):
+            return Which(Wanted(), replace(of, thing=Wanted()))  # "was anyone hidden from you?"
         case Which(
             thing=Described(plural=True) as thing,
             such=Happens(event=Event(actor=Ego(), object=Wanted(), time=Unsaid()) as deed),
