@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
+from tests.simulated.network import Served
 from tests.simulated.parts import PLANNED, SECRET, STORE, Person
+from xavi_dialogue.bus.errors import MessageError
 from xavi_dialogue.bus.interface import NoAnswer, Refused, TooLate
-from xavi_dialogue.bus.messages import PastTurn
+from xavi_dialogue.bus.messages import AskRequest, PastTurn, unpack
 from xavi_dialogue.service.ownership import digest
 from xavi_dialogue.service.responder import AGAIN, MAX_SENT, PASSING
 
@@ -33,6 +35,17 @@ def at_rest(world: "World") -> list[str]:
     return found
 
 
+def _promised(served: Served) -> float:
+    """Return in how many seconds a request has to end.
+
+    A question names its deadline, even one of somebody who does not wait as long.
+    """
+    try:
+        return max(served.timeout, unpack(served.payload, AskRequest).deadline_ms / 1000.0)
+    except MessageError:
+        return served.timeout
+
+
 def _requests(world: "World") -> Iterator[str]:
     """Each request gets exactly one reply or refusal, by its deadline."""
     now = world.scheduler.now
@@ -44,7 +57,7 @@ def _requests(world: "World") -> Iterator[str]:
         stalled = served.server.stalled > served.came
         if served.ends:
             took = served.ends[0][0] - served.came
-            if took > served.timeout + SLACK and not stalled:
+            if took > _promised(served) + SLACK and not stalled:
                 yield f"{where} was ended after {took:.2f} s"
         elif served.server.alive and now > served.came + served.timeout + SLACK:
             yield f"{where} was never ended"
