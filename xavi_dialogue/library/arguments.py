@@ -1,4 +1,4 @@
-"""Arguments of the library: what is not of the kind that is wanted is told with its name."""
+"""Arguments of the library: checks of their kinds; an error names the argument."""
 
 import math
 import os

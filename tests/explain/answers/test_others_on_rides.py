@@ -70,3 +70,4 @@ def test_who_was_seen_on_the_ramp_took_the_exit_as_expected() -> None:
     assert "took the exit at 0:27" in asked("motorway-0", "Did vehicle 2 take the exit?")
     assert "vehicle 2" not in asked("motorway-0", "What did you get wrong?")
     assert asked("motorway-0", "Did vehicle 6 take the exit?").startswith("No, ")
+    assert not asked("motorway-0", "Did vehicle 2 take the exit at 0:05?").startswith("Yes")

@@ -132,7 +132,7 @@ def _export(shell: Streams) -> Callable[..., None]:
     ) -> None:
         """Write a ride as a file that Foxglove and Lichtblick show in 3-D.
 
-        What --ask asks and is not answered is told, with the exit status of `xavi explain`.
+        Names each question of --ask without an answer; exit status as of `xavi explain`.
         """
         from xavi_dialogue.bus.sanitize import one_line
         from xavi_dialogue.library.sources import open_ride

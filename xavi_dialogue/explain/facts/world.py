@@ -18,6 +18,8 @@ from xavi_dialogue.explain.history.motion import EPSILON
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.explain.history.ride import Ride, planned
 
+LETTING_GO = frozenset[ActionName](("give-way", "let-go"))
+
 
 class World:
     """What the record of a ride shows; all times are simulation seconds.
@@ -170,7 +172,6 @@ class World:
 
 
 _kept: list[World] = []  # latest first
-LETTING_GO = frozenset[ActionName](("give-way", "let-go"))
 KEPT = 2  # worlds that are kept for the questions that follow
 
 

@@ -62,7 +62,7 @@ def involved(page: Page) -> Markup:
         for one in report.involved
     ]
     known = (
-        table(("Road user", "Role", "Size", "Least distance in the samples", "at"), rows)
+        table(("Road user", "Role", "Size", "Least distance, by samples or contact", "at"), rows)
         if rows
         else tag("p", "No other road user is involved.")
     )

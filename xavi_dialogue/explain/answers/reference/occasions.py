@@ -100,7 +100,7 @@ def _otherwise(event: Event) -> tuple[ActionName, ...]:
     if event.action == "turn" and event.side == "left":
         return ()
     if event.action == "overtake" and Nobody in map(type, (event.actor, event.object)):
-        return ()  # whoever drives past towards us overtakes nobody
+        return ()  # an oncoming vehicle overtakes nobody
     if event.action == "leave" and event.object == Junction("roundabout"):
         return ("exit-right", "exit-straight", "exit-left")
     if event.action == "leave" and event.object is None and not is_us(event.actor):

@@ -8,9 +8,9 @@ from xavi_dialogue.explain.answers.expectations.foreseen import sided
 from xavi_dialogue.explain.answers.expectations.taken import on_road
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
-from xavi_dialogue.explain.answers.reference.moments import window
+from xavi_dialogue.explain.answers.reference.moments import was_said, window
 from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, look_of, number
-from xavi_dialogue.explain.answers.reference.occasions import occasion
+from xavi_dialogue.explain.answers.reference.occasions import occasion, overlaps
 
 #: Actions that lead into another road.
 ROADS = frozenset[ActionName](("exit-left", "exit-right", "exit-straight", "leave"))
@@ -70,6 +70,10 @@ def by_road(asked: Asked, event: Event) -> Episode | None:
         for expected in belief.expectations:
             since = on_road(asked, belief, expected)
             done = next((action for action in expected.actions if action in names), None)
-            if since is not None and done is not None:
-                return Episode(Vehicle(vehicle), done, belief.time, since, event.object)
+            if since is None or done is None:
+                continue
+            found = Episode(Vehicle(vehicle), done, belief.time, since, event.object)
+            about = window(asked, event.time, event.tense).widened()
+            if not was_said(asked, event.time) or overlaps(asked, found, about):
+                return found
     return None

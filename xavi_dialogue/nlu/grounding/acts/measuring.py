@@ -76,7 +76,7 @@ def measured(
 
 
 def _is_anybody(thing: Thing | None) -> bool:
-    """Tell whether a thing is whoever there was, and nobody in particular."""
+    """Check whether a thing stands for any road user, not a particular one."""
     if not isinstance(thing, Described) or thing.kind not in ("vehicle", "car"):
         return False
     plain = Described(thing.kind, other=thing.other, plural=thing.plural, definite=False)
