@@ -4,7 +4,7 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Act, Ask, Doing, HowDecide, Request, Whether, Why
+from xavi_dialogue.domain.meaning import Act, Ask, Doing, HowDecide, Request, WhatIf, Whether, Why
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -22,6 +22,7 @@ from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.grammar.chart import Node
 
 WELL: Final = Ask(Whether(Is("safe", Ego())))
+_IN_TIME: Final = Event("stop", manner=("early",), tense="present", modal="could")
 _THINGS: Final = (
     Described(plural=True, definite=False),
     Pronoun("it"),
@@ -51,9 +52,29 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
 
 
 def why_not(acts: tuple[Act, ...], unit: Node, clause: Clause) -> tuple[Act, ...]:
-    """Read "can't we just go straight?" as the question what keeps us from it."""
+    """Read "can't we just go straight?" as the question what keeps us from it.
+
+    "Would we stop short of it?" asks of both of us, so it is no request.
+    """
     words = words_of(unit).split()
     match acts:
         case (Request(event, False),) if clause.negated and "we" in words and "please" not in words:
             return (Ask(Why(Not(Happens(replace(event, modal="can"))))),)
+        case (Request(event, False),) if _of_us_both(words_of(unit)):
+            short = _short_of(event)
+            return (Ask(short or Whether(Happens(replace(event, modal="would")))),)
     return acts
+
+
+def _of_us_both(words: str) -> bool:
+    """Say whether it is asked what we would do, which nobody asks who wants it done."""
+    return "would we" in words and "please" not in words.split()
+
+
+def _short_of(event: Event) -> WhatIf | None:
+    """Read "would we stop short of it?" as whether we could stop if it stood in our way."""
+    place = event.where
+    if event.action != "stop" or place is None or place.relation != "ahead-of":
+        return None
+    stands = Event("stop", place.to, where=Related("ahead-of", place.to, Ego()), tense="present")
+    return WhatIf(Happens(stands), Whether(Happens(_IN_TIME)))

@@ -30,6 +30,7 @@ from xavi_dialogue.domain.terms import (
     At,
     Back,
     Between,
+    Described,
     Ego,
     Event,
     Exists,
@@ -52,7 +53,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.grounding.acts.follow_ups import followed
 from xavi_dialogue.nlu.grounding.acts.questions import question as ground_question
 from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
-from xavi_dialogue.nlu.grounding.completion.supposing import subordinate, through
+from xavi_dialogue.nlu.grounding.completion.supposing import of_named, subordinate, through
 
 TURN = HowMuch(Measured("turn", to=Junction(rank=2), time=Next(), tense="future"))
 AFTER, BEFORE = Back("after"), Back("before")
@@ -290,3 +291,40 @@ def test_what_would_have_happened_is_at_no_time_of_the_ride() -> None:
     assert isinstance(grounded, WhatIf)
     assert grounded.then == then
     assert g.notes.span is None or not g.notes.span.said
+
+
+VAN = Described("van")
+
+
+def hits(actor: Any, thing: Any) -> Whether:
+    return Whether(Happens(Event("collide", actor, thing, modal="would")))
+
+
+def goes_on(actor: Any) -> Happens:
+    return Happens(Event("continue", actor, tense="perfect"))
+
+
+@pytest.mark.parametrize("then", [hits(Ego(), VAN), hits(VAN, Ego())])
+def test_it_is_the_vehicle_of_the_main_clause(then: Whether) -> None:
+    for form in ("it", "he", "she"):
+        found = of_named(WhatIf(goes_on(Pronoun(form)), then))  # type: ignore[arg-type]
+        assert found == WhatIf(goes_on(VAN), then)
+    denied = of_named(WhatIf(Not(goes_on(Pronoun("it"))), then))
+    assert denied == WhatIf(Not(goes_on(VAN)), then)
+
+
+@pytest.mark.parametrize(
+    ("actor", "then"),
+    [
+        (Pronoun("it"), None),
+        (Pronoun("it"), Doing()),
+        (Pronoun("it"), hits(Pronoun("it"), VAN)),
+        (Pronoun("it"), hits(Ego(), Vehicle(2))),
+        (Pronoun("it"), hits(Ego(), Described("van", definite=False))),
+        (Pronoun("they"), hits(Ego(), VAN)),
+        (Ego(), hits(Ego(), VAN)),
+    ],
+)
+def test_elsewhere_a_pronoun_stays(actor: Any, then: Any) -> None:
+    asked = WhatIf(goes_on(actor), then)
+    assert of_named(asked) == asked

@@ -4,7 +4,7 @@ from typing import cast
 
 from msgspec import structs
 
-from xavi_dialogue.domain.meaning import Compare, Fault, Listing, Question, Whether, Why
+from xavi_dialogue.domain.meaning import Compare, Fault, Listing, Question, WhatIf, Whether, Why
 from xavi_dialogue.domain.terms import (
     Caused,
     Described,
@@ -42,6 +42,11 @@ def judged_so(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
             clause.modal == "would"
         ):  # "would that have been risky?"
             return Compare((That(),), "safety", least=state == "dangerous")
+        case Is(
+            state="dangerous" | "safe" as state, event=Event(actor=Ego()) as deed, tense="past"
+        ) if clause.modal == "would":  # "would going first have been dangerous?"
+            supposed = structs.replace(deed, tense="perfect", modal=None)
+            return WhatIf(Happens(supposed), Whether(Is(state, Ego(), tense="past")))
         case Happens(event=Event(action="do", actor=Ego(), modal="would", manner=("again",))):
             done = Event("do", Ego(), Pronoun("that"), tense="past")  # "would you do it again?"
             return Whether(Is("right", Pronoun("that"), done, tense="past"))

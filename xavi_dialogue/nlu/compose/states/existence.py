@@ -62,6 +62,8 @@ def existing(clause: Clause) -> list[Found]:
             return [(Not(state) if sem.negative else state, 0.1)]
     if thing is None:
         return [(Exists(Described(definite=False), clause.time, tense_of(clause)), 0.8)]
+    if isinstance(sem, Measure) and sem.of.attribute == "weather":  # "suppose there was ice"
+        return [(Has("weather", "bad", time=clause.time, tense=tense_of(clause)), 0.0)]
     if isinstance(sem, Measure) and sem.of.attribute in ("gap", "distance"):
         return [(roomy(clause, clause.time), 0.0)]
     if isinstance(thing, Feature) and thing.kind == "space":

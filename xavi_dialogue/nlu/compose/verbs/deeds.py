@@ -23,6 +23,7 @@ from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_speed, as_thing
 from xavi_dialogue.nlu.compose.verbs.events import when
+from xavi_dialogue.nlu.compose.verbs.taking import is_gap
 from xavi_dialogue.nlu.compose.verbs.trends import trend
 
 
@@ -55,6 +56,23 @@ def deed_named(special: Special) -> Proposition:
     if sem is None and special.content is not None:
         return special.content  # "why do you make brake"
     return Happens(event_of(special, "do", as_thing(sem)))
+
+
+def broken(special: Special) -> Proposition:
+    """Read "we broke down" and "a tyre bursts", which is of whose it is."""
+    part = special.clause.subject
+    whose = part.of.thing if isinstance(part, Measure) else special.subject
+    event = part if isinstance(part, Event) else None
+    thing = whose if event is None else None
+    return Is("faulty", thing, event, time=time_of(special), tense=tense_of(special))
+
+
+def measured(special: Special) -> Proposition:
+    """Read "take the gap" as going; what else is done to a measure is unknown."""
+    if is_gap(special.object) and cast(Any, special.clause.verb).key != "measure":
+        return Happens(event_of(special, "go", None))
+    verb = cast(Any, special.clause.verb).key
+    return Happens(event_of(special, "do", as_thing(special.object) or Unknown(verb)))
 
 
 _HALTS = frozenset({"wait", "stop", "stand", "give-way"})

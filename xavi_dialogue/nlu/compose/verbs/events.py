@@ -25,10 +25,11 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import ActionName, Manner
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.followers import relation_of
-from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, Sem, SideOf, as_thing
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.clauses.senses import LEFT_OTHER, Match
 from xavi_dialogue.nlu.compose.clauses.times import place_time
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
+from xavi_dialogue.nlu.compose.verbs.taking import meant
 
 _SIDED: dict[tuple[str, str], str] = {
     ("turn", "left"): "exit-left",
@@ -40,6 +41,7 @@ _SIDED: dict[tuple[str, str], str] = {
 _PLACED = {"in": "on", "on": "on", "at": "near", "into": "on", "between": "between", "with": "with",
            "like": "same-as"}  # fmt: skip
 _LIGHTS = frozenset({"indicator", "brake-lights"})
+_GETTING = frozenset({"get", "jump", "hop", "climb", "leap", "step"})
 _WALKING = frozenset({"walk", "step", "stroll"})
 
 
@@ -77,7 +79,7 @@ def _named(action: str, thing: Thing | None, clause: Clause) -> str:
     if action in ("collide", "head") and struck and clause.focus & _ALMOST:
         action = "nearly-collide"
     out = thing is None and isinstance(clause.subject, Passenger) and clause.verb is not None
-    if out and clause.verb.key == "get" and action in ("pull-out", "leave"):  # type: ignore[union-attr]
+    if out and clause.verb.key in _GETTING and action in ("pull-out", "leave"):  # type: ignore[union-attr]
         action = "arrive"  # "when can I get out?"
     if action == "stop" and clause.focus & _ALMOST:
         action = "slow-down"
@@ -109,7 +111,7 @@ def event_of(clause: Clause, match: Match) -> Event:
     action = _SIDED.get((action, side or ""), action)
     if action in ("exit-left", "exit-right", "exit-straight", "change-left", "change-right"):
         side = None
-    action, side, thing = _meant(action, side, thing, match)
+    action, side, thing = meant(action, side, thing, match)
     thing = thing or _kept_from(action, match)
     action = _paced(action, clause, match.object)
     action = _shown(action, clause, match)
@@ -144,21 +146,6 @@ def event_of(clause: Clause, match: Match) -> Event:
         tuple(dict.fromkeys(manner)), time, cast(Any, clause.tense),
         cast(Any, modal), None, place,
     )  # fmt: skip
-
-
-def _meant(
-    action: str, side: str | None, thing: Thing | None, match: Match
-) -> tuple[str, str | None, Thing | None]:
-    """Put the deed that is meant in the place of one that its object makes another."""
-    if action == "take-turn":
-        return _taken(match.object, side)
-    if action == "take-exit":
-        return "leave", side, thing
-    if action == "let-go" and isinstance(thing, Feature):
-        whom = match.phrases.get("for")
-        action = "give-way" if whom is None else "let-go"
-        thing = as_thing(whom or match.phrases.get("into"))
-    return action, side, thing
 
 
 def _whose_way(actor: Thing, thing: Thing | None) -> tuple[Thing, Thing | None]:
@@ -290,17 +277,6 @@ def _lane_move(
     if action == "exit-left":
         return "turn", thing, side
     return "change-lane", thing, side
-
-
-def _taken(sem: Sem | None, side: str | None) -> tuple[str, str | None, Thing | None]:
-    """Read what is taken: "take the left turn", "take the second junction"."""
-    if isinstance(sem, Event):
-        return sem.action, sem.side, sem.object
-    if isinstance(sem, SideOf):
-        return f"exit-{sem.side}", None, None
-    if isinstance(sem, Junction) and side in ("left", "right"):
-        return f"exit-{side}", None, sem
-    return "turn", side, as_thing(sem)
 
 
 def when(clause: Clause, match: Match | None) -> Any:

@@ -66,6 +66,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     questioned,
     spoken_of,
 )
+from xavi_dialogue.nlu.grounding.completion.supposing import of_named
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
 from xavi_dialogue.nlu.grounding.events.timing import believed_last, changed, foreseen, over
 from xavi_dialogue.nlu.grounding.events.windows import pointed
@@ -102,7 +103,7 @@ def _during(event: Event | None, g: Grounder) -> Window:
 
 
 def _what_if(spoken: WhatIf, g: Grounder) -> WhatIf:
-    supposed = g.proposition(spoken.supposed, "supposed")
+    supposed = g.proposition(of_named(spoken).supposed, "supposed")
     then = None if spoken.then is None else _supposed_question(spoken.then, g)
     focus = focus_of(supposed, g.context)
     if g.notes.span is None and focus is not None:

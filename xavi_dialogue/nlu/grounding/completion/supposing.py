@@ -94,6 +94,27 @@ def through(place: Thing, of: Proposition | None) -> Proposition:
     return Happens(Event("leave" if isinstance(place, Exit) else "enter", object=place))
 
 
+def of_named(spoken: WhatIf) -> WhatIf:
+    """Take "it" for the vehicle of the main clause: "would we have hit the van if it went on?"."""
+    event, named = first(spoken.supposed, Event), _named_in(spoken.then)
+    if event is None or named is None or not isinstance(event.actor, Pronoun):
+        return spoken
+    if event.actor.form not in ("it", "he", "she"):
+        return spoken
+    whole = replace(event, actor=named)
+    of = rewrite(spoken.supposed, lambda part: whole if part == event else part)
+    return replace(spoken, supposed=of)
+
+
+def _named_in(then: Question | None) -> Described | None:
+    """Find the vehicle that is described in the question what would follow."""
+    event = first(then.that, Event) if isinstance(then, Whether) else None
+    things = () if event is None else (event.actor, event.object)
+    if any(isinstance(thing, Pronoun) for thing in things):
+        return None
+    return next((t for t in things if isinstance(t, Described) and t.definite), None)
+
+
 def subordinate(spoken: Question, g: Grounder) -> Question:
     """Ask "would we have hit it?" of what was supposed in the question before.
 
