@@ -149,7 +149,7 @@ class GoReason(Value, frozen=True):
 #: whether we could do it, when we would arrive, whether it is better, safer, slower and so on.
 Asking: TypeAlias = Literal[
     "what-if", "crash", "chance", "could", "arrival", "quicker", "better", "safe", "safer",
-    "slower", "worse", "riskier", "dangerous", "likely",
+    "slower", "worse", "riskier", "dangerous", "likely", "forces",
 ]  # fmt: skip
 
 
@@ -273,6 +273,7 @@ class Reaction(Value, frozen=True):
     needed: float | None = None  # [m] our stopping distance
     room: float | None = None  # [m] to it, or to where it gets in our way
     left: float | None = None  # [m] that would be left behind a leader that brakes as hard
+    closing: float | None = None  # [m/s] by which one behind us is faster
     past: bool = False
     negated: bool = False  # it is supposed not to do that
     asked: Literal["stop", "collide"] | None = None  # of yes or no questions: do we stop, collide?

@@ -51,6 +51,7 @@ def can(action: Any, modal: Any = "could", **more: Any) -> Whether:
         (Whether(Not(can("swerve").that)), "stop"),
         (can("turn"), None),
         (can("stop", "would"), None),
+        (can("stop", "would", manner=("early",)), "stop"),
         (can("stop", actor=ONE), None),
         (Whether(Exists(Feature("space"))), "stop"),
         (Whether(Exists(Feature("queue"))), None),
@@ -113,7 +114,9 @@ def react(
 ) -> Any:
     """The reaction at 15 s, with what is found at each time and whether in its lane."""
 
-    def stopping(states: Any, vehicle: int, time: float, *, in_lane: bool) -> Any:
+    def stopping(
+        states: Any, vehicle: int, time: float, *, in_lane: bool, halts: bool = False
+    ) -> Any:
         assert vehicle == 1
         return found(time, in_lane) if callable(found) else found
 
@@ -145,6 +148,23 @@ def test_what_is_done_in_a_lane_is_tried_in_it(monkeypatch: pytest.MonkeyPatch) 
         assert react(Event(action, ONE), monkeypatch, kind).kind == "room"  # type: ignore[arg-type]
     assert react(Event("stop", ONE), monkeypatch, kind, negated=True).kind == "room"
     assert react(None, monkeypatch, kind).kind == "room"
+
+
+def test_who_stops_right_in_front_of_us_is_in_our_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    def kind(time: float, lane: bool) -> Stopping:
+        return changed(ROOM, kind="apart" if lane else "short")
+
+    before_us = Event("stop", ONE, where=Related("ahead-of", ONE, Ego()))
+    assert react(before_us, monkeypatch, kind).kind == "short"
+    behind = Event("stop", ONE, where=Related("behind", ONE, Ego()))
+    assert react(behind, monkeypatch, kind).kind == "apart"
+
+
+def test_one_behind_us_that_does_not_brake_comes_closer(monkeypatch: pytest.MonkeyPatch) -> None:
+    behind = Stopping("behind", 10.0, room=30.0, closing=3.0)
+    found = react(Event("brake", ONE), monkeypatch, behind, negated=True)
+    assert (found.kind, found.room, found.closing) == ("behind", 30.0, 3.0)
+    assert react(Event("brake", ONE), monkeypatch, behind).closing is None
 
 
 def test_who_gets_under_way_ahead_of_us_joins_us(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -230,6 +250,7 @@ def test_where_it_never_was_ahead_it_is_told_of_now(monkeypatch: pytest.MonkeyPa
         (Event("appear", Described("pedestrian")), True),
         (Event("stop", Described("pedestrian")), True),
         (Event("turn", Nobody()), False),
+        (Event("come", Nobody()), True),
         (Event("cross", ONE), False),
         (None, False),
     ],

@@ -119,6 +119,31 @@ def test_what_another_would_do_no_plan_tells(setting: Setting) -> None:
         assert refused(what_if, GONE, theirs) == CannotSay("unsupported-condition")
 
 
+def test_what_going_first_makes_another_do_is_told_by_who_is_first(setting: Setting) -> None:
+    first = did("go", Ego(), manner=("first",), tense="perfect")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(supposing, "forced", lambda *args, negated: (*args[:2], negated))
+        then = Whether(did("brake", ONE, modal="would"))
+        assert what_if(first, then) == (first.event, then, False)
+
+
+def test_one_that_breaks_down_stops_and_no_plan_has_a_fault_of_ours(setting: Setting) -> None:
+    assert what_if(Is("faulty", ONE)).supposed == Event("stop", ONE, tense="present")
+    for ours in (Is("faulty", Ego()), Is("faulty", event=Event("brake"))):
+        assert refused(what_if, ours) == CannotSay("unsupported-condition")
+
+
+def test_no_plan_brakes_sooner_or_later_or_lets_anybody_out(setting: Setting) -> None:
+    for of in (
+        did("arrive", Ego()),
+        did("brake", Ego(), manner=("late",)),
+        did("slow-down", Ego(), manner=("early",)),
+    ):
+        assert refused(what_if, of) == CannotSay("unsupported-condition")
+    assert what_if(did("brake", Ego(), manner=("hard",))).by == "of_us"
+    assert what_if(did("exit-right", Ego(), manner=("late",))).by == "of_us"
+
+
 def test_being_wrong_about_somebody_is_its_not_doing_what_is_expected(setting: Setting) -> None:
     belief = expects(1, (("continue", "exit-left"), 0.8), (("exit-right",), 0.2))
     found = what_if(Is("wrong", ONE), beliefs={1: belief})

@@ -68,7 +68,8 @@ def test_behind_a_slower_leader_less_is_left() -> None:
 )
 def test_who_is_behind_or_keeps_to_another_lane_is_not_in_our_way(other: Path_, kind: str) -> None:
     stop = found(other)
-    assert stop == Stopping(kind, 10.0)  # type: ignore[arg-type]
+    assert stop is not None
+    assert (stop.kind, stop.speed, stop.needed, stop.left) == (kind, 10.0, None, None)
 
 
 def test_who_is_beside_us_moves_into_our_side() -> None:
@@ -137,3 +138,23 @@ def test_a_long_one_from_the_side_has_its_front_to_us() -> None:
     stop = stopping(States(ride), 1, 2.0, in_lane=True)
     assert stop is not None
     assert stop.kind == "first"
+
+
+def test_one_behind_us_in_our_lane_has_its_distance_and_how_much_faster_it_is() -> None:
+    behind = found(straight(-20.0 - LONG - 4.0, 0.0, 12.0))
+    assert behind is not None
+    assert behind.kind == "behind"
+    assert behind.room == pytest.approx(20.0, abs=0.02)
+    assert behind.closing == pytest.approx(2.0)
+    aside = found(straight(-20.0 - LONG - 4.0, 4.0, 12.0))
+    assert aside is not None
+    assert (aside.kind, aside.closing) == ("behind", None)
+
+
+def test_one_beside_our_lane_that_stops_in_our_way_does_not_drive_on() -> None:
+    ride = made({0: Actor(straight(0.0, 0.0, 10.0)), 1: Actor(straight(28.0, 4.0, 5.0))}, 4.0)
+    joins = stopping(States(ride), 1, 2.0, in_lane=False)
+    lies = stopping(States(ride), 1, 2.0, in_lane=False, halts=True)
+    assert joins is not None
+    assert lies is not None
+    assert (joins.kind, lies.kind) == ("joins", "short")

@@ -1,7 +1,7 @@
 """Own suppositions: what would have happened if we had acted otherwise."""
 
 from dataclasses import replace
-from typing import TypeGuard
+from typing import TypeGuard, cast
 
 from msgspec import structs
 
@@ -80,8 +80,10 @@ def form_of(then: Question | None) -> Asking:
     if is_sooner(then):
         return "quicker"
     match then:
-        case Compare(by="safety"):
-            return "safer"
+        case Compare(by="safety", least=least):
+            return "riskier" if least else "safer"
+        case Whether(that=Is(state="dangerous" | "safe" as state, thing=Ego(), event=None)):
+            return cast(Asking, state)
         case Compare(by="time" | "speed"):
             return "quicker"
         case Whether(
@@ -163,10 +165,8 @@ def with_chance(found: Answer, vehicle: int | None, scene: Asked) -> Answer:
     trace, foil = scene.ride.at(found.contrast.decided), found.contrast.foil
     if trace is None or not foil or found.done is not None:
         return found
-    _, there = scene.ride.evidence(trace, foil)
-    return structs.replace(
-        found, struck=vehicle, struck_risk=chances(there).collision_with(vehicle)
-    )
+    risk = chances(scene.ride.evidence(trace, foil)[1]).collision_with(vehicle)
+    return structs.replace(found, struck=vehicle, struck_risk=risk)
 
 
 def stays_ahead(event: Event | None) -> TypeGuard[Event]:

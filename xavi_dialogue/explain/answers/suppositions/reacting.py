@@ -32,6 +32,7 @@ DUTIES = frozenset[ActionName](("wait", "give-way", "let-go", "stop", "brake", "
 IN_LANE = frozenset[ActionName](("stop", "brake", "slow-down", "stand", "go", "move", "speed-up"))
 #: Actions that are sudden if the vehicle stands or was about to stop.
 STARTING = frozenset[ActionName](("go", "move", "enter", "cross"))
+LYING = frozenset[ActionName](("stop", "stand", "brake"))  # actions that end in our way
 HALTING = frozenset[ActionName](("stop", "brake", "slow-down", "avoid", "swerve"))
 COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
 WAITS: tuple[ActionName, ...] = ("give-way", "wait")
@@ -69,9 +70,14 @@ def asks(then: Question | None) -> Asks | None:
     event = event_of(of)
     if event is not None and event.action in COLLIDING:
         return "collide"
-    if event is not None and is_own(event.actor) and event.modal in ("can", "could"):
+    if event is not None and is_own(event.actor) and _is_able(event):
         return "stop" if event.action in HALTING else None
     return "stop" if _is_room(of) else None
+
+
+def _is_able(event: Event) -> bool:
+    """Check whether a question is if we can do it: "could we stop", "would we stop in time"."""
+    return event.modal in ("can", "could") or (event.modal == "would" and "early" in event.manner)
 
 
 def _is_room(of: Proposition | None) -> bool:
@@ -101,7 +107,8 @@ def reaction(
         Unanswered: it is not known where it was.
     """
     action = None if event is None or negated else event.action
-    in_lane = action in IN_LANE
+    before_us = event is not None and _is_before_us(event)
+    in_lane = action in IN_LANE and not before_us
     waited = _waited(scene, vehicle) if negated and event is not None else None
     if past and waited is not None:
         time = waited
@@ -111,7 +118,7 @@ def reaction(
             in_lane = False
             ahead = _closest(scene, vehicle, scene.now, in_lane=False)
         time = scene.now if ahead is None else ahead
-    found = stopping(scene.world.states, vehicle, time, in_lane=in_lane)
+    found = stopping(scene.world.states, vehicle, time, in_lane=in_lane, halts=action in LYING)
     if found is None:
         raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=time))
     along = in_lane and action in STARTING and found.left is not None  # it sets off ahead of us
@@ -127,10 +134,17 @@ def reaction(
         needed=found.needed,
         room=found.room,
         left=found.left,
+        closing=found.closing if negated else None,
         past=past,
         negated=negated,
         asked=asks(then),
     )
+
+
+def _is_before_us(event: Event) -> bool:
+    """Check whether somebody is supposed to do something right in our way: "in front of us"."""
+    place = event.where
+    return place is not None and place.relation == "ahead-of" and place.to == Ego()
 
 
 def _waited(scene: Asked, vehicle: int) -> float | None:
@@ -162,7 +176,14 @@ def is_somebody(event: Event | None) -> bool:
     """Check whether somebody who is not there is supposed to get in our way: a child, a dog."""
     if event is None or not isinstance(event.actor, Nobody | Described):
         return False
-    return event.action in SUDDEN or event.action in ("move", "go", "enter", "cross", "appear")
+    return event.action in SUDDEN or event.action in (
+        "move",
+        "go",
+        "enter",
+        "cross",
+        "appear",
+        "come",
+    )
 
 
 def for_anybody(event: Event, scene: Asked) -> Reaction:

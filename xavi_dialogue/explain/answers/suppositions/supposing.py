@@ -2,7 +2,13 @@
 
 from msgspec import structs
 
-from xavi_dialogue.domain.answers import Answer, CannotSay, Measures, SupposedOfOther, TooLittle
+from xavi_dialogue.domain.answers import (
+    Answer,
+    CannotSay,
+    Measures,
+    SupposedOfOther,
+    TooLittle,
+)
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import Question, WhatIf, Whether, Why
 from xavi_dialogue.domain.terms import (
@@ -31,6 +37,8 @@ from xavi_dialogue.explain.answers.reference.reading import (
     unwrapped,
 )
 from xavi_dialogue.explain.answers.suppositions import reacting
+from xavi_dialogue.explain.answers.suppositions.anybody import of_anybody
+from xavi_dialogue.explain.answers.suppositions.forcing import forced
 from xavi_dialogue.explain.answers.suppositions.freed import asks_pace, freed
 from xavi_dialogue.explain.answers.suppositions.hastening import hastened
 from xavi_dialogue.explain.answers.suppositions.jointly import Joint, is_absence, joint
@@ -71,6 +79,7 @@ from xavi_dialogue.explain.causes.driving.suppositions import (
 from xavi_dialogue.explain.causes.vehicles.actions import DRIVING, names_of, same
 from xavi_dialogue.explain.causes.vehicles.conduct import conduct_names
 
+PACED = frozenset[ActionName](("brake", "slow-down", "stop"))
 LIKELY = 0.5  # minimum probability of an action that the ego is said to take
 
 
@@ -92,8 +101,10 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     if _is_free_road(of, negated=negated):
         free = Event("wait", tense="past", modal="would")
         return hastened(free, scene, "arrival" if form == "what-if" else form)
-    if (event := event_of(of)) is not None and reacting.is_somebody(event) and not negated:
-        return reacting.for_anybody(event, scene)
+    somebody = of_anybody(of, scene, negated=negated)
+    if somebody is not None and not isinstance(somebody, Happens):
+        return somebody
+    of = somebody or of
     of, negated = _mistaken(scene, of, negated=negated)
     event, vehicle = event_of(of), _whom(scene, of)
     if stays_ahead(event) and not negated:
@@ -101,13 +112,15 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     if _asks_of_other(question.then):
         if negated and (found := freed(question.then, vehicle, scene)) is not None:
             return found
+        if (made := forced(event, question.then, scene, negated=negated)) is not None:
+            return made
         raise Unanswered(CannotSay("unsupported-condition"))
     if vehicle is not None:
         return _of_other(question, scene, of, vehicle, negated=negated)
     event = event or _faster(paced(of), question.then)
     if event is not None and event.object is not None and "fast" in event.manner:
         form = "could"
-    if event is None or not is_own(event.actor):
+    if event is None or not is_own(event.actor) or _is_beyond(event):
         raise Unanswered(CannotSay("unsupported-condition"))
     struck = struck_in(question.then)
     if negated:
@@ -118,10 +131,23 @@ def what_if(question: WhatIf, scene: Asked) -> Answer:
     return claimed(found, asked)
 
 
+def _is_beyond(event: Event) -> bool:
+    """Check whether no plan has it: to be there, or get out, here; to brake sooner or later."""
+    paced_else = event.action in PACED and manner_of(event, "early", "late") is not None
+    return event.action == "arrive" or paced_else
+
+
 def _mistaken(
     scene: Asked, of: Proposition | None, *, negated: bool
 ) -> tuple[Proposition | None, bool]:
-    """Read "if you were wrong about it" as that it does not do what is expected of it."""
+    """Read "if you were wrong about it" as that it does not do what is expected of it.
+
+    One that breaks down stops; no plan shows what comes of a fault of our own.
+    """
+    if isinstance(of, Is) and of.state == "faulty" and not negated:
+        if not isinstance(of.thing, Vehicle):
+            raise Unanswered(CannotSay("unsupported-condition"))
+        return Happens(Event("stop", of.thing, tense=of.tense)), negated
     if not isinstance(of, Is) or of.state != "wrong" or negated:
         return of, negated
     about = of.thing.number if isinstance(of.thing, Vehicle) else least_sure(scene, scene.moment)

@@ -26,6 +26,7 @@ class Stopping:
     needed: float | None = None  # [m] in which we come to a standstill
     room: float | None = None  # [m] to it, or to where it gets in our way
     left: float | None = None  # [m] that would be left behind a leader that brakes as hard
+    closing: float | None = None  # [m/s] by which one behind us that drives our way is faster
 
 
 def stopping_distance(speed: float) -> float:
@@ -33,7 +34,9 @@ def stopping_distance(speed: float) -> float:
     return speed * REACTION + speed * speed / (2.0 * EMERGENCY)
 
 
-def stopping(states: States, vehicle: int, time: float, *, in_lane: bool) -> Stopping | None:
+def stopping(
+    states: States, vehicle: int, time: float, *, in_lane: bool, halts: bool = False
+) -> Stopping | None:
     """Estimate whether we could stop in time; None if it is not known where both are.
 
     Args:
@@ -41,6 +44,7 @@ def stopping(states: States, vehicle: int, time: float, *, in_lane: bool) -> Sto
         vehicle: the one that does something suddenly.
         time: when [s].
         in_lane: whether it does so in its own lane: it stops, brakes, or drives on.
+        halts: whether it does not drive on: it stops, or falls over.
     """
     ours, other = states.state(EGO, time), states.state(vehicle, time)
     seen = states.offset(EGO, vehicle, time)
@@ -48,7 +52,9 @@ def stopping(states: States, vehicle: int, time: float, *, in_lane: bool) -> Sto
         return None
     speed = ours.speed
     if seen.ahead + seen.clear <= 0.0:
-        return Stopping("behind", speed)
+        lane = seen.same_way and abs(seen.left) <= SAME_LANE
+        closing = other.speed - speed if lane else None
+        return Stopping("behind", speed, room=-(seen.ahead + seen.clear), closing=closing)
     if speed < STANDING:
         return Stopping("standing", speed, room=max(seen.ahead - seen.clear, 0.0))
     line = following(states, EGO, vehicle, time)
@@ -59,7 +65,7 @@ def stopping(states: States, vehicle: int, time: float, *, in_lane: bool) -> Sto
         return Stopping("apart", speed)
     if abs(seen.ahead) <= seen.clear and seen.same_way:
         return Stopping("beside", speed)
-    if seen.same_way and other.speed > SLOWEST:
+    if seen.same_way and other.speed > SLOWEST and not halts:
         return _joining(seen, speed, other.speed)
     return _across(seen, ours, other)
 

@@ -1,6 +1,7 @@
 """Going: why we went when we did, and what if we had not slowed down."""
 
 from xavi_dialogue.domain.answers import CrossingVehicle, GoReason, MotionCause, Unslowed
+from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.clauses.clauses import doing
 from xavi_dialogue.nlg.content.clauses.manoeuvres import deed_clause
@@ -75,6 +76,9 @@ def _waiting(answer: GoReason, context: SpeechContext) -> Message | None:
     return Message("WAITING_COST", slots)
 
 
+_RISKY: dict[Asking, Asking] = {"dangerous": "crash", "riskier": "crash", "safer": "safe"}
+
+
 def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
     """Plan what can be said if we had not slowed down, or if we went now."""
     cause = answer.cause
@@ -85,7 +89,7 @@ def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
     ahead = None
     if answer.ours is not None and answer.theirs is not None:
         ahead = answer.theirs - answer.ours
-    form = "crash" if answer.form == "dangerous" else answer.form
+    form = _RISKY.get(answer.form, answer.form)
     slots: dict[str, object] = {
         "who": None if not vehicle else Who(Vehicle(vehicle), time),
         "kind": None if cause is None else cause.kind,
@@ -99,7 +103,7 @@ def plan_unslowed(answer: Unslowed, context: SpeechContext) -> Plan:
         "past": answer.past,
         "right": answer.right,
         "through": answer.through,
-        "form": "what-if" if answer.red and form == "crash" else form,
+        "form": "what-if" if answer.red and form in ("crash", "safe") else form,
     }
     timed = answer.form in ("arrival", "quicker")
     if timed and answer.saved is not None and answer.arrival is not None:

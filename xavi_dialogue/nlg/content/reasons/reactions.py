@@ -10,6 +10,7 @@ from xavi_dialogue.nlg.surface.message import message
 from xavi_dialogue.nlg.surface.values import Clause, Quantity, Tense, Who
 
 LEAST = 1.0  # [m] minimum distance that is named
+SLIGHT = 0.5  # [m/s] maximum difference of speeds that is none
 
 
 def plan_reaction(answer: Reaction, context: SpeechContext) -> Plan:
@@ -22,6 +23,9 @@ def plan_reaction(answer: Reaction, context: SpeechContext) -> Plan:
     if answer.vehicle is not None:
         placed = answer.kind not in ("behind", "beside")
         who = Who(Vehicle(answer.vehicle), answer.time if answer.past else None, placed=placed)
+    closing = None
+    if answer.closing is not None and answer.closing > SLIGHT:
+        closing = Quantity(answer.closing, "m/s")
     told = message(
         "REACTION",
         kind=answer.kind,
@@ -33,6 +37,8 @@ def plan_reaction(answer: Reaction, context: SpeechContext) -> Plan:
         room=_metres(answer.room),
         near=answer.room is not None and answer.room < LEAST,
         follows=answer.left is not None,
+        closing=closing,
+        stays=answer.closing is not None and closing is None,
         left=_metres(None if answer.left is None else abs(answer.left)),
         past=answer.past,
         simple=context.detail == "simpler",
