@@ -90,3 +90,19 @@ def test_because_of_anybody_asks_for_the_reason_of_what_was_spoken_of(text: str)
     talk = Talk("town-0", 22.0)
     told = talk.hear("Why did you slow down?")
     assert told.split(":")[0].split(" (")[0] in talk.hear(text)
+
+
+def test_a_light_passed_at_green_was_not_run() -> None:
+    for text in ("did we run that light?", "did you run a red?", "have we gone through any reds?"):
+        assert Talk("junction-0", 45.0).hear(text).startswith("No, the light was green"), text
+
+
+def test_the_closest_decision_is_that_with_the_nearest_rival() -> None:
+    told = Talk("s1-0", 10.0).hear("Which decision was the closest?")
+    assert told.startswith("My closest decision was at 0:")
+    assert "the next best option was" in told
+
+
+def test_the_highest_risk_is_that_of_all_decisions() -> None:
+    told = Talk("s1-0", 10.0).hear("What was your highest risk?")
+    assert told.startswith("The highest risk of a collision that I planned with was")

@@ -254,6 +254,7 @@ CASES: tuple[Answer, ...] = (
     DidNotHappen(Event("turn", side="left", tense="present"), (Episode(E, "exit-right", 18.0),)),
     Options(OPTIONS[:2], 2.0, Evidence(), rival="better"),
     Options(OPTIONS[:2], 2.0, Evidence(), rival="close"),
+    Options(OPTIONS[:2], 2.0, Evidence(), rival="close", closest=True),
     Options(OPTIONS[:2], 2.0, Evidence(), rival="better", named=True),
     Options((OPTIONS[0], OPTIONS[2]), 2.0, Evidence(), rival="better"),
     Options((OPTIONS[0], *DEAD), 2.0, Evidence(), rival="better"),

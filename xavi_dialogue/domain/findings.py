@@ -172,6 +172,7 @@ class Options(Value, frozen=True):
     earlier: bool = False  # of a decision before the latest one
     rival: Weighing | None = None  # only the next best; how the chosen one compares with it
     named: bool = False  # the rival is the one asked about instead of the next best
+    closest: bool = False  # of all decisions, it is the one with the rival nearest in value
 
 
 class Compared(Value, frozen=True):

@@ -132,7 +132,7 @@ class Peak(Value, frozen=True):
     """The question when something was greatest: "the hardest moment", "the closest call"."""
 
     of: Literal["danger", "difficulty", "closeness", "braking", "slowing", "slowness", "speed",
-                "waiting", "delay"]  # fmt: skip
+                "waiting", "delay", "risk", "choice"]  # fmt: skip
     time: Time = Unsaid()
     number: int = 1  # how many of them: "the three times we slowed down the most"
 

@@ -19,6 +19,7 @@ from xavi_dialogue.domain.meaning import (
     HowKnow,
     HowSure,
     Listing,
+    Peak,
     Question,
     WhatIf,
     WhatWouldChange,
@@ -62,7 +63,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
 )
 from xavi_dialogue.explain.answers.ride.delays import held_up, let_past
 from xavi_dialogue.explain.answers.suppositions import deciding, possible, risks
-from xavi_dialogue.explain.answers.suppositions.listing import how_decide, listed
+from xavi_dialogue.explain.answers.suppositions.listing import closest_choice, how_decide, listed
 from xavi_dialogue.explain.answers.suppositions.undone import is_undone
 from xavi_dialogue.explain.facts.looks import STILL
 
@@ -131,6 +132,8 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
             return _who_caused
         case Compare(options) if options and all(_is_option(option) for option in options):
             return deciding.compared
+        case Peak("choice"):
+            return closest_choice
         case Listing(of) if of in LISTED:
             return listed
         case Listing(of) if of in REASONS:

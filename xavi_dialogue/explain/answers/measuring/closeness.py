@@ -43,9 +43,9 @@ def closeness(
     seen = near if past else Window(asked.now, asked.now)  # the present tense means now
     fading = 0.0 if seen.said else FADING
     now = asked.now
-    risk, planned = (
-        _risk(asked, about, vehicle) if past else (collision_chance(asked, now, vehicle), now)
-    )
+    risk, planned = (collision_chance(asked, now, vehicle), now)
+    if past:
+        risk, planned = highest_risk(asked, about, vehicle)
     if not past and vehicle is None and how in ("safe", "dangerous") and risk is not None:
         first = _let_first(asked)  # the nearest vehicle may not matter
         walker = None if first else _on_foot(asked)
@@ -84,7 +84,9 @@ def _nearer(asked: Asked, then: Measure, who: int, vehicle: int | None) -> Measu
     return ever if then.value is not None and least < then.value - NEARER else None
 
 
-def _risk(asked: Asked, about: Window, vehicle: int | None) -> tuple[float | None, float]:
+def highest_risk(
+    asked: Asked, about: Window, vehicle: int | None = None
+) -> tuple[float | None, float]:
     """Return the highest risk of a collision for the decisions in a stretch, and its time [s]."""
     inside = [t.sim_time for t in asked.ride.traces if about.begin < t.sim_time <= about.end]
     found = ((collision_chance(asked, at, vehicle), at) for at in (about.begin, *inside))

@@ -9,6 +9,7 @@ from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.measuring.closeness import (
     closest_approach,
+    highest_risk,
     nearest_vehicle,
     shortest_time,
 )
@@ -109,6 +110,14 @@ def _dangerous(of: str, asked: Asked, about: Window) -> PeakMoment:
         if least <= SHORTEST:
             return _at(asked, of, found, vehicle)
     return _minding(of, asked, about) or _closest(of, asked, about)
+
+
+def _riskiest(of: str, asked: Asked, about: Window) -> PeakMoment:
+    """Return the decision with the highest chance of a collision of its plan."""
+    risk, at = highest_risk(asked, about)
+    if risk is None:
+        return PeakMoment(of)
+    return _at(asked, of, Measure("probability", Ego(), at, value=risk))
 
 
 def _slowest(of: str, asked: Asked, about: Window) -> PeakMoment:
@@ -217,4 +226,5 @@ FINDERS: Mapping[str, Callable[[str, Asked, Window], PeakMoment]] = {
     "slowing": _slowing,
     "delay": _losing,
     "difficulty": _hardest,
+    "risk": _riskiest,
 }

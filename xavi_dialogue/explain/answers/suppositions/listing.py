@@ -4,14 +4,15 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Course, Method, Options, Weighing
+from xavi_dialogue.domain.answers import Course, Method, Options, PeakMoment, Weighing
 from xavi_dialogue.domain.facts import OptionValue
-from xavi_dialogue.domain.meaning import HowDecide, Listing
+from xavi_dialogue.domain.meaning import HowDecide, Listing, Peak
 from xavi_dialogue.domain.terms import At, Event, Feature
 from xavi_dialogue.explain.answers.expectations.foreseen import collision_chance
 from xavi_dialogue.explain.answers.reasons import choices
 from xavi_dialogue.explain.answers.reasons.against import against
 from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.moments import window
 from xavi_dialogue.explain.answers.reference.reading import (
     event_of,
     is_own,
@@ -23,6 +24,7 @@ from xavi_dialogue.explain.answers.ride.onward import way_chosen
 from xavi_dialogue.explain.causes.plans import options
 from xavi_dialogue.explain.causes.plans.premise import Premise, Subject, premise
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
+from xavi_dialogue.explain.history.ride import Unanswered
 
 
 def listed(question: Listing, scene: Asked) -> Options:
@@ -61,6 +63,38 @@ def margin(scene: Asked, events: Sequence[Event]) -> Options | None:
         return None
     found, foil = decided
     return replace(_told(scene, found, *options.with_rival(scene.ride, found, foil)), named=True)
+
+
+def closest_choice(question: Peak, scene: Asked) -> Options | PeakMoment:
+    """Return the decision whose best other option came closest to what was chosen."""
+    about = window(scene, question.time)
+    begin, end = (about.begin, about.end) if about.said else (scene.world.begin, scene.now)
+    compared = [
+        (found, *_rivalled(scene, found))
+        for trace in scene.ride.traces
+        if begin <= trace.sim_time <= end
+        and trace.under_way is None
+        and len(scene.ride.model(trace).options()) > 1
+        for found in (Premise(trace, None),)
+    ]
+    apart = [
+        (abs(first.value - second.value), found.trace.sim_time, found, rows, verdict)
+        for found, rows, verdict in compared
+        if verdict != "alone"
+        for first, second in (rows,)
+        if first.value is not None and second.value is not None
+    ]
+    if not apart:
+        return PeakMoment(question.of)
+    *_, found, rows, verdict = min(apart, key=lambda one: one[:2])
+    return replace(_told(scene, found, rows, verdict), closest=True)
+
+
+def _rivalled(scene: Asked, found: Premise) -> tuple[tuple[OptionValue, ...], Weighing]:
+    try:
+        return options.with_rival(scene.ride, found)
+    except Unanswered:
+        return (), "alone"
 
 
 def how_decide(question: HowDecide, scene: Asked) -> Method | Course:

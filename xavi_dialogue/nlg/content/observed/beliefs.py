@@ -183,9 +183,11 @@ def _rival(
         apart = abs(chosen.value - rival.value)
     fatal = rival.outcome in ("dead", "collision")
     verb = own_verbs((rival.action,), (chosen.action,))
+    far = answer.closest or context.now - answer.decided > PRESENT
     first = message(
         "RIVAL",
-        when=Moment(answer.decided) if context.now - answer.decided > PRESENT else None,
+        when=Moment(answer.decided) if far else None,
+        closest=answer.closest,
         verb=verb,
         chosen=own_verbs((chosen.action,), (rival.action,)),
         verdict=answer.rival,

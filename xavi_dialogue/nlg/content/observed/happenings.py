@@ -95,7 +95,7 @@ def _summary(answer: Happenings, context: SpeechContext) -> Plan:
         most = IN_SENTENCE
     told = _weightiest(answer.episodes, most)
     first = _ride(answer.measures)
-    rows = _rows(sorted(told, key=lambda e: _tense(e, context) == "present"), context)
+    rows = _rows(sorted(told, key=lambda e: _order(e, context)), context)
     before = [None, *(row[-1] for row in rows)]
     sentences = [_row(row, last, context) for row, last in zip(rows, before, strict=False)]
     others = tuple(
@@ -104,6 +104,12 @@ def _summary(answer: Happenings, context: SpeechContext) -> Plan:
         if m.attribute not in ("time", "duration", "distance-driven")
     )
     return Plan((*first, *sentences), others[:1], others[1:])
+
+
+def _order(episode: Episode, context: SpeechContext) -> tuple[bool, bool]:
+    """Return the order of an episode in a summary: what is going on last, our own first in it."""
+    present = _tense(episode, context) == "present"
+    return present, present and not isinstance(episode.actor, Ego)
 
 
 def _weightiest(episodes: tuple[Episode, ...], most: int) -> list[Episode]:
@@ -148,14 +154,16 @@ def _row(row: list[Episode], last: Episode | None, context: SpeechContext) -> Me
     first, *others = (_together(group) for group in groups)
     often = [times(len(group)) if len(group) > 1 else None for group in groups]
     lead = episode_message(first, context, lead=True, tense=_tense(first, context))
-    soon = last is not None and first.begin - last.begin < SOON
-    parts = [Message("EPISODE_LEAD", {**lead.slots, "soon": soon, "often": often[0]})]
+    now = _tense(first, context) == "present"
+    soon = last is not None and not now and first.begin - last.begin < SOON
+    said = last is not None and _tense(last, context) == "present"
+    slots = {**lead.slots, "soon": soon, "often": often[0], "now": lead.slots["now"] and not said}
+    parts = [Message("EPISODE_LEAD", slots)]
     for episode, count in zip(others, often[1:], strict=True):
         told = episode_message(episode, context, when=False, tense=_tense(episode, context))
         told = Message(told.rule, {**told.slots, "often": count})
         rule = "EPISODE_WHILE" if _tense(first, context) == "present" else "EPISODE_NEXT"
         parts.append(Message(rule, told.slots))
-    now = _tense(first, context) == "present"
     return message("ROW_NOW" if now else "ROW", parts=tuple(parts))
 
 

@@ -47,7 +47,9 @@ def plan_peak_moment(answer: PeakMoment, context: SpeechContext) -> Plan:
         "held": others or None,
         "long": measure is not None and measure.attribute == "duration" and (value or 0.0) >= LONG,
     }
-    if measure is not None and value is not None:
+    if measure is not None and value is not None and measure.attribute == "probability":
+        slots["chance"] = Chance(value)
+    elif measure is not None and value is not None:
         slots["value"] = Quantity(value, UNITS.get(measure.attribute, "m"))  # type: ignore[arg-type]
     return Plan((message("SUMMIT", **slots),))
 

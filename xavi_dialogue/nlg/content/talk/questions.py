@@ -206,7 +206,8 @@ _PEAKS: Mapping[str, str] = {
     "danger": "the most critical moment", "difficulty": "the hardest moment",
     "closeness": "the closest moment", "braking": "the hardest braking",
     "slowness": "the slowest moment", "speed": "the fastest moment",
-    "waiting": "the longest wait",
+    "waiting": "the longest wait", "slowing": "when we slowed down most",
+    "delay": "when we lost most time", "risk": "the highest risk", "choice": "the closest decision",
 }  # fmt: skip
 
 

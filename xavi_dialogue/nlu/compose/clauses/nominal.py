@@ -167,6 +167,9 @@ def _measure(sem: Measure, time: Time, tense: str) -> Question:
     if (risk := risk_asked(measured, cast(Any, tense))) is not None:
         return risk
     if measured.attribute == "probability":
+        struck = measured.event is not None and measured.event.action == "collide"
+        if struck and sem.extreme == "highest":
+            return Peak("risk", time)
         return HowSure(
             measured.about or (Happens(measured.event) if measured.event else None), time
         )

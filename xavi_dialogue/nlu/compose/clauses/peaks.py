@@ -16,7 +16,9 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.domain.vocabulary import Extreme
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.risks import is_danger
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.grammar.chart import Node
@@ -29,10 +31,19 @@ _QUALITIES = {
 }  # fmt: skip
 
 
-def quality_of(extreme: str | None, adjectives: list[str]) -> str:
-    """Name what is at its most at a moment; "" for nothing."""
+def quality_of(extreme: str | None, adjectives: list[str], words: tuple[str, ...] = ()) -> str:
+    """Name what is at its most at a moment, or in a decision, as the noun says; "" for nothing."""
     named = [name for name in (extreme, *adjectives) if name in _QUALITIES]
-    return _QUALITIES[named[0] or ""] if named else ""
+    return of_choice(_QUALITIES[named[0] or ""], words) if named else ""
+
+
+_CHOICES = frozenset({"decision", "choice", "call"})
+
+
+def of_choice(quality: str, words: tuple[str, ...]) -> str:
+    """Name what is at its most in a decision: the closest is that with a rival as good."""
+    close = quality in ("closeness", "difficulty") and words[-1:] and words[-1] in _CHOICES
+    return "choice" if close else quality
 
 
 def most_of(clause: Clause) -> str:
@@ -81,6 +92,12 @@ def done_most(event: Event, relative: Node | None) -> str:
 _DEEDS = {"brake": "slowing", "slow-down": "slowing", "stop": "waiting", "wait": "waiting",
           "stand": "waiting", "give-way": "waiting"}  # fmt: skip
 _HARD = frozenset({"highest", "difficult", "biggest"})
+_RISKIEST = frozenset({"highest", "biggest", "dangerous", "worst", "difficult"})
+
+
+def most_risk(extreme: str | None) -> Extreme | None:
+    """Read "the worst risk", "the biggest risk" as the highest one."""
+    return "highest" if extreme in _RISKIEST else None
 
 
 def deed_peak(action: str, extreme: str | None) -> str:
@@ -121,6 +138,8 @@ def peak_of(clause: Clause) -> Peak | None:
     subject = clause.subject
     if verb is None and isinstance(subject, Noun) and subject.key == "peak" and subject.quality:
         return Peak(cast(Any, subject.quality), clause.time, subject.number)
+    if verb is None and is_danger(subject) and most_of(clause) == "difficulty":
+        return Peak("risk", clause.time)  # "when was the risk highest?"
     if verb is not None and (most := _done_most(verb, clause)):
         return Peak(cast(Any, most), clause.time)
     words = clause.focus & {*_EXTREMES, "hardest"}

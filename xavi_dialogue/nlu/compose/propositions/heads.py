@@ -31,7 +31,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.nlu.compose.clauses.extents import SLOWING, extent_of
-from xavi_dialogue.nlu.compose.clauses.peaks import deed_peak, done_most, quality_of
+from xavi_dialogue.nlu.compose.clauses.peaks import deed_peak, done_most, most_risk, quality_of
 from xavi_dialogue.nlu.compose.clauses.risks import risk_of
 from xavi_dialogue.nlu.compose.clauses.sem import (
     Group,
@@ -254,7 +254,7 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
         whom = next((t for t in named if isinstance(t, _MET)), None)
         if event is None or (event.action == "collide" and event.object is None):
             event = Event("collide", object=whom)
-        return Measure(Measured("probability", event=event))
+        return Measure(Measured("probability", event=event), most_risk(traits.extreme))
     if key == "speed-difference":
         other = thing is not None and not isinstance(thing, Ego)
         key, to = "speed", to or (Ego() if other else Pronoun("it"))
@@ -279,7 +279,7 @@ def _deed(head: Leaf, traits: Traits) -> Sem:
     if most := deed_peak(head.key, traits.extreme):
         return _peaks(head, traits, most)
     if head.key == "do" and traits.extreme and quality_of(traits.extreme, traits.adjectives):
-        quality = quality_of(traits.extreme, traits.adjectives)
+        quality = quality_of(traits.extreme, traits.adjectives, head.words)
         return Noun("peak", word=head.words[-1], quality=quality)
     actor = as_thing(traits.owner) or as_thing(traits.of) or Ego()
     side = cast(Any, traits.side)

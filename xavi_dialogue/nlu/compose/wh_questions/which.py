@@ -42,7 +42,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.nominal import asked_of
-from xavi_dialogue.nlu.compose.clauses.peaks import most_of
+from xavi_dialogue.nlu.compose.clauses.peaks import most_of, of_choice
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, SideOf, as_thing
 from xavi_dialogue.nlu.compose.propositions.severally import MUTUAL
 from xavi_dialogue.nlu.compose.verbs.others import nearest, placed
@@ -85,8 +85,10 @@ class WhichOne:
                 return self._attribute(sem, clause, value, actor)
             case Noun(key="prediction") if any(key == "wrong" for key, _ in clause.adjectives):
                 return Listing("wrong-predictions", time=clause.time)
-            case Noun(key="event") | Event(action="do") if most := most_of(clause):
+            case Noun(key="decision") if most := of_choice(most_of(clause), ("decision",)):
                 return Peak(cast(Any, most), clause.time)
+            case Noun(key="event") | Event(action="do") if most := most_of(clause):
+                return Peak(cast(Any, of_choice(most, wh.words)), clause.time)
             case Noun():
                 return self._abstract(sem, clause, value)
             case Exit():
