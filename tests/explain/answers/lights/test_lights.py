@@ -35,12 +35,16 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.domain.traffic_lights import (
+    Crossed,
     LightForeseen,
     LightPassed,
     LightTold,
+    Shown,
     SupposedOfLight,
     TurnOnRed,
 )
+from xavi_dialogue.explain.answers.lights import lights_seen
+from xavi_dialogue.explain.history.traffic_lights import Passing, Signal
 
 LIGHT = Feature("light")
 RED = Feature("light", colour="red")
@@ -139,6 +143,20 @@ def test_running_a_red_light_is_owned_up_to():
     assert found.holds is True
     assert found.crossed.shown.colour == "red"
     assert found.crossed.time == pytest.approx(10.0, abs=0.15)
+
+
+def test_any_light_that_was_passed_at_red_was_run(monkeypatch):
+    signal = answer(Claim(RAN), 14.0, WILD).crossed.shown.light
+    done = [Passing(Signal("a", 0), time, 9.0, None) for time in (10.0, 30.0)]
+
+    def crossed(ride, one):
+        colour = "red" if one.time == 10.0 else "green"
+        return Crossed(one.time, one.speed, Shown(signal, colour, 5.0, True))
+
+    monkeypatch.setattr(lights_seen, "passings", lambda ride: done)
+    monkeypatch.setattr(lights_seen, "crossed", crossed)
+    found = answer(Ask(Whether(RAN)), 40.0)
+    assert (found.holds, found.crossed.time) == (True, 10.0)
 
 
 def test_who_has_passed_none_ran_none():

@@ -39,7 +39,7 @@ from xavi_dialogue.explain.facts.traffic_lights import (
     told,
 )
 from xavi_dialogue.explain.history.ride import ROUNDING
-from xavi_dialogue.explain.history.traffic_lights import passings, stretches
+from xavi_dialogue.explain.history.traffic_lights import Passing, passings, stretches
 
 
 def unseen(question: Whether, scene: Asked) -> Answer:
@@ -226,6 +226,12 @@ def why_passed(question: Why, scene: Asked) -> Answer:
     return LightPassed(found.crossed, found.claimed, found.holds, "why", found.ahead)
 
 
+def _showed(scene: Asked, passing: Passing, wanted: LightColour) -> bool:
+    """Check whether a light that we passed showed a colour then."""
+    shown = crossed(scene.ride, passing).shown
+    return shown is not None and alike(shown, wanted)
+
+
 def _passed(event: Event, scene: Asked, *, claim: bool) -> LightPassed:
     """Check what is said about our passing a light against how we passed it."""
     light = light_in(event.object, None if event.where is None else event.where.to)
@@ -234,6 +240,9 @@ def _passed(event: Event, scene: Asked, *, claim: bool) -> LightPassed:
     done = passings(scene.ride)
     inside = None if past is None else within(scene, past.begin, past.end)
     one = inside or (done[-1] if done else None)
+    if past is None and wanted is not None:  # any of the lights that we passed
+        such = (each for each in reversed(done) if _showed(scene, each, wanted))
+        one = next(such, one)
     asked: Any = "claim" if claim else "whether"
     if one is None:
         now = shown_at(scene.ride, Feature("light"), scene.now)

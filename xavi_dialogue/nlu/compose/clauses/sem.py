@@ -125,8 +125,10 @@ def types(sem: Sem) -> str:
             return "vantjlfrpxd" if form in _OPEN else "v"
         case Feature(kind=kind):
             return "fd" if kind in ("way", "light") else "fp" if kind == "queue" else "f"
-        case Described(colour=colour) if colour and sem == Described(colour=colour):
-            return "vc"
+        case Described(colour=colour, definite=definite) if colour and sem == Described(
+            colour=colour, definite=definite
+        ):
+            return "vc"  # "red", "a red"
         case Event(action=action):
             return "tb" if action == "brake" else "t"
         case Group(members=members):
