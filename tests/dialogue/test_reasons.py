@@ -106,3 +106,39 @@ def test_the_closest_decision_is_that_with_the_nearest_rival() -> None:
 def test_the_highest_risk_is_that_of_all_decisions() -> None:
     told = Talk("s1-0", 10.0).hear("What was your highest risk?")
     assert told.startswith("The highest risk of a collision that I planned with was")
+
+
+def test_hard_braking_is_looked_for_in_the_whole_ride() -> None:
+    assert Talk("s4-0", 30.0).hear("Did you brake hard?").startswith("Yes")
+    told = Talk("junction-0", 45.0).hear("Did you make an emergency stop?")
+    assert told.startswith("No, I did not brake hard")
+
+
+def test_for_whom_we_braked_is_told_with_the_reason() -> None:
+    for text in ("Did you brake for anybody?", "Did you slow down for someone?"):
+        told = Talk("s4-0", 30.0).hear(text)
+        assert told.startswith("I braked at 0:20, because the black car (vehicle 4)"), text
+
+
+def test_who_came_close_is_asked_of_all_that_were_ever_seen() -> None:
+    for text in ("Who came within 2 metres of us?", "Which road users came within 2 metres?"):
+        told = Talk("junction-0", 45.0).hear(text)
+        assert all(f"(vehicle {n})" in told for n in (2, 3, 11)), text
+    told = Talk("junction-0", 45.0).hear("Did anybody come within 2 metres?")
+    assert told.startswith("Yes, we came as close as 1 metre to the green bicycle")
+    assert Talk("junction-0", 45.0).hear("Did anyone come within 0.2 metres?").startswith("No")
+
+
+def test_the_cyclist_is_the_one_that_came_closest() -> None:
+    told = Talk("junction-0", 45.0).hear("How close did the cyclist get?")
+    assert "the green bicycle" in told
+    assert "1 metre" in told
+
+
+def test_a_near_miss_is_a_collision_nearly_had() -> None:
+    for text in ("Was there a near miss?", "Have there been any close calls?"):
+        assert Talk("s4-0", 30.0).hear(text).startswith("No: "), text
+
+
+def test_who_rolls_need_not_say_when_it_goes() -> None:
+    assert Talk("junction-0", 12.0).hear("When can we go?").startswith("I am braking")

@@ -16,6 +16,7 @@ from xavi_dialogue.domain.answers import (
     Declined,
     DidNotHappen,
     Evidence,
+    Forecast,
     Happenings,
     Helpful,
     Identified,
@@ -195,6 +196,27 @@ CASES: tuple[Answer, ...] = (
         ),
     ),
     Bound(V, Belief(1, NOW, (Expectation(("exit-right",), 0.92),))),
+    Forecast((Belief(1, NOW, (Expectation(("exit-right",), 0.92),)),)),
+    Forecast(tuple(Belief(v, NOW, (Expectation(("stop",), 0.9),)) for v in (1, 2))),
+    Forecast(tuple(Belief(v, NOW, (Expectation(("stop",), 0.9),)) for v in (1, 2, 3, 4))),
+    Forecast(
+        (
+            Belief(1, NOW, (Expectation(("stop",), 0.9),)),
+            Belief(2, NOW, (Expectation(("stop",), 0.5), Expectation(("continue",), 0.5))),
+        )
+    ),
+    Forecast(
+        tuple(
+            Belief(v, NOW, (Expectation(("stop",), p), Expectation(("continue",), 1 - p)))
+            for v, p in ((1, 0.9), (2, 0.5), (3, 0.5), (4, 0.5), (5, 0.5))
+        )
+    ),
+    Forecast(
+        tuple(
+            Belief(v, NOW, (Expectation(("stop",), 0.5), Expectation(("continue",), 0.5)))
+            for v in (1, 2, 3, 4)
+        )
+    ),
     Bound(V, went=Episode(V, "exit-right", 12.0, 14.0)),
     Beliefs(
         1,

@@ -28,6 +28,7 @@ from xavi_dialogue.domain.findings import (
     Comfort,
     Compared,
     Counted,
+    Forecast,
     Happenings,
     Identified,
     Lasted,
@@ -69,7 +70,8 @@ __all__ = [
     "Acknowledged", "Activity", "Again", "Aim", "Altered", "Answer", "Avoidance", "Beliefs",
     "Bound", "CannotSay", "Cause", "Certainty", "ChoiceReason", "Closeness", "Comfort",
     "Comforting", "Compared", "Contrast", "Counted", "Course", "CrossingVehicle", "Decided",
-    "DecisiveFactor", "Declined", "DidNotHappen", "Effect", "Evidence", "GoReason", "Grounds",
+    "DecisiveFactor", "Declined", "DidNotHappen", "Effect", "Evidence", "Forecast",
+    "GoReason", "Grounds",
     "Happenings", "Helpful", "Identified", "Judged", "Lasted", "Located", "Measures", "Mechanism",
     "Method", "MotionCause", "MotionReason", "NeedRollout", "NoSuchVehicle", "NobodyElse",
     "NotApplicable", "NotRecorded", "NotUnderstood", "NothingToAsk", "Options", "OtherReason",
@@ -296,6 +298,7 @@ Answer: TypeAlias = (
     | PlanAhead
     | Located
     | Bound
+    | Forecast
     | Beliefs
     | Options
     | Compared

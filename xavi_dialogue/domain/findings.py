@@ -140,6 +140,12 @@ class Bound(Value, frozen=True):
     signal: Episode | None = None  # the side to which it indicates
 
 
+class Forecast(Value, frozen=True):
+    """What several others are going to do, by what is believed of each."""
+
+    beliefs: tuple[Belief, ...]  # of those with an expectation, nearest first
+
+
 class Beliefs(Value, frozen=True):
     """The car's belief about a vehicle, how it changed, and what the vehicle did in the end."""
 

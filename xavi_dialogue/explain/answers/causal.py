@@ -37,6 +37,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Measured,
+    Nobody,
     Not,
     Now,
     Proposition,
@@ -217,6 +218,8 @@ def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
     of, negated = unwrapped(that)
     if isinstance(of, Caused):
         return _was_cause
+    if isinstance(of, Happens) and not negated and _slowed_for_anybody(of.event):
+        return _for_anybody
     if not negated and _slowed_for(of, scene):
         return _slowed_because
     if not negated and standing_rules.at_crossing(of):
@@ -269,6 +272,25 @@ def _slowed_for(of: Proposition | None, scene: Asked) -> bool:
     # What we do for another reason does not show what we will do for them.
     ahead = event.tense == "future" and getattr(found, "suspected", None) == "none"
     return not ahead or stands(scene)
+
+
+def _slowed_for_anybody(event: Event) -> bool:
+    """Check whether the question is if we slowed for anybody, whoever that may be."""
+    done = event.tense in ("past", "perfect") and event.modal is None
+    return (
+        done and is_own(event.actor) and event.action in SLOWED and isinstance(event.object, Nobody)
+    )
+
+
+def _for_anybody(question: Whether, scene: Asked) -> Answer:
+    """Return why we slowed, which tells for whom.
+
+    Raises:
+        Unanswered: we did not slow; or the record lacks it; or rollouts are needed.
+    """
+    of, _ = unwrapped(question.that)
+    assert isinstance(of, Happens)
+    return reasons.why(Why(Happens(replace(of.event, object=None))), scene)
 
 
 def _slowed_because(question: Whether, scene: Asked) -> Answer:

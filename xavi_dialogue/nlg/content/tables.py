@@ -41,6 +41,7 @@ FACTS: dict[type, Planner] = {
     answers.Activity: conduct.plan_activity,
     answers.PlanAhead: conduct.plan_ahead,
     answers.Bound: conduct.plan_bound,
+    answers.Forecast: conduct.plan_forecast,
     answers.Course: courses.plan_course,
     answers.PeakMoment: peak_moments.plan_peak_moment,
     answers.Decided: peak_moments.plan_decided,

@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.events.beliefs import history_of
 from xavi_dialogue.explain.answers.events.decisions import decided_at
+from xavi_dialogue.explain.answers.expectations.forecast import forecast
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import known as valued
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, window
@@ -268,6 +269,10 @@ def _beliefs(asked: Asked, question: Listing, about: Window) -> Answer:
     if vehicle is not None:
         found: Beliefs = history_of(asked, vehicle, None, question.time)
         return found if found.time is not None else replace(found, time=found.history[0].time)
+    if isinstance(question.about, Vehicles) and isinstance(question.time, Unsaid | WholeRide):
+        foretold = forecast(asked, map(Vehicle, question.about.numbers))
+        if foretold is not None:
+            return foretold
     at = asked.moment if asked.past is not None else asked.now
     seen = tuple(x for v in asked.world.in_view(at) if (x := asked.world.look(v, at)) is not None)
     beliefs = (asked.world.belief(look.vehicle, at) for look in seen)

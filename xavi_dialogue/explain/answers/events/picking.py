@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.explain.answers.expectations.forecast import forecast
 from xavi_dialogue.explain.answers.expectations.foreseen import chance
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, expected
@@ -76,12 +77,13 @@ def likeliest(asked: Asked, event: Event) -> Finding:
         and (share := chance(asked, replace(event, actor=v), asked.now)) is not None
     ]
     if not found:
-        return expected(None)
+        told = forecast(asked, somebodies(asked, actor, asked.now))
+        return expected(None) if told is None else Finding(None, answer=told)
     share, who = max(found, key=lambda one: one[0])
     if share < LIKELY:
         return expected(share)
-    told = Verdict(Happens(replace(event, actor=who)), None, probability=share)
-    return Finding(None, probability=share, answer=told)
+    likely = Verdict(Happens(replace(event, actor=who)), None, probability=share)
+    return Finding(None, probability=share, answer=likely)
 
 
 def is_to_come(such: Proposition) -> bool:

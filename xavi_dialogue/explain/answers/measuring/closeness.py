@@ -9,10 +9,12 @@ from xavi_dialogue.domain.answers import Closeness
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.findings import Assurance
 from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.domain.vocabulary import Kind
 from xavi_dialogue.explain.answers.expectations.foreseen import collision_chance, simulated
 from xavi_dialogue.explain.answers.measuring.hard_braking import braked_hard
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window
+from xavi_dialogue.explain.answers.reference.naming import of_kind
 from xavi_dialogue.explain.answers.ride.priority import rule_between
 from xavi_dialogue.explain.facts.episodes.waiting import top_holders
 from xavi_dialogue.explain.history.thresholds import NEAR, STANDING
@@ -174,6 +176,14 @@ def _on_foot(asked: Asked) -> int | None:
         if look is not None and look.in_view and look.kind == "pedestrian" and look.ahead > 0.0
     ]
     return next((who for far, who in sorted(ahead) if far <= ON_FOOT), None)
+
+
+def approaches(asked: Asked, kind: Kind, about: Window) -> tuple[Measure, ...]:
+    """List how close each road user of a kind came in a stretch of the ride, closest first."""
+    whole = Window(asked.world.begin, asked.now) if about.instant else about
+    each = of_kind(asked, asked.world.vehicles, kind, asked.now)
+    found = (closest_approach(asked, vehicle, whole) for vehicle in each)
+    return tuple(sorted((m for m in found if m.value is not None), key=lambda m: m.value or 0.0))
 
 
 def nearest_vehicle(

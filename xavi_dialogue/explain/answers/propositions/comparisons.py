@@ -2,9 +2,9 @@
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Counted, Measures, Verdict
+from xavi_dialogue.domain.answers import Answer, Counted, Identified, Measures, Verdict
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.meaning import HowMany
+from xavi_dialogue.domain.meaning import HowMany, Which
 from xavi_dialogue.domain.terms import (
     Compares,
     Ego,
@@ -16,9 +16,11 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Unsaid,
     Vehicle,
+    Wanted,
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import Attribute, Comparator, Extreme
+from xavi_dialogue.explain.answers.measuring.closeness import approaches
 from xavi_dialogue.explain.answers.measuring.counting import how_many
 from xavi_dialogue.explain.answers.propositions.measures import best_of, value_at, values
 from xavi_dialogue.explain.answers.reference.asked import Asked
@@ -32,6 +34,7 @@ SAME: dict[Attribute, float] = {
     "time-to-collision": 0.3, "deceleration": 0.3, "acceleration": 0.3, "size": 0.3,
     "time-to-go": 1.0, "distance-to-go": 5.0, "probability": 0.03, "duration": 0.5,
 }  # fmt: skip
+NAMED = 6  # maximum of road users named who came close
 KMH = 3.6  # [km/h] in 1 m/s
 LIGHTS: frozenset[Attribute] = frozenset(("indicator", "brake-lights"))
 #: Kinds that look like a car from outside.
@@ -131,6 +134,8 @@ def compares(of: Compares, asked: Asked) -> Finding:
     """
     if of.left.attribute == "count":
         return _tallied(of, asked)
+    if isinstance(of.left.to, Everyone) and isinstance(of.right, Quantity):
+        return _of_any(of, of.left.to, of.right, asked)
     at = instant(asked, of.left.time, of.left.tense)
     each = somebodies(asked, of.left.thing, at)
     if len(each) < 2:
@@ -142,6 +147,29 @@ def compares(of: Compares, asked: Asked) -> Finding:
     left = tuple(one.facts[0] for one in told)
     right = told[0].facts[1:]
     return Finding(all(one.holds for one in told), (*left, *right))
+
+
+def _of_any(of: Compares, whom: Everyone, limit: Quantity, asked: Asked) -> Finding:
+    """Weigh whether anybody came so close, by the closest approach of each."""
+    near = approaches(asked, whom.kind, window(asked, of.left.time, of.left.tense))
+    found = [m for m in near if _holds(of.comparator, (m.value or 0.0) - limit.value, 0.0, None)]
+    if not near:
+        return unknown("not-applicable")
+    return Finding(bool(found), tuple(found[:NAMED] or near[:1]))
+
+
+def who_came(question: Which, asked: Asked) -> Answer | None:
+    """Return who came within a distance of us in the ride; None for other questions."""
+    of = question.such
+    if not isinstance(of, Compares) or not isinstance(of.right, Quantity):
+        return None
+    left = of.left
+    ride = left.attribute == "distance" and isinstance(left.time, WholeRide)
+    if not ride or not isinstance(question.thing, Wanted) or Ego() not in (left.thing, left.to):
+        return None
+    near = _of_any(of, Everyone(question.thing.kind), of.right, asked)
+    measures = tuple(m for m in near.facts if isinstance(m, Measure))
+    return Measures(measures) if near.holds else Identified((), of, measures, none=True)
 
 
 def _lesser_first(of: Compares, found: Finding) -> Finding:

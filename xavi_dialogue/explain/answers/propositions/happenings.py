@@ -31,8 +31,10 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.explain.answers.events.accounts import TOLD, select, summary, taking_part
 from xavi_dialogue.explain.answers.events.beliefs import since_when
+from xavi_dialogue.explain.answers.expectations.forecast import forecast
 from xavi_dialogue.explain.answers.expectations.foreseen import besides, chance
 from xavi_dialogue.explain.answers.expectations.plans import foreseen, plan_ahead
+from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.propositions.weighing import weigh
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import known as valued
@@ -57,6 +59,7 @@ from xavi_dialogue.explain.causes.vehicles.announced import announced
 from xavi_dialogue.explain.history.motion import Trend
 from xavi_dialogue.explain.history.thresholds import STANDING
 
+LIKELY = 0.5  # minimum probability of what is going to happen
 CHANGING = 0.1  # [m/s2] minimum acceleration of a changing speed
 
 
@@ -83,6 +86,8 @@ def when(question: When, asked: Asked) -> Answer:
     if ahead and event.action == "move" and event.object is None and is_us(event.actor):
         event = replace(event, action="go")
         of = Happens(event)
+    if ahead and event.action == "go" and _rolls(asked, event) and not _foreseen(asked, event):
+        return activity(asked, Ego(), asked.now)
     under_way = occasion(asked, replace(event, tense="present")) if ahead else None
     if ahead and under_way is None:
         return _to_come(asked, of)
@@ -94,6 +99,16 @@ def when(question: When, asked: Asked) -> Answer:
         form, (found,), found.actor, looks=taking_part(asked, (found,)), asked=event,
         measures=_until(asked, found) if question.edge == "end" else (),
     )  # fmt: skip
+
+
+def _foreseen(asked: Asked, event: Event) -> bool:
+    found = foreseen(asked, event)
+    return found is not None and found.share >= LIKELY
+
+
+def _rolls(asked: Asked, event: Event) -> bool:
+    """Check whether we, who are asked when we go, do not stand at all."""
+    return event.object is None and is_us(event.actor) and not stands(asked)
 
 
 def _entered(asked: Asked, event: Event) -> Episode | None:
@@ -124,7 +139,8 @@ def doing(question: Doing, asked: Asked) -> Answer:
     if not who:
         raise Unanswered(NotRecorded("not-recorded", question.actor, about="doing"))
     if len(who) > 1:
-        return _several(asked, who, at)
+        foretold = forecast(asked, who) if ahead else None
+        return foretold or _several(asked, who, at)
     if ahead and is_us(who[0]):
         return plan_ahead(asked)
     if ahead and isinstance(who[0], Vehicle) and question.tense != "present":
@@ -181,7 +197,7 @@ def _to_come(asked: Asked, of: Happens) -> Answer:
     event = of.event
     if is_us(event.actor):
         found = foreseen(asked, event)
-        if found is None or found.share < 0.5:
+        if found is None or found.share < LIKELY:
             past = occasion(asked, replace(event, tense="past"))
             raise (
                 did_not_happen(asked, event)
@@ -206,7 +222,7 @@ def _to_come(asked: Asked, of: Happens) -> Answer:
 def _planned(asked: Asked, event: Event) -> float | None:
     """Return when [s] our plan does an event that has not happened; None if it does not."""
     found = foreseen(asked, event) if is_us(event.actor) and asked.past is None else None
-    return None if found is None or found.share < 0.5 else max(found.moment, asked.now)
+    return None if found is None or found.share < LIKELY else max(found.moment, asked.now)
 
 
 def _first_held(of: Proposition, asked: Asked) -> Answer:

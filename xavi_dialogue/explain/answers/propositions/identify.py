@@ -43,6 +43,7 @@ from xavi_dialogue.explain.answers.events.picking import (
     spent,
 )
 from xavi_dialogue.explain.answers.expectations.foreseen import YIELDS
+from xavi_dialogue.explain.answers.propositions.comparisons import who_came
 from xavi_dialogue.explain.answers.propositions.duties import who_first
 from xavi_dialogue.explain.answers.propositions.weighing import weigh
 from xavi_dialogue.explain.answers.reasons.others import why
@@ -105,6 +106,9 @@ def which(question: Which, asked: Asked) -> Answer:
     such = question.such
     if such is None:
         return identified(asked, question.thing, asked.moment)
+    near = who_came(question, asked)
+    if near is not None:
+        return near
     rule = who_first(asked, such) if isinstance(such, Related) else None
     if rule is not None and rule.rule != "none":
         return rule

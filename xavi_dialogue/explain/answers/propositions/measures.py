@@ -5,12 +5,13 @@ from itertools import combinations
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, Measures, NotRecorded
-from xavi_dialogue.domain.facts import Measure
+from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.meaning import Compare, HowMuch, Peak
 from xavi_dialogue.domain.terms import (
     Destination,
     Ego,
     Event,
+    Everyone,
     Junction,
     Measured,
     Relative,
@@ -21,6 +22,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
 from xavi_dialogue.explain.answers.expectations.approaching import foreseen_closeness
+from xavi_dialogue.explain.answers.measuring.closeness import approaches
 from xavi_dialogue.explain.answers.measuring.peak_moments import peak
 from xavi_dialogue.explain.answers.measuring.rivals import rivals
 from xavi_dialogue.explain.answers.propositions.attributes import SPECIAL
@@ -243,6 +245,10 @@ def _extremes(asked: Asked, of: Measured, which: str, about: Window) -> tuple[Me
     """Return the extreme for each thing over a stretch of the ride, and where we were then."""
     if about.end - about.begin < 0.1:
         about = Window(asked.world.begin, asked.now)
+    if isinstance(of.to, Everyone) and of.attribute == "distance":
+        return approaches(asked, of.to.kind, about)[:1] or (
+            Measure("distance", Ego(), about.end, gap="not-applicable", to=of.to),
+        )
     found: list[Measure] = []
     for thing in things_of(asked, of, about.end):
         if of.attribute in ANYBODY and isinstance(thing, Ego) and of.to is None:
@@ -290,6 +296,15 @@ def _extreme(
     return asked.world.extreme(attribute, thing, name, begin, end, other)  # type: ignore[arg-type]
 
 
+def hardest(asked: Asked, episode: Episode, about: Window) -> Measure:
+    """Return how hard somebody braked in an episode, and when it was hardest if that is known."""
+    end = min(about.end, asked.now)
+    found = asked.world.extreme("deceleration", episode.actor, "highest", about.begin, end, None)
+    at = about.begin if found.gap is not None else found.time
+    return Measure("deceleration", episode.actor, at, value=episode.peak, until=about.end,
+                   extreme="highest")  # fmt: skip
+
+
 def _of_event(question: HowMuch, asked: Asked, event: Event) -> Answer:
     """Return a measure of an event over its episode.
 
@@ -300,11 +315,7 @@ def _of_event(question: HowMuch, asked: Asked, event: Event) -> Answer:
     episode = taken_place(asked, event)
     about = stretch(asked, episode)
     if of.attribute == "deceleration" and episode.peak is not None:
-        value = Measure(
-            "deceleration", episode.actor, about.begin, value=episode.peak, until=about.end,
-            extreme="highest",
-        )  # fmt: skip
-        return Measures((value,))
+        return Measures((hardest(asked, episode, about),))
     thing = of.thing if number(of.thing) is not None else episode.actor
     if question.extreme in ("highest", "lowest", "mean", "total"):
         return Measures(

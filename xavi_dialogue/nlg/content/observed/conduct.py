@@ -1,7 +1,7 @@
 """Conduct: what somebody is doing, what we are going to do, and where somebody goes, in words."""
 
 from planner.record.trace import ON_FOOT
-from xavi_dialogue.domain.answers import Activity, Bound, MotionCause, PlanAhead
+from xavi_dialogue.domain.answers import Activity, Bound, Forecast, MotionCause, PlanAhead
 from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.nlg.content.clauses.clauses import doing, episode_clause, event_clause
@@ -19,11 +19,13 @@ from xavi_dialogue.nlg.content.clauses.tenses import PRESENT, since
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import word
-from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
+from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Quantity, Who
 
 #: Actions that say less than any other that somebody does at the same time.
 AT_HAND = 4.0  # [m] distance below which a place is just ahead
 TOLD = 0.4  # minimum probability of an expectation that is stated with the conduct
+EXPECTED = 0.55  # minimum probability of what somebody is expected to do
+NAMED = 3  # vehicles named of those that do the same
 PLAIN = frozenset(("continue", "move", "keep-lane", "go", "continue-next-exit"))
 _STOPPING = frozenset(("stop", "brake", "slow-down", "stand", "follow"))
 STILL = frozenset(("stand", "stop", "wait", "park"))
@@ -252,6 +254,35 @@ def plan_bound(answer: Bound, context: SpeechContext) -> Plan:
     if answer.unconsidered is not None:
         return _unconsidered(answer.unconsidered, answer.belief, answer.signal, context)
     return Plan((belief_message(answer.belief, context),), measures)
+
+
+def plan_forecast(answer: Forecast, context: SpeechContext) -> Plan:
+    """Plan what several others are expected to do: who is to do the same in one clause."""
+    rows: dict[tuple[Clause, ...], list[tuple[int, float]]] = {}
+    for belief in (one for one in answer.beliefs if one.expectations):
+        likeliest = max(belief.expectations, key=lambda e: e.probability)
+        look = context.look(belief.vehicle, belief.time)
+        walks = look is not None and look.kind in ON_FOOT
+        unclear = likeliest.probability < EXPECTED
+        verbs = () if unclear else verbs_of(likeliest.actions, walks=walks)
+        rows.setdefault(verbs, []).append((belief.vehicle, likeliest.probability))
+    if not rows:
+        return Plan((message("FORECAST_NONE"),))
+    order = sorted(rows.items(), key=lambda item: not item[0])
+    parts = tuple(
+        message(
+            "FORECAST_ROW",
+            rest=verbs == order[-1][0] and len(rows) > 1,
+            who=tuple(Who(Vehicle(vehicle)) for vehicle, _ in row[:NAMED]),
+            many=Number(len(row), "other") if len(row) > NAMED else None,
+            all=len(rows) == 1,
+            verbs=verbs or None,
+            chance=Chance(min(chance for _, chance in row)),
+            several=len(row) > 1,
+        )
+        for verbs, row in order
+    )
+    return Plan(parts[:1], parts[1:2], parts[2:])
 
 
 def _unconsidered(

@@ -294,7 +294,9 @@ class Phrases(Adjuncts):
         amount = cast(Node, node.parts[1])
         amount = Node("np", (amount,), amount.start, amount.end, 0.0)
         clause.than = self.nouns.read(amount)
-        to = self.nouns.read(cast(Node, node.parts[3]))
+        to = self.nouns.read(cast(Node, node.parts[3])) if len(node.parts) > 2 else Ego()
+        if len(node.parts) == 2 and getattr(clause.than, "unit", "m") != "m":
+            self.notes.unknown.append(node.leaves[0])  # "within two seconds" is no distance
         clause.complements.append(Complement("into", to, node))
 
     # --- complement clauses ------------------------------------------
@@ -345,6 +347,4 @@ class Phrases(Adjuncts):
         self.notes.chained.append(chained)
 
     def _on_skipped(self, node: Node, clause: Clause) -> None:
-        for leaf in leaves_of(node):
-            if leaf.category in ("SKIP", "UNK"):
-                clause.skipped.append(leaf)
+        clause.skipped += [leaf for leaf in leaves_of(node) if leaf.category in ("SKIP", "UNK")]

@@ -34,6 +34,7 @@ from xavi_dialogue.nlu.compose.states.rooms import roomy
 
 #: What we would be who are alone.
 _ONLY = ("only car", "only one", "only vehicle", "only people", "only driver", "only traffic")
+_DONE = frozenset({"past", "perfect"})
 _TURNS = frozenset({"turn", "exit-left", "exit-right"})
 Found = tuple[Proposition, float]
 
@@ -49,8 +50,9 @@ def existing(clause: Clause) -> list[Found]:
         return [(Not(turn) if words_of(clause.objects[0][1]).startswith("no ") else turn, 0.0)]
     if isinstance(sem, Event) and tense_of(clause) == "future":
         return [(Happens(with_fields(sem, tense="future", time=clause.time)), 0.0)]
-    if isinstance(sem, Event) and sem.actor == Ego() and tense_of(clause) == "past":
-        return [(Happens(with_fields(sem, tense="past", time=clause.time)), 0.0)]
+    if isinstance(sem, Event) and sem.actor == Ego() and tense_of(clause) in _DONE:
+        tense = tense_of(clause)
+        return [(Happens(with_fields(sem, tense=tense, time=clause.time)), 0.0)]
     if isinstance(sem, Noun):
         thing = Unknown(sem.word)
         if sem.key == "danger":

@@ -122,6 +122,8 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
         if amiss:
             return [(_mistake(clause, deed), 0.1)]
         return [(Is("right", None, deed, time=time, tense=tense), 0.1)]
+    if isinstance(sem, Event) and sem.action == "nearly-collide":
+        return [(Is("close", subject, time=time, tense=tense), 0.1)]  # "it was a near miss"
     if isinstance(sem, Event):
         return [(Is("right", subject, sem, time=time, tense=tense), 0.5)]
     return _same(clause, as_thing(sem), subject, time)

@@ -13,19 +13,26 @@ from xavi_dialogue.domain.terms import (
     At,
     Back,
     Between,
+    Compares,
     Described,
     Destination,
     Ego,
     Event,
+    Everyone,
     Is,
     Measured,
     Pronoun,
+    Proposition,
+    Quantity,
     Relative,
     Thing,
     Time,
     Unsaid,
     Vehicle,
+    Wanted,
+    WholeRide,
 )
+from xavi_dialogue.domain.vocabulary import Kind
 from xavi_dialogue.nlu.grounding.completion.discussion import interval
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
 from xavi_dialogue.nlu.grounding.events.windows import pointed
@@ -36,6 +43,8 @@ MOMENTARY: Final = frozenset(
     ("speed", "limit", "excess", "gap", "headway", "distance", "time-to-collision", "lane",
      "indicator", "brake-lights", "distance-to-go", "time-to-go"),
 )  # fmt: skip
+#: Kinds by which anybody is meant.
+ANYBODY: Final[tuple[Kind, ...]] = ("vehicle", "car")
 #: What may be asked of "it" where it is our car.
 OURS: Final = frozenset(("speed", "acceleration", "deceleration"))
 MOMENT: Final = 1.0  # [s] ago that a value was "just now", "a second ago"
@@ -52,9 +61,14 @@ def measured(
     """Ground a measure; `extreme`: over all of the time that is said."""
     spoken = _corefer(spoken, g)
     both = (spoken.thing, spoken.to)
-    nearest = extreme and Ego() in both and any(map(_is_anybody, both))
-    if nearest:  # "the closest anyone came to us", "how close did we get to anybody?"
-        spoken = replace(spoken, thing=Ego(), to=None)
+    if extreme and spoken.attribute == "distance" and spoken.to is None:
+        both = (spoken.thing, Ego())  # "how close did the cyclist get?"
+    past = spoken.tense in ("past", "perfect")
+    kind = _any_kind(both, extreme=extreme and past) if Ego() in both else None
+    nearest = kind is not None and (extreme or (past and isinstance(spoken.time, WholeRide)))
+    if nearest and kind is not None:  # "the closest anyone came to us"
+        everyone = extreme and kind in ANYBODY
+        spoken = replace(spoken, thing=Ego(), to=None if everyone else Everyone(kind))
     event = spoken.event
     if event is not None:
         event = g.event(event, "presupposed" if event.tense == "past" else "asked", outer)
@@ -75,12 +89,32 @@ def measured(
     return replace(spoken, thing=thing, to=to, event=event, about=about, time=time)
 
 
-def _is_anybody(thing: Thing | None) -> bool:
-    """Check whether a thing stands for any road user, not a particular one."""
-    if not isinstance(thing, Described) or thing.kind not in ("vehicle", "car"):
-        return False
-    plain = Described(thing.kind, other=thing.other, plural=thing.plural, definite=False)
-    return thing == plain
+def _any_kind(things: tuple[Thing | None, ...], *, extreme: bool) -> Kind | None:
+    """Tell of which kind any road user is meant; None: a particular one.
+
+    Where the closest is asked for, it is meant of those on foot or on bicycles, too, of whom a
+    passenger does not know which one it was: "how close did the cyclist get?".
+    """
+    for thing in things:
+        if not isinstance(thing, Described):
+            continue
+        known = thing.definite and not (extreme and thing.kind not in ANYBODY)
+        plain = Described(
+            thing.kind, other=thing.other, plural=thing.plural, definite=thing.definite
+        )
+        return None if known or thing != plain else thing.kind
+    return None
+
+
+def whichever(thing: Thing, such: Proposition | None) -> Thing:
+    """Take "which cars came within 2 metres?" for all that were ever seen, not those in view."""
+    match such:
+        case Compares(left=Measured(attribute="distance", time=WholeRide()), right=Quantity()):
+            kind = _any_kind((thing,), extreme=True) or (
+                thing.kind if isinstance(thing, Described) and thing.kind in ANYBODY else None
+            )
+            return thing if kind is None else Wanted(kind)
+    return thing
 
 
 def _corefer(spoken: Measured, g: Grounder) -> Measured:

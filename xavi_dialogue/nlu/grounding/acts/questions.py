@@ -50,7 +50,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     WholeRide,
 )
-from xavi_dialogue.nlu.grounding.acts.measuring import measured
+from xavi_dialogue.nlu.grounding.acts.measuring import measured, whichever
 from xavi_dialogue.nlu.grounding.acts.others import asked_who
 from xavi_dialogue.nlu.grounding.acts.propositions import at_moment, inferred, suspect, timed
 from xavi_dialogue.nlu.grounding.acts.recasting import recast
@@ -129,8 +129,8 @@ def _whether(spoken: Whether, g: Grounder) -> Whether:
 
 
 def _which(spoken: Which, g: Grounder) -> Which:
-    thing = spoken.thing
     such = None if spoken.such is None else g.proposition(spoken.such, "asked")
+    thing = whichever(spoken.thing, such)
     if isinstance(thing, Described) and such is not None:
         thing = replace(thing, plural=True)
     during = _during(first(such, Event), g)

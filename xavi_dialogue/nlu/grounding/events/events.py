@@ -38,6 +38,7 @@ from xavi_dialogue.nlu.grounding.events.fitting import (
     ONGOING,
     acting,
     done,
+    hard_ones,
     is_open,
     searched,
     undergoing,
@@ -238,7 +239,7 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
     if held and now and found.action in ONGOING | LASTING:  # "are we speeding up?"
         held = tuple(e for e in held if e.end is None or e.end >= g.context.now - JUST)
     if held:
-        return _at(found, _pick(held, window, g), g, window, inner)
+        return _at(found, _pick(hard_ones(held, found, window), window, g), g, window, inner)
     granted = mode == "presupposed"
     if not window.said and window.term != Unsaid() and _is_present(window):
         late = g.context.holds(found, *searched(g, window))

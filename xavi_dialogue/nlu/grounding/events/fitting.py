@@ -21,6 +21,7 @@ from xavi_dialogue.nlu.grounding.kin import like
 ONGOING: Final = frozenset(("speed-up", "slow-down", "brake", "cross"))
 LASTING: Final = frozenset(("move", "stand", "wait"))
 LATELY: Final = 12.0  # [s] within which what is over is still asked about in the present tense
+HARD: Final = 3.0  # [m/s2] from which braking is called hard
 JUST: Final = 0.5  # [s] since when what ended still goes on
 
 
@@ -88,3 +89,12 @@ def searched(g: Grounder, window: Window) -> tuple[float, float]:
     if not window.said and window.end - window.begin < 0.1:  # the present
         return end - LATELY, end
     return begin, end
+
+
+def hard_ones(held: tuple[Episode, ...], event: Event, window: Window) -> tuple[Episode, ...]:
+    """Keep the hard braking where hard braking is spoken of, else the hardest."""
+    peaks = [episode.peak or 0.0 for episode in held]
+    if "hard" not in event.manner or window.said or not any(peaks):
+        return held
+    least = min(HARD, max(peaks))
+    return tuple(e for e, peak in zip(held, peaks, strict=True) if peak >= least)
