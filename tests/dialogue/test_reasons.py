@@ -138,7 +138,3 @@ def test_the_cyclist_is_the_one_that_came_closest() -> None:
 def test_a_near_miss_is_a_collision_nearly_had() -> None:
     for text in ("Was there a near miss?", "Have there been any close calls?"):
         assert Talk("s4-0", 30.0).hear(text).startswith("No: "), text
-
-
-def test_who_rolls_need_not_say_when_it_goes() -> None:
-    assert Talk("junction-0", 12.0).hear("When can we go?").startswith("I am braking")

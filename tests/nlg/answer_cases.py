@@ -197,6 +197,13 @@ CASES: tuple[Answer, ...] = (
     ),
     Bound(V, Belief(1, NOW, (Expectation(("exit-right",), 0.92),))),
     Forecast((Belief(1, NOW, (Expectation(("exit-right",), 0.92),)),)),
+    Forecast((Belief(1, NOW, ()),)),
+    Forecast(
+        tuple(
+            Belief(v, NOW, (Expectation(("stop" if v == 1 else "exit-right",), 0.9),))
+            for v in (1, 2, 3, 4, 5)
+        )
+    ),
     Forecast(tuple(Belief(v, NOW, (Expectation(("stop",), 0.9),)) for v in (1, 2))),
     Forecast(tuple(Belief(v, NOW, (Expectation(("stop",), 0.9),)) for v in (1, 2, 3, 4))),
     Forecast(

@@ -15,6 +15,7 @@ from tests.explain.answers.stated import (
     they,
 )
 from xavi_dialogue.domain.answers import (
+    Activity,
     DidNotHappen,
     Measures,
     Verdict,
@@ -206,6 +207,12 @@ def test_moving_off_is_going_and_what_goes_on_is_told(ahead: Any) -> None:
     assert when(to) == DidNotHappen(to)
     stops = did("stop", 18.0)
     assert when(Event("stop", tense="future"), episodes=(stops,)).episodes == (stops,)
+
+
+def test_who_rolls_and_plans_no_start_is_told_what_it_does(ahead: Any) -> None:
+    told = when(Event("go", tense="future"))
+    assert isinstance(told, Activity)
+    assert told.actor == Ego()
 
 
 def test_of_others_there_is_only_how_probable_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
