@@ -10,7 +10,8 @@ import pytest
 
 from benchmarks.language.learning import Asked, Example, learnt, read
 from xavi_dialogue.domain.meaning import Ask, Why
-from xavi_dialogue.domain.terms import AtDecision, Described, Ego, Event, Happens, Vehicle
+from xavi_dialogue.domain.rewriting import first
+from xavi_dialogue.domain.terms import At, AtDecision, Described, Ego, Event, Happens, Vehicle
 from xavi_dialogue.nlu.intents.classifier import Intent, judge, model
 from xavi_dialogue.nlu.intents.features import features
 from xavi_dialogue.nlu.intents.frames import is_of, plain
@@ -133,3 +134,9 @@ def test_a_time_that_is_named_is_that_of_the_plain_question() -> None:
     assert isinstance(act, Ask)
     assert isinstance(act.question, Why)
     assert act.question.of == Happens(Event("change-lane", time=AtDecision(4)))
+
+
+def test_a_time_that_was_not_read_is_not_dropped() -> None:
+    for text in ("What was the risk of the option you rejected at 10 s?",
+                 "What was the risk of the option you rejected at 0:10?"):  # fmt: skip
+        assert all(first(one.acts, At) == At(10.0) for one in interpret(text)[:1])

@@ -5,7 +5,7 @@ from typing import Any, Final, TypeAlias
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Act, Ask, Identify, Reading, Request, TokenShare
+from xavi_dialogue.domain.meaning import Act, Ask, Identify, Listing, Reading, Request, TokenShare
 from xavi_dialogue.domain.rewriting import first, parts, rewrite
 from xavi_dialogue.domain.terms import (
     Ago,
@@ -30,24 +30,41 @@ from xavi_dialogue.nlu.parse import Parser
 Other: TypeAlias = Described | Vehicle | Pronoun | Everyone
 _SORTS: Final = (Described, Vehicle, Pronoun, Everyone)
 _TIMES: Final = (At, AtDecision, Ago, Between)
+_AMOUNT: Final = frozenset(("num", "tunit"))
 _TIMED: Final = (Event, Measured, Is, Related, Has, Exists)
+_LISTED: Final = ("options", "rivals", "decisions", "beliefs", "vehicles")
 _PERSONS: Final = frozenset(("he", "she", "they", "one", "it"))
 _NOMINAL: Final = frozenset(("det", "size", "colour", "kind", "bearing", "num", "numbered"))
 _HEADS: Final = frozenset(("kind", "colour", "numbered"))
 
 
 def at_time_of(acts: tuple[Act, ...], reading: Reading) -> tuple[Act, ...]:
-    """Put the time that a reading names into acts that name none."""
-    time = first(reading.acts, _TIMES)
-    if time is None:
+    """Put the time that a text names into acts that name none, be it one that was not read."""
+    time = first(reading.acts, _TIMES) or _time(reading.shares)
+    if time is None or first(acts, _TIMES) is not None:
         return acts
 
     def change(part: Any) -> Any:
-        if isinstance(part, _TIMED) and isinstance(part.time, Unsaid):
+        timed = isinstance(part, _TIMED) or (isinstance(part, Listing) and part.of in _LISTED)
+        if timed and isinstance(part.time, Unsaid):
             return replace(part, time=time)
         return part
 
     return rewrite(acts, change)
+
+
+def _time(shares: Sequence[TokenShare]) -> At | AtDecision | Ago | Between | None:
+    """Read the time in the words that are said with "at": "at 10 s", "at 0:14"."""
+    for at, share in enumerate(shares):
+        said = [one.text for one in shares[at + 1 : at + 3]]
+        parts_ = [one.part.partition(":")[0] for one in shares[at + 1 : at + 3]]
+        if share.read != "at" or not parts_ or parts_[0] not in ("clock", "num", "tunit"):
+            continue
+        timed = said[:1] if parts_[0] == "clock" else said if set(parts_) == _AMOUNT else ()
+        for act in Parser().read(f"What happened at {' '.join(timed)}?")[0].acts if timed else ():
+            if isinstance(found := first(act, _TIMES), _TIMES):
+                return found
+    return None
 
 
 def mentioned(reading: Reading) -> Thing | None:

@@ -51,7 +51,7 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
     """Give the readings of a text and the plain questions that it may come to, likeliest first."""
     wanted = _demands(text, readings[0])
     told = any(_names_deed(one) for one in readings)
-    readings = [_charged(one, wanted, told=told) for one in readings]
+    readings = [_timed(_charged(one, wanted, told=told)) for one in readings]
     readings.sort(key=lambda one: one.cost)
     best = readings[0]
     unmet = _unmet(best, wanted)
@@ -113,6 +113,12 @@ def _charged(reading: Reading, wanted: Sequence[_Demand], *, told: bool) -> Read
     unmet = len(_unmet(reading, wanted)) if reading.acts else 0
     more = UNMET * unmet + (BARE if told and Elliptic(form="why") in reading.acts else 0.0)
     return replace(reading, cost=round(reading.cost + more, 3)) if more else reading
+
+
+def _timed(reading: Reading) -> Reading:
+    """Let a question be of the time that its text names, where no act took it up."""
+    acts = at_time_of(reading.acts, reading)
+    return reading if acts == reading.acts else replace(reading, acts=acts)
 
 
 def _names_deed(reading: Reading) -> bool:

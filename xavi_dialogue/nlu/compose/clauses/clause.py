@@ -64,6 +64,7 @@ class Clause:
     than: "Sem | Clause | None" = None
     than_time: Time = field(default_factory=Unsaid)  # "than before", "than when we came in"
     time: Time = field(default_factory=Unsaid)
+    dated: bool = False  # the time is said with "at", and no amount of time: "at 52 s"
     contrast: "Sem | Clause | str | None" = None
     condition: "Clause | None" = None
     led: bool = False  # the condition comes first

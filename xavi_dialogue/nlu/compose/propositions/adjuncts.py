@@ -70,6 +70,7 @@ class Adjuncts:
             clause.objects.append((Quantity(before), node))  # "we were doing eighty a minute ago"
         if isinstance(clause.time, Unsaid) or (clause.time in VAGUE and isinstance(time, EXACT)):
             clause.time = time  # "back then, at 3 s"
+            clause.dated = leaf_of(node, "P") is not None and words_of(node).startswith("at ")
         elif node.name == "time_adverb":
             self.notes.inner[id(node)] = SECOND
         if words_of(node) == "right now" and _turns(clause):

@@ -198,9 +198,8 @@ def _cause(special: Special) -> Proposition:
 
 
 def _cost(special: Special) -> Proposition:
-    quantity = special.match.second if isinstance(special.match.second, Quantity) else None
-    if quantity is None and isinstance(special.object, Quantity):
-        quantity = special.object
+    named = (special.match.second, special.object)
+    quantity = next((sem for sem in named if isinstance(sem, Quantity)), None)
     time = time_of(special)
     if quantity is None and isinstance(time, At) and _nothing_but_us(special):
         quantity, time = Quantity(time.at, "s"), Unsaid()  # "it saved us five minutes"
@@ -225,7 +224,8 @@ def _cost(special: Special) -> Proposition:
 
 def _nothing_but_us(special: Special) -> bool:
     """Tell whether nothing is named that is saved or lost, so that an amount of time is that."""
-    return all(isinstance(sem, Ego | Passenger | None) for sem, _ in special.clause.objects)
+    us = (isinstance(sem, Ego | Passenger | None) for sem, _ in special.clause.objects)
+    return not special.clause.dated and all(us)
 
 
 def _is(
