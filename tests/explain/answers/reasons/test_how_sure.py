@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from tests.explain.answers.stated import (
     aim,
@@ -24,6 +25,7 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import HowDecide, HowSure
 from xavi_dialogue.domain.terms import (
+    At,
     Both,
     Ego,
     Event,
@@ -92,7 +94,8 @@ def test_a_collision_is_told_by_its_chance(monkeypatch: pytest.MonkeyPatch) -> N
     hit, near = Event("collide", object=IT), Event("nearly-collide")
     by = Happens(Event("collide", IT, US))
     assert sure(hit) == Verdict(by, None, probability=1.2, either=True)
-    assert sure(near, SAID) == Verdict(Happens(near), None, probability=0.05, either=True)
+    then = replace(near, time=At(5.0))
+    assert sure(near, SAID) == Verdict(Happens(then), None, probability=0.05, either=True)
 
 
 def test_how_sure_we_are_of_ourselves_is_certainty(monkeypatch: pytest.MonkeyPatch) -> None:

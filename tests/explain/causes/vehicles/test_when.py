@@ -27,6 +27,13 @@ def test_of_several_within_a_stretch_the_last_is_meant() -> None:
     assert pick(Span(0.0, 15.0, said=True), DONE, bounds) == (10.0, 12.0)
 
 
+def test_what_begins_as_a_stretch_ends_is_meant_only_if_nothing_lies_within() -> None:
+    wait = ((18.1, 26.1), (26.1, 26.4))
+    assert pick(Span(18.1, 26.1, said=True), wait, bounds) == wait[0]
+    assert pick(Span(18.1, 26.1, said=True), wait[1:], bounds) == wait[1]
+    assert pick(Span(26.1, 30.0, said=True), wait, bounds) == wait[1]
+
+
 def test_what_goes_on_meets_all_that_is_later() -> None:
     assert meets(Span(100.0, 101.0), 20.0, None)
     assert not meets(Span(0.0, 10.0), 20.0, None)

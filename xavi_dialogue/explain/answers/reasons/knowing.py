@@ -146,6 +146,8 @@ def how_sure(question: HowSure, scene: Asked) -> Answer:
         share = collision_chance(scene, scene.moment, struck)
         if struck is not None:
             event = replace(event, actor=Vehicle(struck), object=Ego())
+        if scene.past is not None:
+            event = replace(event, time=At(scene.moment), tense="past")
         return Verdict(Happens(event), None, probability=share, either=True)
     return certain(scene, event, negated=negated)
 

@@ -43,8 +43,9 @@ def meets(span: Span | None, begin: float, end: float | None) -> bool:
 def pick(span: Span | None, items: Sequence[Item], bounds: Callable[[Item], Bounds]) -> Item | None:
     """Choose the one of several items, oldest first, that a span refers to.
 
-    It is the latest that fits; for a moment, the nearest. If nothing fits, it is the nearest to a
-    span that was only inferred, and None if the passenger said when.
+    It is the latest that fits; for a moment, the nearest. What only begins as a span ends, or ends
+    as it begins, fits if nothing lies within. If nothing fits, it is the nearest to a span that was
+    only inferred, and None if the passenger said when.
     """
     found = past(span)
     if found is None or not items:
@@ -57,8 +58,18 @@ def pick(span: Span | None, items: Sequence[Item], bounds: Callable[[Item], Boun
 
     inside = [item for item in items if meets(found, *bounds(item))]
     if inside:
-        return min(inside, key=away) if _is_moment(found) else inside[-1]
+        if _is_moment(found):
+            return min(inside, key=away)
+        within = [item for item in inside if not _touches(found, *bounds(item))]
+        return (within or inside)[-1]
     return None if found.said else min(items, key=away)
+
+
+def _touches(span: Span, begin: float, end: float | None) -> bool:
+    """Check whether something that lasts has no more than a bound in common with a span."""
+    last = math.inf if end is None else end
+    lasts = last - begin > ROUNDING
+    return lasts and min(last, span.end) - max(begin, span.begin) <= ROUNDING
 
 
 def _is_moment(span: Span) -> bool:

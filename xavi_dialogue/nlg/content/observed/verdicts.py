@@ -10,9 +10,11 @@ from xavi_dialogue.domain import terms
 from xavi_dialogue.domain.answers import Verdict
 from xavi_dialogue.domain.facts import Belief, Episode, Fact, Look, Measure, Relating
 from xavi_dialogue.domain.terms import (
+    At,
     Believed,
     Compares,
     Ego,
+    Event,
     Everyone,
     Exists,
     Is,
@@ -199,10 +201,13 @@ def _likelihood(answer: Verdict, context: SpeechContext) -> Plan:
     assert answer.probability is not None
     event = eventful(answer.that)
     tense: Tense = "present"
+    then: Moment | None = None
     if event is not None and not isinstance(answer.that, Not):
         clause = event_clause(event, context.now, tense=tense)
         subject = "anybody" if isinstance(event.actor, Everyone | Nobody) else clause.subject
-        clause = Clause(subject, clause.verb, clause.rest, "future", plural=clause.plural)
+        then = _then(event, context)
+        foreseen: Tense = "future" if then is None else "conditional"
+        clause = Clause(subject, clause.verb, clause.rest, foreseen, plural=clause.plural)
     else:
         clause = clause_of(answer.that, context.now, tense="future")
     when = next((f for f in answer.facts if isinstance(f, Measure) and f.attribute == "time"), None)
@@ -217,7 +222,7 @@ def _likelihood(answer: Verdict, context: SpeechContext) -> Plan:
         facts = (message("LIKELY_WHEN", soon=soon, at_once=at_once), *facts)
     chance = Chance(answer.probability)
     slots = {"it": clause, "chance": chance, "either": answer.either, "claim": answer.claim,
-             **_likelier(answer)}  # fmt: skip
+             "when": then, **_likelier(answer)}  # fmt: skip
     chanced = event is not None and event.action in ("collide", "nearly-collide")
     ours = event is not None and isinstance(event.actor, Ego) and not chanced
     if ours and clause.tense == "future":
@@ -226,6 +231,13 @@ def _likelihood(answer: Verdict, context: SpeechContext) -> Plan:
         if answer.probability <= 1.0 - CERTAIN:
             return Plan((message("NO", **{**slots, "it": denied(clause)}),), facts)
     return Plan((message("LIKELIHOOD", **slots),), facts)
+
+
+def _then(event: Event, context: SpeechContext) -> Moment | None:
+    """Return the past moment at which a chance was held; None: it is held now."""
+    past = isinstance(event.time, At) and event.tense == "past"
+    at = event.time.at if isinstance(event.time, At) and past else context.now
+    return Moment(at) if context.now - at >= PRESENT else None
 
 
 def _likelier(answer: Verdict) -> dict[str, object]:

@@ -20,6 +20,7 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     At,
+    AtDecision,
     Ego,
     Event,
     Happens,
@@ -84,7 +85,9 @@ def followed(spoken: Question, g: Grounder) -> Question:
         case HowMuch(of=Measured(attribute="delay", event=Event(action="do")) as of):
             return _saved(of, g)
         case HowSure(of=Happens(event=Event(action="do", actor=Ego(), modal=None) as done)):
-            return replace(spoken, of=Happens(replace(done, object=None)))  # "that decision"
+            done = replace(done, object=None)  # "that decision", "the decision at 40 s"
+            timed = isinstance(spoken.time, At | AtDecision)
+            return replace(spoken, of=Happens(replace(done, time=spoken.time) if timed else done))
         case HowSure(of=None, changed=False) if isinstance(asked, Why) and _is_ours(asked.of):
             g.notes.leaned = True
             return replace(spoken, of=asked.of)

@@ -9,6 +9,8 @@ from sim.scene import EGO
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import (
+    At,
+    AtDecision,
     Between,
     Described,
     Ego,
@@ -28,7 +30,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.facts.episodes.lead_in import held_since
-from xavi_dialogue.nlu.grounding.completion.discussion import discussed
+from xavi_dialogue.nlu.grounding.completion.discussion import discussed, events
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Mode, Window
 from xavi_dialogue.nlu.grounding.events.afoot import afoot
 from xavi_dialogue.nlu.grounding.events.fitting import (
@@ -148,6 +150,9 @@ def completed(spoken: Event, g: Grounder, mode: Mode = "asked") -> Event:
         actor = g.thing(actor, g.window(spoken.time, spoken.tense))
     real = mode == "presupposed" or (mode == "asked" and spoken.object is None)
     real = real and spoken.modal is None and spoken.tense != "future"
+    said = isinstance(spoken.time, At | AtDecision)
+    if said and all(one.actor != actor for one in events(g.context.discourse, real=real)):
+        return spoken  # "how sure were you of what you did at 40 s?"
     known = discussed(g.context, actor, real=real) or discussed(g.context, real=real)
     if known is None:
         return spoken
