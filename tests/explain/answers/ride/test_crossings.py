@@ -194,9 +194,9 @@ def test_whom_we_met_is_the_last_of_the_stretch() -> None:
         decision(12.0),
     ]
     asked = scene(traces=traces)
-    assert met_about(asked, Window(10.0, 13.0)) == 2
+    assert met_about(asked, Window(10.0, 13.0)) == 1  # who goes before us
     assert met_about(asked, Window(0.0, 8.9)) == 1
-    assert met_about(asked, Window(8.0, 9.5)) == 2
+    assert met_about(asked, Window(8.0, 9.5)) == 1
     assert met_about(asked, Window(8.1, 8.9)) is None  # 6 s before at most
     assert met_about(asked, Window(8.0, 8.9)) == 1
     assert met_about(asked, Window(16.0, 18.0)) is None
@@ -204,7 +204,17 @@ def test_whom_we_met_is_the_last_of_the_stretch() -> None:
     assert met_about(scene(traces=traces, episodes=waited[:1]), Window(10.0, 13.0)) == 1
     assert met_about(scene(traces=traces, episodes=waited), Window(10.0, 13.0)) == 2
     other = (did("give-way", 5.0, 6.0, object=Vehicle(7)),)
-    assert met_about(scene(traces=traces, episodes=other), Window(10.0, 13.0)) == 2
+    assert met_about(scene(traces=traces, episodes=other), Window(10.0, 13.0)) == 1
+
+
+def test_whom_we_met_is_the_closest_of_those_who_go_before_us() -> None:
+    both = [decision(9.0, road=roads((1, "ego"), (2, "vehicle"), (3, "vehicle")))]
+    looks = {1: look(1, distance=5.0), 2: look(2, distance=40.0), 3: look(3, distance=30.0)}
+    assert met_about(scene(traces=both, looks=looks), Window(9.0, 10.0)) == 3
+    gone = looks | {3: look(3, distance=30.0, in_view=False)}
+    assert met_about(scene(traces=both, looks=gone), Window(9.0, 10.0)) == 2
+    none = [decision(9.0, road=roads((1, "ego"), (4, "ego")))]
+    assert met_about(scene(traces=none, looks=looks), Window(9.0, 10.0)) == 1
 
 
 def test_as_long_as_we_are_inside_nobody_has_gone_first() -> None:

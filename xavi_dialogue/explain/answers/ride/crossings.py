@@ -4,7 +4,7 @@ import math
 from itertools import pairwise
 
 from sim.scene import EGO
-from xavi_dialogue.domain.facts import Episode, Somebody
+from xavi_dialogue.domain.facts import Episode, Look, Somebody
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.precedence import at_ring, is_apart, on_ring
@@ -95,22 +95,33 @@ def stood(asked: Asked, vehicle: int, near: Window) -> bool:
 
 
 def met_about(asked: Asked, about: Window) -> int | None:
-    """Return whose way crossed ours in a stretch of the ride: the last, or one we waited for."""
+    """Return whose way crossed ours in a stretch of the ride, as it was last.
+
+    It is one that we waited for, else the closest of those who go before us, else of the others.
+    """
     found = [
-        (trace.sim_time, fact.vehicle)
+        (trace.sim_time, fact)
         for trace in asked.ride.traces
         if trace.road is not None and about.begin - NEAR <= trace.sim_time <= about.end
         for fact in trace.road.priority
         if fact.who != "depends"
     ]
     last = max((time for time, _ in found), default=None)
-    those = {vehicle for time, vehicle in found if time == last}
+    those = {fact.vehicle: fact.who != "vehicle" for time, fact in found if time == last}
+    met = {fact.vehicle for _, fact in found}
     waited = [
         number(e.object)
-        for e in asked.world.episodes(actor=Ego(), actions=("give-way",))
-        if number(e.object) in those
+        for e in asked.world.episodes(Ego(), ("give-way",), about.begin - NEAR, about.end)
+        if number(e.object) in met
     ]
-    return waited[-1] if waited else max(those, default=None)
+    if waited or last is None:
+        return waited[-1] if waited else None
+    looks = {vehicle: asked.world.look(vehicle, last) for vehicle in those}
+    return min(those, key=lambda v: (those[v], _far(looks[v]), v))
+
+
+def _far(look: Look | None) -> float:
+    return math.inf if look is None or not look.in_view else look.distance
 
 
 def line_order(asked: Asked, vehicle: int, near: Window) -> tuple[float, float] | None:
