@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from planner.record.places import RoadFacts, RouteStep
 from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
-from xavi_dialogue.domain.terms import Event, Thing
+from xavi_dialogue.domain.terms import Event, Feature, Thing
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute, Extreme, Relation
 from xavi_dialogue.explain.facts import beliefs, looks, plans, relations
 from xavi_dialogue.explain.facts.actions import covered, mirrored, somebody
@@ -124,8 +124,10 @@ class World:
         named = mirrored(event)
         actors = happening.actors_of(self.states, named)
         found = self.episodes(actors, (named.action,), begin, end)
-        if named.action in LETTING_GO:  # whom we stand behind we do not let go first
+        if named.action in LETTING_GO:  # whom we stand behind we do not let go first, nor a light
             found = tuple(e for e in found if e.how in (None, "right-of-way"))
+            by_light = isinstance(named.object, Feature)
+            found = tuple(e for e in found if by_light or not isinstance(e.object, Feature))
         return happening.such(found, named, begin)
 
     def account(self, begin: float, end: float) -> tuple[Episode, ...]:

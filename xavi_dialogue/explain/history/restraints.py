@@ -11,6 +11,8 @@ from planner.record.events import SETTLED, LightPlace, RestraintKind
 from sim.scene import EGO
 from xavi_dialogue.explain.history.ride import Ride
 
+SHARE = 0.3  # minimum share of the speed lost, or of the time, of what is stated as a reason
+
 
 @dataclass(frozen=True, slots=True)
 class Restraint:
@@ -76,3 +78,14 @@ def slowed(ride: Ride, begin: float, end: float) -> dict[Restraint, float]:
             if one.begin <= (time + after) / 2.0 < one.end and then < speed:
                 found[one.restraint] = found.get(one.restraint, 0.0) + speed - then
     return found
+
+
+def slowed_for(ride: Ride, begin: float, end: float) -> dict[int, Restraint]:
+    """Return who took much of the speed that the ego lost between two times [s], and how."""
+    lost = {one: v for one, v in slowed(ride, begin, end).items() if one.by != "nothing"}
+    least = SHARE * sum(lost.values())
+    return {
+        one.vehicle: one
+        for one in sorted(lost, key=lambda one: lost[one])
+        if one.vehicle is not None and lost[one] >= least
+    }

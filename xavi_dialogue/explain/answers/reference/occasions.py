@@ -22,6 +22,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, was_said, window
 from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, known, number
 from xavi_dialogue.explain.causes.vehicles.when import LEEWAY
+from xavi_dialogue.explain.history.restraints import slowed_for
 from xavi_dialogue.explain.history.ride import Ride
 
 PAUSE = 0.5  # [s] between two episodes of one kind, from which they are different ones
@@ -81,17 +82,18 @@ def occasions(asked: Asked, event: Event) -> tuple[Episode, ...]:
 
 
 def _while_let_go(asked: Asked, event: Event) -> tuple[Episode, ...]:
-    """Find our slowing for vehicles that crossed our way meanwhile, or that we let go first."""
+    """Find our slowing for vehicles that crossed our way meanwhile, or that were in our way."""
     if event.action not in SLOWED or not is_us(event.actor) or event.object is None:
         return ()
     others = [v for v in _each(asked, event.object) if isinstance(v, Vehicle)]
     crossed = [e for v in others for e in asked.world.episodes(v, ("cross",), object=Ego())]
     for other in others:
         crossed += asked.world.episodes(Ego(), ("give-way", "wait"), object=other)
-    ours = _held(asked, replace(event, object=None)) if crossed else []
+    named = {other.number for other in others}
     return tuple(
-        e for e in ours
+        e for e in _held(asked, replace(event, object=None))
         if any(overlaps(asked, x, Window(e.begin, _end(asked, e))) for x in crossed)
+        or named & slowed_for(asked.ride, e.begin, _end(asked, e)).keys()
     )  # fmt: skip
 
 

@@ -28,14 +28,13 @@ from xavi_dialogue.explain.causes.vehicles.involved import expected_actions
 from xavi_dialogue.explain.causes.vehicles.necessity import proven
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.nearing import speed_at, with_lowest, with_speeds
-from xavi_dialogue.explain.history.restraints import Restraint, lasted, restraints, slowed
+from xavi_dialogue.explain.history.restraints import SHARE, Restraint, lasted, restraints, slowed
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 
 LEEWAY = 1.0  # [s] before an episode from which on the speeds of its reasons count
 BEFORE = 2.0  # [s] before a standstill, in which the ego braked for it
 LATELY = 2.0  # [s] of an episode that goes on, which explain it
 AT_ONCE = 0.6  # [s] around a moment that explain a speed then
-SHARE = 0.3  # minimum share of the speed lost, or of the time, of what is stated as a reason
 SLOWING = frozenset[ActionName](("slow-down", "brake"))
 STATES = frozenset[ActionName](("move", "follow"))
 #: Restraints by the road, as the kinds of reasons that they are.

@@ -4,7 +4,7 @@ The ego waits for those who hold it up, from the moment of a decision on, in its
 vehicle waits for those who do so on its predicted ways; this is never sure.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from msgspec.structs import replace
 
@@ -17,6 +17,7 @@ from xavi_dialogue.explain.facts.episodes.light_waits import held_then, waits_at
 from xavi_dialogue.explain.facts.episodes.speeds import speeds
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.kept import of_decision
+from xavi_dialogue.explain.history.restraints import slowed_for
 from xavi_dialogue.explain.history.ride import prediction
 from xavi_dialogue.explain.history.thresholds import AT_ONCE, FOLLOWING_GAP, HELD_UP, YIELDING
 
@@ -41,7 +42,7 @@ def _waits(states: States, vehicle: int) -> list[Episode]:
         others = [wait for wait in ended if wait is not None]
         others = [w for w in others if w.object != Ego() or not any(_meet(w, x) for x in lit)]
         return [*others, *lit]
-    given = _merged(_gave_way(states, stood))
+    given = _merged((*_gave_way(states, stood), *_slowed_for(states)))
     lit = list(waits_at_lights(states.ride, EGO, stood))
     given += lit
     apart = [rest for still in stood for rest in _after_lights(states, still, lit)]
@@ -80,7 +81,7 @@ def _past(states: States, vehicle: int, other: int, time: float) -> bool:
     return ours.ahead < 0.0 or theirs.ahead < -ours.clear - AWAY
 
 
-def _merged(given: Iterator[Episode]) -> list[Episode]:
+def _merged(given: Iterable[Episode]) -> list[Episode]:
     """Return episodes without those that overlap another with the same object."""
     found: list[Episode] = []
     for one in given:
@@ -123,6 +124,20 @@ def _gave_way(states: States, stood: list[Episode]) -> Iterator[Episode]:
             how="right-of-way",
             standing=bool(still) or (first is not None and first.standing),
         )
+
+
+def _slowed_for(states: States) -> Iterator[Episode]:
+    """Yield our slowing down for those who had to go first, by what our driving recorded.
+
+    It tells of a giving way only where we came to walking pace.
+    """
+    for slowing in speeds(states, EGO):
+        end = _end(states, slowing)
+        if slowing.action not in ("slow-down", "brake"):
+            continue
+        for vehicle, one in slowed_for(states.ride, slowing.begin, end).items():
+            if one.by == "right-of-way" and one.light is None:  # else the light holds us
+                yield replace(slowing, action="give-way", object=named(vehicle), how="right-of-way")
 
 
 def _not_for_a_light(
