@@ -2,7 +2,9 @@
 
 from typing import Any
 
-from xavi_dialogue.domain.answers import Answer, Verdict
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Answer, Happenings, Verdict
 from xavi_dialogue.domain.meaning import (
     Claim,
     Doing,
@@ -16,7 +18,16 @@ from xavi_dialogue.domain.meaning import (
     Which,
     Why,
 )
-from xavi_dialogue.domain.terms import Event, Exists, Feature, Happens, Proposition, Relative
+from xavi_dialogue.domain.terms import (
+    Ego,
+    Event,
+    Exists,
+    Feature,
+    Happens,
+    Proposition,
+    Relative,
+    WholeRide,
+)
 from xavi_dialogue.domain.traffic_lights import LightColour, LightPassed, LightTold
 from xavi_dialogue.explain.answers.lights import lights_ahead
 from xavi_dialogue.explain.answers.lights.lights_read import (
@@ -29,7 +40,10 @@ from xavi_dialogue.explain.answers.lights.lights_read import (
     within,
 )
 from xavi_dialogue.explain.answers.reference.asked import Asked
-from xavi_dialogue.explain.answers.reference.reading import unwrapped
+from xavi_dialogue.explain.answers.reference.moments import window
+from xavi_dialogue.explain.answers.reference.occasions import did_not_happen
+from xavi_dialogue.explain.answers.reference.reading import is_own, unwrapped
+from xavi_dialogue.explain.facts.episodes.light_events import HELD
 from xavi_dialogue.explain.facts.traffic_lights import (
     colour_of,
     crossed,
@@ -84,6 +98,8 @@ def _judged(that: Proposition, scene: Asked, *, claim: bool) -> Answer:
         return _others(scene, light, time, past=past)
     if turned:
         holds = _has_turned(scene, light, wanted)
+        if not holds and not negated and not claim and wanted is not None and alike(one, wanted):
+            return LightTold("when", one, wanted, past=past, time=time)  # it had turned before
     else:
         holds = wanted is None or alike(one, wanted)
     asked: Any = "claim" if claim else "whether"
@@ -140,8 +156,28 @@ def _others(scene: Asked, light: Feature, time: float, *, past: bool) -> LightTo
 
 
 def seen_any(question: Which, scene: Asked) -> Answer:
-    """Return the light that was seen: the one on our way."""
+    """Return the light that was seen: the one on our way, or the one that held us."""
+    such, _ = unwrapped(question.such)
+    if isinstance(such, Happens) and is_own(such.event.actor) and such.event.action in HELD:
+        return _held_by(such.event, scene)
     return _seen(Exists(Feature("light")), scene, negated=False)
+
+
+def _held_by(event: Event, scene: Asked) -> Answer:
+    """Return when lights held us in the way that is asked about; none that was not said: ever.
+
+    Raises:
+        Unanswered: none did.
+    """
+    said = scene.past is not None and scene.past.said
+    event = replace(event, object=Feature("light"), time=event.time if said else WholeRide())
+    about = window(scene, event.time, "past")
+    about = about.widened() if about.instant else about
+    found = scene.world.holds(event, about.begin, about.end)
+    if not found:
+        raise did_not_happen(scene, event)
+    looked = tuple(replace(one, object=Feature("light")) for one in found)
+    return Happenings("when", looked, actor=Ego())
 
 
 def ours(question: Which, scene: Asked) -> Answer:
@@ -191,6 +227,9 @@ def _stretch(of: object, scene: Asked, asked: Any) -> Answer:
     time, past = moment(of, scene, light)
     time = max(time, scene.now) if asked == "when" and not scene.past else time
     signal = meant(scene.ride, light, time)
+    done = passings(scene.ride)
+    if signal is None and past and done and (scene.past is None or not scene.past.said):
+        signal = done[-1].signal  # of no other it can be asked
     if signal is None:
         return LightTold(asked, wanted=wanted, past=past, time=time)
     rows = [s for s in stretches(scene.ride, signal) if s.begin <= time + ROUNDING]

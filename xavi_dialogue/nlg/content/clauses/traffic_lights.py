@@ -90,6 +90,7 @@ def shown_slots(one: Shown | None, answer: LightTold, context: SpeechContext) ->
     until = context.now if one.end is None else one.end
     spent = (at if answer.asked != "how-long" else until) - one.begin
     over = one.end is not None and one.ended
+    gone = one.end is not None and not one.ended
     never = answer.asked == "when" and answer.wanted is not None and one.colour != answer.wanted
     return slots | {
         "colour": COLOURS[one.colour],
@@ -98,8 +99,9 @@ def shown_slots(one: Shown | None, answer: LightTold, context: SpeechContext) ->
         "lasted": Quantity(max(spent, 0.0), "s"),
         "when": _when(one, answer),
         "until": Moment(until) if over else None,
+        "seen": Moment(until) if gone else None,
         "never": never,
-        "past": answer.past and not never,
+        "past": answer.past and (gone or not never),
     }
 
 
