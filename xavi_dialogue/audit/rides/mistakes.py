@@ -1,9 +1,7 @@
-"""Predictions that were wrong, and whether they mattered.
+"""Predictions that were wrong (`explain/history/foretold.py`), and whether they mattered.
 
-Where a vehicle went is told by the roads on which later decisions saw it: the first that is the
-road of one of its predicted goals, other than the road it was on. A prediction is wrong if another
-goal was held more likely. It mattered if the same decision, planned again with the vehicle going
-where it went, chooses another first action.
+One mattered if the same decision, planned again with the vehicle going where it went, chooses
+another first action.
 """
 
 from collections.abc import Sequence
@@ -11,35 +9,16 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from planner.counterfactuals.whatif import WhatIfError
-from planner.record.trace import Action, PlanTrace, VehiclePrediction
+from planner.record.trace import Action
 from sim.scene import EGO
 from xavi_dialogue.audit.rides.choices import choice, value, weighed
 from xavi_dialogue.audit.rides.naming import name
 from xavi_dialogue.audit.values import Mistake
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.explain.facts.world import World
+from xavi_dialogue.explain.history.foretold import Wrong, wrong_predictions
 from xavi_dialogue.library.ride import Ride
 from xavi_dialogue.service.in_process import NoPlan
-
-
-@dataclass(frozen=True, slots=True)
-class _Goal:
-    """The goals of a prediction that end on the same road."""
-
-    edge: str
-    place: str
-    probability: float
-
-
-@dataclass(frozen=True, slots=True)
-class _Wrong:
-    """One decision that expected a vehicle elsewhere than it went."""
-
-    trace: PlanTrace
-    vehicle: int
-    expected: _Goal
-    truth: _Goal
-    came_at: float  # [s]
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,57 +32,14 @@ class _Weight:
 
 def mistakes(ride: Ride, known: World) -> tuple[Mistake, ...]:
     """Return the wrong predictions of a ride, by vehicle and then by time."""
-    found = sorted(_wrong(ride.record.traces), key=lambda one: (one.vehicle, one.trace.decision))
+    found = sorted(
+        wrong_predictions(ride.record.traces), key=lambda one: (one.vehicle, one.trace.decision)
+    )
     groups = groupby(found, key=lambda one: (one.vehicle, one.expected.edge, one.truth.edge))
     return tuple(_mistake(ride, known, list(group)) for _, group in groups)
 
 
-def _wrong(traces: Sequence[PlanTrace]) -> list[_Wrong]:
-    found = []
-    for k, trace in enumerate(traces):
-        for prediction in trace.predictions:
-            goals = _goals(prediction)
-            came = _came(trace, prediction.vehicle, goals, traces[k + 1 :])
-            if came is None:
-                continue
-            truth, at = came
-            best = max(goals.values(), key=lambda goal: goal.probability)
-            if best.probability > truth.probability:
-                found.append(_Wrong(trace, prediction.vehicle, best, truth, at))
-    return found
-
-
-def _goals(prediction: VehiclePrediction) -> dict[str, _Goal]:
-    """Return the goals of a vehicle by road."""
-    found: dict[str, _Goal] = {}
-    for goal in prediction.goals:
-        if goal.edge is not None and goal.kind != "cross":
-            before = found.get(goal.edge)
-            place = goal.place if before is None else before.place
-            chance = goal.probability + (0.0 if before is None else before.probability)
-            found[goal.edge] = _Goal(goal.edge, place, chance)
-    return found
-
-
-def _came(
-    trace: PlanTrace, vehicle: int, goals: dict[str, _Goal], later: Sequence[PlanTrace]
-) -> tuple[_Goal, float] | None:
-    """Return the goal that a vehicle reached, and when [s] it was seen there; None: unknown."""
-    here = _edge(trace, vehicle)
-    for one in later:
-        edge = _edge(one, vehicle)
-        if edge is not None and edge != here and edge in goals:
-            return goals[edge], one.sim_time
-    return None
-
-
-def _edge(trace: PlanTrace, vehicle: int) -> str | None:
-    if trace.road is None or vehicle not in trace.road.places:
-        return None
-    return trace.road.places[vehicle].edge
-
-
-def _mistake(ride: Ride, known: World, wrong: Sequence[_Wrong]) -> Mistake:
+def _mistake(ride: Ride, known: World, wrong: Sequence[Wrong]) -> Mistake:
     weights = [_weight(ride, one) for one in wrong]
     order = sorted(range(len(wrong)), key=lambda k: (-_rank(weights[k]), k))
     worst, weight = wrong[order[0]], weights[order[0]]
@@ -135,7 +71,7 @@ def _rank(weight: _Weight) -> float:
     return 1.0 + max(weight.gain or 0.0, 0.0) if weight.mattered else 0.0
 
 
-def _weight(ride: Ride, wrong: _Wrong) -> _Weight:
+def _weight(ride: Ride, wrong: Wrong) -> _Weight:
     """Plan a decision again with a vehicle going where it went."""
     trace = wrong.trace
     if choice(trace) is None or EGO not in trace.scene:

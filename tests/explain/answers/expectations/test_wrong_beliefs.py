@@ -121,6 +121,7 @@ WAYS = (
         (WAYS[:3], 5.4, WAYS[1]),
         (WAYS[:3], 7.5, WAYS[2]),
         (WAYS[:3], 9.5, None),
+        (WAYS[:3], 8.8, None),  # it stood already
         (WAYS[:1], 2.0, None),
         ((they(1, "exit-straight", 9.0), WAYS[1]), 2.0, they(1, "exit-straight", 9.0)),
         ((they(1, "change-right", 9.0),), 2.0, they(1, "change-right", 9.0)),

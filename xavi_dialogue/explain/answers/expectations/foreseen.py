@@ -270,7 +270,10 @@ def went_elsewhere(asked: Asked, belief: Belief) -> bool:
 
 
 def came_of(asked: Asked, vehicle: int, since: float) -> Episode | None:
-    """Return the first action of a vehicle after a time [s] that shows where it went."""
+    """Return the first action of a vehicle after a time [s] that shows where it went.
+
+    A turn may be under way at that time; who stood already did not come to a stop after it.
+    """
     ways: tuple[ActionName, ...] = (
         "exit-left",
         "exit-right",
@@ -280,7 +283,11 @@ def came_of(asked: Asked, vehicle: int, since: float) -> Episode | None:
         "stop",
     )
     found = asked.world.episodes(actor=Vehicle(vehicle), actions=ways, begin=since)
-    later = [e for e in found if e.begin >= since - 0.5 or overlaps(asked, e, Window(since, since))]
+    then = Window(since, since)
+    later = [
+        e for e in found
+        if e.begin >= since - 0.5 or (e.action != "stop" and overlaps(asked, e, then))
+    ]  # fmt: skip
     return min(later, key=lambda e: (ways.index(e.action) > 2, e.begin), default=None)
 
 

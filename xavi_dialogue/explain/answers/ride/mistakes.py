@@ -1,8 +1,12 @@
 """Mistakes: expectations of others that turned out wrong, and whether anything went wrong."""
 
+from collections.abc import Iterator
+from itertools import groupby
+
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.facts import Belief, Episode
+from planner.prediction.goals import BRANCHES
+from xavi_dialogue.domain.facts import Belief, Episode, Expectation
 from xavi_dialogue.domain.terms import Ego, Event, Is, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.foreseen import came_of, wrong_belief
@@ -10,8 +14,9 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, window
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
-from xavi_dialogue.explain.answers.reference.occasions import overlaps, taken_place
+from xavi_dialogue.explain.answers.reference.occasions import away, overlaps, taken_place
 from xavi_dialogue.explain.answers.ride.comfort import HARD, stretch
+from xavi_dialogue.explain.history.foretold import Wrong, wrong_predictions
 
 #: Actions that show which way a vehicle went.
 WAYS: tuple[ActionName, ...] = (
@@ -23,11 +28,16 @@ WAYS: tuple[ActionName, ...] = (
     "change-right",
 )
 
+TURNS: tuple[ActionName, ...] = ("exit-left", "exit-right", "exit-straight", "leave")
+
 
 def mistakes(
     asked: Asked, vehicle: int | None, about: Window
 ) -> tuple[tuple[Belief, Episode], ...]:
     """List the beliefs that later events contradict, each with the event, oldest first.
+
+    The roads on which vehicles were seen tell where they went; of those whose roads no decision
+    holds, their turns and lane changes do.
 
     Args:
         asked: the act and its setting.
@@ -36,8 +46,15 @@ def mistakes(
     """
     who = asked.world.vehicles if vehicle is None else (vehicle,)
     near = about.widened() if about.instant else about
-    found: list[tuple[Belief, Episode]] = []
+    roads = {v for t in asked.ride.traces if t.road is not None for v in t.road.places}
+    found = [
+        (belief, came)
+        for belief, came in _by_roads(asked)
+        if belief.vehicle in who and overlaps(asked, came, near)
+    ]
     for one in who:
+        if one in roads:
+            continue
         for came in asked.world.episodes(actor=Vehicle(one), actions=WAYS):
             if not overlaps(asked, came, near):
                 continue
@@ -47,6 +64,42 @@ def mistakes(
             if wrong is not None:
                 found.append((wrong, came))
     return tuple(sorted(found, key=lambda pair: pair[1].begin))
+
+
+def _by_roads(asked: Asked) -> Iterator[tuple[Belief, Episode]]:
+    """Yield the surest of the beliefs that expected a vehicle on another road than it took."""
+    every = sorted(wrong_predictions(asked.ride.traces), key=_way)
+    for (vehicle, *_), group in groupby(every, key=_way):
+        worst = max(group, key=lambda one: one.expected.probability)
+        belief = asked.world.belief(vehicle, worst.trace.sim_time)
+        if belief is None:
+            continue
+        place, chance = worst.expected.edge, worst.expected.probability
+        there = [e for e in belief.expectations if e.place == place]
+        actions = there[0].actions if there else (worst.expected.kind,)
+        first = Expectation(actions, chance, place)
+        others = tuple(e for e in belief.expectations if e.place != place)
+        yield replace(belief, expectations=(first, *others)), _taken(asked, worst, belief)
+
+
+def _way(one: Wrong) -> tuple[int, float, str, str]:
+    return one.vehicle, one.came_at, one.expected.edge, one.truth.edge
+
+
+def _taken(asked: Asked, one: Wrong, belief: Belief) -> Episode:
+    """Return the turn, or the exit of a roundabout, by which a vehicle came to its road."""
+    until = one.came_at + SHORT
+    turns = asked.world.episodes(Vehicle(one.vehicle), TURNS, one.trace.sim_time, until)
+    if one.truth.place in BRANCHES.values():  # a road that branches off is no turn
+        return Episode(Vehicle(one.vehicle), "leave", one.came_at, one.came_at)
+    if not turns:
+        return Episode(Vehicle(one.vehicle), one.truth.kind, one.came_at, one.came_at)
+    at = Window(one.came_at, one.came_at)
+    taken = min(turns, key=lambda e: (away(asked, e, at), abs(e.begin - one.came_at)))
+    ways = [e.actions for e in belief.expectations if e.place == one.truth.edge]
+    passed = sum(action == "continue-next-exit" for action in (ways or [()])[0])
+    ring = taken.action == "leave" and taken.exit is None and ways
+    return replace(taken, exit=passed + 1) if ring else taken
 
 
 def wrong(of: Is, asked: Asked) -> Finding:

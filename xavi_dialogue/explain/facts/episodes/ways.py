@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from planner.record.places import RoadPlace
-from planner.record.trace import ON_FOOT
+from planner.record.trace import ON_FOOT, Action
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Junction
@@ -13,10 +13,13 @@ from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.facts.actions import SIDES, named
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.deeds import Deed
+from xavi_dialogue.explain.history.foretold import turn_to
 from xavi_dialogue.explain.history.motion import Motion, Sighting
 
 LEAST = 0.3  # [m] minimum movement sideways of a lane change that has begun
 ASIDE = 1.5  # [s] around a lane change or turn in which places on the road count for it
+
+TURNS: tuple[Action, ...] = ("exit-left", "exit-right")
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,8 +223,9 @@ def _straight(
         )
         if not turned:
             place = Junction("junction", time=stay.begin)
-            action: ActionName = "exit-straight"
-            found.append(
-                Episode(named(vehicle), action, stay.begin, end, None, "straight", place=place)
-            )
+            # However little the road bends, what a goal calls a turn is one.
+            kind = turn_to(states.ride.traces, vehicle, stay.after.edge, stay.begin)
+            action: ActionName = kind if kind in TURNS else "exit-straight"
+            side = SIDES[action]
+            found.append(Episode(named(vehicle), action, stay.begin, end, None, side, place=place))
     return found
