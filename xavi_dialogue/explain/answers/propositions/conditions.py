@@ -238,7 +238,8 @@ def _seen(of: Is, asked: Asked) -> Finding:
         first = first_look(asked, vehicle, about.end)
         return Finding(of.state in ("hidden", "lost"), () if first is None else (first,))
     hidden = asked.world.measure("visibility", Vehicle(vehicle), about.end)
-    facts: tuple[Fact, ...] = (look, *known(hidden))
+    told = () if hidden.word == "lost" else known(hidden)  # the look says when it was seen last
+    facts: tuple[Fact, ...] = (look, *told)
     return Finding(look.in_view == (of.state in ("visible", "present")), facts)
 
 

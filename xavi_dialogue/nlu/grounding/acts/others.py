@@ -12,6 +12,7 @@ from xavi_dialogue.domain.meaning import (
     Identify,
     Listing,
     Question,
+    When,
     Where,
     Whether,
     Which,
@@ -34,9 +35,12 @@ from xavi_dialogue.domain.terms import (
     Is,
     Measured,
     Not,
+    Now,
     Pronoun,
     Proposition,
+    Rank,
     Related,
+    Thing,
     Unsaid,
     Vehicle,
     Wanted,
@@ -61,12 +65,22 @@ _CHANGING: Final = ("change-plan", "change-lane", "change-left", "change-right")
 _PAST_OTHERS: Final = ("overtake", "change-left", "change-right", "change-lane")
 
 
+def _last_seen(who: Thing, g: Grounder) -> Question:
+    """Ask when somebody went out of view, or whether he is seen, who still is."""
+    found = g.thing(who, g.window(Unsaid(), "past"))
+    if isinstance(found, Vehicle) and found.number in g.context.in_view(g.context.now):
+        return Whether(Related("can-see", Ego(), found, Now(), "present"))
+    return When(Happens(Event("disappear", found)))
+
+
 def of_others(spoken: Question, g: Grounder) -> Question | None:
     """Put the question that is meant in the place of one about others; None: it is another one."""
     meant = _reworded(spoken, g)
     if meant is not None:
         return meant
     match spoken:
+        case When(Related("can-see", Ego(), who, Rank(rank=-1))):
+            return _last_seen(who, g)
         case HowSure(of=Related(relation="can-see", thing=thing) as seen) if thing != Ego():
             return Whether(seen)  # no chance is held of what others see
         case HowSure(of=Happens(event=Event("do", actor, None))) if not isinstance(actor, Ego):

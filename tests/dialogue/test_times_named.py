@@ -1,0 +1,49 @@
+"""A time that a question names is the one of its answer, and what held us is told alike."""
+
+import pytest
+
+from tests.dialogue.talking import Talk
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "reply"),
+    [
+        (
+            "junction-0",
+            "Who were you waiting for at 20 s?",
+            "I waited at 0:16, because the",
+        ),
+        ("junction-0", "Who held you up at 20 s?", "I stopped at 0:16, because the traffic light"),
+        ("s1-0", "How likely was a collision at 3 s?", "At 0:03, I put the chance that we would"),
+        ("bend-0", "Did you give way to vehicle 1?", "Yes, I gave way to the blue car"),
+        ("bend-0", "How hard did you brake for vehicle 1?", "We braked with up to 3.0 m/s"),
+        ("junction-0", "Which light did you stop at?", "I stopped for the traffic light at 0:16"),
+        ("junction-0", "When did the light turn amber?", "I have not seen it turn amber"),
+        ("junction-0", "How long was the light green?", "The traffic light was green for at least"),
+        (
+            "junction-0",
+            "Did the light turn red before 20 s?",
+            "I did not see the traffic light",
+        ),
+        ("junction-0", "How often did you give way?", "I have given way once so far, at 0:29"),
+        ("s3-0", "Which predictions were wrong?", "Yes, I was wrong twice."),
+        ("s1-0", "When did you last see vehicle 1?", "Yes, I can see the blue car"),
+    ],
+)
+def test_is_answered_of_the_ride_as_it_was(name: str, text: str, reply: str) -> None:
+    assert Talk(name).hear(text).startswith(reply)
+
+
+def test_the_decision_of_a_time_is_another_one_than_the_last() -> None:
+    asked = [f"How sure were you about the decision at {at} s?" for at in (3, 15)]
+    first, later = (Talk("s1-0", 19.0).hear(text) for text in asked)
+    assert first.startswith("Moving to the left lane")
+    assert not later.startswith("Moving to the left lane")
+
+
+def test_an_option_is_of_the_time_that_is_named() -> None:
+    at, late = (
+        Talk("s1-0", 15.0).hear(f"What was the risk of the option you rejected at {t} s?")
+        for t in (3, 8)
+    )
+    assert at != late
