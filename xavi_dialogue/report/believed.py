@@ -56,7 +56,7 @@ def beliefs(
             place=places[kind, edge],
             edge=edge,
             points=tuple(row),
-            came=crossed if kind == "cross" else _came(edge, taken),
+            came=crossed if kind == "cross" else _came(edge, row, taken, listed),
         )
         for (kind, edge), row in ranked
     )
@@ -64,8 +64,21 @@ def beliefs(
     return Beliefs(vehicle, goals, tuple(without), speeds)
 
 
-def _came(edge: str | None, taken: set[str]) -> bool | None:
-    return None if not taken or edge is None else edge in taken
+def _came(
+    edge: str | None,
+    row: list[BeliefPoint],
+    taken: set[str],
+    listed: dict[Name, list[BeliefPoint]],
+) -> bool | None:
+    """Check whether a road was taken; it was not, where another was that was open as well.
+
+    None if neither was seen: what was expected after one junction is open until the next.
+    """
+    if edge is None or edge in taken:
+        return None if edge is None else True
+    times = {point.time for point in row}
+    others = (points for (_, other), points in listed.items() if other in taken)
+    return False if any(not times.isdisjoint(p.time for p in points) for points in others) else None
 
 
 def _most(row: list[BeliefPoint]) -> float:

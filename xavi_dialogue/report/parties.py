@@ -20,6 +20,7 @@ from xavi_dialogue.report.tracks import Tracks
 MOST = 5  # road users that are listed as involved
 RECENT = 3.0  # [s] before the moment, in which decisions show who is in the way
 WAYS = 5.0  # [s] before it, in which the right of way counts
+NEAR = 2.0  # [m] between bodies at the moment, within which somebody is involved
 BEHIND = 20.0  # [m] within which somebody behind counts
 ORDER: tuple[Role, ...] = (
     "collided", "near", "gave-way", "in-the-way", "held-up", "leader", "right-of-way", "follower",
@@ -30,7 +31,7 @@ def parties(
     inquiry: Inquiry, tracks: Tracks, moment: Chosen, window: tuple[float, float]
 ) -> tuple[Party, ...]:
     """Return the road users that are involved, most important first."""
-    ridden, found = inquiry.ridden, _roles(inquiry, moment, window)
+    ridden, found = inquiry.ridden, _roles(inquiry, tracks, moment, window)
     ranked = sorted(found, key=lambda v: (min(ORDER.index(role) for role in found[v]), v))
     return tuple(
         party(ridden, tracks, vehicle, tuple(sorted(found[vehicle], key=ORDER.index)), window)
@@ -100,12 +101,26 @@ def of_trace(trace: PlanTrace, field: str, how: str = "") -> Source:
     return Source("decision", field, trace.decision, trace.sim_time, trace.trace_id, how)
 
 
-def _roles(inquiry: Inquiry, moment: Chosen, window: tuple[float, float]) -> dict[int, set[Role]]:
+def _roles(
+    inquiry: Inquiry, tracks: Tracks, moment: Chosen, window: tuple[float, float]
+) -> dict[int, set[Role]]:
     found: dict[int, set[Role]] = {}
-    for vehicle, role in _all_roles(inquiry, moment, window):
+    near = ((vehicle, _NEAR) for vehicle in _beside(inquiry, tracks, moment.time))
+    for vehicle, role in (*_all_roles(inquiry, moment, window), *near):
         if vehicle != EGO:
             found.setdefault(vehicle, set()).add(role)
     return found
+
+
+_NEAR: Role = "near"
+
+
+def _beside(inquiry: Inquiry, tracks: Tracks, time: float) -> Iterator[int]:
+    """Yield who was so close to the car at the moment that one would ask about it."""
+    for vehicle in inquiry.world.vehicles:
+        gap = tracks.gap(vehicle, time)
+        if gap is not None and gap < NEAR:
+            yield vehicle
 
 
 def _all_roles(
