@@ -1,13 +1,19 @@
 """Files that are too much: refused before they are taken in."""
 
+import json
 import sys
 from pathlib import Path
 
 import pytest
 
+from planner.record import trace_reading
+from planner.record.trace import encode
 from xavi_dialogue.cli.errors import failure
 from xavi_dialogue.inspection import trace_files
 from xavi_dialogue.inspection.trace_files import TraceFileError, content, read
+from xavi_dialogue.storage import ride_file
+
+SAVED = Path(__file__).parents[2] / "transcripts" / "rides" / "s1-0.ride.jsonl.gz"
 
 
 def test_a_file_is_read_up_to_the_limit_only(
@@ -49,3 +55,18 @@ def test_a_saved_ride_is_found_without_its_ending(tmp_path: Path) -> None:
     assert content(str(tmp_path / "mine")) == b"saved"
     (tmp_path / "mine").write_bytes(b"another")
     assert content(str(tmp_path / "mine")) == b"another"
+
+
+def test_spaces_do_not_make_a_trace_too_large(monkeypatch: pytest.MonkeyPatch) -> None:
+    trace = ride_file.load(SAVED.read_bytes()).traces[0]
+    plain = encode(trace)
+    monkeypatch.setattr(trace_files, "MAX_BYTES", len(plain))
+    monkeypatch.setattr(trace_reading, "MAX_BYTES", len(plain))
+    spaced = json.dumps(json.loads(plain)).encode()
+    assert len(spaced) > len(plain)
+    assert read(spaced).traces == (trace,)
+
+
+def test_an_array_of_traces_is_told_to_be_one() -> None:
+    with pytest.raises(TraceFileError, match="each trace in a line of its own"):
+        read(b'[{"schema": 1}]')

@@ -311,16 +311,16 @@ def test_a_saved_ride_is_opened_by_its_content_and_of_its_car_alone(tmp_path: Pa
 
 def test_wrong_arguments_are_told_with_what_is_right() -> None:
     with pytest.raises(
-        xavi.XaviError, match=r"at is -1; give a time \[s\] of the ride, 0 to 19\.1"
+        xavi.XaviError, match=r"at is -1; give a time \[s or m:ss\] of the ride, 0 to 19\.1"
     ):
         s1().ask(WHY, at=-1)
     with pytest.raises(xavi.XaviError, match="at is nan"):
         s1().ask(WHY, at=float("nan"))
-    for at in ("8", True, [8]):
-        with pytest.raises(xavi.XaviError, match=r"at is .*; give a time \[s\] of the ride"):
+    for at in ("tea", True, [8]):
+        with pytest.raises(xavi.XaviError, match=r"at is .*; give a time \[s or m:ss\] of the"):
             s1().ask(WHY, at=at)  # type: ignore[arg-type]
-    for at in (-5.0, float("nan"), "8"):
-        with pytest.raises(xavi.XaviError, match=r"at is .*; give a time \[s\] of the ride"):
+    for at in (-5.0, float("nan"), "tea"):
+        with pytest.raises(xavi.XaviError, match=r"at is .*; give a time \[s or m:ss\] of the"):
             s1().map(at=at)  # type: ignore[arg-type]
     with pytest.raises(xavi.XaviError, match="the question is None; give a text"):
         s1().ask(None)  # type: ignore[arg-type]
@@ -469,3 +469,27 @@ def test_what_holds_no_trace_is_no_ride(tmp_path: Path) -> None:
     file.write_text("{}", encoding="utf-8")
     with pytest.raises(xavi.XaviError, match=r"mine\.json: not a plan trace.*or plan traces"):
         xavi.open(file)
+
+
+def test_times_are_given_as_they_are_written() -> None:
+    assert s1().ask(WHY, at="0:06") == s1().ask(WHY, at=6.0)
+    assert s1().map(at="0:06").caption == s1().map(at=6.0).caption
+
+
+def test_files_are_what_their_names_say(tmp_path: Path) -> None:
+    report = s1().report(at=6.0)
+    assert report.save(tmp_path / "report.json").read_text("utf-8") == report.json()
+    assert report.save(tmp_path / "report.html").read_text("utf-8") == report.html()
+    with pytest.raises(xavi.XaviError, match=r"end it with \.html or \.json"):
+        report.save(tmp_path / "report.pdf")
+    with pytest.raises(xavi.XaviError, match="pictures are written as SVG"):
+        s1().map().save(tmp_path / "map.png")
+
+
+def test_a_conversation_of_several_threads_is_refused() -> None:
+    conversation = s1().conversation()
+    taken = conversation._free.pop()
+    with pytest.raises(xavi.XaviError, match="one question at a time"):
+        conversation.ask(WHY)
+    conversation._free.append(taken)
+    assert conversation.ask(WHY).kind == "answer"

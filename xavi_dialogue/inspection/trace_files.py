@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 
 from planner.errors import TraceError
-from planner.record.trace import PlanTrace
+from planner.record.trace import MAX_BYTES, PlanTrace
 from planner.record.trace_reading import decode
 from xavi_dialogue.process.exit_status import UsageFault
 from xavi_dialogue.storage.ride_file import ENDING, RideFileError, parse, unpacked
@@ -84,6 +84,8 @@ def read(data: bytes) -> Traces:
     text = _unpacked(data)
     if text.count(b"\n") > MAX_RIDE_LINES:
         raise TraceFileError(f"has more than {MAX_RIDE_LINES} lines")
+    if text.lstrip()[:1] == b"[":
+        raise TraceFileError("it is an array of JSON; write each trace in a line of its own")
     if _begins_ride(text.partition(b"\n")[0]):
         return _ride(text)
     lines = text.split(b"\n") if text.count(b"\n{") else [text]
@@ -107,10 +109,18 @@ def _begins_ride(line: bytes) -> bool:
 
 def _decoded(data: bytes, line: int | None) -> PlanTrace:
     try:
-        return decode(data)
+        return decode(_compact(data) if len(data) > MAX_BYTES else data)
     except TraceError as error:
         where = "" if line is None else f"line {line}: "
         raise TraceFileError(f"{where}{error}") from error
+
+
+def _compact(data: bytes) -> bytes:
+    """Return JSON without the spaces that some writers put in, so that its size is that of it."""
+    try:
+        return msgspec.json.format(data, indent=-1)
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
+        return data
 
 
 def _of_one_vehicle(traces: Mapping[int, PlanTrace]) -> tuple[PlanTrace, ...]:

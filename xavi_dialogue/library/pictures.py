@@ -35,9 +35,11 @@ class Picture:
         """Write it as an SVG file.
 
         Raises:
-            XaviError: it cannot be written.
+            XaviError: it cannot be written, or its name is that of another kind of file.
         """
         file = path_of(path)
+        if file.suffix.lower() not in ("", ".svg"):
+            raise LibraryError(f"pictures are written as SVG, not {file.suffix}; end {file} so")
         try:
             file.write_text(self.svg, encoding="utf-8")
         except OSError as error:

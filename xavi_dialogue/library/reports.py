@@ -43,14 +43,19 @@ class Report:
         return encode(self.content).decode()
 
     def save(self, path: str | Path, *, as_json: bool = False) -> Path:
-        """Write it to a file, as HTML or as JSON.
+        """Write it to a file, as HTML or as JSON, which a name that ends in .json asks for, too.
 
         Raises:
-            XaviError: it cannot be written.
+            XaviError: it cannot be written, or its name ends otherwise.
         """
         file = path_of(path)
+        ending = file.suffix.lower()
+        if not as_json and ending not in ("", ".html", ".htm", ".json"):
+            raise LibraryError(f"{file} is no name of a report; end it with .html or .json")
         try:
-            file.write_text(self.json() if as_json else self.html(), encoding="utf-8")
+            file.write_text(
+                self.json() if as_json or ending == ".json" else self.html(), encoding="utf-8"
+            )
         except OSError as error:
             raise LibraryError(f"cannot write {file}: {error.strerror}; name another") from error
         return file

@@ -17,7 +17,7 @@ from xavi_dialogue.dialogue.state.events import Input
 from xavi_dialogue.dialogue.state.state import EPSILON, Dialogue
 from xavi_dialogue.library import html
 from xavi_dialogue.library.answers import Answer, answer, told_so_far
-from xavi_dialogue.library.arguments import check_style, path_of, question_of, real, whole
+from xavi_dialogue.library.arguments import check_style, path_of, question_of, whole
 from xavi_dialogue.library.curves import Curves, curves
 from xavi_dialogue.library.decisions import Decision
 from xavi_dialogue.library.errors import LibraryError, translated
@@ -27,6 +27,7 @@ from xavi_dialogue.library.reports import Report, report_of
 from xavi_dialogue.library.tables import TableName, table
 from xavi_dialogue.library.trajectories import compared
 from xavi_dialogue.nlg.context import Style
+from xavi_dialogue.process.clock_time import seconds_of
 from xavi_dialogue.service import in_process
 from xavi_dialogue.service.in_process import Replan, make_pipeline
 from xavi_dialogue.storage import ride_file
@@ -79,13 +80,15 @@ class Ride:
         """What the car did, oldest first."""
         return tuple(self.record.events)
 
-    def ask(self, question: str, at: float | None = None, style: Style = "passenger") -> Answer:
+    def ask(
+        self, question: str, at: float | str | None = None, style: Style = "passenger"
+    ) -> Answer:
         """Return the answer to a question by itself; it knows of no question before.
 
         Args:
             question: in plain English.
-            at: [s] when it is asked. Default: the end of the first lane change or turn that was
-                carried out, else the end of the ride.
+            at: [s], also as "1:05": when it is asked. Default: the end of the first lane change or
+                turn that was carried out, else the end of the ride.
             style: `passenger`, or `paper` for the wording of the paper.
 
         Raises:
@@ -101,11 +104,11 @@ class Ride:
         """
         return Conversation(self, style)
 
-    def map(self, at: float | None = None) -> Picture:
+    def map(self, at: float | str | None = None) -> Picture:
         """Return a map of a moment, with the plan in force and what was believed.
 
         Args:
-            at: [s]. Default: as in `ask`.
+            at: [s], also as "1:05". Default: as in `ask`.
 
         Raises:
             XaviError: there is no such time.
@@ -178,9 +181,9 @@ class Ride:
         Raises:
             XaviError: it is none of the ride.
         """
-        wanted = f"a time [s] of the ride, 0 to {self.end:g}"
-        time = real(at, "at", wanted)
-        if time < 0.0:
+        wanted = f"a time [s or m:ss] of the ride, 0 to {self.end:g}"
+        time = seconds_of(at)
+        if time is None or time < 0.0:
             raise LibraryError(f"at is {at!r}; give {wanted}")
         return min(time, self.end)
 
@@ -243,6 +246,7 @@ class Conversation:
         self.answers: tuple[Answer, ...] = ()
         self._inner = in_process.Conversation(make_pipeline(), keeping(ride.again, ride.record))
         self._told = 0  # inputs so far
+        self._free = [None]  # taken while a question is answered; unlike a lock, it is pickled
 
     def __repr__(self) -> str:
         count = len(self.answers)
@@ -251,13 +255,13 @@ class Conversation:
     def _repr_html_(self) -> str:
         return told_so_far(self, self.answers)
 
-    def ask(self, question: str, at: float | None = None) -> Answer:
+    def ask(self, question: str, at: float | str | None = None) -> Answer:
         """Return the answer to a question, which may refer to those before.
 
         Args:
             question: in plain English.
-            at: [s] when it is asked. Default: when the question before was, of the first as
-                `Ride.ask` says.
+            at: [s], also as "1:05": when it is asked. Default: when the question before was, of
+                the first as `Ride.ask` says.
 
         Raises:
             XaviError: there is no such time.
@@ -270,14 +274,23 @@ class Conversation:
         self.answers = (*self.answers, found)
         return found
 
-    def reply(self, question: str, at: float | None = None) -> Reply:
+    def reply(self, question: str, at: float | str | None = None) -> Reply:
         """Return the reply to a question as it goes over the bus; see `ask`."""
-        time = self._time(at)
-        with translated():
-            self._know(time)
-            return self._inner.ask(question_of(question), time, self.style)
+        try:
+            self._free.pop()
+        except IndexError:
+            raise LibraryError(
+                "a conversation answers one question at a time; give each thread one of its own"
+            ) from None
+        try:
+            time = self._time(at)
+            with translated():
+                self._know(time)
+                return self._inner.ask(question_of(question), time, self.style)
+        finally:
+            self._free.append(None)
 
-    def _time(self, at: float | None) -> float:
+    def _time(self, at: float | str | None) -> float:
         if at is None:
             return self.answers[-1].at if self.answers else self.ride.default_time
         return self.ride.moment(at)

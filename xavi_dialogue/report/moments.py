@@ -7,13 +7,12 @@ Errors:
 """
 
 import math
-import re
-from numbers import Real
 
 from planner.record.events import Event
 from sim.scene import EGO
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.thresholds import CLOSE, HARD, MOVING
+from xavi_dialogue.process.clock_time import seconds_of
 from xavi_dialogue.process.exit_status import UsageFault
 from xavi_dialogue.report.content import Chosen
 from xavi_dialogue.report.figures import Figure, Source, rounded
@@ -31,7 +30,6 @@ NAMES = {
     "the red light": "red-light",
 }
 OFFERED = "a time [s or m:ss], collision, hardest braking, closest approach, red light"
-CLOCK = re.compile(r"(\d{1,6}):([0-5]\d(?:\.\d+)?)", re.ASCII)  # minutes and seconds
 
 
 class ReportError(UsageFault):
@@ -56,28 +54,13 @@ def choose(ridden: Ridden, tracks: Tracks, at: float | str | None) -> Chosen:
             if found is None:
                 raise ReportError(f"the ride has no {kind.replace('-', ' ')}; give {OFFERED}")
             return found
-    time = _time(at)
+    time = seconds_of(at)
     if time is None:
         raise ReportError(f"{at!r} names no moment; give {OFFERED}")
     if not ridden.begin <= time <= ridden.end:
         told = f"the ride has no moment {time:g} s"
         raise ReportError(f"{told}; give one from {ridden.begin:g} to {ridden.end:g}")
     return Chosen("time", time, str(at), _speeds(tracks, time))
-
-
-def _time(at: object) -> float | None:
-    """Return the time [s] that is meant: a number, or a text such as 65, 65 s or 1:05."""
-    if isinstance(at, bool) or not isinstance(at, str | Real):
-        return None
-    minutes, text = 0, at
-    if isinstance(at, str):
-        split = CLOCK.fullmatch(at.strip())
-        minutes, text = (int(split[1]), split[2]) if split else (0, at.strip().removesuffix("s"))
-    try:
-        time = 60.0 * minutes + float(text)
-    except ValueError:
-        return None
-    return None if math.isnan(time) else time
 
 
 def _remarkable(ridden: Ridden, tracks: Tracks) -> Chosen:

@@ -26,6 +26,7 @@ from xavi_dialogue.cli.commands.common import (
     Streams,
     Vehicle,
     ZenohFile,
+    moment,
     place,
 )
 from xavi_dialogue.cli.commands.sessions import keeping_in, typed_file
@@ -175,7 +176,12 @@ def _ask(shell: Streams) -> Callable[..., None]:
         scenario: AnyScenario = None,
         seed: Seed = None,
         at: Annotated[
-            float | None, typer.Option(min=0.0, help="Moment of the question, simulation time [s].")
+            float | None,
+            typer.Option(
+                parser=moment,
+                metavar="TIME",
+                help="Moment of the question, simulation time [s or m:ss].",
+            ),
         ] = None,
         style: Annotated[
             Literal["passenger", "paper"],

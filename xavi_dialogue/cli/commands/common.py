@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from xavi_dialogue.process.clock_time import seconds_of
+
 if TYPE_CHECKING:
     from sim.setup.scenario import Scenario
 
@@ -54,6 +56,18 @@ def place(
             "--ego, --ego-from, --ego-to and --begin go with --scenario FILE.sumocfg"
         )
     return with_wishes(scenario, wishes)
+
+
+def moment(text: str) -> float:
+    """Return the time [s] that an option names: 65, 65s or 1:05.
+
+    Raises:
+        BadParameter: it names none, or one before the ride.
+    """
+    found = seconds_of(text)
+    if found is None or found < 0.0:
+        raise typer.BadParameter(f"{text!r} is no time of a ride; give one [s or m:ss]")
+    return found
 
 
 def to_json(value: object) -> str:

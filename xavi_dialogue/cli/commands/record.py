@@ -23,6 +23,7 @@ from xavi_dialogue.cli.commands.common import (
     Streams,
     Vehicle,
     ZenohFile,
+    moment,
 )
 from xavi_dialogue.cli.commands.log_options import logged, own_name
 from xavi_dialogue.cli.commands.sessions import keeping_in, typed_file
@@ -118,7 +119,10 @@ def _export(shell: Streams) -> Callable[..., None]:
             ),
         ] = None,
         at: Annotated[
-            float | None, typer.Option(min=0.0, help="Moment of the questions [s].")
+            float | None,
+            typer.Option(
+                parser=moment, metavar="TIME", help="Moment of the questions [s or m:ss]."
+            ),
         ] = None,
         scenario: Annotated[
             str | None, typer.Option(help="Scenario with the roads, where it is not found.")

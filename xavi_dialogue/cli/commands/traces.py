@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from xavi_dialogue.cli.commands.common import AsJson, Streams, to_json
+from xavi_dialogue.cli.commands.common import AsJson, Streams, moment, to_json
 from xavi_dialogue.process.exit_status import ExitStatus
 
 ROADLESS = (
@@ -35,7 +35,10 @@ def _show(shell: Streams) -> Callable[..., None]:
             int | None, typer.Option(min=0, help="In a ride: number of the decision.")
         ] = None,
         at: Annotated[
-            float | None, typer.Option(min=0.0, help="In a ride: the latest decision by [s].")
+            float | None,
+            typer.Option(
+                parser=moment, metavar="TIME", help="In a ride: the latest decision by [s or m:ss]."
+            ),
         ] = None,
         depth: Annotated[int, typer.Option(min=1, help="Number of successive actions shown.")] = 2,
         everything: Annotated[
@@ -83,7 +86,12 @@ def _explain(shell: Streams) -> Callable[..., None]:
         ],
         text: Annotated[str, typer.Argument(metavar="QUESTION", help="Question to answer.")],
         at: Annotated[
-            float | None, typer.Option(min=0.0, help="Moment of the question, simulation time [s].")
+            float | None,
+            typer.Option(
+                parser=moment,
+                metavar="TIME",
+                help="Moment of the question, simulation time [s or m:ss].",
+            ),
         ] = None,
         scenario: Annotated[
             str | None,
