@@ -292,7 +292,8 @@ def _deed(head: Leaf, traits: Traits) -> Sem:
         action = ("change-" if action == "change-lane" else "exit-") + side
         side = None
     known = traits.determiner in ("that", "this") and action == "do"
-    manner = tuple(a for a in ("hard", "sudden", "late", "early") if a in traits.adjectives)
+    said = {*traits.adjectives, *head.words}  # "hard braking" is one noun
+    manner = tuple(a for a in ("hard", "sudden", "late", "early") if a in said)
     manners = tuple("suddenly" if a == "sudden" else a for a in manner)
     obj = next((as_thing(s) for k, s in traits.about if k in ("for", "into", "with")), None)
     due = traits.following or _still_due(traits.clause)

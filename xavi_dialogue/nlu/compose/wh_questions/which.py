@@ -81,6 +81,9 @@ class WhichOne:
             case Measure() if wh.preposition == "at" and value is None:
                 of = sem.of  # "and at what speed?": of what was just spoken of
                 return HowMuch(with_fields(of, time=Back("during"), tense="past"), sem.extreme)
+            case Measure() if down_to(wh, value):
+                end = structs.replace(sem.of, thing=actor or Ego(), event=value.event, tense="past")
+                return HowMuch(end, "lowest")
             case Measure():
                 return self._attribute(sem, clause, value, actor)
             case Noun(key="prediction") if any(key == "wrong" for key, _ in clause.adjectives):
@@ -190,6 +193,12 @@ class WhichOne:
             return self._way(clause, value, as_thing(clause.subject))
         found = asked_of(sem, clause.time, clause.tense)
         return found or Which(Wanted(), fact(value) if value is not None else None)
+
+
+def down_to(wh: Wh, value: Any) -> bool:
+    """Say whether the speed is asked for that a braking ended with: "down to what speed"."""
+    slows = isinstance(value, Happens) and value.event.action in ("brake", "slow-down")
+    return slows and wh.preposition in ("to", "into") and wh.words[-1:] == ("speed",)
 
 
 def actor_is_open(clause: Clause) -> bool:
