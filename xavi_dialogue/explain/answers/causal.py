@@ -277,9 +277,8 @@ def _slowed_for(of: Proposition | None, scene: Asked) -> bool:
 def _slowed_for_anybody(event: Event) -> bool:
     """Check whether the question is if we slowed for anybody, whoever that may be."""
     done = event.tense in ("past", "perfect") and event.modal is None
-    return (
-        done and is_own(event.actor) and event.action in SLOWED and isinstance(event.object, Nobody)
-    )
+    ours = is_own(event.actor) and event.action in SLOWED
+    return done and ours and isinstance(event.object, Nobody)
 
 
 def _for_anybody(question: Whether, scene: Asked) -> Answer:

@@ -25,6 +25,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.occasions import lacks_deeds
 from xavi_dialogue.explain.answers.reference.reading import event_of
 from xavi_dialogue.explain.answers.sight import hidden_areas
+from xavi_dialogue.explain.answers.suppositions import people_first
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.explain.history.ride import Ride
@@ -81,7 +82,11 @@ def _answer(scene: Asked) -> Answer:
         return unseen(act, scene)
     if isinstance(act, Ask):
         question = _seen(act.question)
-        explainer = causal.explainer(question, scene) or factual.QUESTIONS.get(type(question))
+        explainer = (
+            people_first.explainer(question, scene)
+            or causal.explainer(question, scene)
+            or factual.QUESTIONS.get(type(question))
+        )
         if explainer is None:
             raise Unanswered(NotUnderstood())
         return explainer(question, scene)

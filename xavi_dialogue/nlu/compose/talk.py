@@ -223,7 +223,7 @@ def stirred(unit: Node, clause: Clause, *, liked: bool) -> Social | Ask | None:
             return Social("feelings", That())
         if liked and clause.that is None and not clause.complements:
             return Social("feelings")
-        if clause.feelings:
+        if clause.feelings and not clause.objects:  # "let her cross" is no anger
             about = None if clause.that is not None else _about(clause)
             if "surprised" in clause.feelings and (foreseen := _unforeseen(clause, about)):
                 return foreseen

@@ -144,6 +144,8 @@ def _same(clause: Clause, thing: Thing | None, subject: Thing, time: Time) -> li
         return [(placed, 0.05)]
     if thing == Feature("way") and not isinstance(subject, Ego):  # "all these people in your way"
         return [(Related("in-the-way-of", subject, Ego(), time, tense), 0.0)]
+    if isinstance(subject, Feature) and subject.kind == "light" and isinstance(thing, Ego):
+        return [(Exists(subject, time, tense), 0.0)]  # "is that light ours?"
     same: Proposition = Related("same-as", subject, thing, time, tense)
     if words_of(clause.objects[0][1]) in _NOMINATIVE:
         return [(same, NOMINATIVE)]
