@@ -10,11 +10,13 @@ from xavi_dialogue.domain.answers import Answer
 from xavi_dialogue.domain.meaning import Question, Whether
 from xavi_dialogue.domain.terms import Happens, Proposition, Unsaid
 from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.propositions import verdicts
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.naming import is_us
 from xavi_dialogue.explain.answers.reference.reading import numbers_in, unwrapped
 
+HALTS: Final = frozenset[ActionName](("stop", "wait"))
 LETTING: Final = frozenset[ActionName](("stop", "wait", "slow-down", "give-way", "let-go"))
 
 
@@ -30,6 +32,8 @@ def _asks(of: Proposition | None, asked: Asked) -> bool:
     event = of.event
     if event.modal is not None or event.tense != "future" or event.action not in LETTING:
         return False
+    if event.action in HALTS and stands(asked):
+        return False  # why we stand says more
     looks = [asked.world.look(v, asked.now) for v in numbers_in(event.object)]
     return bool(looks) and all(look is not None and look.kind in ON_FOOT for look in looks)
 
