@@ -145,3 +145,10 @@ def test_people_go_first_by_the_rule_whatever_is_planned(text: str) -> None:
     told = Talk("junction-0", 16.0).hear(text)
     assert told.startswith("Yes, the pedestrian ahead of us on the left (vehicle 8) and the ped")
     assert Talk("junction-0", 8.0).hear(text).startswith("Yes, the traffic light is red for us")
+
+
+def test_a_reason_is_no_verdict_of_fault() -> None:
+    talk = Talk("s4-0", 24.0)
+    assert "the black car (vehicle 4)" in talk.hear("Why did you brake?")
+    told = talk.hear("Was that his fault?")
+    assert not told.startswith(("Yes", "As I said, yes"))

@@ -35,7 +35,7 @@ from xavi_dialogue.explain.answers.events.beliefs import how_sure
 from xavi_dialogue.explain.answers.events.decisions import changed
 from xavi_dialogue.explain.answers.measuring.peak_moments import peak
 from xavi_dialogue.explain.answers.measuring.rivals import rivals
-from xavi_dialogue.explain.answers.propositions.duties import blamed
+from xavi_dialogue.explain.answers.propositions.blame import blamed
 from xavi_dialogue.explain.answers.propositions.happenings import doing, when
 from xavi_dialogue.explain.answers.propositions.identify import identify
 from xavi_dialogue.explain.answers.propositions.lasting import how_long

@@ -23,7 +23,7 @@ from xavi_dialogue.domain.terms import (
     Not,
 )
 from xavi_dialogue.explain.answers import causal
-from xavi_dialogue.explain.answers.propositions.duties import blamed
+from xavi_dialogue.explain.answers.propositions.blame import blamed
 
 
 @pytest.fixture

@@ -27,7 +27,7 @@ from xavi_dialogue.explain.answers.events.stages import actor, late, over, still
 from xavi_dialogue.explain.answers.expectations.foreseen import macros
 from xavi_dialogue.explain.answers.measuring.closeness import How, closeness, with_somebody
 from xavi_dialogue.explain.answers.measuring.limits import fast, within_limit
-from xavi_dialogue.explain.answers.propositions.duties import blamed
+from xavi_dialogue.explain.answers.propositions.blame import blamed
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.reference.moments import (

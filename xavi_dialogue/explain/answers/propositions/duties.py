@@ -5,8 +5,8 @@ The record shows the rule, not what we should have done. Advice gets the reason 
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.answers import Answer, Priority, Verdict
-from xavi_dialogue.domain.meaning import Fault, Whether, Why
+from xavi_dialogue.domain.answers import Priority, Verdict
+from xavi_dialogue.domain.meaning import Whether, Why
 from xavi_dialogue.domain.terms import (
     Both,
     Ego,
@@ -36,15 +36,13 @@ from xavi_dialogue.explain.answers.reference.findings import Finding
 from xavi_dialogue.explain.answers.reference.moments import Window, is_past, window
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
 from xavi_dialogue.explain.answers.reference.occasions import occasion
-from xavi_dialogue.explain.answers.ride.priority import fault, owed, priority_at, where_rule_holds
+from xavi_dialogue.explain.answers.ride.priority import owed, priority_at, where_rule_holds
 
 #: Actions of one that lets another go first.
 YIELDING: tuple[ActionName, ...] = ("give-way", "let-go", "wait")
 #: Those of them that are done for another one, if that one is named.
 FOR_ANOTHER: tuple[ActionName, ...] = ("stop", "brake", "slow-down")
 GOING: tuple[ActionName, ...] = ("go", "enter", "cross", "merge", "pull-out", "turn", "pass")
-#: Actions ascribed to us when we cannot go on.
-STUCK: tuple[ActionName, ...] = ("keep-lane", "stand", "wait")
 #: Actions of one that comes into another one's way.
 INTO_PATH: tuple[ActionName, ...] = ("pull-out", "cut-in", "cross", "block")
 WAITING: tuple[ActionName, ...] = ("give-way", "wait")
@@ -269,23 +267,6 @@ def _needed(asked: Asked, event: Event) -> Finding | None:
     if occasion(asked, plain) is None:
         return None
     return _handed(asked, Whether(Is("necessary", event=plain)))
-
-
-def blamed(question: Fault, asked: Asked) -> Answer:
-    """Return the facts for a question of fault; for our own actions, the reason.
-
-    Raises:
-        Unanswered: a vehicle is unknown, nothing is recorded of it, or rollouts are needed.
-    """
-    event = question.of.event if isinstance(question.of, Happens) else None
-    struck = event is not None and event.action in ("collide", "nearly-collide")
-    if event is None or not is_us(event.actor) or struck or question.legal:
-        return fault(question, asked)
-    stuck = Not(Happens(Event("go", tense="present")))
-    plain = stuck if event.action in STUCK else Happens(replace(event, modal=None))
-    why = Why(plain, suspect=question.suspect)
-    explainer = causal.explainer(why, asked)
-    return fault(question, asked) if explainer is None else explainer(why, asked)
 
 
 def who_first(asked: Asked, such: Proposition | None) -> Priority | None:
