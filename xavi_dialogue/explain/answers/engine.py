@@ -21,6 +21,7 @@ from xavi_dialogue.domain.meaning import Ask, Beyond, HowKnow, Question, Whether
 from xavi_dialogue.domain.terms import At, Between, Exists, Nobody, Related, Vehicles
 from xavi_dialogue.explain.answers import causal, factual
 from xavi_dialogue.explain.answers.lights import lights
+from xavi_dialogue.explain.answers.reasons import provoked
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.occasions import lacks_deeds
 from xavi_dialogue.explain.answers.reference.reading import event_of
@@ -84,6 +85,7 @@ def _answer(scene: Asked) -> Answer:
         question = _seen(act.question)
         explainer = (
             people_first.explainer(question, scene)
+            or provoked.explainer(question)
             or causal.explainer(question, scene)
             or factual.QUESTIONS.get(type(question))
         )

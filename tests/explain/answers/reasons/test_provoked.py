@@ -12,7 +12,7 @@ from xavi_dialogue.domain.answers import (
     OtherReason,
 )
 from xavi_dialogue.domain.facts import Belief
-from xavi_dialogue.domain.meaning import Why
+from xavi_dialogue.domain.meaning import Whether, Why
 from xavi_dialogue.domain.terms import (
     Ego,
     Event,
@@ -122,3 +122,18 @@ def test_we_may_come_in_ahead_of_it_two_seconds_later() -> None:
     assert came_in(8.0, 13.0, at=10.0).ours is True
     assert came_in(8.0, 13.0, at=11.0).ours is False
     assert came_in(8.0, 11.0, action="overtake").ours is False
+
+
+@pytest.mark.parametrize("modal", [None, "must"])
+def test_whether_somebody_braked_for_us_is_told_with_the_reason(
+    monkeypatch: pytest.MonkeyPatch, modal: Any
+) -> None:
+    both = OtherReason(1, BRAKED, causes=(LEADER, US))
+    monkeypatch.setattr(others, "why", lambda event, scene, negated: both)
+    question = Whether(Happens(Event("brake", ONE, Ego(), tense="past", modal=modal)))
+    explain = provoked.explainer(question)
+    assert explain is not None
+    assert explain(question, Given(looks={1: look(1)}).asked()).ours is True
+    for other in (Event("brake", ONE, tense="past"), Event("brake", Ego(), ONE, tense="past")):
+        assert provoked.explainer(Whether(Happens(other))) is None
+    assert provoked.explainer(Whether(Happens(Event("brake", ONE, Ego(), tense="future")))) is None

@@ -1,16 +1,19 @@
 """Provoked: whether another vehicle braked or stopped because of us."""
 
+from collections.abc import Callable
+from typing import Any
+
 from msgspec.structs import replace
 
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, MotionCause, OtherReason
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.meaning import Why
-from xavi_dialogue.domain.terms import Ego, Happens, Vehicle
+from xavi_dialogue.domain.meaning import Question, Whether, Why
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reasons import others
 from xavi_dialogue.explain.answers.reference.asked import Asked
-from xavi_dialogue.explain.answers.reference.reading import unwrapped
+from xavi_dialogue.explain.answers.reference.reading import event_of, unwrapped
 
 #: Actions by which we move in ahead of somebody.
 ENTRIES = frozenset[ActionName](
@@ -19,6 +22,33 @@ ENTRIES = frozenset[ActionName](
 BEFORE = 4.0  # [s] for which we count as having just moved in ahead of somebody
 SOON = 2.0  # [s] after a braking begins, up to which our moving in is looked at
 REACH = 60.0  # [m] maximum distance of a vehicle that brakes for us
+
+
+def explainer(question: Question) -> Callable[[Any, Asked], Answer] | None:
+    """Find the explainer of whether another vehicle had to brake for us; None: something else."""
+    match question:
+        case Whether(
+            that=Happens(event=Event(action="brake" | "slow-down", actor=Vehicle(), object=Ego()))
+        ) if _done(question):
+            return braked_for_us
+    return None
+
+
+def _done(question: Whether) -> bool:
+    event = event_of(question.that)
+    return event is not None and event.tense in ("past", "perfect")
+
+
+def braked_for_us(question: Whether, scene: Asked) -> Answer:
+    """Return whether another vehicle braked for us, with its reason as far as it is known.
+
+    Raises:
+        Unanswered: it did not brake, or was never seen.
+    """
+    event = event_of(question.that)
+    assert event is not None
+    plain = Happens(replace(event, object=None, modal=None))
+    return because_of_us(Why(plain, suspect=Ego()), scene)
 
 
 def because_of_us(question: Why, scene: Asked) -> Answer:
