@@ -152,3 +152,14 @@ def test_a_reason_is_no_verdict_of_fault() -> None:
     assert "the black car (vehicle 4)" in talk.hear("Why did you brake?")
     told = talk.hear("Was that his fault?")
     assert not told.startswith(("Yes", "As I said, yes"))
+
+
+def test_the_pedestrian_just_spoken_of_is_the_one_that_is_meant() -> None:
+    talk = Talk("junction-0", 45.0)
+    talk.hear("Is vehicle 13 crossing?")
+    assert "(vehicle 13)" in talk.hear("How close did we get to the pedestrian?")
+
+
+def test_slowing_for_somebody_who_went_after_us_is_no_giving_way() -> None:
+    told = Talk("bend-0", 12.0).hear("Did you have to wait for anyone?")
+    assert told.endswith("in fact we went first.")

@@ -14,6 +14,7 @@ from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego
 from xavi_dialogue.explain.facts.actions import named
 from xavi_dialogue.explain.facts.episodes.light_waits import held_then, waits_at_lights
+from xavi_dialogue.explain.facts.episodes.meetings import crossings
 from xavi_dialogue.explain.facts.episodes.speeds import speeds
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.kept import of_decision
@@ -23,6 +24,9 @@ from xavi_dialogue.explain.history.thresholds import AT_ONCE, FOLLOWING_GAP, HEL
 
 Holder = tuple[int, HoldUp]
 STARTING = 4.0  # [s] after the other is past, in which a vehicle that waited for it moves off
+UNSETTLED = 4.0  # [s] after we slowed for another in which it may still go before us
+BEFORE = 1.0  # [s] before we slowed, from which on its crossing counts
+AFTER = 10.0  # [s] after we slowed, up to which it does
 AWAY = 6.0  # [m] minimum distance behind the other's back from which it is past
 
 
@@ -136,8 +140,23 @@ def _slowed_for(states: States) -> Iterator[Episode]:
         if slowing.action not in ("slow-down", "brake"):
             continue
         for vehicle, one in slowed_for(states.ride, slowing.begin, end).items():
-            if one.by == "right-of-way" and one.light is None:  # else the light holds us
+            if one.by != "right-of-way" or one.light is not None:  # else the light holds us
+                continue
+            if _went_before(states, vehicle, slowing.begin, end):
                 yield replace(slowing, action="give-way", object=named(vehicle), how="right-of-way")
+
+
+def _went_before(states: States, vehicle: int, begin: float, end: float) -> bool:
+    """Check whether somebody for whom we slowed went first, or may still do so.
+
+    Who has not crossed our way, and is behind us after it, went after us.
+    """
+    if states.ride.now - end < UNSETTLED:
+        return True
+    if any(begin - BEFORE <= e.begin <= end + AFTER for e in crossings(states, vehicle)):
+        return True
+    after = states.offset(EGO, vehicle, min(end + AFTER, states.ride.now))
+    return after is None or after.ahead >= 0.0
 
 
 def _not_for_a_light(

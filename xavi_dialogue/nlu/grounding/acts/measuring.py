@@ -64,7 +64,8 @@ def measured(
     if extreme and spoken.attribute == "distance" and spoken.to is None:
         both = (spoken.thing, Ego())  # "how close did the cyclist get?"
     past = spoken.tense in ("past", "perfect")
-    kind = _any_kind(both, extreme=extreme and past) if Ego() in both else None
+    unsaid = extreme and past and not any(_is_spoken_of(one, g) for one in both)
+    kind = _any_kind(both, extreme=unsaid) if Ego() in both else None
     nearest = kind is not None and (extreme or (past and isinstance(spoken.time, WholeRide)))
     if nearest and kind is not None:  # "the closest anyone came to us"
         everyone = extreme and kind in ANYBODY
@@ -104,6 +105,15 @@ def _any_kind(things: tuple[Thing | None, ...], *, extreme: bool) -> Kind | None
         )
         return None if known or thing != plain else thing.kind
     return None
+
+
+def _is_spoken_of(thing: Thing | None, g: Grounder) -> bool:
+    """Tell whether somebody of that kind was just spoken of."""
+    if not isinstance(thing, Described):
+        return False
+    spoken = (v for v, s in vehicles_of(g.context.discourse.mentions) if s >= PRESENT)
+    looks = (g.context.look(vehicle, g.context.now) for vehicle in spoken)
+    return any(look is not None and look.kind == thing.kind for look in looks)
 
 
 def whichever(thing: Thing, such: Proposition | None) -> Thing:
