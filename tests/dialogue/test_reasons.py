@@ -163,3 +163,12 @@ def test_the_pedestrian_just_spoken_of_is_the_one_that_is_meant() -> None:
 def test_slowing_for_somebody_who_went_after_us_is_no_giving_way() -> None:
     told = Talk("bend-0", 12.0).hear("Did you have to wait for anyone?")
     assert told.endswith("in fact we went first.")
+
+
+def test_people_are_counted_by_our_way_as_in_front_of_us() -> None:
+    told = {
+        Talk("junction-0", 60.0).hear(text)
+        for text in ("How many people crossed our way?", "How many people crossed in front of us?")
+    }
+    assert len(told) == 1
+    assert "that crossed our way" in told.pop()

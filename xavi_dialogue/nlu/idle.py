@@ -37,6 +37,7 @@ _NAMED: Final = frozenset(
     ("vehicle", "car", "trip", "ride", "time", "reason", "difference", "start", "rude", "law",
      "value", "road", "decision", "prediction"),
 )  # fmt: skip
+_NUMBERED: Final = frozenset(("numbered", "owner"))
 _PLACE: Final = "building"  # "the village": a place that the road network does not name
 _LIGHT: Final = frozenset(("go", "come", "do", "get", "take", "make", "have", "be", "let"))
 #: What says as much as a word of a class: any measure, any place.
@@ -64,6 +65,8 @@ def idle(unit: Node, rows: Sequence[tuple[Act, ...]], end_mark: str) -> list[tup
     for leaf in leaves_of(unit) if asking else ():
         if leaf.category not in _BEARING or leaf.key in _NAMED | _LIGHT:
             continue
+        if _is_numbered(unit, leaf):
+            continue
         if leaf.key != _PLACE and not _is_core(unit, leaf):
             continue
         again = (_composed_with(unit, leaf, other, end_mark) for other in _OTHERS)
@@ -81,6 +84,15 @@ def idle(unit: Node, rows: Sequence[tuple[Act, ...]], end_mark: str) -> list[tup
         (main, tuple(leaf for leaf in leaves if leaf not in main))
         for main, leaves in zip(core, found, strict=True)
     ]
+
+
+def _is_numbered(node: Node, leaf: Leaf) -> bool:
+    """Say whether a word is the kind of a road user that its number names: "pedestrian 3"."""
+    if leaf in node.parts:
+        return node.name in _NUMBERED
+    return any(
+        isinstance(p, Node) and leaf in p.leaves and _is_numbered(p, leaf) for p in node.parts
+    )
 
 
 def _is_core(node: Node, leaf: Leaf) -> bool:

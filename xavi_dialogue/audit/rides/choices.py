@@ -2,9 +2,10 @@
 
 from collections.abc import Sequence
 
-from planner.record.trace import ACTIONS, Action, PlanTrace, Rollout
+from planner.record.trace import PlanTrace, Rollout
 from planner.search.comparison import standard_error
 from xavi_dialogue.audit.values import Choice
+from xavi_dialogue.explain.causes.plans.margins import rival, value, weighed
 
 
 def choices(traces: Sequence[PlanTrace]) -> tuple[Choice, ...]:
@@ -15,35 +16,19 @@ def choices(traces: Sequence[PlanTrace]) -> tuple[Choice, ...]:
 
 def choice(trace: PlanTrace) -> Choice | None:
     """Return the margin of a decision; None if it did not weigh several first actions."""
-    tried = weighed(trace)
-    if not trace.plan or len(tried) < 2 or trace.plan[0].action not in tried:
+    other = rival(trace)
+    if other is None:
         return None
-    chosen = trace.plan[0].action
-    others = [action for action in tried if action != chosen]
-    rival = max(others, key=lambda one: (value(tried[one]), -ACTIONS.index(one)))
-    ours, theirs = tried[chosen], tried[rival]
+    chosen, tried = trace.plan[0].action, weighed(trace)
+    ours, theirs = tried[chosen], tried[other]
     return Choice(
         at=trace.sim_time,
         trace_id=trace.trace_id,
         chosen=chosen,
-        rival=rival,
+        rival=other,
         margin=round(value(ours) - value(theirs), 3),
         error=round(_error(ours, theirs), 3),
     )
-
-
-def weighed(trace: PlanTrace) -> dict[Action, list[Rollout]]:
-    """Return the rollouts that compare the first actions, by first action."""
-    found: dict[Action, list[Rollout]] = {}
-    for one in trace.rollouts:
-        if one.weight is not None and one.actions:
-            found.setdefault(one.actions[0].action, []).append(one)
-    return found
-
-
-def value(rollouts: Sequence[Rollout]) -> float:
-    """Return the expected reward [s] over the situations that were tried."""
-    return sum((one.weight or 0.0) * one.reward for one in rollouts)
 
 
 def _error(ours: Sequence[Rollout], theirs: Sequence[Rollout]) -> float:

@@ -11,10 +11,11 @@ from itertools import groupby
 from planner.counterfactuals.whatif import WhatIfError
 from planner.record.trace import Action
 from sim.scene import EGO
-from xavi_dialogue.audit.rides.choices import choice, value, weighed
+from xavi_dialogue.audit.rides.choices import choice
 from xavi_dialogue.audit.rides.naming import name
 from xavi_dialogue.audit.values import Mistake
 from xavi_dialogue.domain.answers import NeedRollout
+from xavi_dialogue.explain.causes.plans.margins import value, weighed
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.foretold import Wrong, wrong_predictions
 from xavi_dialogue.library.ride import Ride

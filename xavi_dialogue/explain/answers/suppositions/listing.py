@@ -21,7 +21,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
     unwrapped,
 )
 from xavi_dialogue.explain.answers.ride.onward import way_chosen
-from xavi_dialogue.explain.causes.plans import options
+from xavi_dialogue.explain.causes.plans import margins, options
 from xavi_dialogue.explain.causes.plans.premise import Premise, Subject, premise
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
 from xavi_dialogue.explain.history.ride import Unanswered
@@ -69,32 +69,18 @@ def closest_choice(question: Peak, scene: Asked) -> Options | PeakMoment:
     """Return the decision whose best other option came closest to what was chosen."""
     about = window(scene, question.time)
     begin, end = (about.begin, about.end) if about.said else (scene.world.begin, scene.now)
-    compared = [
-        (found, *_rivalled(scene, found))
-        for trace in scene.ride.traces
-        if begin <= trace.sim_time <= end
-        and trace.under_way is None
-        and len(scene.ride.model(trace).options()) > 1
-        for found in (Premise(trace, None),)
-    ]
-    apart = [
-        (abs(first.value - second.value), found.trace.sim_time, found, rows, verdict)
-        for found, rows, verdict in compared
-        if verdict != "alone"
-        for first, second in (rows,)
-        if first.value is not None and second.value is not None
-    ]
-    if not apart:
-        return PeakMoment(question.of)
-    *_, found, rows, verdict = min(apart, key=lambda one: one[:2])
-    return replace(_told(scene, found, rows, verdict), closest=True)
-
-
-def _rivalled(scene: Asked, found: Premise) -> tuple[tuple[OptionValue, ...], Weighing]:
-    try:
-        return options.with_rival(scene.ride, found)
-    except Unanswered:
-        return (), "alone"
+    inside = (trace for trace in scene.ride.traces if begin <= trace.sim_time <= end)
+    apart = [(abs(by), trace) for trace in inside if (by := margins.margin(trace)) is not None]
+    for _, trace in sorted(apart, key=lambda one: (one[0], one[1].sim_time)):
+        other = margins.rival(trace)
+        found = Premise(trace, None)
+        try:
+            rows, verdict = options.with_rival(scene.ride, found, () if other is None else (other,))
+        except Unanswered:
+            continue
+        if verdict != "alone":
+            return replace(_told(scene, found, rows, verdict), closest=True)
+    return PeakMoment(question.of)
 
 
 def how_decide(question: HowDecide, scene: Asked) -> Method | Course:

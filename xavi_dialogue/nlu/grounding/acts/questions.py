@@ -68,6 +68,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 )
 from xavi_dialogue.nlu.grounding.completion.supposing import of_named
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
+from xavi_dialogue.nlu.grounding.events.generic import across
 from xavi_dialogue.nlu.grounding.events.timing import believed_last, changed, foreseen, over
 from xavi_dialogue.nlu.grounding.events.windows import pointed
 
@@ -158,12 +159,11 @@ def _how_many(spoken: HowMany, g: Grounder) -> HowMany:
         if isinstance(of.time, Unsaid) and of.tense in ("past", "perfect"):
             of = replace(of, time=WholeRide())
         return replace(spoken, of=g.event(of, "asked"))
-    if isinstance(of, Described):
-        of = replace(of, plural=True, definite=False)
-        if of.doing is not None and of.doing.tense in ("past", "perfect"):
-            return replace(spoken, of=g.thing(of, g.window(Unsaid(), "perfect")), such=of)
-        return replace(spoken, of=g.thing(of, g.window(Unsaid(), "present")), such=of)
-    return replace(spoken, of=g.thing(of, g.window(Unsaid(), "present")))
+    such = replace(across(of), plural=True, definite=False) if isinstance(of, Described) else None
+    doing = None if such is None else such.doing
+    done = doing is not None and doing.tense in ("past", "perfect")
+    window = g.window(Unsaid(), "perfect" if done else "present")
+    return replace(spoken, of=g.thing(such or of, window), such=such)
 
 
 def _when(spoken: When, g: Grounder) -> When:

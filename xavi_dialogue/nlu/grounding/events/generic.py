@@ -12,6 +12,7 @@ from msgspec.structs import replace
 from planner.record.places import RoadFacts
 from sim.scene import EGO
 from xavi_dialogue.domain.terms import (
+    Described,
     Ego,
     Event,
     Everyone,
@@ -159,6 +160,14 @@ def come_along(spoken: Related) -> Related:
         return spoken
     now = spoken.tense == "present"
     return replace(spoken, time=Now(), tense="present" if now else "perfect")
+
+
+def across(of: Described) -> Described:
+    """Read "people who crossed our way" as those who crossed in front of us."""
+    doing = of.doing
+    if doing is None or doing.action != "cross" or doing.object != Feature("way"):
+        return of
+    return replace(of, doing=replace(doing, object=Ego()))
 
 
 def in_order(spoken: Happens, mode: Mode) -> Proposition:
