@@ -15,7 +15,7 @@ from tests.dialogue.talking import Talk
         ),
         ("junction-0", "Who held you up at 20 s?", "I stopped at 0:16, because the traffic light"),
         ("s1-0", "How likely was a collision at 3 s?", "At 0:03, I put the chance that we would"),
-        ("bend-0", "Did you give way to vehicle 1?", "Yes, I gave way to the blue car"),
+        ("bend-0", "Did you give way to vehicle 1?", "No, the blue car"),  # it let us go first
         ("bend-0", "How hard did you brake for vehicle 1?", "We braked with up to 3.0 m/s"),
         ("junction-0", "Which light did you stop at?", "I stopped for the traffic light at 0:16"),
         ("junction-0", "When did the light turn amber?", "I have not seen it turn amber"),

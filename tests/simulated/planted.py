@@ -16,7 +16,7 @@ from tests.simulated.plan import STORIES, plan_of
 from tests.simulated.world import right, run
 
 ROOT = Path(__file__).parents[2] / "xavi_dialogue"
-ENOUGH = 120  # seeds that are tried on a fault
+ENOUGH = 500  # seeds that are tried on a fault
 LIMIT = 600  # [s] of processor time that a fault may take
 
 
