@@ -1,4 +1,4 @@
-"""A time that a question names is the one of its answer, and what held us is told alike."""
+"""Questions that name a time are answered for that time; what held us is named the same way."""
 
 import pytest
 

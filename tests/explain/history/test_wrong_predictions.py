@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from xavi_dialogue.explain.history.foretold import turn_to, wrong_predictions
+from xavi_dialogue.explain.history.predicted_roads import turn_to, wrong_predictions
 
 
 def seen(time: float, edge: str | None, *goals: tuple[str, str, float]) -> Any:

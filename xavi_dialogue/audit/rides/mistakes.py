@@ -1,4 +1,4 @@
-"""Predictions that were wrong (`explain/history/foretold.py`), and whether they mattered.
+"""Predictions that were wrong (`explain/history/predicted_roads.py`), and whether they mattered.
 
 One mattered if the same decision, planned again with the vehicle going where it went, chooses
 another first action.
@@ -17,7 +17,7 @@ from xavi_dialogue.audit.values import Mistake
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.explain.causes.plans.margins import value, weighed
 from xavi_dialogue.explain.facts.world import World
-from xavi_dialogue.explain.history.foretold import Wrong, wrong_predictions
+from xavi_dialogue.explain.history.predicted_roads import Wrong, wrong_predictions
 from xavi_dialogue.library.ride import Ride
 from xavi_dialogue.service.in_process import NoPlan
 

@@ -275,7 +275,7 @@ def _slowed_for(of: Proposition | None, scene: Asked) -> bool:
 
 
 def _slowed_for_anybody(event: Event) -> bool:
-    """Check whether the question is if we slowed for anybody, whoever that may be."""
+    """Check whether the question is if we slowed for anybody at all."""
     done = event.tense in ("past", "perfect") and event.modal is None
     ours = is_own(event.actor) and event.action in SLOWED
     return done and ours and isinstance(event.object, Nobody)

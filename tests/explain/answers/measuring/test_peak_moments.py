@@ -50,6 +50,14 @@ def test_without_braking_there_is_no_hardest_braking() -> None:
         assert peak("braking", extremes=known) == PeakMoment("braking")
 
 
+def test_whom_we_braked_for_hardest_comes_before_whom_we_passed() -> None:
+    found = at("deceleration", 12.0, 3.0)
+    passed, braked = deed("pass", 11.5, 13.0, TWO), deed("brake", 11.0, 13.0, ONE)
+    known = {("deceleration", Ego(), "highest"): found}
+    told = peak("braking", extremes=known, deeds=(passed, braked))
+    assert told.deeds == (braked,)
+
+
 def test_extremes_are_looked_for_in_the_time_asked_about() -> None:
     spans: list[tuple[float, float]] = []
 

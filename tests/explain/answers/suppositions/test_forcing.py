@@ -16,7 +16,7 @@ FIRST = Event("go", manner=("first",), tense="perfect")
 
 
 class Tried:
-    """What going first comes to, and of whom it was asked."""
+    """Stand in for what would follow if we went first; keep who was asked about."""
 
     def __init__(self, patch: pytest.MonkeyPatch, found: Any = MET) -> None:
         self.asked: list[Any] = []

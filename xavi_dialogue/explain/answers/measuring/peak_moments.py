@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Mapping
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import Answer, Happenings, PeakMoment
 from xavi_dialogue.domain.facts import Episode, Look, Measure
 from xavi_dialogue.domain.meaning import Peak
@@ -132,7 +134,11 @@ def _braking(of: str, asked: Asked, about: Window) -> PeakMoment:
     found = asked.world.extreme("deceleration", Ego(), "highest", about.begin, about.end)
     if found.gap is not None or not found.value:
         return PeakMoment(of)
-    return _at(asked, of, found)
+    moment = _at(asked, of, found)
+    kept = [e for e in moment.deeds if e.action != "pass"]  # nobody is braked for by passing
+    for_others = [e for e in kept if e.action in SLOWING and e.object is not None]
+    rest = [e for e in kept if e not in for_others]
+    return replace(moment, deeds=(*for_others, *rest))
 
 
 def _slowing(of: str, asked: Asked, about: Window) -> PeakMoment:

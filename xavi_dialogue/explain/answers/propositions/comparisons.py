@@ -34,7 +34,6 @@ SAME: dict[Attribute, float] = {
     "time-to-collision": 0.3, "deceleration": 0.3, "acceleration": 0.3, "size": 0.3,
     "time-to-go": 1.0, "distance-to-go": 5.0, "probability": 0.03, "duration": 0.5,
 }  # fmt: skip
-NAMED = 6  # maximum of road users named who came close
 KMH = 3.6  # [km/h] in 1 m/s
 LIGHTS: frozenset[Attribute] = frozenset(("indicator", "brake-lights"))
 #: Kinds that look like a car from outside.
@@ -150,12 +149,12 @@ def compares(of: Compares, asked: Asked) -> Finding:
 
 
 def _of_any(of: Compares, whom: Everyone, limit: Quantity, asked: Asked) -> Finding:
-    """Weigh whether anybody came so close, by the closest approach of each."""
+    """Weigh whether anybody came so close, by the closest approach of each; list all who did."""
     near = approaches(asked, whom.kind, window(asked, of.left.time, of.left.tense))
     found = [m for m in near if _holds(of.comparator, (m.value or 0.0) - limit.value, 0.0, None)]
     if not near:
         return unknown("not-applicable")
-    return Finding(bool(found), tuple(found[:NAMED] or near[:1]))
+    return Finding(bool(found), tuple(found or near[:1]))
 
 
 def who_came(question: Which, asked: Asked) -> Answer | None:

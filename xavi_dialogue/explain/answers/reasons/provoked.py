@@ -27,16 +27,11 @@ REACH = 60.0  # [m] maximum distance of a vehicle that brakes for us
 def explainer(question: Question) -> Callable[[Any, Asked], Answer] | None:
     """Find the explainer of whether another vehicle had to brake for us; None: something else."""
     match question:
-        case Whether(
-            that=Happens(event=Event(action="brake" | "slow-down", actor=Vehicle(), object=Ego()))
-        ) if _done(question):
+        case Whether(that=Happens(Event("brake" | "slow-down", Vehicle(), Ego()) as event)) if (
+            event.tense in ("past", "perfect")
+        ):
             return braked_for_us
     return None
-
-
-def _done(question: Whether) -> bool:
-    event = event_of(question.that)
-    return event is not None and event.tense in ("past", "perfect")
 
 
 def braked_for_us(question: Whether, scene: Asked) -> Answer:

@@ -16,7 +16,7 @@ from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, windo
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
 from xavi_dialogue.explain.answers.reference.occasions import away, overlaps, taken_place
 from xavi_dialogue.explain.answers.ride.comfort import HARD, stretch
-from xavi_dialogue.explain.history.foretold import Wrong, wrong_predictions
+from xavi_dialogue.explain.history.predicted_roads import Wrong, wrong_predictions
 
 #: Actions that show which way a vehicle went.
 WAYS: tuple[ActionName, ...] = (

@@ -66,16 +66,19 @@ def margin(scene: Asked, events: Sequence[Event]) -> Options | None:
 
 
 def closest_choice(question: Peak, scene: Asked) -> Options | PeakMoment:
-    """Return the decision whose best other option came closest to what was chosen."""
+    """Return the decision with the least margin [s] between what it chose and the next best.
+
+    It is a moment without a time if no decision weighed several options.
+    """
     about = window(scene, question.time)
     begin, end = (about.begin, about.end) if about.said else (scene.world.begin, scene.now)
     inside = (trace for trace in scene.ride.traces if begin <= trace.sim_time <= end)
-    apart = [(abs(by), trace) for trace in inside if (by := margins.margin(trace)) is not None]
-    for _, trace in sorted(apart, key=lambda one: (one[0], one[1].sim_time)):
-        other = margins.rival(trace)
+    known = ((trace, margins.margin(trace)) for trace in inside)
+    apart = [(trace, *by) for trace, by in known if by is not None]
+    for trace, other, _ in sorted(apart, key=lambda one: (abs(one[2]), one[0].sim_time)):
         found = Premise(trace, None)
         try:
-            rows, verdict = options.with_rival(scene.ride, found, () if other is None else (other,))
+            rows, verdict = options.with_rival(scene.ride, found, (other,))
         except Unanswered:
             continue
         if verdict != "alone":

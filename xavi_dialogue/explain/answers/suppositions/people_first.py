@@ -11,13 +11,12 @@ from xavi_dialogue.domain.meaning import Question, Whether
 from xavi_dialogue.domain.terms import Happens, Proposition, Unsaid
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.measuring.durations import stands
-from xavi_dialogue.explain.answers.propositions import verdicts
+from xavi_dialogue.explain.answers.propositions import standing_rules, verdicts
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.naming import is_us
 from xavi_dialogue.explain.answers.reference.reading import numbers_in, unwrapped
 
 HALTS: Final = frozenset[ActionName](("stop", "wait"))
-LETTING: Final = frozenset[ActionName](("stop", "wait", "slow-down", "give-way", "let-go"))
 
 
 def explainer(question: Question, asked: Asked) -> Callable[[Any, Asked], Answer] | None:
@@ -30,7 +29,11 @@ def _asks(of: Proposition | None, asked: Asked) -> bool:
     if not isinstance(of, Happens) or not is_us(of.event.actor) or of.event.object is None:
         return False
     event = of.event
-    if event.modal is not None or event.tense != "future" or event.action not in LETTING:
+    if (
+        event.modal is not None
+        or event.tense != "future"
+        or event.action not in standing_rules.HALTING
+    ):
         return False
     if event.action in HALTS and stands(asked):
         return False  # why we stand says more
@@ -39,7 +42,7 @@ def _asks(of: Proposition | None, asked: Asked) -> bool:
 
 
 def whether(question: Whether, asked: Asked) -> Answer:
-    """Return whether we have to let people go first, which is what we do.
+    """Return whether the rule makes us let people go first; the plan may not show it yet.
 
     Raises:
         Unanswered: the record does not hold the rule.

@@ -32,6 +32,7 @@ DUTIES = frozenset[ActionName](("wait", "give-way", "let-go", "stop", "brake", "
 IN_LANE = frozenset[ActionName](("stop", "brake", "slow-down", "stand", "go", "move", "speed-up"))
 #: Actions that are sudden if the vehicle stands or was about to stop.
 STARTING = frozenset[ActionName](("go", "move", "enter", "cross"))
+COMING = frozenset[ActionName](("move", "go", "enter", "cross", "appear", "come"))
 LYING = frozenset[ActionName](("stop", "stand", "brake"))  # actions that end in our way
 HALTING = frozenset[ActionName](("stop", "brake", "slow-down", "avoid", "swerve"))
 COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
@@ -176,14 +177,7 @@ def is_somebody(event: Event | None) -> bool:
     """Check whether somebody who is not there is supposed to get in our way: a child, a dog."""
     if event is None or not isinstance(event.actor, Nobody | Described):
         return False
-    return event.action in SUDDEN or event.action in (
-        "move",
-        "go",
-        "enter",
-        "cross",
-        "appear",
-        "come",
-    )
+    return event.action in SUDDEN | COMING
 
 
 def for_anybody(event: Event, scene: Asked) -> Reaction:

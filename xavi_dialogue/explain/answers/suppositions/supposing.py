@@ -2,13 +2,7 @@
 
 from msgspec import structs
 
-from xavi_dialogue.domain.answers import (
-    Answer,
-    CannotSay,
-    Measures,
-    SupposedOfOther,
-    TooLittle,
-)
+from xavi_dialogue.domain.answers import Answer, CannotSay, Measures, SupposedOfOther, TooLittle
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import Question, WhatIf, Whether, Why
 from xavi_dialogue.domain.terms import (

@@ -14,13 +14,16 @@ def rival(trace: PlanTrace) -> Action | None:
     return max(others, key=lambda one: (value(tried[one]), -ACTIONS.index(one)))
 
 
-def margin(trace: PlanTrace) -> float | None:
-    """Return by how much [s] the chosen first action was better; None without another one."""
+def margin(trace: PlanTrace) -> tuple[Action, float] | None:
+    """Return the next best first action, and by how much [s] the chosen one was better.
+
+    None if the decision did not weigh several.
+    """
     other = rival(trace)
     if other is None:
         return None
     tried = weighed(trace)
-    return value(tried[trace.plan[0].action]) - value(tried[other])
+    return other, value(tried[trace.plan[0].action]) - value(tried[other])
 
 
 def weighed(trace: PlanTrace) -> dict[Action, list[Rollout]]:

@@ -13,8 +13,8 @@ from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.facts.actions import SIDES, named
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.deeds import Deed
-from xavi_dialogue.explain.history.foretold import turn_to
 from xavi_dialogue.explain.history.motion import Motion, Sighting
+from xavi_dialogue.explain.history.predicted_roads import turn_to
 
 LEAST = 0.3  # [m] minimum movement sideways of a lane change that has begun
 ASIDE = 1.5  # [s] around a lane change or turn in which places on the road count for it

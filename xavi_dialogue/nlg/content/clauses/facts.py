@@ -36,6 +36,7 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, R
 RISK = 0.01  # minimum probability of a collision that is stated
 CHANGED = 1.4  # [m/s] minimum change of speed that is stated
 TOLD = 0.1  # minimum probability of an alternative that is named
+EXPECTED = 0.55  # minimum probability of what somebody is said to be expected to do
 BESIDES = 2  # maximum of likely alternatives that are stated
 LONG = 1.5  # [s] minimum time of standing or waiting that is stated
 LASTING = frozenset(("stand", "wait", "block", "follow"))
@@ -148,7 +149,7 @@ def belief_message(belief: Belief, context: SpeechContext) -> Message:
         chance=Chance(first.probability),
         past=past,
         when=Moment(belief.time) if past else None,
-        open=first.probability < 0.55,
+        open=first.probability < EXPECTED,
         other=verbs_of(second.actions, ring=ring, walks=walks) if second else None,
         other_chance=Chance(second.probability) if second else None,
         third=verbs_of(third.actions, ring=ring, walks=walks) if third else None,

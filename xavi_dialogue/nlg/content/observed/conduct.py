@@ -5,7 +5,12 @@ from xavi_dialogue.domain.answers import Activity, Bound, Forecast, MotionCause,
 from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 from xavi_dialogue.nlg.content.clauses.clauses import doing, episode_clause, event_clause
-from xavi_dialogue.nlg.content.clauses.facts import belief_message, episode_message, verbs_of
+from xavi_dialogue.nlg.content.clauses.facts import (
+    EXPECTED,
+    belief_message,
+    episode_message,
+    verbs_of,
+)
 from xavi_dialogue.nlg.content.clauses.measures import STANDING, measure_message
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.routes import (
@@ -24,7 +29,6 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Qua
 #: Actions that say less than any other that somebody does at the same time.
 AT_HAND = 4.0  # [m] distance below which a place is just ahead
 TOLD = 0.4  # minimum probability of an expectation that is stated with the conduct
-EXPECTED = 0.55  # minimum probability of what somebody is expected to do
 NAMED = 3  # vehicles named of those that do the same
 PLAIN = frozenset(("continue", "move", "keep-lane", "go", "continue-next-exit"))
 _STOPPING = frozenset(("stop", "brake", "slow-down", "stand", "follow"))

@@ -18,7 +18,6 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Qua
 UNITS = {"distance": "m", "time-to-collision": "s", "speed": "m/s", "duration": "s",
          "deceleration": "m/s2", "delay": "s", "speed-change": "m/s"}  # fmt: skip
 YIELDING = frozenset(("give-way", "wait", "let-go"))
-SLOWING = frozenset(("brake", "slow-down", "stop"))  # with an object: for whom
 NAMED = 3  # maximum of vehicles named
 LONG = 1.5  # [s] minimum duration that is stated
 
@@ -27,9 +26,7 @@ def plan_peak_moment(answer: PeakMoment, context: SpeechContext) -> Plan:
     """Plan the moment at which something was greatest."""
     if answer.time is None:
         return Plan((message("SUMMIT_NONE", of=answer.of),))
-    told = [e for e in answer.deeds if answer.of != "braking" or _tells(e)]
-    deed = next((e for e in told if answer.of == "braking" and e.action in SLOWING), None)
-    deed = deed or next((e for e in told if answer.of != "braking" or e.action != "pass"), None)
+    deed = next((e for e in answer.deeds if answer.of != "braking" or _tells(e)), None)
     measure = answer.measure
     value = None if measure is None or measure.value is None else measure.value
     several = len(answer.others) > 1 and deed is not None and deed.action in YIELDING

@@ -1,8 +1,8 @@
-"""Foretold: the roads that others were expected to take, against those on which they were seen.
+"""Predicted roads: the roads that others were expected to take, and those they took.
 
-Where a vehicle went is told by the roads on which later decisions saw it: the first that is the
-road of one of its predicted goals, other than the road it was on. A prediction is wrong if another
-goal was held more likely.
+Later decisions record on which road a vehicle was seen. It went to the first of these roads that
+is the road of one of its predicted goals and not the one it was on. A prediction is wrong if
+another goal was more probable.
 """
 
 from collections.abc import Sequence
