@@ -172,3 +172,9 @@ def test_people_are_counted_by_our_way_as_in_front_of_us() -> None:
     }
     assert len(told) == 1
     assert "that crossed our way" in told.pop()
+
+
+def test_without_a_rule_people_are_told_by_what_they_are_expected_to_do() -> None:
+    told = Talk("junction-0", 30.0).hear("Will you let the pedestrians cross?")
+    assert told.startswith("I expect the pedestrian ahead of us on the right (vehicle 11) and the")
+    assert told.endswith("to cross our way (90 % or more).")

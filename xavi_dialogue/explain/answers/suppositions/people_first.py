@@ -6,10 +6,11 @@ from typing import Any, Final
 from msgspec.structs import replace
 
 from planner.record.trace import ON_FOOT
-from xavi_dialogue.domain.answers import Answer
+from xavi_dialogue.domain.answers import Answer, Priority
 from xavi_dialogue.domain.meaning import Question, Whether
-from xavi_dialogue.domain.terms import Happens, Proposition, Unsaid
+from xavi_dialogue.domain.terms import Happens, Proposition, Unsaid, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.expectations.forecast import forecast
 from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.propositions import standing_rules, verdicts
 from xavi_dialogue.explain.answers.reference.asked import Asked
@@ -44,10 +45,16 @@ def _asks(of: Proposition | None, asked: Asked) -> bool:
 def whether(question: Whether, asked: Asked) -> Answer:
     """Return whether the rule makes us let people go first; the plan may not show it yet.
 
+    Where the record has no rule between us, the answer is what they are expected to do.
+
     Raises:
         Unanswered: the record does not hold the rule.
     """
     of, _ = unwrapped(question.that)
     assert isinstance(of, Happens)
     due = replace(of.event, action="give-way", modal="must", tense="present", time=Unsaid())
-    return verdicts.whether(Whether(Happens(due)), asked)
+    found = verdicts.whether(Whether(Happens(due)), asked)
+    if not isinstance(found, Priority) or found.rule != "none":
+        return found
+    people = (Vehicle(number) for number in numbers_in(due.object))
+    return forecast(asked, people) or found
