@@ -37,7 +37,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 
 
 def test_bounds() -> None:
-    assert (MAX_RIDES, MAX_RESULTS) == (64, 256)
+    assert (MAX_RIDES, MAX_RESULTS) == (256, 256)
 
 
 def test_a_copy_begins_empty(asked: list[Any]) -> None:

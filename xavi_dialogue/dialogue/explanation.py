@@ -3,7 +3,8 @@
 import re
 from collections.abc import Iterable
 from functools import cache
-from typing import get_args
+from types import NoneType
+from typing import Final, get_args
 
 import msgspec
 
@@ -120,8 +121,14 @@ def as_json(value: msgspec.Struct) -> dict[str, object]:
     return found
 
 
+#: Types of values that are JSON as they are.
+_ATOMS: Final = frozenset((str, int, float, bool, NoneType))
+
+
 def _canonical(value: object) -> object:
     """Return a value as JSON, without the fields that equal their defaults."""
+    if type(value) in _ATOMS:
+        return value
     match value:
         case msgspec.Struct():
             config = value.__struct_config__

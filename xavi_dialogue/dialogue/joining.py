@@ -8,6 +8,7 @@ from xavi_dialogue.nlg.context import Utterance
 
 AT_MOST: Final = 3  # maximum of sentences of a reply to several acts
 _CLAUSES: Final = re.compile(r"(: |; |, because |, though |, so )")
+_MARKS: Final = re.compile(r"[().!?]")
 _WORDS: Final = re.compile(r"\d+(?:[.:]\d+)?|[^\W\d_]+")
 _ASIDE: Final = re.compile(r"\((?:vehicle )?\d+\)")
 #: Words that carry no information by themselves.
@@ -93,10 +94,10 @@ def sentences(text: str) -> tuple[str, ...]:
     """Split a text into sentences; a choice in brackets is not a sentence of its own."""
     found: list[str] = []
     begin = depth = 0
-    for index, mark in enumerate(text):
-        depth += {"(": 1, ")": -1}.get(mark, 0)
-        if mark in ".!?" and depth == 0 and text[index + 1 : index + 2] in (" ", ""):
-            found.append(text[begin : index + 1].strip())
-            begin = index + 1
+    for mark in _MARKS.finditer(text):
+        depth += {"(": 1, ")": -1}.get(mark[0], 0)
+        if mark[0] in ".!?" and depth == 0 and text[mark.end() : mark.end() + 1] in (" ", ""):
+            found.append(text[begin : mark.end()].strip())
+            begin = mark.end()
     rest = text[begin:].strip()
     return tuple(one for one in (*found, rest) if one)

@@ -18,7 +18,9 @@ from xavi_dialogue.nlg.context import Looks
 from xavi_dialogue.nlu.grounding.ground import ground
 from xavi_dialogue.nlu.grounding.result import Grounding
 
-MAX_RIDES = 64  # maximum of records that are remembered; the least recently used is forgotten
+# Maximum of records that are remembered; the least recently used is forgotten. Many passengers ask
+# about some forty moments, each known with and without plans made again; a record takes 40 kB.
+MAX_RIDES = 256
 MAX_RESULTS = 256  # maximum for one record
 
 Result: TypeAlias = Answer | Refusal | NeedRollout
