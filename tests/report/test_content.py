@@ -31,10 +31,10 @@ from tests.report.records import (
 )
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.report.content import DecisionRow, Incident, encode
+from xavi_dialogue.report.decisions.jumps import FAR, jumps
 from xavi_dialogue.report.figures import Figure
-from xavi_dialogue.report.jumps import FAR, jumps
 from xavi_dialogue.report.render.words import phrase
-from xavi_dialogue.report.tracks import Tracks
+from xavi_dialogue.report.road_users.tracks import Tracks
 from xavi_dialogue.service.in_process import NoPlan
 from xavi_dialogue.storage import ride_file
 from xavi_dialogue.storage.ride_file import RecordedRide

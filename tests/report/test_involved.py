@@ -3,9 +3,10 @@
 from dataclasses import dataclass, field
 from typing import Any
 
-from xavi_dialogue.report import believed, parties
 from xavi_dialogue.report.content import BeliefPoint
+from xavi_dialogue.report.decisions import believed
 from xavi_dialogue.report.figures import Source
+from xavi_dialogue.report.road_users import parties
 
 SOURCE = Source("decision", "predictions", 1, 1.0)
 

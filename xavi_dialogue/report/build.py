@@ -8,10 +8,6 @@ from sim.scene import EGO
 from xavi_dialogue import __version__
 from xavi_dialogue.explain.history.ride import planned
 from xavi_dialogue.process.program import program_hash
-from xavi_dialogue.report.alternatives import Avoidability
-from xavi_dialogue.report.avoiding import avoidability
-from xavi_dialogue.report.believed import beliefs
-from xavi_dialogue.report.cases import cases
 from xavi_dialogue.report.content import (
     SCHEMA,
     Chosen,
@@ -21,16 +17,20 @@ from xavi_dialogue.report.content import (
     Subject,
     TraceHash,
 )
-from xavi_dialogue.report.jumps import jumps
+from xavi_dialogue.report.decisions.alternatives import Avoidability
+from xavi_dialogue.report.decisions.avoiding import avoidability
+from xavi_dialogue.report.decisions.believed import beliefs
+from xavi_dialogue.report.decisions.cases import cases
+from xavi_dialogue.report.decisions.jumps import jumps
+from xavi_dialogue.report.decisions.weighed import decided, row
 from xavi_dialogue.report.limits import AFTER, BEFORE, limitations
-from xavi_dialogue.report.maps import strip
 from xavi_dialogue.report.moments import ReportError, choose
-from xavi_dialogue.report.observed import course, gaps, lights, precedence
-from xavi_dialogue.report.parties import parties
 from xavi_dialogue.report.ridden import Inquiry, Ridden
+from xavi_dialogue.report.road_users.maps import strip
+from xavi_dialogue.report.road_users.observed import course, gaps, lights, precedence
+from xavi_dialogue.report.road_users.parties import parties
+from xavi_dialogue.report.road_users.tracks import tracks_of
 from xavi_dialogue.report.timeline import timeline
-from xavi_dialogue.report.tracks import tracks_of
-from xavi_dialogue.report.weighed import decided, row
 from xavi_dialogue.storage.ride_file import RecordedRide, dump
 
 SUPPOSED = 3  # of those involved, in how many the world is changed

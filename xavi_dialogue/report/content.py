@@ -11,7 +11,7 @@ import msgspec
 from planner.record.places import First, Rule
 from planner.record.trace import Action, Costs, Outcome, RewardTerm, Settings
 from sim.scene import Point
-from xavi_dialogue.report.alternatives import Avoidability, Cases
+from xavi_dialogue.report.decisions.alternatives import Avoidability, Cases
 from xavi_dialogue.report.figures import Figure, Source
 
 SCHEMA = "xavi.report/1"

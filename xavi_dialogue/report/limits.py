@@ -7,8 +7,8 @@ from planner.record.trace import PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.explain.causes.plans.ranges import table
 from xavi_dialogue.inspection.completeness import gaps
-from xavi_dialogue.report.alternatives import Cases
 from xavi_dialogue.report.content import Limitation
+from xavi_dialogue.report.decisions.alternatives import Cases
 from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.ridden import Inquiry, predicted
 

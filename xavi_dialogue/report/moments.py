@@ -17,7 +17,7 @@ from xavi_dialogue.process.exit_status import UsageFault
 from xavi_dialogue.report.content import Chosen
 from xavi_dialogue.report.figures import Figure, Source, rounded
 from xavi_dialogue.report.ridden import Ridden
-from xavi_dialogue.report.tracks import Tracks
+from xavi_dialogue.report.road_users.tracks import Tracks
 
 NAMES = {
     "collision": "collision",

@@ -10,13 +10,13 @@ from planner.record.light_record import GREENS
 from planner.record.places import LightAhead
 from planner.record.trace import PlanTrace
 from sim.scene import EGO
-from xavi_dialogue.report.alternatives import LightStop, Passing
 from xavi_dialogue.report.content import LightSpan
+from xavi_dialogue.report.decisions.alternatives import LightStop, Passing
+from xavi_dialogue.report.decisions.weighed import Ground
 from xavi_dialogue.report.figures import Figure, rounded
-from xavi_dialogue.report.observed import lights
 from xavi_dialogue.report.ridden import Ridden
-from xavi_dialogue.report.tracks import Tracks
-from xavi_dialogue.report.weighed import Ground
+from xavi_dialogue.report.road_users.observed import lights
+from xavi_dialogue.report.road_users.tracks import Tracks
 
 FASTEST = 60.0  # [m/s] above which no speed is told: the time is all but over
 

@@ -12,9 +12,9 @@ from xavi_dialogue.explain.facts.actions import somebody
 from xavi_dialogue.explain.history.ride import planned
 from xavi_dialogue.report.content import Beliefs, Chosen, Entry, LightSpan
 from xavi_dialogue.report.figures import Figure, Source, rounded
-from xavi_dialogue.report.parties import of_trace
 from xavi_dialogue.report.ridden import Inquiry, Ridden
-from xavi_dialogue.report.tracks import Tracks
+from xavi_dialogue.report.road_users.parties import of_trace
+from xavi_dialogue.report.road_users.tracks import Tracks
 
 #: What is told of those involved, as it was seen.
 SEEN: tuple[ActionName, ...] = (

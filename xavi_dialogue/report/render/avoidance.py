@@ -1,8 +1,8 @@
 """The section on from when a mishap could have been avoided, and how."""
 
 from xavi_dialogue.explain.causes.plans.avoidance import LEEWAY, SELDOM
-from xavi_dialogue.report.alternatives import Avoidability, Chance, LightStop, Way
-from xavi_dialogue.report.avoiding import keeps_route
+from xavi_dialogue.report.decisions.alternatives import Avoidability, Chance, LightStop, Way
+from xavi_dialogue.report.decisions.avoiding import keeps_route
 from xavi_dialogue.report.render.markup import Markup, joined, table, tag
 from xavi_dialogue.report.render.observations import Page
 from xavi_dialogue.report.render.words import action_words, capital, decisions_words, seconds

@@ -1,7 +1,7 @@
 """Sections on what was believed and decided, what it hangs on, and whether it was avoidable."""
 
-from xavi_dialogue.report.alternatives import Cases, Holding, Tested
 from xavi_dialogue.report.content import Beliefs, Choice, Decided, GoalBelief, SpeedExpected
+from xavi_dialogue.report.decisions.alternatives import Cases, Holding, Tested
 from xavi_dialogue.report.render.charts import Line, chart
 from xavi_dialogue.report.render.colours import OTHERS, STROKES
 from xavi_dialogue.report.render.jumps import told_jump

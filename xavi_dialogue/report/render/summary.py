@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from xavi_dialogue.report.alternatives import Cases, Tested
 from xavi_dialogue.report.content import Choice
+from xavi_dialogue.report.decisions.alternatives import Cases, Tested
 from xavi_dialogue.report.figures import Figure, Source
 from xavi_dialogue.report.render.avoidance import emergencies, last_chance, light_told
 from xavi_dialogue.report.render.jumps import told_jump

@@ -8,8 +8,8 @@ from importlib.resources import files
 from planner.record.trace import ON_FOOT, Action
 from sim.scene import EGO
 from xavi_dialogue.dashboard.views.labels import deed, does, plan_words
-from xavi_dialogue.report.alternatives import Supposed
 from xavi_dialogue.report.content import Entry, Party
+from xavi_dialogue.report.decisions.alternatives import Supposed
 from xavi_dialogue.report.render.colours import colour
 from xavi_dialogue.report.render.markup import Markup, joined, tag
 

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 from planner.record.trace import Action, PlanTrace
 from xavi_dialogue.report.content import BeliefPoint, Beliefs, GoalBelief
-from xavi_dialogue.report.expected import expected_speeds
-from xavi_dialogue.report.parties import of_trace
+from xavi_dialogue.report.decisions.expected import expected_speeds
 from xavi_dialogue.report.ridden import Inquiry, Ridden, predicted
-from xavi_dialogue.report.tracks import Tracks
+from xavi_dialogue.report.road_users.parties import of_trace
+from xavi_dialogue.report.road_users.tracks import Tracks
 
 LEAST = 0.01  # probability that a goal reaches somewhere in the window to be listed
 

@@ -11,11 +11,11 @@ from xavi_dialogue.explain.causes.vehicles.necessity import SOMETIMES
 from xavi_dialogue.explain.facts.measures.between import leader
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.ride import Ride
-from xavi_dialogue.report.compared import compared, hits
 from xavi_dialogue.report.content import Chosen, Party, Role
+from xavi_dialogue.report.decisions.compared import compared, hits
 from xavi_dialogue.report.figures import Figure, Source, rounded
 from xavi_dialogue.report.ridden import Inquiry, Ridden
-from xavi_dialogue.report.tracks import Tracks
+from xavi_dialogue.report.road_users.tracks import Tracks
 
 MOST = 5  # road users that are listed as involved
 RECENT = 3.0  # [s] before the moment, in which decisions show who is in the way

@@ -8,7 +8,7 @@ from sim.scene import EGO, Point, Signal
 from xavi_dialogue.report.content import Body, Frame, LightShown, Map, RoadShown
 from xavi_dialogue.report.figures import rounded
 from xavi_dialogue.report.ridden import Ridden
-from xavi_dialogue.report.tracks import Tracks
+from xavi_dialogue.report.road_users.tracks import Tracks
 
 MOMENTS = (-4.0, -3.0, -2.0, -1.0, 0.0, 2.0)  # [s] of the maps, relative to the moment
 LEAST, MOST = 25.0, 60.0  # [m] from the centre of a map to its edges

@@ -4,10 +4,10 @@ from collections.abc import Iterable, Iterator
 
 from planner.record.trace import SAMPLE_PERIOD, PlanTrace
 from xavi_dialogue.report.content import SpeedExpected
+from xavi_dialogue.report.decisions.weighed import Ground
 from xavi_dialogue.report.figures import Figure, rounded
 from xavi_dialogue.report.ridden import predicted
-from xavi_dialogue.report.tracks import Tracks
-from xavi_dialogue.report.weighed import Ground
+from xavi_dialogue.report.road_users.tracks import Tracks
 
 AHEAD = (1.0, 2.0, 3.0, 4.0)  # [s] after the decision
 COUNTS = 0.05  # probability from which a trajectory belongs to the interval

@@ -11,11 +11,9 @@ from xavi_dialogue.causal.model import CausalModel, Intervention
 from xavi_dialogue.domain.answers import NeedRollout
 from xavi_dialogue.explain.causes.vehicles.necessity import SOMETIMES
 from xavi_dialogue.explain.history.ride import planned
-from xavi_dialogue.report.alternatives import Cases, Holding, Supposed, Tested
-from xavi_dialogue.report.controls import reproduced
-from xavi_dialogue.report.figures import Figure, rounded
-from xavi_dialogue.report.ridden import Inquiry, predicted
-from xavi_dialogue.report.weighed import (
+from xavi_dialogue.report.decisions.alternatives import Cases, Holding, Supposed, Tested
+from xavi_dialogue.report.decisions.controls import reproduced
+from xavi_dialogue.report.decisions.weighed import (
     Ground,
     arrival,
     chosen_plan,
@@ -23,6 +21,8 @@ from xavi_dialogue.report.weighed import (
     hardest,
     reward,
 )
+from xavi_dialogue.report.figures import Figure, rounded
+from xavi_dialogue.report.ridden import Inquiry, predicted
 
 POSSIBLE = 0.05  # probability from which a goal of another is supposed
 SURE = 0.95  # ... and up to which: supposing what is believed anyway shows nothing

@@ -13,9 +13,9 @@ from sim.boxes import overlap
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.explain.facts.bodies import at_least, distance
 from xavi_dialogue.explain.history.motion import Motion
-from xavi_dialogue.report.alternatives import Emergency
+from xavi_dialogue.report.decisions.alternatives import Emergency
 from xavi_dialogue.report.figures import rounded
-from xavi_dialogue.report.tracks import Tracks
+from xavi_dialogue.report.road_users.tracks import Tracks
 
 STEP = 0.1  # [s]
 AFTER = 4.0  # [s] after the contact up to which a replay goes

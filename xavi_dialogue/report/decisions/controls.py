@@ -8,7 +8,7 @@ from typing import Final
 
 from planner.counterfactuals.whatif import WhatIfError, decide_again
 from planner.record.trace import Action, PlanTrace
-from xavi_dialogue.report.compared import compared
+from xavi_dialogue.report.decisions.compared import compared
 from xavi_dialogue.report.ridden import Ridden
 
 NEAR: Final = 1.0  # [s] of an expected reward: records are rounded, and leave out some of the state

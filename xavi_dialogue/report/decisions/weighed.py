@@ -15,11 +15,11 @@ from xavi_dialogue.explain.causes.plans.chances import chances
 from xavi_dialogue.explain.causes.plans.terms import differences
 from xavi_dialogue.explain.causes.vehicles.course import brakes, lines
 from xavi_dialogue.explain.history.ride import planned
-from xavi_dialogue.report.compared import Weighed, compared, hits, weighed
 from xavi_dialogue.report.content import Choice, Decided, DecisionRow, Examined
+from xavi_dialogue.report.decisions.compared import Weighed, compared, hits, weighed
 from xavi_dialogue.report.figures import Figure, Place, Source, rounded
-from xavi_dialogue.report.parties import of_trace
 from xavi_dialogue.report.ridden import Ridden
+from xavi_dialogue.report.road_users.parties import of_trace
 
 RANGE = "5 to 95 % of the weight, widened to hold the mean"
 OF_PLAN = "of the rollouts of the plan, by weight"

@@ -14,12 +14,12 @@ from sim.scene import EGO
 from xavi_dialogue.causal.model import CausalModel
 from xavi_dialogue.explain.history.ride import planned
 from xavi_dialogue.report.content import Change, ChangeKind, Jump
-from xavi_dialogue.report.expected import expected_speeds
+from xavi_dialogue.report.decisions.expected import expected_speeds
+from xavi_dialogue.report.decisions.weighed import Ground, chosen_plan, collision
 from xavi_dialogue.report.figures import Figure, Source, rounded
-from xavi_dialogue.report.parties import of_trace
 from xavi_dialogue.report.ridden import predicted
-from xavi_dialogue.report.tracks import Tracks
-from xavi_dialogue.report.weighed import Ground, chosen_plan, collision
+from xavi_dialogue.report.road_users.parties import of_trace
+from xavi_dialogue.report.road_users.tracks import Tracks
 
 FAR = 0.5  # of a probability, from which it has moved far
 FASTER = 1.0  # [m/s] by which a speed differs

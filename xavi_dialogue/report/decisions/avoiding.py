@@ -15,14 +15,14 @@ from xavi_dialogue.explain.causes.plans.avoidance import LEEWAY, LESS, SELDOM
 from xavi_dialogue.explain.causes.vehicles.course import brakes, lines
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import Ride, planned
-from xavi_dialogue.report.alternatives import Avoidability, Chance, Mishap, Way
 from xavi_dialogue.report.content import Chosen
+from xavi_dialogue.report.decisions.alternatives import Avoidability, Chance, Mishap, Way
+from xavi_dialogue.report.decisions.replayed import AFTER, clearance, emergencies
+from xavi_dialogue.report.decisions.weighed import Ground, collision, hardest
 from xavi_dialogue.report.figures import Figure, rounded
-from xavi_dialogue.report.replayed import AFTER, clearance, emergencies
 from xavi_dialogue.report.ridden import Inquiry
+from xavi_dialogue.report.road_users.tracks import Tracks
 from xavi_dialogue.report.stopped import light_stop
-from xavi_dialogue.report.tracks import Tracks
-from xavi_dialogue.report.weighed import Ground, collision, hardest
 
 PART = 0.75  # of the peak, from which braking counts as the same
 LEAST = 1.5  # [m/s2] of a peak below which there is nothing to avoid

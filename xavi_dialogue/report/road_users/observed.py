@@ -7,9 +7,9 @@ from sim.scene import EGO
 from xavi_dialogue.explain.causes.plans.avoidance import SELDOM
 from xavi_dialogue.report.content import Course, Gaps, LightSpan, Precedence
 from xavi_dialogue.report.figures import Figure, rounded
-from xavi_dialogue.report.parties import of_trace
 from xavi_dialogue.report.ridden import Ridden
-from xavi_dialogue.report.tracks import Tracks
+from xavi_dialogue.report.road_users.parties import of_trace
+from xavi_dialogue.report.road_users.tracks import Tracks
 
 DIGITS = 3  # of lists of samples
 

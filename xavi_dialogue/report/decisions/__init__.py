@@ -1,0 +1,1 @@
+"""Decisions in a report: what was believed and weighed, and what else might have been."""

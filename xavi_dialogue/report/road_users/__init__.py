@@ -1,0 +1,1 @@
+"""Road users in a report: where they were, who is involved, and what was observed of them."""
