@@ -99,6 +99,13 @@ class Passenger:
         """Ask and wait."""
         return self.begin(text, at, deadline).get(timeout=PATIENCE)
 
+    def insist(self, text: str, at: float | None = None) -> Answer:
+        """Ask, and ask again for as long as the service says that it is busy."""
+        give_up = time.monotonic() + PATIENCE
+        while (answer := self.ask(text, at)).reason == "busy" and time.monotonic() < give_up:
+            time.sleep(1.0)
+        return answer
+
     def history(self) -> tuple[str, ...]:
         """The questions of the session."""
         wanted = pack(HistoryRequest(session=self.session, token=self.token))

@@ -18,8 +18,9 @@ import pytest
 from planner.record.trace import Action
 from sim.setup.scenario import load
 from sim.sumo import EgoGone, SumoFailed
+from tests.drills.processes import PATIENCE, until
 from tests.fakes import s1_moments
-from tests.vehicle.pool_jobs import PATIENCE, children, there, until
+from tests.vehicle.pool_jobs import children, there
 from tests.vehicle.test_outbox import Bench as StalledBench
 from xavi_dialogue.bus.health import HealthReporter
 from xavi_dialogue.bus.interface import Bus, Call, Keys, NoAnswer, call

@@ -25,8 +25,9 @@ ATTEMPTS = 3  # to find a port that stays free until the service listens on it
 RETRY = 0.2  # [s] between checks whether the service is ready
 START_PATIENCE = 90.0  # [s] for the service, and for the first scene: kernels may be compiled
 SPARE = 5  # times that a failed service is restarted
-BACK = 15.0  # [s] until it must answer then
+BACK = 60.0  # [s] until it must answer then; on a busy machine it takes long to start
 CLOSING = 1.5  # [s] to leave the bus
+KILLED = 15.0  # [s] to leave the bus of a service that was killed
 OVER = "the chat is over"
 LIVE = "Only a recorded ride can be taken to any moment: xavi replay FILE."
 SILENCE = 20.0  # [s] without a scene after which the car counts as lost
@@ -257,7 +258,7 @@ def _let_go(bus: ZenohBus, service: RestartedChild) -> None:
     closing.join(CLOSING)
     if closing.is_alive():
         service.kill()
-        closing.join(BACK)
+        closing.join(KILLED)
 
 
 def _join(service: RestartedChild, endpoint: str, over: system.Event) -> ZenohBus:
