@@ -2,14 +2,16 @@
 
 from dataclasses import replace
 
+import pytest
+
 from tests.nlg.scenery import CONTEXT, LORRY, NOW, look
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Destination, Ego, Lane, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import Destination, Ego, Everyone, Lane, Vehicle, Vehicles
 from xavi_dialogue.nlg.content.clauses.clauses import episode_clause
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.morphology import clause
 from xavi_dialogue.nlg.surface.referring import ReferringContext
-from xavi_dialogue.nlg.surface.values import Who
+from xavi_dialogue.nlg.surface.values import Clause, Who
 
 V, W, X = Vehicle(1), Vehicle(2), Vehicle(3)
 
@@ -93,3 +95,16 @@ def test_somebody_on_foot_is_no_it():
     assert speaker.refer(Who(Vehicle(5)), "object") == "them"
     assert speaker.refer(Who(Vehicle(5)), "possessive") == "their"
     assert speaker.refer(Who(Vehicle(5)), "plain") == "the pedestrian"
+
+
+@pytest.mark.parametrize(
+    ("thing", "words"),
+    [
+        (Everyone("bicycle"), "all bicycles are waiting"),
+        (Everyone(), "everybody is waiting"),
+        (Vehicle(4), "the bus that I saw last behind us (vehicle 4) is waiting"),
+    ],
+)
+def test_a_verb_agrees_with_its_subject(thing, words):
+    waiting = Clause(Who(thing), "wait", tense="present", progressive=True)
+    assert clause(waiting, "plain", ReferringContext(CONTEXT)) == words

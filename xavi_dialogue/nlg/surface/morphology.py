@@ -10,7 +10,7 @@ Errors:
 import re
 from dataclasses import replace
 
-from xavi_dialogue.domain.terms import Ego, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import Described, Ego, Everyone, Thing, Vehicle, Vehicles
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.chances import chance
 from xavi_dialogue.nlg.surface.generator import Slot, Token
@@ -175,8 +175,19 @@ def _person(value: Clause, speaker: ReferringContext) -> Person:
         return "it"
     if isinstance(subject.thing, Ego):
         return "we" if subject.ride or speaker.passenger else "I"
-    many = isinstance(subject.thing, Vehicles) and len(subject.thing.numbers) > 1
-    return "we" if many or getattr(subject.thing, "plural", False) else "it"
+    return "we" if _is_plural(subject.thing) else "it"
+
+
+def _is_plural(thing: Thing) -> bool:
+    """Check whether a noun phrase of a thing is plural: "all bicycles", but "everybody"."""
+    match thing:
+        case Vehicles(numbers=numbers):
+            return len(numbers) > 1
+        case Everyone(kind=kind):
+            return kind != "vehicle"
+        case Described(plural=plural):
+            return plural
+    return False
 
 
 def _rest(value: Clause, speaker: ReferringContext) -> str:
