@@ -10,7 +10,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 import pytest
@@ -208,12 +208,16 @@ def _hearer(kind: type, to: Callable[..., None]) -> Callable[[str, bytes], None]
 def test_a_hub_that_is_killed_and_comes_back_finds_all_that_was_reported(tmp_path: Path) -> None:
     endpoint, log = free_endpoint(), tmp_path / "log"
     serve = ("serve", "--listen", endpoint, "--keep-days", "0")
-    with xavi("drive", "--connect", endpoint, "--speed", "0.5", log=log):
-        with xavi(*serve) as hub, join(Link.to_hub(endpoint), PATIENCE) as bus:
-            listener = Listener(bus)
-            assert until(lambda: bool(listener.scenes) and len(listener.traces) >= 2)
-            hub.kill()
-            hub.wait()
+    with ExitStack() as first, ExitStack() as ride:
+        hub = first.enter_context(xavi(*serve))
+        bus = first.enter_context(join(Link.to_hub(endpoint), PATIENCE))
+        ride.enter_context(xavi("drive", "--connect", endpoint, "--speed", "0.5", log=log))
+        listener = Listener(bus)
+        came = until(lambda: bool(listener.scenes) and len(listener.traces) >= 2)
+        assert came, log.read_text()
+        hub.kill()
+        hub.wait()
+        first.close()
         assert until(lambda: "service lost; driving on" in log.read_text())
         with xavi(*serve), join(Link.to_hub(endpoint), PATIENCE) as bus:
             listener = Listener(bus)
