@@ -40,6 +40,7 @@ from xavi_dialogue.explain.answers.reference.moments import Window, is_past
 from xavi_dialogue.explain.answers.reference.naming import number, somebodies
 from xavi_dialogue.explain.answers.ride.crossings import meets_ahead, passes_by
 from xavi_dialogue.explain.answers.ride.priority import priority_at
+from xavi_dialogue.explain.answers.ride.walking import about_to_cross, walks_first
 
 GOING: Final = frozenset[ActionName](("go", "move", "enter", "cross", "turn", "continue", "pass"))
 WAITS: Final[tuple[ActionName, ...]] = ("give-way", "wait")
@@ -60,8 +61,11 @@ def who(question: Which, asked: Asked) -> Answer:
             return light
         if _asks_mover(such) and (found := unblocking(asked)) is not None:
             return found
-        if _asks_order(such) and (told := order(asked, question.among)) is not None:
+        among = question.among or _parties(such)
+        if _asks_order(such) and (told := order(asked, among)) is not None:
             return told
+        if _asks_order(such) and (named := _named(asked, among)):
+            return priority_at(asked, named[0], Window(asked.now, asked.now))
         if _asks_next(such) and (told := _next(asked)) is not None:
             return told
         if _asks_whom(such) and (told := order(asked, ())) is not None:
@@ -129,7 +133,7 @@ def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
     road = asked.world.road(asked.now)
     if road is None:
         return None
-    only = tuple(n for t in among for v in somebodies(asked, t, asked.now) if (n := number(v)))
+    only = _named(asked, among)
     before = _in_order(asked, road, "vehicle", only)
     after = _in_order(asked, road, "ego", only)
     apart = () if not only else tuple(n for n in only if n not in _numbers((*before, *after)))
@@ -142,6 +146,10 @@ def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
     told = Priority(asked.now, "give-way", first, others=tuple(rest), after=_numbers(after))
     told = replace(told, apart=apart)
     return replace(told, why=grounds(asked, road, before))
+
+
+def _named(asked: Asked, among: tuple[Thing, ...]) -> tuple[int, ...]:
+    return tuple(n for t in among for v in somebodies(asked, t, asked.now) if (n := number(v)))
 
 
 def _next(asked: Asked) -> Priority | None:
@@ -167,12 +175,17 @@ def _in_order(
     asked: Asked, road: RoadFacts, who_goes: str, only: tuple[int, ...]
 ) -> tuple[Look, ...]:
     """Find those in view who go before or after us by the rules, the closest first."""
+    now, seen = Window(asked.now, asked.now), asked.world.in_view(asked.now)
+    ruled: dict[int, str] = {v: "vehicle" for v in seen if about_to_cross(asked, v)}
+    for fact in road.priority:
+        if not (meets_ahead(asked, fact.vehicle) and passes_by(asked, fact.vehicle)):
+            ruled[fact.vehicle] = fact.who
+    ruled |= {v: "vehicle" for v in seen if walks_first(asked, v, now, None)}
     found = [
         look
-        for fact in road.priority
-        if fact.who == who_goes and (not only or fact.vehicle in only)
-        if not (meets_ahead(asked, fact.vehicle) and passes_by(asked, fact.vehicle))
-        if (look := asked.world.look(fact.vehicle, asked.now)) is not None and look.in_view
+        for vehicle, who in ruled.items()
+        if who == who_goes and (not only or vehicle in only)
+        if (look := asked.world.look(vehicle, asked.now)) is not None and look.in_view
     ]
     return tuple(sorted(found, key=lambda look: (look.distance, look.vehicle)))
 
@@ -216,7 +229,7 @@ def _asks_order(such: Proposition) -> bool:
         case Related(relation="has-priority-over", thing=Wanted(), to=to):
             return number(to) is None
         case Happens(event=Event(actor=Wanted(), modal=None) as event) if event.action in GOING:
-            named = event.object is not None and not isinstance(event.object, Ego)
+            named = event.object is not None and not isinstance(event.object, Ego | Vehicles)
             return "first" in event.manner and not named
         case Happens(event=Event(actor=Wanted(), object=None | Ego() | Wanted()) as event):
             return event.action in LETTING and event.modal in DUTIES
@@ -225,6 +238,16 @@ def _asks_order(such: Proposition) -> bool:
         case Is(state="allowed", event=Event(actor=Wanted(), object=None, action=action)):
             return action in GOING
     return False
+
+
+def _parties(such: Proposition) -> tuple[Thing, ...]:
+    """List those of whom the question is who goes first, us or them."""
+    match such:
+        case Related(relation="has-priority-over", to=Vehicles() as those):
+            return (those,)
+        case Happens(event=Event(object=Vehicles() as those)):
+            return (those,)
+    return ()
 
 
 def _asks_next(such: Proposition) -> bool:

@@ -141,7 +141,7 @@ def test_of_the_past_the_rule_of_that_time_is_told() -> None:
         (action("wait", US, Everyone()), 1, (2,), True),
         (action("wait", Vehicles((1, 3)), US), 3, (), True),
         (action("wait", Everyone(), US), 3, (), True),
-        (action("wait", US, Vehicles((3,))), 1, (), True),  # nobody of them: whoever crosses
+        (action("wait", US, Vehicles((3,))), 3, (), False),  # not 1, which was not asked about
     ],
 )
 def test_of_several_those_are_told_of_whom_it_holds(

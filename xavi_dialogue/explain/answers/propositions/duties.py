@@ -27,7 +27,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import causal
 from xavi_dialogue.explain.answers.expectations.foreseen import chance
-from xavi_dialogue.explain.answers.expectations.precedence import on_ring
+from xavi_dialogue.explain.answers.expectations.precedence import on_ring, red_ahead
 from xavi_dialogue.explain.answers.lights.lights_turn import held
 from xavi_dialogue.explain.answers.propositions.halting import to_come
 from xavi_dialogue.explain.answers.propositions.standing_rules import ever_given
@@ -211,7 +211,9 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
     if vehicle is None:
         about = where_rule_holds(asked, None, about)
     if several or every is not None:
-        return owed_to_all(asked, several or asked.world.in_view(about.end), about, ours=ours)
+        if several:
+            return owed_to_all(asked, several, about, ours=ours)
+        return owed_to_all(asked, asked.world.in_view(about.end), about, ours=ours, every=True)
     found = owed(priority_at(asked, vehicle, about), ours_yield=ours)
     if found.holds is not None or not is_us(yielder):
         return found
@@ -220,17 +222,33 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
     return found if held is None else Finding(True, (held,))
 
 
-def owed_to_all(asked: Asked, among: tuple[int, ...], about: Window, *, ours: bool) -> Finding:
-    """Return to whom of several we have to yield, or who of them has to yield to us."""
+def owed_to_all(
+    asked: Asked, among: tuple[int, ...], about: Window, *, ours: bool, every: bool = False
+) -> Finding:
+    """Return to whom of several we have to yield, or who of them has to yield to us.
+
+    Args:
+        asked: the question and the record.
+        among: the vehicles.
+        about: when.
+        ours: whether we are to yield.
+        every: whether they are all who are in view, rather than some that were named.
+    """
     rules = {v: priority_at(asked, v, about).rule for v in among}
     wanted = "give-way" if ours else "priority"
-    if about.end >= asked.now - 0.1 and on_ring(asked.world.road(asked.now)):
+    road = asked.world.road(asked.now)
+    present = about.end >= asked.now - 0.1
+    if present and on_ring(road):
         return owed(priority_at(asked, None, Window(asked.now, asked.now)), ours_yield=ours)
     those = tuple(v for v in among if rules[v] == wanted)
     if not ours:  # say so where people on foot go first
         those = those or tuple(v for v in among if rules[v] == "give-way")
     if not those:
-        return owed(priority_at(asked, None, about), ours_yield=ours)
+        general = every or not among or (present and red_ahead(road))
+        facts = () if road is None else tuple(fact.vehicle for fact in road.priority)
+        ruled = (v for v in among if rules[v] != "none" and (v in facts or not present))
+        one = None if general else next(ruled, among[0])
+        return owed(priority_at(asked, one, about), ours_yield=ours)
     found = owed(priority_at(asked, those[0], about), ours_yield=ours)
     if isinstance(found.answer, Priority):
         told = replace(found.answer, others=those[1:], first=None)
@@ -318,7 +336,7 @@ def _to_all(
         return None
     near = {fact.vehicle for fact in road.priority}
     among = tuple(v for v in asked.world.in_view(asked.now) if v in near)
-    found = owed_to_all(asked, among, about, ours=is_us(yielder))
+    found = owed_to_all(asked, among, about, ours=is_us(yielder), every=True)
     told = found.answer
     return replace(told, holds=None) if isinstance(told, Priority) and found.holds else None
 

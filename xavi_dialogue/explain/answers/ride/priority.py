@@ -32,7 +32,7 @@ from xavi_dialogue.explain.answers.ride.crossings import (
     stood,
     went_first,
 )
-from xavi_dialogue.explain.answers.ride.walking import walks_first
+from xavi_dialogue.explain.answers.ride.walking import about_to_cross, walks_first
 from xavi_dialogue.explain.history.ride import planned
 
 Rule: TypeAlias = Literal[
@@ -118,7 +118,7 @@ def priority_at(
     present = about.instant and about.end >= asked.now - 0.1
     ringed = general and present and on_ring(asked.world.road(asked.now))
     if vehicle is None and not ringed:
-        vehicle = crossing_now(asked) if present else met_about(asked, about)
+        vehicle = _crossing_now(asked) if present else met_about(asked, about)
     met = None if vehicle is None else rule_between(asked, vehicle, about)
     time = _rule_time(asked, about) if met is None else met[0]
     near = Window(time - NEAR, max(about.end, time) + NEAR)
@@ -135,7 +135,9 @@ def priority_at(
     if ahead and rule in ("priority", "give-way") and passes_by(asked, vehicle):
         rule = rule_for(asked.world.road(time), None, gave_way=False) if general else "none"
         vehicle = None if general else vehicle
-    rule = "give-way" if walks_first(asked, vehicle, about, waited) else rule
+    walks = walks_first(asked, vehicle, about, waited)
+    walks = walks or (present and rule in (None, "none") and about_to_cross(asked, vehicle))
+    rule = "give-way" if walks else rule
     if rule is None and not blame:
         raise Unanswered(NotRecorded("not-recorded", about="right-of-way", since=time))
     crossing = rule in ("priority", "give-way", "equal", "depends")
@@ -148,6 +150,12 @@ def priority_at(
         ring=general and at_ring(asked.world.road(time)),
         light=general and present and red_ahead(asked.world.road(time)),
     )  # fmt: skip
+
+
+def _crossing_now(asked: Asked) -> int | None:
+    """Return whose way crosses ours now; those on foot whom we are likely to let go are first."""
+    walking = (v for v in asked.world.in_view(asked.now) if about_to_cross(asked, v))
+    return next(walking, None) or crossing_now(asked)
 
 
 def _let_by(

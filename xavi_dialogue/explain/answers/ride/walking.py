@@ -1,14 +1,19 @@
-"""Walking: whether we have to let somebody on foot go first."""
+"""Walking: whether we have to let somebody on foot go first, by what they do or are about to do."""
+
+from typing import Final
 
 from planner.record.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.explain.answers.expectations.precedence import red_ahead
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import Window
 from xavi_dialogue.explain.answers.reference.occasions import overlaps
-from xavi_dialogue.explain.facts.episodes.waiting import top_holders
+from xavi_dialogue.explain.facts.episodes.waiting import let_first, top_holders
 from xavi_dialogue.explain.history.restraints import held_by
+
+LIKELY: Final = 0.5  # share of the rollouts from which on we count on it
 
 
 def walks_first(asked: Asked, vehicle: int | None, about: Window, waited: Episode | None) -> bool:
@@ -22,3 +27,15 @@ def walks_first(asked: Asked, vehicle: int | None, about: Window, waited: Episod
     first = waited is not None or any(overlaps(asked, e, about) for e in crossing)
     first = first or bool(held_by(asked.ride, vehicle, about.begin, about.end))
     return first or (vehicle, "right-of-way") in top_holders(asked.world.states, trace, EGO)
+
+
+def about_to_cross(asked: Asked, vehicle: int | None) -> bool:
+    """Check whether we are likely to let somebody on foot go first, by the present decision.
+
+    At a red light, it is the light that holds us.
+    """
+    look = None if vehicle is None else asked.world.look(vehicle, asked.now)
+    trace = asked.world.states.trace(asked.now)
+    if vehicle is None or look is None or trace is None or red_ahead(trace.road):
+        return False
+    return look.in_view and look.kind in ON_FOOT and let_first(trace, vehicle) >= LIKELY

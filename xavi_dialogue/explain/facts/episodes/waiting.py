@@ -4,6 +4,7 @@ The ego waits for those who hold it up, from the moment of a decision on, in its
 vehicle waits for those who do so on its predicted ways; this is never sure.
 """
 
+import math
 from collections.abc import Iterable, Iterator
 
 from msgspec.structs import replace
@@ -258,7 +259,14 @@ def _holders(trace: PlanTrace, vehicle: int) -> dict[Holder, float]:
     return _of_ego(trace) if vehicle == EGO else _of_other(trace, vehicle)
 
 
-def _of_ego(trace: PlanTrace) -> dict[Holder, float]:
+def let_first(trace: PlanTrace, vehicle: int) -> float:
+    """Return the share of the chosen rollouts in which we let a road user go first at any time."""
+    shares = of_decision(trace, ("let first",), lambda: _of_ego(trace, math.inf))
+    return shares.get((vehicle, "right-of-way"), 0.0)
+
+
+def _of_ego(trace: PlanTrace, within: float = AT_ONCE) -> dict[Holder, float]:
+    """Return who holds us up within some time [s] of a decision, with the share of rollouts."""
     chosen = trace.plan[0].action if trace.plan else None
     drives = [r for r in trace.rollouts if r.actions and r.actions[0].action == chosen]
     weighed = any(drive.weight is not None for drive in drives)
@@ -266,8 +274,8 @@ def _of_ego(trace: PlanTrace) -> dict[Holder, float]:
     found: dict[Holder, float] = {}
     for drive in drives:
         weight = (drive.weight or 0.0) if weighed else 1.0
-        now = {(s.vehicle, s.how) for s in drive.held_up if s.since <= trace.sim_time + AT_ONCE}
-        for holder in now:
+        held = {(s.vehicle, s.how) for s in drive.held_up if s.since <= trace.sim_time + within}
+        for holder in held:
             found[holder] = found.get(holder, 0.0) + weight / total
     return found
 

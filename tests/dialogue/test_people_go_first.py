@@ -1,0 +1,20 @@
+"""Who goes first, we or people on foot, before the record of the road has a rule between us."""
+
+import pytest
+
+from tests.dialogue.talking import Talk
+
+
+@pytest.mark.parametrize(
+    ("at", "question", "begins"),
+    [
+        (4.0, "Do we have right of way over the pedestrians?", "No, the pedestrian ahead of us"),
+        (4.0, "Who goes first, we or the people?", "The pedestrian ahead of us (vehicle 8) has"),
+        (4.0, "Do we have right of way?", "No, the pedestrian ahead of us (vehicle 8) has"),
+        (4.0, "Who goes first here?", "The pedestrian ahead of us (vehicle 8) has right of way"),
+        (26.0, "Do we have right of way over the pedestrians?", "No, nobody has to give way"),
+        (26.0, "Who goes first, we or the people?", "Nobody has to give way"),
+    ],
+)
+def test_people_whom_we_are_about_to_let_go_are_first(at: float, question: str, begins: str):
+    assert Talk("junction-0", at).hear(question).startswith(begins)
