@@ -18,3 +18,14 @@ from tests.dialogue.talking import Talk
 )
 def test_people_whom_we_are_about_to_let_go_are_first(at: float, question: str, begins: str):
     assert Talk("junction-0", at).hear(question).startswith(begins)
+
+
+@pytest.mark.parametrize(
+    ("at", "question", "begins"),
+    [
+        (30.0, "Which way are those people walking?", "I expect the pedestrian ahead of us"),
+        (40.0, "Who worries you most?", "The pedestrian (vehicle 13) will be in our way"),
+    ],
+)
+def test_people_are_told_of_who_are_asked_about(at: float, question: str, begins: str):
+    assert Talk("junction-0", at).hear(question).startswith(begins)

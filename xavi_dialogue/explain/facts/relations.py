@@ -14,6 +14,7 @@ from xavi_dialogue.explain.facts.episodes.meetings import crossings, followings
 from xavi_dialogue.explain.facts.episodes.waiting import top_holders, waits
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.motion import EPSILON
+from xavi_dialogue.explain.history.restraints import held_by
 from xavi_dialogue.explain.history.thresholds import NEAR, ROAD_WIDTH, SAME_LANE, STANDING
 
 Told: TypeAlias = bool | None
@@ -120,7 +121,9 @@ def _sees(states: States, thing: int, to: int, at: float) -> Told:
 
 
 def _in_the_way(states: States, thing: int, to: int, at: float) -> Told:
-    """Check whether the first holds the second up."""
+    """Check whether the first holds the second up, or has to be let go first by us."""
+    if to == EGO and held_by(states.ride, thing, at, at):
+        return True
     trace = states.trace(at)
     if trace is None:
         return None

@@ -29,6 +29,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Not,
     Vehicle,
+    Vehicles,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
 from xavi_dialogue.explain.answers import causal
@@ -226,7 +227,7 @@ def _turn(of: Measured, asked: Asked) -> Answer:
     other = number(of.thing)
     if other is not None and is_past(asked, of.time, of.tense) and not was_said(asked, of.time):
         return gone(asked, Vehicle(other))
-    if other is not None:
+    if other is not None or isinstance(of.thing, Vehicles):
         return whither(Whither(of.thing, of.time), asked)
     return which_way(of, asked)
 

@@ -23,6 +23,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
+from xavi_dialogue.explain.answers.expectations.forecast import forecast
 from xavi_dialogue.explain.answers.expectations.foreseen import HALTS, YIELDS, came_of
 from xavi_dialogue.explain.answers.expectations.plans import current_plan, plan_ahead
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -117,6 +118,8 @@ def whither(question: Whither, asked: Asked) -> Answer:
         return our_way(asked, at)
     vehicle = found[0].number
     past = asked.now - at > SHORT
+    if len(found) > 1 and not past and (expected := forecast(asked, found)) is not None:
+        return expected
     look = asked.world.look(vehicle, asked.now)
     lost = look is not None and not look.in_view
     belief = asked.world.belief(vehicle, at)

@@ -37,6 +37,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.nominal import event_in, propose
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.propositions.feelings import felt
 from xavi_dialogue.nlu.compose.propositions.having import had
 from xavi_dialogue.nlu.compose.propositions.severally import each_seen
 from xavi_dialogue.nlu.compose.propositions.valuing import (
@@ -74,7 +75,6 @@ from xavi_dialogue.nlu.compose.verbs.trends import SINCE
 _BELIEF = frozenset({"know", "believe", "conclude", "say", "assign", "lie", "hear",
                      "report", "understand", "wish", "fear", "trust", "ask"})  # fmt: skip
 _JUDGING = frozenset({"opinion", "rude", "kind", "dangerous"})
-_FEARING = frozenset({"feel:nervous", "feel:afraid"})
 _LIKING = frozenset({"like", "dislike", "mind"})
 _DECISION = frozenset({"decide", "plan", "choose", "consider", "want"})
 
@@ -112,15 +112,8 @@ def _positive(special: Special) -> Proposition:
     rule = _RULES.get(name)
     if rule is not None:
         return rule(special)
-    if name in _FEARING and special.clause.modal in ("should", "must"):
-        return Is("dangerous", Ego(), time=time_of(special), tense=tense_of(special))  # "worry"?
-    if name == "feel:surprised" and isinstance(as_thing(special.object), Ego):
-        by = special.subject  # who surprises us does not do what we expected
-        named = isinstance(by, Vehicle | Pronoun) or (isinstance(by, Described) and by.definite)
-        whom = by if named else Ego()
-        return Is("wrong", whom, time=time_of(special), tense=tense_of(special))
     if name.startswith("feel"):
-        return Is("comfortable", as_thing(special.object) or Passenger())
+        return felt(name, special)
     verb = cast(Any, special.clause.verb).key
     thing = as_thing(special.object)
     return Happens(event_of(special, "do", thing or Unknown(verb)))

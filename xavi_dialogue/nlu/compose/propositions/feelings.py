@@ -1,0 +1,35 @@
+"""Feelings: what verbs such as "worry" and "surprise" say of the road."""
+
+from typing import Final
+
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Is,
+    Next,
+    Passenger,
+    Pronoun,
+    Proposition,
+    Related,
+    Vehicle,
+    Wanted,
+)
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
+from xavi_dialogue.nlu.compose.clauses.sem import as_thing
+from xavi_dialogue.nlu.compose.verbs.deeds import tense_of, time_of
+
+_FEARING: Final = frozenset({"feel:nervous", "feel:afraid"})
+
+
+def felt(name: str, special: Special) -> Proposition:
+    """Return what a verb of feeling says: of a danger, somebody in our way, a surprise, comfort."""
+    if name in _FEARING and special.clause.modal in ("should", "must"):
+        return Is("dangerous", Ego(), time=time_of(special), tense=tense_of(special))  # "worry"?
+    if name in _FEARING and isinstance(special.subject, Wanted):  # "who worries you most?"
+        return Related("in-the-way-of", special.subject, Ego(), Next(), "future")
+    if name == "feel:surprised" and isinstance(as_thing(special.object), Ego):
+        by = special.subject  # who surprises us does not do what we expected
+        named = isinstance(by, Vehicle | Pronoun) or (isinstance(by, Described) and by.definite)
+        whom = by if named else Ego()
+        return Is("wrong", whom, time=time_of(special), tense=tense_of(special))
+    return Is("comfortable", as_thing(special.object) or Passenger())
