@@ -2,16 +2,21 @@
 
 import pytest
 
-from xavi_dialogue.domain.meaning import Ask, Request, WhatIf, Whether
+from xavi_dialogue.domain.meaning import Ask, Request, WhatIf, Whether, Which, Why
 from xavi_dialogue.domain.terms import (
     Both,
     Compares,
     Described,
+    Ego,
+    Event,
     Exists,
+    Feature,
     Happens,
+    Is,
     Measured,
     Not,
     Pronoun,
+    Related,
     Vehicle,
 )
 from xavi_dialogue.nlu.interpret import interpret
@@ -127,3 +132,101 @@ def test_a_plain_question_stands_in_for_no_supposition_of_several() -> None:
     assert isinstance(act, Ask)
     assert isinstance(act.question, WhatIf)
     assert isinstance(act.question.supposed, Both)
+
+
+HE = Pronoun("he")
+
+
+def asked(parser: Parser, text: str) -> object:
+    acts = parser.read(text)[0].acts
+    assert len(acts) == 1
+    assert isinstance(acts[0], Ask)
+    return acts[0].question
+
+
+@pytest.mark.parametrize(
+    ("text", "first", "other"),
+    [
+        (
+            "Do we have right of way or does he?",
+            Related("has-priority-over", Ego(), HE),
+            Related("has-priority-over", HE, Ego()),
+        ),
+        ("Are you stuck or is he?", Is("stuck", Ego()), Is("stuck", HE)),
+        (
+            "Did he brake, or did you?",
+            Happens(Event("brake", HE, tense="past")),
+            Happens(Event("brake", Ego(), tense="past")),
+        ),
+        (
+            "Did you wait for him or did he?",
+            Happens(Event("wait", Ego(), HE, tense="past")),
+            Happens(Event("wait", HE, Ego(), tense="past")),
+        ),
+    ],
+)
+def test_or_does_he_asks_the_same_of_another(
+    parser: Parser, text: str, first: object, other: object
+) -> None:
+    assert asked(parser, text) == Whether(Both((first, other), "or"))  # type: ignore[arg-type]
+
+
+def test_who_did_it_first_is_one_of_the_two(parser: Parser) -> None:
+    question = asked(parser, "Did he go first or did we?")
+    assert isinstance(question, Which)
+    assert question.among == (HE, Ego())
+
+
+def test_late_or_on_time_is_whether_we_are_late(parser: Parser) -> None:
+    assert asked(parser, "Are we late or on time?") == Whether(Is("late", Ego()))
+
+
+@pytest.mark.parametrize(
+    ("text", "rival"),
+    [
+        ("Did you slow down because of the bend or because he braked?", HE),
+        ("Did he stop because of that green car, or because you were too close?", Ego()),
+        (
+            "Did you stop because of the light or because someone was crossing?",
+            Described("pedestrian", plural=True),
+        ),
+    ],
+)
+def test_a_second_cause_may_be_a_clause(parser: Parser, text: str, rival: object) -> None:
+    question = asked(parser, text)
+    assert isinstance(question, Why)
+    assert question.rival == rival
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Is it the light or the truck that's holding us up?",
+        "Is it the truck that's holding us up or the light?",
+    ],
+)
+def test_what_holds_us_up_may_be_a_light_or_a_vehicle(parser: Parser, text: str) -> None:
+    question = asked(parser, text)
+    assert isinstance(question, Which)
+    assert set(question.among) == {Feature("light"), Described("truck")}
+
+
+def test_a_plain_question_stands_in_for_none_that_names_whom_it_may_be() -> None:
+    act = interpret("Who are you slowing for, the cyclist or that red car?")[0].acts[0]
+    assert isinstance(act, Ask)
+    assert isinstance(act.question, Which)
+    assert len(act.question.among) == 2
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Had you seen them before you braked, or only just then?",
+        "Had you seen them before you braked or only then?",
+    ],
+)
+def test_another_time_of_the_same_is_no_other_question(parser: Parser, text: str) -> None:
+    question = asked(parser, text)
+    assert isinstance(question, Whether)
+    assert isinstance(question.that, Related)
+    assert question.that.relation == "can-see"

@@ -248,7 +248,7 @@ class Composer(Statements):
         return (Ask(Whether(Happens(first.event))), *acts[1:])
 
     def _fragment(self, unit: Node) -> Found:
-        found = self.fragments.fragment(unit)
+        found = [] if goes_on(unit) else self.fragments.fragment(unit)
         if unit.name == "adverbial" and self.asks:
             return [(tuple(map(as_when, acts)), cost) for acts, cost in found]
         return found

@@ -32,6 +32,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
 )
+from xavi_dialogue.nlu.compose.alternatives.blames import whom_of
 from xavi_dialogue.nlu.compose.bare import BareQuestions, Found
 from xavi_dialogue.nlu.compose.clauses.adoption import adopted
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -194,7 +195,7 @@ class Fragments(BareQuestions):
         if supposed is not None and thing is None and event is None:
             return [((suppose(supposed),), 0.0)]
         if clause.because is not None and thing is None:
-            thing = as_thing(clause.because) if not isinstance(clause.because, Clause) else None
+            thing = self._cause(clause.because)
             if thing is None or thing == Pronoun("who"):
                 return [((Elliptic(thing, form="why"),), 0.0)]
             return [((Ask(Why(That(), suspect=thing)),), 0.0)]
@@ -219,6 +220,13 @@ class Fragments(BareQuestions):
             return [((Elliptic(thing, event, clause.time, negated),), 0.1),
                     ((Request(event),), 0.4)]  # fmt: skip
         return [((Elliptic(thing, event, clause.time, negated),), 0.1)]
+
+    def _cause(self, because: Sem | Clause) -> Thing | None:
+        """Give whom a cause is of: "(or) because he was too close?"."""
+        if not isinstance(because, Clause):
+            return as_thing(because)
+        found = self.composer.propositions.plain(because)
+        return None if found is None else whom_of(found)
 
     def short(self, clause: Clause) -> Found:
         """Read "is it?", "did he?", "are you?": whether what was said is so."""

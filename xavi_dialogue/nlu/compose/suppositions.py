@@ -121,6 +121,8 @@ class Suppositions:
         if hads is None:
             return []
         condition = self.phrases.clause(hads)
+        if _is_noticing(condition):
+            return []
         supposed = self.composer.questions.supposed(condition)
         return [((suppose(supposed),), 0.3)] if supposed is not None else []
 
@@ -158,16 +160,21 @@ def supposes(unit: Node, clause: Clause) -> bool:
         told = clause.verb is not None
     if timed or not told:
         return False
+    return not _is_noticing(clause)
+
+
+def _is_noticing(clause: Clause) -> bool:
+    """Say whether "had you seen him" asks what we knew, and supposes nothing."""
     noticed = clause.verb is not None and clause.verb.key in _NOTICING
-    return not noticed or not isinstance(clause.subject, Ego)
+    return noticed and isinstance(clause.subject, Ego)
 
 
 def goes_on(unit: Node) -> bool:
-    """Say whether "and" stands behind "had you seen it": then nothing is supposed."""
+    """Say whether "and" or "or" stands behind "had you seen it": then nothing is supposed."""
     for part, later in zip(unit.parts, unit.parts[1:], strict=False):
         led = isinstance(part, Node) and part.name == "lead_clause"
         if led and isinstance(part, Node) and node_of(part, "hads") is not None:
             rest = unit.parts[unit.parts.index(later) :]
             leaves = [p.category for p in rest if isinstance(p, Leaf) and p.category != "COMMA"]
-            return bool(leaves) and leaves[0] == "AND"
+            return bool(leaves) and leaves[0] in ("AND", "OR")
     return False

@@ -57,7 +57,8 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
     unmet = _unmet(best, wanted)
     asked = asking(text, best.shares)
     incomplete = bool(unmet) or _is_incomplete(best, asked)
-    clear = not incomplete and (_cost(best) <= CLEAR * len(best.acts) or _of_light(best))
+    cheap = _cost(best) <= CLEAR * len(best.acts)
+    clear = not incomplete and (cheap or _of_light(best) or _of_rivals(best))
     if clear or _of_several(best) or any(share.strange for share in asked):
         return tuple(readings)
     thing = mentioned(best)
@@ -179,6 +180,12 @@ def _of_several(best: Reading) -> bool:
     asked = (act.question for act in best.acts if isinstance(act, Ask))
     said = (getattr(one, "supposed", None) or getattr(one, "that", None) for one in asked)
     return any(isinstance(of, Both) for of in said)
+
+
+def _of_rivals(best: Reading) -> bool:
+    """Tell whether it is asked which of those named it is: a plain question names none."""
+    asked = (act.question for act in best.acts if isinstance(act, Ask))
+    return any(getattr(one, "rival", None) or getattr(one, "among", ()) for one in asked)
 
 
 def _is_less(acts: Sequence[Act], plain: Sequence[Act]) -> bool:

@@ -20,9 +20,11 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.domain.terms import (
     Both,
     Compares,
+    Described,
     Destination,
     Ego,
     Event,
+    Feature,
     Happens,
     Is,
     Not,
@@ -30,6 +32,8 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     That,
     Together,
+    Vehicle,
+    Wanted,
 )
 from xavi_dialogue.nlu.compose.alternatives.choosing import compared_by, of_the_same
 from xavi_dialogue.nlu.compose.alternatives.polar import way_asked
@@ -103,7 +107,11 @@ def _either(first: Act, later: Act) -> Question | None:
     match first:
         case Ask(question=Whether(that=Both(contents=contents, join="or"))):
             pass
-        case Ask(question=Whether(that=that)):
+        case Ask(question=Whether(that=that) as asked):
+            if isinstance(later, Elliptic) and later == Elliptic(time=later.time):
+                return asked  # "had you seen him before, or only just then?"
+            if (which := _held_by(that, later)) is not None:
+                return which
             contents = (that,)
         case Claim(that=Happens() as that) if _is_of_two(that, later):
             contents = (that,)  # "he waits for us, or we wait for him?"
@@ -120,6 +128,17 @@ def _either(first: Act, later: Act) -> Question | None:
         return Whether(contents[0])
     of = of_the_same(Both((*contents, other), "or"))
     return way_asked(of) or Whether(of)
+
+
+def _held_by(that: Proposition, later: Act) -> Which | None:
+    """Read "is it the bus that is holding us up, or the light?" as which of them it is."""
+    match that, later:
+        case Happens(event=Event(action="block", object=Ego()) as event), Elliptic(
+            thing=Feature() | Described() | Vehicle() as other, event=None, form="same"
+        ):
+            such = Happens(structs.replace(event, actor=Wanted()))
+            return Which(Wanted(), such, (event.actor, other))
+    return None
 
 
 def _is_of_two(first: Happens, later: Act) -> bool:

@@ -9,12 +9,16 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Exists,
     Feature,
     Happens,
+    Has,
+    Is,
     Junction,
     Nobody,
     Pronoun,
     Proposition,
+    Related,
     Thing,
     Vehicle,
     Wanted,
@@ -126,3 +130,22 @@ def rival(clause: Clause) -> Thing | None:
     sem = clause.complements[0].sem if clause.complements else clause.because
     members = sem.members[1:] if isinstance(sem, Group) and sem.join == "or" else ()
     return next((one for one in map(_cause, members) if one is not None), None)
+
+
+def whom_of(of: Proposition) -> Thing | None:
+    """Give whom a cause that is told as a clause is of: "because someone was crossing"."""
+    match of:
+        case Happens(event=Event(action="cross", actor=Described("vehicle", definite=False))):
+            return Described("pedestrian", plural=True)  # "someone was crossing"
+        case Happens(event=Event(actor=Described(definite=False) as who) as event):
+            return replace(who, doing=replace(event, actor=Wanted()))
+        case Happens(event=event):
+            return _named(event.actor)
+        case Is(thing=thing) | Has(thing=thing) | Related(thing=thing) | Exists(thing=thing):
+            return _named(thing)
+    return None
+
+
+def _named(thing: Thing | None) -> Thing | None:
+    vague = isinstance(thing, Pronoun) and thing.form in ("it", "that", "this")
+    return None if vague or isinstance(thing, Nobody) else thing

@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Feature,
     Happens,
     Measured,
     Pronoun,
@@ -121,13 +122,18 @@ def _any_of(clause: Clause, propositions: Any) -> list[tuple[Question, float]]:
 def _cleft(clause: Clause) -> Question | None:
     """Read "is it the bus or the van that we are waiting for"."""
     pronoun = isinstance(clause.subject, Pronoun) and clause.subject.form in ("it", "that")
-    options = options_of(clause.objects[0][0]) if pronoun and clause.objects else None
-    last = options[-1] if options else None
-    if clause.verb is not None or not isinstance(last, Described) or options is None:
+    sem = clause.objects[0][0] if pronoun and clause.objects else None
+    if clause.verb is not None or not isinstance(sem, Group) or sem.join != "or":
         return None
-    such = last.such if last.doing is None else Happens(last.doing)
-    plain = replace(last, doing=None, such=None)
-    return None if such is None else Which(Wanted(), such, (*options[:-1], plain))
+    things = [as_thing(member) for member in sem.members]
+    named = [one for one in things if isinstance(one, Feature) or is_pointed_at(one)]
+    told = [one for one in named if isinstance(one, Described) and (one.doing or one.such)]
+    if len(told) != 1 or len(named) < len(things):
+        return None
+    such = told[0].such if told[0].doing is None else Happens(told[0].doing)
+    plain = [replace(told[0], doing=None, such=None) if one is told[0] else one for one in named]
+    options = cast("tuple[Thing, ...]", tuple(plain))
+    return None if such is None else Which(Wanted(), such, options)
 
 
 def _before_or_after(clause: Clause, propositions: Any) -> Question | None:

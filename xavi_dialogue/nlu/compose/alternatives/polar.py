@@ -48,6 +48,7 @@ from xavi_dialogue.nlu.compose.alternatives.choosing import asks_which, chosen
 from xavi_dialogue.nlu.compose.alternatives.comparing import Comparing
 from xavi_dialogue.nlu.compose.alternatives.nearness import nearly_even
 from xavi_dialogue.nlu.compose.alternatives.recast import about_whom, caused_by, judged_so
+from xavi_dialogue.nlu.compose.alternatives.swapped import swapped
 from xavi_dialogue.nlu.compose.clauses.adoption import as_of
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -221,7 +222,8 @@ class Polar(Comparing):
     def polar(self, clause: Clause, value: Any, *, tag: bool) -> Question:
         if isinstance(value, Special) and (asked := self._special(clause, value)) is not None:
             return asked
-        of = counts(clause) or tallied(clause, self.propositions.joined(clause, fact(value)))
+        joined = swapped(self.propositions.joined(clause, fact(value)))
+        of = counts(clause) or tallied(clause, joined)
         of = not_rather(clause, of, self.propositions)
         if (often := how_often(clause, of)) is not None:
             return often

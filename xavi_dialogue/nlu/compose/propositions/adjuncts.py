@@ -1,5 +1,6 @@
 """Adjuncts: times, conditions, reasons and contrasts that stand beside a clause."""
 
+from dataclasses import replace
 from typing import Any, cast
 
 from xavi_dialogue.domain.terms import (
@@ -61,6 +62,14 @@ class Adjuncts:
         """Read "or we for them" as the same deed of another: "did he wait for us or we for him"."""
         other = Clause(aux=list(clause.aux), verb=clause.verb)
         other = self.slots.fill(tuple(p for p in node.parts if isinstance(p, Node)), other)
+        clause.chained.append(("or", other))
+        self.notes.chained.append(other)
+
+    def _on_or_other(self, node: Node, clause: Clause) -> None:
+        """Read "or is he" as the same of another: "are you braking or is he?"."""
+        bare = Clause(aux=list(clause.aux), verb=clause.verb)
+        subject = self.slots.fill(tuple(p for p in node.parts if isinstance(p, Node)), bare)
+        other = replace(clause, subject=subject.subject, chained=[], condition=None)
         clause.chained.append(("or", other))
         self.notes.chained.append(other)
 

@@ -186,11 +186,9 @@ def apart(question: Question) -> tuple[Ask, ...]:
             return tuple(Ask(Whether(one)) for one in each)
         case Whether(
             that=Both(contents=(Happens(event=first), Happens(event=other)), join="or")
-        ) if "first" in first.manner and other == Event(
-            "do", first.actor, Ego(), tense=other.tense
-        ):  # "did he go first, or did we?"
+        ) if "first" in first.manner and first == with_fields(other, actor=first.actor):
             such = Happens(cast(Event, with_fields(first, actor=Wanted())))
-            return (Ask(Which(Wanted(), such, (first.actor, Ego()))),)
+            return (Ask(Which(Wanted(), such, (first.actor, other.actor))),)  # "..., or did we?"
     return (Ask(question),)
 
 

@@ -44,7 +44,6 @@ from xavi_dialogue.domain.terms import (
     Now,
     Proposition,
     That,
-    Thing,
     Unsaid,
     Vehicle,
     Vehicles,
@@ -90,11 +89,12 @@ def _why(spoken: Why, g: Grounder) -> Why:
     if spoken.suspect == SOMEBODY_ELSE:
         return replace(spoken, of=of, instead=instead)
     anybody = isinstance(spoken.suspect, Nobody) or spoken.suspect == Described(definite=False)
-    blamed: Thing | None = None if anybody else spoken.suspect
+    blamed = None if anybody else spoken.suspect
     if blamed is not None:
         g.notes.cost += UNASKED * (blames and asked_who(g.context))
         blamed = suspect(blamed, event, g, _during(event, g))
     rival = None if spoken.rival is None else suspect(spoken.rival, event, g, _during(event, g))
+    rival = None if isinstance(rival, Nobody) else rival  # "or because someone was crossing"
     return replace(spoken, of=of, instead=instead, suspect=blamed, rival=rival)
 
 
