@@ -29,7 +29,7 @@ from xavi_dialogue.domain.terms import (
     That,
     Vehicle,
 )
-from xavi_dialogue.explain.answers.propositions import weighing
+from xavi_dialogue.explain.answers.propositions import alternatives, weighing
 from xavi_dialogue.explain.answers.reference.findings import Finding
 
 ONE, TWO = Vehicle(1), Vehicle(2)
@@ -190,7 +190,7 @@ def test_where_none_holds_all_are_denied(parts: Parts) -> None:
     assert either(A, B).facts == ()
 
 
-def test_where_all_hold_of_one_kind_both_are_told(parts: Parts) -> None:
+def test_where_all_hold_they_are_told_together(parts: Parts) -> None:
     left = Happens(Event("turn", object=ONE))
     right = Happens(Event("turn", object=TWO))
     parts.known = {left: YES, right: YES}
@@ -198,7 +198,7 @@ def test_where_all_hold_of_one_kind_both_are_told(parts: Parts) -> None:
     assert found.answer == Verdict(Both((left, right), "and"), True, either=True)
     parts.known = {A: YES, B: YES}
     mixed = either(A, B)
-    assert (mixed.holds, mixed.answer, mixed.facts) == (True, None, (ONE_LOOK,))
+    assert mixed.answer == Verdict(Both((A, B), "and"), True, either=True)
 
 
 def test_a_growing_or_a_shrinking_that_is_neither_is_the_same(parts: Parts) -> None:
@@ -312,10 +312,10 @@ def test_of_stopping_for_us_or_coming_out_the_stop_is_weighed(parts: Parts) -> N
 def test_of_a_collision_beside_what_comes_before_it_the_collision_is_asked() -> None:
     crash = Happens(Event("collide", Ego(), ONE, tense="future", modal="will"))
     goes = Happens(Event("move", ONE, tense="future", modal="will"))
-    assert weighing._feared(Both((goes, crash)), Given().asked()) == crash
+    assert alternatives.feared(Both((goes, crash)), Given().asked()) == crash
     past = Happens(Event("collide", Ego(), ONE, tense="past"))
-    assert weighing._feared(Both((goes, past)), Given().asked()) is None
-    assert weighing._feared(Both((goes,)), Given().asked()) is None
+    assert alternatives.feared(Both((goes, past)), Given().asked()) is None
+    assert alternatives.feared(Both((goes,)), Given().asked()) is None
 
 
 def test_the_collision_is_weighed_and_not_what_comes_before_it(parts: Parts) -> None:
@@ -323,3 +323,10 @@ def test_the_collision_is_weighed_and_not_what_comes_before_it(parts: Parts) -> 
     goes = Happens(Event("move", ONE, tense="future", modal="will"))
     parts.known[crash], parts.known[goes] = Finding(False, probability=0.01), Finding(True)
     assert weigh(Both((goes, crash))).probability == 0.01
+
+
+def test_whether_another_stops_for_us_also_tells_the_risk(parts: Parts) -> None:
+    crash = Happens(Event("collide", Ego(), ONE, tense="future", modal="will"))
+    waits = Happens(Event("give-way", ONE, Ego(), tense="present"))
+    parts.known[crash], parts.known[waits] = Finding(False, probability=0.01), Finding(True)
+    assert weigh(Both((waits, crash), "or")).holds is True

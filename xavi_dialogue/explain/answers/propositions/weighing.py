@@ -12,7 +12,6 @@ from xavi_dialogue.domain.terms import (
     Both,
     Caused,
     Compares,
-    Ego,
     Event,
     Exists,
     Happens,
@@ -29,11 +28,18 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
 )
-from xavi_dialogue.domain.vocabulary import ActionName, Relation
+from xavi_dialogue.domain.vocabulary import Relation
 from xavi_dialogue.explain.answers.events.beliefs import foreknown, time_of
 from xavi_dialogue.explain.answers.events.happens import happens
-from xavi_dialogue.explain.answers.expectations.foreseen import HALTS, YIELDS, macros
+from xavi_dialogue.explain.answers.expectations.foreseen import macros
 from xavi_dialogue.explain.answers.expectations.plans import plan_ahead
+from xavi_dialogue.explain.answers.propositions.alternatives import (
+    feared,
+    is_our_course,
+    lets_us,
+    spares,
+    stops,
+)
 from xavi_dialogue.explain.answers.propositions.comparisons import compares, has
 from xavi_dialogue.explain.answers.propositions.conditions import condition, handed
 from xavi_dialogue.explain.answers.propositions.duties import duty, is_owed, of_order, who_first
@@ -52,7 +58,6 @@ from xavi_dialogue.explain.answers.suppositions.pulling_up import pulls_up
 from xavi_dialogue.explain.history.ride import planned
 
 #: Relations that say where a thing is from another one.
-STATES: frozenset[ActionName] = frozenset(("stand", "wait"))  # what can be seen now
 BEARINGS: frozenset[Relation] = frozenset(
     ("ahead-of", "behind", "left-of", "right-of", "beside", "oncoming-to")
 )
@@ -112,18 +117,19 @@ def _joined(of: Both, asked: Asked) -> Finding:
     """Weigh several propositions together: all must hold, or one of them."""
     if len(set(of.contents)) == 1:
         return weigh(of.contents[0], asked)
-    if (feared := _feared(of, asked)) is not None:
-        return weigh(feared, asked)
+    if (hit := feared(of, asked)) is not None:
+        spared = next((part for part in of.contents if spares(part)), None)
+        return weigh(spared if of.join == "or" and spared is not None else hit, asked)
     if of.join == "or" and (halting := stop_or_go(of, asked)) is not None:
         return halting
     if of.join == "or" and (first := of_order(of)) is not None:
         rule = who_first(asked, first)
-        if rule is not None and rule.rule == "none" and (let := _lets_us(of)) is not None:
+        if rule is not None and rule.rule == "none" and (let := lets_us(of)) is not None:
             theirs = weigh(let, asked)
             return Finding(None, answer=theirs.answer or theirs.verdict(let))
         if rule is not None and (rule.rule != "none" or rule.vehicle is not None):
             return Finding(None, answer=replace(rule, holds=None))
-    if of.join == "or" and (held := _stops(of)) is not None:
+    if of.join == "or" and (held := stops(of)) is not None:
         return _open_to_all(weigh(held, asked))
     owed = next((part for part in of.contents if is_owed(part)), None)
     if owed is not None:  # the rule decides, also for what else is asked
@@ -132,7 +138,7 @@ def _joined(of: Both, asked: Asked) -> Finding:
         return chosen
     found = [weigh(part, asked) for part in of.contents]
     holds = [one.holds for one in found]
-    if of.join == "or" and not any(holds) and _is_our_course(of, asked):
+    if of.join == "or" and not any(holds) and is_our_course(of, asked):
         return Finding(None, answer=plan_ahead(asked))
     failing = [(p, one) for p, one in zip(of.contents, found, strict=True) if one.holds is False]
     if of.join == "and" and len(failing) == 1:  # the part that fails is what makes it false
@@ -146,52 +152,6 @@ def _joined(of: Both, asked: Asked) -> Finding:
     gap = next((one.gap for one in found if one.gap is not None), None) if whole is None else None
     believed = tuple(belief for one in told for belief in one.believed)
     return Finding(whole, facts, gap, believed, any(one.mistaken for one in told))
-
-
-def _lets_us(of: Both) -> Happens | None:
-    """Return that another lets us go first, if the question is which of us does; else None."""
-    for part in of.contents:
-        match part:
-            case Happens(event=Event("let-go", Ego(), Vehicle() as other, tense="future")):
-                return Happens(Event("let-go", other, Ego(), tense="future"))
-    return None
-
-
-def _is_our_course(of: Both, asked: Asked) -> bool:
-    """Check whether the question is which of several things we are doing or about to do."""
-    events = [part.event for part in of.contents if isinstance(part, Happens)]
-    return len(events) == len(of.contents) and all(
-        is_us(event.actor)
-        and event.modal in (None, "will")
-        and event.tense in ("present", "future")
-        for event in events
-    )
-
-
-def _feared(of: Both, asked: Asked) -> Proposition | None:
-    """Find the collision that a question names besides what comes before it or instead of it."""
-    for part in of.contents:
-        match part:
-            case Happens(event=Event(action="collide" | "nearly-collide") as event) if not is_past(
-                asked, event.time, event.tense
-            ):
-                return part
-    return None
-
-
-def _stops(of: Both) -> Happens | None:
-    """Find whether somebody stops, if the question also asks whether they come out or drive on.
-
-    Where they go is another matter: one that stops for us may go straight on.
-    """
-    events = [part.event for part in of.contents if isinstance(part, Happens)]
-    ahead = all(e.tense in ("present", "future") and number(e.actor) is not None for e in events)
-    held = [e for e in events if e.action in HALTS | YIELDS]
-    if len(events) < len(of.contents) or not ahead or len(held) != 1 or is_us(held[0].actor):
-        return None
-    if held[0].tense == "present" and held[0].action in STATES:  # "is it moving or standing?"
-        return None
-    return Happens(replace(held[0], tense="future", object=held[0].object or Ego()))
 
 
 def _told_once(facts: Iterable[Fact]) -> tuple[Fact, ...]:
@@ -234,8 +194,8 @@ def either(of: Both, asked: Asked) -> Finding | None:
     likely = [(p, one) for p, one in found if one.holds]
     on = [(p, one) for p, one in likely if _is_under_way(p, one)]
     likely = on if len(on) == 1 else likely
-    deeds = {part.event.action for part, _ in likely if isinstance(part, Happens)}
-    if len(likely) > 1 and len(likely) == len(found) and len(deeds) == 1:
+    deeds = [part for part, _ in likely if isinstance(part, Happens)]
+    if len(likely) > 1 and len(likely) == len(found) == len(deeds):
         both = replace(of, join="and")
         return Finding(True, answer=replace(Finding(True).verdict(both), either=True))
     if len(likely) != 1:
