@@ -54,7 +54,7 @@ class Setting:
         self.against: Any = LATER
         self.events: list[Event] = []
         self.reasons: Any = {}
-        for name in ("hastened", "closeness"):
+        for name in ("hastened", "as_it_was", "closeness"):
             patch.setattr(own, name, lambda *args, _by=name, **more: Told(_by, args, more))
         patch.setattr(own, "against", self._against)
         patch.setattr(own, "natural", lambda ride, trace, *node: replace(NOTHING, decided=9.0))
@@ -204,9 +204,7 @@ def test_what_was_planned_anyway_is_told_as_planned(setting: Setting) -> None:
     beside = replace(NOTHING, decided=9.0)
     assert found == SupposedOfUs(beside, done=PLANNED, past=False, form="safer")
     crash = of_us(TURN, form="crash")
-    assert (crash.by, crash.args[1:], crash.more) == (
-        "closeness", (1, Window(NOW, NOW), "hit"), {"past": False},
-    )  # fmt: skip
+    assert (crash.by, crash.args[1:], crash.more) == ("as_it_was", ("crash", 1), {"past": False})
 
 
 def test_what_was_done_in_fact_is_told_so(setting: Setting) -> None:

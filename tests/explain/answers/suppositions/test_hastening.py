@@ -268,3 +268,20 @@ def test_of_a_long_wait_only_its_beginning_counts() -> None:
     for begin, found in ((29.9, {2}), (30.1, set())):
         asked = setting(now=40.0, episodes=(did("give-way", begin, 35.0, object=OTHER),))
         assert room._let_go(asked, waits) == found
+
+
+# What we did anyway -----------------------------------------------------------------------------
+
+
+def test_to_turn_while_he_was_there_is_not_to_let_him_go(
+    facts: Facts, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(room, "closeness", lambda _, who, about, how, **more: (who, more))
+    facts.meets = {2: Crossing(2, 10.0, 10.5)}
+    let_go = (BRAKES, did("give-way", 5.0, 8.0, object=OTHER))
+    asked = setting(episodes=let_go)
+    found = result(lambda: room.as_it_was(asked, "crash", 2, past=True))
+    assert isinstance(found, Unslowed)
+    assert (found.vehicle, found.form) == (2, "crash")
+    assert room.as_it_was(asked, "crash", 2, past=False) == (2, {"past": False})
+    assert room.as_it_was(asked, "crash", 1, past=True) == (1, {})

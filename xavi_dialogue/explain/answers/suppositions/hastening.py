@@ -15,11 +15,13 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.reasons import Asking
-from xavi_dialogue.domain.terms import Ego, Event, Feature, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Unsaid, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.measuring.closeness import closeness
 from xavi_dialogue.explain.answers.measuring.durations import lost
 from xavi_dialogue.explain.answers.reasons import motions
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.moments import Window, window
 from xavi_dialogue.explain.answers.reference.reading import manner_of, vehicle_in
 from xavi_dialogue.explain.causes.driving.crossing import Crossing, crossing
 from xavi_dialogue.explain.facts.episodes.light_waits import held_at
@@ -86,6 +88,22 @@ def hastened(
         red=now is not None and _at_red(scene),
         through=now is None and any(_through(scene, deed, one) for one in causes),
     )
+
+
+def as_it_was(scene: Asked, form: Asking, struck: int | None, *, past: bool) -> Answer:
+    """Return how near to a crash we were, where what is supposed is what we did.
+
+    "What if you had turned while he was there" is of somebody whom we let go first: then it is
+    supposed that we had not.
+
+    Raises:
+        Unanswered: rollouts are needed.
+    """
+    if not past:
+        return closeness(scene, struck, Window(scene.now, scene.now), "hit", past=False)
+    if struck is not None and _letting(scene, struck) is not None:
+        return hastened(Event("go", tense="past"), scene, form, struck)
+    return closeness(scene, struck, window(scene, Unsaid(), "past"), "hit")
 
 
 def _through(scene: Asked, deed: Episode, cause: MotionCause) -> bool:

@@ -47,7 +47,7 @@ from xavi_dialogue.explain.answers.reference.reading import (
     vehicle_in,
 )
 from xavi_dialogue.explain.answers.suppositions import reacting
-from xavi_dialogue.explain.answers.suppositions.hastening import hastened, past_red
+from xavi_dialogue.explain.answers.suppositions.hastening import as_it_was, hastened, past_red
 from xavi_dialogue.explain.answers.suppositions.undone import (
     GOING,
     is_halted,
@@ -225,7 +225,7 @@ def of_us(
         if set(names_of(event)) & set(DIRECTIONS) and is_present(event, scene) and is_halted(scene):
             return hastened(Event("go", tense="present"), scene, form, struck)  # not waiting
         if form in ("crash", "dangerous"):
-            return closeness(scene, struck, Window(scene.now, scene.now), "hit", past=False)
+            return as_it_was(scene, form, struck, past=past)
         if form == "chance":
             collide = Event("collide", object=None if struck is None else Vehicle(struck))
             return knowing.how_sure(HowSure(Happens(collide)), scene)
