@@ -62,6 +62,7 @@ from xavi_dialogue.nlu.compose.clauses.times import relative
 from xavi_dialogue.nlu.compose.verbs.trends import changed
 from xavi_dialogue.nlu.honesty import is_well_typed
 from xavi_dialogue.nlu.joining.outcomes import asks_whom
+from xavi_dialogue.nlu.joining.unchanged import as_it_is
 
 _MOMENTARY = frozenset({"speed", "distance", "gap", "clearance", "limit", "acceleration",
                         "headway"})  # fmt: skip
@@ -76,7 +77,7 @@ def settled(acts: Sequence[Act | None], asked: list[bool], stated: list[bool]) -
         asked: whether each is the last of a sentence that ends with a question mark.
         stated: whether each stands in a sentence that ends otherwise, where another one asks.
     """
-    acts = [_left(act, acts[:k]) for k, act in enumerate(acts)]
+    acts = [_left(act and as_it_is(act), acts[:k]) for k, act in enumerate(acts)]
     if any(isinstance(act, Ask) and not told for act, told in zip(acts, stated, strict=True)):
         last = max(k for k, told in enumerate(stated) if isinstance(acts[k], Ask) and not told)
         acts = [_told(a, k < last) if stated[k] else a for k, a in enumerate(acts)]

@@ -170,7 +170,7 @@ _KEEP = {"again": "again", "already": "already", "still": "still", "ever": "", "
 
 
 #: Verbs with the same form in the past, for what happens in a moment: "you cut in".
-_UNCHANGED = frozenset({"hit", "cut", "let", "set"})
+_UNCHANGED = frozenset({"hit", "cut", "let", "let go", "let cross", "set"})
 #: Verbs whose participle after "be" describes a state: "we are stuck, headed, stopped".
 _RESULTING = frozenset(
     ("allow", "permit", "stick", "sit", "stand", "hold one's ground", "head", "park", "stop", "go",

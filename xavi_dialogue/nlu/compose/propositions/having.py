@@ -17,6 +17,7 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Related,
     Road,
+    Tense,
     Unknown,
     Unsaid,
 )
@@ -42,7 +43,7 @@ def had(special: Special) -> Proposition:
     if isinstance(sem, Measure) and sem.of.attribute == "right-of-way":
         other = over or sem.of.to or Everyone()
         time = time_of(special) if isinstance(sem.of.time, Unsaid) else sem.of.time
-        return Related("has-priority-over", special.subject, other, time, tense_of(special))
+        return Related("has-priority-over", special.subject, other, time, _tense(special))
     if isinstance(sem, Measure) and sem.of.attribute in ("indicator", "brake-lights"):
         value = special.clause.side or "on"
         return Has(sem.of.attribute, value, special.subject, time_of(special), tense_of(special))
@@ -69,6 +70,14 @@ def had(special: Special) -> Proposition:
     if isinstance(thing, Described | Nobody) and isinstance(special.subject, Ego | Passenger):
         return Exists(thing, time_of(special), tense_of(special))  # "you've a lorry on the left"
     return Related("with", special.subject, thing, time_of(special), tense_of(special))
+
+
+def _tense(special: Special) -> Tense:
+    """Take "we have got right of way" for the present that it is."""
+    tense = tense_of(special)
+    verb = special.clause.verb
+    got = verb is not None and verb.words[-1:] == ("got",)
+    return "present" if got and tense == "perfect" else tense
 
 
 def _have_noun(special: Special, sem: Noun) -> Proposition:

@@ -143,9 +143,15 @@ def event_of(clause: Clause, match: Match) -> Event:
         action = "head" if isinstance(actor, Ego) else "turn"
     return Event(
         cast(ActionName, action), actor, thing, cast(Any, side),
-        tuple(dict.fromkeys(manner)), time, cast(Any, clause.tense),
+        _manners(action, manner), time, cast(Any, clause.tense),
         cast(Any, modal), None, place,
     )  # fmt: skip
+
+
+def _manners(action: str, said: list[Manner]) -> tuple[Manner, ...]:
+    """Give the manners of an event; who is let go goes first anyway."""
+    left = ("first",) if action == "let-go" else ()
+    return tuple(dict.fromkeys(one for one in said if one not in left))
 
 
 def _whose_way(actor: Thing, thing: Thing | None) -> tuple[Thing, Thing | None]:

@@ -1,0 +1,65 @@
+"""What goes on as it does, signals that are lights, and what is counted or let go."""
+
+import pytest
+
+from xavi_dialogue.domain.meaning import Ask, HowLong, HowMuch, WhatIf, When, Whether
+from xavi_dialogue.domain.terms import Compares, Described, Ego, Event, Feature, Happens, Has
+from xavi_dialogue.nlu.parse import Parser
+
+
+@pytest.fixture(scope="module")
+def parser() -> Parser:
+    return Parser()
+
+
+def questions(parser: Parser, text: str) -> list[object]:
+    acts = parser.read(text)[0].acts
+    return [act.question for act in acts if isinstance(act, Ask)]
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("If we carry on like this, when do we arrive?", When),
+        ("So how many minutes still, if we stay behind like this?", HowMuch),
+        ("How long till we get there if we stay behind him?", HowMuch),
+        ("How many minutes still if nothing changes?", HowMuch),
+        ("If we stop now, when do we arrive?", WhatIf),
+    ],
+)
+def test_to_go_on_as_we_do_supposes_nothing(parser: Parser, text: str, kind: type) -> None:
+    assert [type(question) for question in questions(parser, text)] == [kind]
+
+
+def test_the_signal_is_the_light(parser: Parser) -> None:
+    colour, lasts = questions(parser, "What colour is our signal, and how long has it been so?")
+    assert isinstance(colour, HowMuch)
+    assert colour.of.thing == Feature("light")
+    assert isinstance(lasts, HowLong | HowMuch)
+    assert questions(parser, "Was your signal on?") == [
+        Whether(Has("indicator", "on", Ego(), tense="past"))
+    ]
+
+
+def test_a_first_turn_is_no_right_of_way(parser: Parser) -> None:
+    assert questions(parser, "What if we had taken the first right?") == [
+        WhatIf(Happens(Event("exit-right", tense="perfect")))
+    ]
+
+
+def test_we_have_got_it_now(parser: Parser) -> None:
+    asked = questions(parser, "We've got the right of way, haven't we?")[0]
+    assert isinstance(asked, Whether)
+    assert getattr(asked.that, "tense", None) == "present"
+
+
+@pytest.mark.parametrize("what", ["I counted four cars that we let go first.",
+                                  "That makes two lorries we overtook, right?"])  # fmt: skip
+def test_what_is_counted_is_compared(parser: Parser, what: str) -> None:
+    act = parser.read(what)[0].acts[0]
+    that = act.question.that if isinstance(act, Ask) else getattr(act, "that", None)  # type: ignore[union-attr]
+    assert isinstance(that, Compares)
+    assert that.left.attribute == "count"
+    assert isinstance(that.left.thing, Described)
+    assert that.left.thing.doing is not None
+    assert not that.left.thing.doing.manner
