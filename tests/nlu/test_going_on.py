@@ -2,8 +2,17 @@
 
 import pytest
 
-from xavi_dialogue.domain.meaning import Ask, HowLong, HowMuch, WhatIf, When, Whether
-from xavi_dialogue.domain.terms import Compares, Described, Ego, Event, Feature, Happens, Has
+from xavi_dialogue.domain.meaning import Ask, Claim, HowLong, HowMuch, WhatIf, When, Whether
+from xavi_dialogue.domain.terms import (
+    Believed,
+    Compares,
+    Described,
+    Ego,
+    Event,
+    Feature,
+    Happens,
+    Has,
+)
 from xavi_dialogue.nlu.parse import Parser
 
 
@@ -63,3 +72,31 @@ def test_what_is_counted_is_compared(parser: Parser, what: str) -> None:
     assert isinstance(that.left.thing, Described)
     assert that.left.thing.doing is not None
     assert not that.left.thing.doing.manner
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Suppose the bus brakes hard. Can you stop in time?",
+        "Say the truck stops dead. Do you stop in time or do we hit it?",
+        "If the bike fell over now, would you stop in time or run him over?",
+    ],
+)
+def test_whether_we_stop_is_asked_of_the_world_that_is_supposed(parser: Parser, text: str) -> None:
+    (question,) = questions(parser, text)
+    assert isinstance(question, WhatIf)
+    assert isinstance(question.then, Whether)
+    assert isinstance(question.then.that, Happens)
+    assert question.then.that.event.action == "stop"
+
+
+def test_what_it_felt_like_is_no_feeling(parser: Parser) -> None:
+    (claim,) = parser.read("Felt like we nearly hit him.")[0].acts
+    assert isinstance(claim, Claim)
+
+
+def test_to_consider_that_something_may_come_is_to_expect_it(parser: Parser) -> None:
+    (question,) = questions(parser, "Did you consider that the lorry might take that exit?")
+    assert isinstance(question, Whether)
+    assert isinstance(question.that, Believed)
+    assert isinstance(question.that.content, Happens)

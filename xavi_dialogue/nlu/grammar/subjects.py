@@ -65,6 +65,8 @@ def past(typed: Typed) -> Typed | None:
         return None
     if _is(words[verb], AMBIGUOUS) or words[verb] in AUXILIARIES:
         return None  # "hit the brakes" is a request, "left again" names a turn, "did it" asks
+    if words[verb : verb + 2] == ["felt", "like"]:
+        return _with(typed, at, "it")  # "felt like we nearly hit him" is of us, and no feeling
     return _with(typed, at, "i" if words[verb] in PERCEIVING else "you")
 
 

@@ -56,6 +56,7 @@ from xavi_dialogue.nlu.compose.verbs.trends import believed
 from xavi_dialogue.nlu.compose.wh_questions.wh import answer_to
 from xavi_dialogue.nlu.joining.blaming import HELD, asked_with, is_clear
 from xavi_dialogue.nlu.joining.recalling import recalled
+from xavi_dialogue.nlu.joining.unchanged import spared
 
 
 def merged(before: Act, later: Act) -> Act | None:
@@ -238,6 +239,10 @@ def _of_world(before: Act, later: Act) -> Act | None:
             question=Whether(that=Happens(event=Event(modal="would" | "could"))) as then
         ):
             return Ask(structs.replace(question, then=then))
+        case Ask(question=WhatIf(then=None) as question), Ask(question=Whether(that=that)) if (
+            hurt := spared(that)
+        ) is not None:  # "say he stops dead. Do you stop in time?"
+            return Ask(structs.replace(question, then=Whether(hurt)))
         case Ask(question=WhatIf(then=None) as question), Ask(
             question=HowDecide(of=Happens(event=Event(action="go", actor=Pronoun())))
             | Doing(actor=None)
