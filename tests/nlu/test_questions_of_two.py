@@ -230,3 +230,8 @@ def test_another_time_of_the_same_is_no_other_question(parser: Parser, text: str
     assert isinstance(question, Whether)
     assert isinstance(question.that, Related)
     assert question.that.relation == "can-see"
+
+
+def test_or_luck_asks_nothing(parser: Parser) -> None:
+    act = parser.read("Did you see him or was that luck?")[0].acts[0]
+    assert act == Ask(Whether(Related("can-see", Ego(), HE, tense="past")))

@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from planner.prediction.goals import BRANCHES
 from planner.record.trace import HeldUp, TrajectoryPrediction
-from tests.explain.answers.stated import US, aim, decision, look, scene
+from tests.explain.answers.stated import US, aim, decision, look, scene, they
 from tests.traces import Aim, Way
 from xavi_dialogue.domain.facts import Belief, Expectation
 from xavi_dialogue.domain.terms import Event, Road, Vehicle
@@ -174,6 +174,23 @@ def test_it_is_of_the_decision_of_that_time_and_of_another_vehicle() -> None:
     assert likely(turn, at=3.0, traces=traces) is None
     assert likely(Event("exit-left"), traces=traces) is None
     assert likely(Event("exit-left", TWO), traces=traces) is None
+
+
+def test_who_stops_for_others_is_not_predicted() -> None:
+    aims = (aim("stop", 0.3), aim("continue", 0.7))
+    assert likely(Event("stop", ONE), *aims) == pytest.approx(0.3)
+    assert likely(Event("stop", ONE, TWO), *aims) is None
+
+
+def test_who_gave_way_to_us_soon_after_stopped_for_that() -> None:
+    aims = (
+        aim("stop", 0.3),
+        aim("continue", 0.7, ways=(Way(("continue",), 1.0, (), held()),)),
+    )
+    given = (they(1, "give-way", 12.0, 14.0, object=US),)
+    assert likely(Event("stop", ONE), *aims, at=10.0, episodes=given) == pytest.approx(0.7)
+    late = (they(1, "give-way", 18.5, 19.0, object=US),)
+    assert likely(Event("stop", ONE), *aims, at=10.0, episodes=late) == pytest.approx(0.3)
 
 
 def test_who_stops_for_us_gives_way() -> None:

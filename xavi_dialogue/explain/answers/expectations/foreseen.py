@@ -12,7 +12,7 @@ from planner.record.trace import (
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Bound
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation
-from xavi_dialogue.domain.terms import Event, Feature, Road, Unsaid, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Road, Unsaid, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.precedence import before_us, first, into_our_road
 from xavi_dialogue.explain.answers.expectations.taken import last_turn, took
@@ -52,6 +52,8 @@ STARTS: frozenset[ActionName] = frozenset(("go", "move", "pull-out", "enter", "c
 #: Actions that mean a vehicle goes ahead of us.
 CROSSING: frozenset[ActionName] = frozenset(("pull-out", "enter", "cross"))
 YIELDS: frozenset[ActionName] = frozenset(("give-way", "let-go", "wait"))
+SLOWING: frozenset[ActionName] = frozenset(("stop", "slow-down", "brake"))
+GIVEN = 8.0  # [s] after which somebody who stopped gave way to us for another reason
 
 
 def chance(asked: Asked, event: Event, at: float) -> float | None:
@@ -61,8 +63,10 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
         return None
     if event.action in ("collide", "nearly-collide"):
         return collision_chance(asked, at, vehicle)
-    if event.action in ("stop", "slow-down", "brake") and is_us(event.object):
-        event = replace(event, action="give-way")  # "will he stop for us?"
+    if stops_for_another(event):
+        return None
+    if event.action in SLOWING and (is_us(event.object) or _for_us(asked, vehicle, at)):
+        event = replace(event, action="give-way", object=Ego())  # "will he stop for us?"
     if event.action in CROSSING and event.object == Feature("way"):
         event = replace(event, action="cross", object=None)  # "will it cut across our path?"
     event = _alongside(asked, event, vehicle, at)
@@ -81,6 +85,17 @@ def chance(asked: Asked, event: Event, at: float) -> float | None:
             any_known = True
             total += goal.probability * way.probability if does else 0.0
     return min(total, 1.0) if any_known else None
+
+
+def stops_for_another(event: Event) -> bool:
+    """Check whether somebody would stop for others, which no prediction tells: only for us."""
+    return event.action in SLOWING and isinstance(event.object, Vehicle | Vehicles)
+
+
+def _for_us(asked: Asked, vehicle: int, at: float) -> bool:
+    """Check whether a vehicle gave way to us soon after a time [s]: that is what it stopped for."""
+    given = asked.world.episodes(Vehicle(vehicle), ("give-way",), at, at + GIVEN, object=Ego())
+    return bool(given)
 
 
 def unconsidered(asked: Asked, event: Event, at: float) -> Bound | None:

@@ -36,6 +36,7 @@ from xavi_dialogue.explain.answers.expectations.foreseen import (
     collision_chance,
     considers,
     is_behind,
+    stops_for_another,
     unconsidered,
 )
 from xavi_dialogue.explain.answers.measuring.closeness import assured, was_assured
@@ -215,7 +216,8 @@ def beliefs(scene: Asked, vehicle: int, event: Event | None) -> Beliefs:
     known = [t for t in ride.traces if prediction(t, vehicle) is not None]
     if not known:
         raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=at))
-    event = None if event is None else replace(event, actor=Vehicle(vehicle))
+    untold = event is None or stops_for_another(event)
+    event = None if event is None or untold else replace(event, actor=Vehicle(vehicle))
     if event is not None and (event.modal == "would" or isinstance(event.object, Vehicle)):
         met = [t for t in known if (p := prediction(t, vehicle)) and considers(p, event)]
         known = met or known
