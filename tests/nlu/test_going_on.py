@@ -2,7 +2,7 @@
 
 import pytest
 
-from xavi_dialogue.domain.meaning import Ask, Claim, HowLong, HowMuch, WhatIf, When, Whether
+from xavi_dialogue.domain.meaning import Ask, Claim, HowLong, HowMuch, Social, WhatIf, When, Whether
 from xavi_dialogue.domain.terms import (
     Believed,
     Compares,
@@ -100,3 +100,12 @@ def test_to_consider_that_something_may_come_is_to_expect_it(parser: Parser) -> 
     assert isinstance(question, Whether)
     assert isinstance(question.that, Believed)
     assert isinstance(question.that.content, Happens)
+
+
+@pytest.mark.parametrize(
+    "text", ["Does it annoy you, all these cyclists in your way?", "Do these cyclists annoy you?"]
+)
+def test_what_annoys_the_car_is_no_comfort_of_the_ride(parser: Parser, text: str) -> None:
+    act = parser.read(text)[0].acts[0]
+    assert isinstance(act, Social)
+    assert act.kind == "feelings"

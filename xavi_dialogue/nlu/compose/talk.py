@@ -56,7 +56,10 @@ _PRAISING = frozenset(
     {"clever", "good", "lovely", "brilliant", "genius", "star", "hero", "angel", "wonderful",
      "beauty", "darling", "great", "smart", "dear", "sweet"}
 )  # fmt: skip
-_STIRRING = frozenset({"frighten", "scare", "startle", "worry", "bother", "unsettle", "alarm"})
+_STIRRING = frozenset(
+    {"frighten", "scare", "startle", "worry", "bother", "unsettle", "alarm", "annoy", "irritate",
+     "upset", "bore"}
+)  # fmt: skip
 _HINDERING = frozenset({"bother"})
 _SAYING = frozenset({"ask", "say", "use", "talk", "speak", "phrase"})
 
