@@ -111,3 +111,9 @@ def test_restraints_last_from_when_they_began() -> None:
 def test_without_such_events_nothing_is_known() -> None:
     ride = Driven({0: OURS}, 4.0, events=TURN).ride()
     assert lasted(ride, 0.0, 4.0) == {}
+
+
+def test_who_has_passed_does_not_hold_us_any_longer() -> None:
+    crossed = (by(0.0, "right-of-way", 2), by(6.8, "leader", 1))
+    assert told(*crossed, action="stand", span=(6.0, None), at=8.0) == [("leader", 1)]
+    assert told(*crossed, action="stand", span=(6.0, 7.5)) == [("right-of-way", 2), ("leader", 1)]

@@ -8,10 +8,13 @@ from xavi_dialogue.domain.terms import Ego, Event
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.reading import manner_of, vehicle_in
+from xavi_dialogue.explain.causes.driving.passed import has_passed
 from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
 from xavi_dialogue.explain.history.nearing import speed_at
+from xavi_dialogue.explain.history.restraints import restraint_at
 
 HALTING = 1.0  # [m/s]
+JUST = 0.5  # [s] before now that still are now
 STILL = ("stop", "stand")
 SLOWING = ("slow-down", "brake", "stop", "stand")
 #: Kinds of reasons that do not say who kept us from going.
@@ -27,18 +30,39 @@ def peak(scene: Asked, event: Event, deed: Episode) -> float | None:
 
 
 def with_yielding(scene: Asked, found: Reasons, begin: float, end: float) -> Reasons:
-    """Add to whom we gave way then, if nothing else is known to have kept us."""
+    """Add to whom we gave way then, if nothing else is known to have kept us.
+
+    Up to now, that is nobody who has passed already.
+    """
     if any(c.kind not in UNKNOWN for c in found.causes):
+        return found
+    here = end >= scene.now - JUST
+    now = restraint_at(scene.ride, end) if here else None
+    if now is not None and now.by == "nothing":
         return found
     gave = [
         number
         for episode in scene.world.episodes(Ego(), ("give-way",), begin, end)
         if (number := vehicle_in(episode.object)) is not None and number not in found.cleared
+        if not here or not has_passed(scene.ride, number, end)
     ]
     if not gave:
         return found
     cause = MotionCause("right-of-way", vehicle=gave[-1])
     return replace(found, causes=(cause,))
+
+
+def without_passed(scene: Asked, event: Event, found: Reasons) -> Reasons:
+    """Leave out who has passed by now, of those that a question in the present is about."""
+    said = scene.past is not None and scene.past.said
+    if event.tense != "present" or said:
+        return found
+    left = tuple(
+        cause
+        for cause in found.causes
+        if cause.kind != "right-of-way" or not has_passed(scene.ride, cause.vehicle, scene.now)
+    )
+    return replace(found, causes=left) if left else found
 
 
 def going_on(scene: Asked, deed: Episode, rows: tuple[tuple[ActionName, ...], ...]) -> Episode:

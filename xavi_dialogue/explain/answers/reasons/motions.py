@@ -20,14 +20,22 @@ from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Compares, Ego, Event, Measured
 from xavi_dialogue.domain.vocabulary import ActionName, Manner
 from xavi_dialogue.explain.answers.expectations.plans import is_halting
-from xavi_dialogue.explain.answers.reasons.kept import coming_to, going_on, peak, with_yielding
+from xavi_dialogue.explain.answers.reasons.kept import (
+    coming_to,
+    going_on,
+    peak,
+    with_yielding,
+    without_passed,
+)
 from xavi_dialogue.explain.answers.reasons.premises import (
     BEGUN,
     CREEPING,
     SLOWING,
     STILL,
+    asked_moment,
     halted_at,
     is_before,
+    is_left,
     is_over,
     is_stopping,
     was_given_up,
@@ -248,7 +256,7 @@ def _episode(
     if about is not None:
         found = [e for e in found if vehicle_in(e.object) == about] or found
     if present and scene.past is None:
-        found = [e for e in found if e.end is None or e.end >= scene.now - when.RECENT]
+        found = [e for e in found if not is_left(scene, e)]
     return scene.pick(_preferring(found, kinds), lambda e: (e.begin, e.end))
 
 
@@ -260,16 +268,17 @@ def _preferring(found: list[Episode], kinds: tuple[ActionName, ...]) -> list[Epi
 
 def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premise: bool) -> Answer:
     deed = replace(deed, action="speed-up") if named == "speed-up" else deed  # or setting off
-    reasons = driven_for(scene.ride, scene.world, deed, scene.moment)
+    moment = asked_moment(scene, event, deed)
+    reasons = without_passed(scene, event, driven_for(scene.ride, scene.world, deed, moment))
     if deed.action in (*STILL, "give-way"):
-        end = scene.moment if deed.end is None else deed.end
+        end = moment if deed.end is None else deed.end
         reasons = with_yielding(scene, reasons, deed.begin, end)
     ours = [cause for cause in reasons.causes if cause.vehicle is not None]
     stops = is_stopping(scene, deed, named)
     lit = any(cause.kind == "light" for cause in reasons.causes) and not stops
     decided = scene.ride.latest if stops else reasons.trace
     if not lit and deed.action in (*STILL, *SLOWING) and chose(decided, "stop"):
-        still = deed.end is None and scene.moment >= scene.now - BEGUN
+        still = deed.end is None and moment >= scene.now - BEGUN
         contrast = stopping(scene.ride, decided, going_on=still)
         if _speaks(contrast, somebody=bool(ours)):
             return ChoiceReason("why", deed, contrast, past=is_past(scene, event))

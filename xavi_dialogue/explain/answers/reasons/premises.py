@@ -1,7 +1,7 @@
 """Premises: what a question takes for granted of how we drove, and whether it is so."""
 
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Event
+from xavi_dialogue.domain.terms import Ego, Event
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
@@ -12,6 +12,7 @@ SLOWING: tuple[ActionName, ...] = ("slow-down", "brake")
 STILL: tuple[ActionName, ...] = ("stop", "stand")
 CREEPING = 2.5  # [m/s] above which we have not stopped
 OVER = 4.0  # [s] since its end, from which what is asked about as present is denied
+MOVED = 0.5  # [s] since its end, from which a standstill is over
 BEGUN = 0.3  # [s] after a decision from which what it led to has begun
 
 
@@ -26,6 +27,26 @@ def is_over(scene: Asked, event: Event, deed: Episode) -> bool:
     named = scene.span is not None and scene.span.said
     ended = deed.end is not None and deed.end < scene.now - OVER
     return event.tense == "present" and ended and not named
+
+
+def is_left(scene: Asked, deed: Episode) -> bool:
+    """Check whether something that we did is no longer what a question in the present is about.
+
+    A standstill is left behind once we move and do not drive off: we come to the next one.
+    """
+    if deed.end is None:
+        return False
+    if deed.end < scene.now - when.RECENT:
+        return True
+    off = any(e.end is None for e in scene.world.episodes(Ego(), ("go", "speed-up")))
+    return deed.action in STILL and deed.end < scene.now - MOVED and not off
+
+
+def asked_moment(scene: Asked, event: Event, deed: Episode) -> float:
+    """Return the moment [s] of what we do or did that counts: now, if it is present and goes on."""
+    said = scene.past is not None and scene.past.said
+    goes_on = deed.end is None and event.tense == "present" and not said
+    return scene.now if goes_on else scene.moment
 
 
 def is_before(scene: Asked) -> bool:

@@ -8,7 +8,7 @@ decided, are explained by decisions alone (`driving`).
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from planner.record.events import RestraintKind
 from planner.record.trace import HoldUp, PlanTrace
@@ -18,6 +18,7 @@ from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.causes.driving.hidden_areas import hidden_causes
+from xavi_dialogue.explain.causes.driving.passed import has_passed
 from xavi_dialogue.explain.causes.driving.roadside import TURNS, limit_at, road_causes
 from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons, motion_cause
 from xavi_dialogue.explain.causes.driving.traffic_lights import light_causes
@@ -103,6 +104,16 @@ def restraining(ride: Ride, deed: Episode, at: float) -> Restraining | None:
     return Restraining(tuple(one for one in found if one.by not in OPEN), (begin + end) / 2.0)
 
 
+def _still(ride: Ride, held: Restraining, at: float) -> Restraining | None:
+    """Leave out whom the ego let go first and who has passed by a time [s]; None: all have."""
+    left = tuple(
+        one
+        for one in held.found
+        if one.by != "right-of-way" or not has_passed(ride, one.vehicle, at)
+    )
+    return replace(held, found=left) if left else None
+
+
 def suspects(
     ride: Ride, model: CausalModel, trace: PlanTrace, found: Restraining
 ) -> tuple[Cause, ...]:
@@ -147,6 +158,8 @@ def as_driven(ride: Ride, world: World, deed: Episode, at: float) -> Reasons | N
         Unanswered: rollouts are needed.
     """
     held = restraining(ride, deed, at)
+    if held is not None and (deed.end is None or deed.action in STATES):
+        held = _still(ride, held, at)
     trace = None if held is None else ride.at(held.time)
     if held is None or trace is None:
         return None

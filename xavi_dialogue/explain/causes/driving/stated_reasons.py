@@ -7,6 +7,7 @@ from xavi_dialogue.domain.answers import Cause, Evidence, MotionCause
 from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.causes.driving.passed import has_passed
 from xavi_dialogue.explain.causes.driving.yielding import goes_first, leads
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, EXITS
 from xavi_dialogue.explain.facts.world import World
@@ -60,9 +61,14 @@ def motion_cause(
 
 
 def as_of(ride: Ride, causes: tuple[MotionCause, ...], time: float) -> tuple[MotionCause, ...]:
-    """Add the speeds at a time [s] to causes, and drop the leaders that were drawing away then."""
+    """Add the speeds at a time [s] to causes, and drop who was out of our way then.
+
+    These are leaders that were drawing away, and those who had been let go first and had passed.
+    """
     ours, found = speed_at(ride, time), []
     for told in with_speeds(ride, causes, time):
+        if told.kind == "right-of-way" and has_passed(ride, told.vehicle, time):
+            continue
         theirs = told.speed if told.kind == "leader" else None
         if theirs is None or ours is None or theirs <= ours + FASTER:
             found.append(told)

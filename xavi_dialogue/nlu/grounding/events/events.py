@@ -36,7 +36,6 @@ from xavi_dialogue.nlu.grounding.events.afoot import afoot
 from xavi_dialogue.nlu.grounding.events.fitting import (
     JUST,
     LASTING,
-    LATELY,
     ONGOING,
     acting,
     done,
@@ -47,6 +46,14 @@ from xavi_dialogue.nlu.grounding.events.fitting import (
 )
 from xavi_dialogue.nlu.grounding.events.generic import specified
 from xavi_dialogue.nlu.grounding.events.hiding import out_of
+from xavi_dialogue.nlu.grounding.events.present import (
+    HALTS,
+    going_on,
+    halts_again,
+    is_next,
+    is_over,
+    is_present,
+)
 from xavi_dialogue.nlu.grounding.kin import like
 from xavi_dialogue.nlu.grounding.salience import vehicles_of
 from xavi_dialogue.nlu.grounding.things.pronouns import apart, walks
@@ -57,7 +64,6 @@ SIDEWAYS: Final[dict[ActionName, ActionName]] = {
 }  # fmt: skip
 _HELD: Final = frozenset(("wait", "stand", "stop", "give-way", "brake", "slow-down", "let-go"))
 _TURNS: Final = frozenset(("turn", "exit-left", "exit-right", "exit-straight"))
-_HALTS: Final = frozenset(("stand", "stop", "wait"))
 UNMET: Final = 0.5  # cost of taking for granted what never happened
 NEARLY: Final = 0.2  # ... where something like it did
 ELSEWHEN: Final = 0.3  # ... where it happened, but at another time
@@ -223,7 +229,7 @@ def _left(actor: Thing, g: Grounder, window: Window) -> Junction | None:
 
 def _where(spoken: Event, g: Grounder, window: Window) -> Related | None:
     where = spoken.where
-    if where is None or (spoken.action in _HALTS and where.to == Feature("line")):
+    if where is None or (spoken.action in HALTS and where.to == Feature("line")):
         return None  # where we stood is no more than that: at the line
     thing = where.thing if isinstance(where.thing, Wanted) else g.thing(where.thing, window)
     return replace(where, thing=thing, to=g.thing(where.to, window), time=window.term)
@@ -239,20 +245,22 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
         moved = replace(found, action=SIDEWAYS[found.action])  # "left again, what is that for"
         if isinstance(found.actor, Ego) and (held := g.context.holds(moved, *searched(g, window))):
             found = moved
-    present = mode == "asked" and found.tense == "present" and _is_present(window)
+    present = mode == "asked" and found.tense == "present" and is_present(window)
     now = present and not window.said
     if held and now and found.action in ONGOING | LASTING:  # "are we speeding up?"
         held = tuple(e for e in held if e.end is None or e.end >= g.context.now - JUST)
+    if held and is_present(window) and not window.said and halts_again(found, held[-1], g):
+        return replace(found, time=window.term)
     if held:
         return _at(found, _pick(hard_ones(held, found, window), window, g), g, window, inner)
     granted = mode == "presupposed"
-    if not window.said and window.term != Unsaid() and _is_present(window):
+    if not window.said and window.term != Unsaid() and is_present(window):
         late = g.context.holds(found, *searched(g, window))
-        late = _going_on(found, g) if late and _is_over(late[-1], g) else late
+        late = going_on(found, g) if late and is_over(late[-1], g) else late
         if late and granted:
             return _at(found, late[-1], g, window, inner)
     if not inner:
-        g.notes.spans(window.span) if window.said or _is_present(window) else None
+        g.notes.spans(window.span) if window.said or is_present(window) else None
     if not granted:
         g.notes.cost += UNSEEN
         return replace(found, time=window.term)
@@ -262,37 +270,10 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
         return replace(found, time=window.term)
     near = like(g.context, found, *searched(g, window))
     if not near:
-        g.notes.cost += 0.0 if _is_next(found, g) else UNMET
+        g.notes.cost += 0.0 if is_next(found, g) else UNMET
         return replace(found, time=window.term)
     g.notes.cost += NEARLY
     return _at(found, _pick(near, window, g), g, window, inner)
-
-
-def _is_over(episode: Episode, g: Grounder) -> bool:
-    return episode.end is not None and episode.end < g.context.now - JUST
-
-
-def _going_on(found: Event, g: Grounder) -> tuple[Episode, ...]:
-    """Return what goes on now and may be meant by an event; else that event, which is over."""
-    now = g.context.now
-    near = like(g.context, found, now - JUST, now) if found.tense == "present" else ()
-    return near or g.context.holds(found, now - LATELY, now)
-
-
-def _is_next(found: Event, g: Grounder) -> bool:
-    """Tell whether an event is the next turn of our own way: "why turn left?" is asked of it.
-
-    So is that a light changes, of which nothing else is to come.
-    """
-    if found.action == "turn-colour" and found.tense in ("present", "future"):
-        return True
-    road = g.context.world.road(g.context.now)
-    route = () if road is None or found.tense != "present" else road.route
-    return isinstance(found.actor, Ego) and bool(route) and route[0].turn == found.action
-
-
-def _is_present(window: Window) -> bool:
-    return not window.ahead and window.end - window.begin < 0.1
 
 
 def _at(found: Event, episode: Episode, g: Grounder, window: Window, inner: bool) -> Event:
@@ -302,7 +283,7 @@ def _at(found: Event, episode: Episode, g: Grounder, window: Window, inner: bool
     if window.whole and window.rank is None:
         return replace(found, time=window.term)
     under_way = episode.end is None or episode.end >= g.context.now - 0.5
-    if _is_present(window) and under_way:
+    if is_present(window) and under_way:
         return replace(found, time=window.term)
     return replace(found, time=Between(episode.begin, end))
 
@@ -339,7 +320,7 @@ def _denied(found: Event, g: Grounder, window: Window) -> Event:
         search = window.search
     else:
         search = focus if focus is not None else (g.context.now - FRESH, g.context.now)
-        if focus is not None and not _is_present(window):
+        if focus is not None and not is_present(window):
             g.notes.spans(Span(begin=focus[0], end=focus[1]))
     if g.context.holds(found, *search):
         g.notes.cost += DENIED
