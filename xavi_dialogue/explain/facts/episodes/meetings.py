@@ -1,5 +1,6 @@
 """Episodes of two vehicles that meet: overtaking, passing, cutting in, crossing, following."""
 
+import math
 from collections.abc import Iterator
 from typing import TypeAlias
 
@@ -12,9 +13,11 @@ from sim.scene import EGO
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.vocabulary import Side
 from xavi_dialogue.explain.facts.actions import named
+from xavi_dialogue.explain.facts.episodes.walks import walks_across
 from xavi_dialogue.explain.facts.episodes.ways import ways
 from xavi_dialogue.explain.facts.states import Pair, States
 from xavi_dialogue.explain.history.motion import Array
+from xavi_dialogue.explain.history.restraints import restraints
 from xavi_dialogue.explain.history.thresholds import (
     CROSSING,
     CUT_IN,
@@ -35,6 +38,7 @@ FAST_ENOUGH = 2.0  # [m/s] minimum speed of a vehicle that is overtaken, not jus
 STEPPED_OUT = 4.0  # [m] maximum offset sideways of somebody on foot on our way
 WALKING = 0.3  # [m/s] minimum speed of somebody on foot who moves on
 JUST_NOW = 1.0  # [s] after its last sample in which something still goes on
+NOTICED = 1.0  # [s] after it within which somebody who moves in restrains the ego
 BESIDE = 3.0  # [s] duration of a lane change that is still going on
 
 
@@ -51,8 +55,15 @@ def crossings(states: States, vehicle: int) -> list[Episode]:
         return []
     shape = states.shape(vehicle)
     if shape is not None and shape.kind in ON_FOOT:
-        return list(_walking_across(states, pair, vehicle))
+        seen = list(_walking_across(states, pair, vehicle))
+        later = [e for e in walks_across(states, vehicle) if not any(_overlap(e, o) for o in seen)]
+        return [*seen, *later]
     return list(_crossing(pair, vehicle))
+
+
+def _overlap(one: Episode, other: Episode) -> bool:
+    ends = (math.inf if e.end is None else e.end for e in (one, other))
+    return max(one.begin, other.begin) <= min(ends)
 
 
 def followings(states: States, vehicle: int) -> list[Episode]:
@@ -188,13 +199,29 @@ def _between(states: States, vehicle: int, time: float, ours: bool) -> bool:
 def _moving_in(states: States, pair: Pair, vehicle: int) -> Iterator[Episode]:
     """Yield when one moved in close ahead of the other, by a lane change or from a side road."""
     for episode in ways(states, vehicle):
+        close: list[Episode] = []
         if episode.action in ("change-left", "change-right"):
-            yield from _cut_in(states, pair, episode, vehicle, ours=False)
+            close = list(_cut_in(states, pair, episode, vehicle, ours=False))
         elif episode.action in ("exit-left", "exit-right", "enter"):
             yield from _pulled_out(pair, episode, vehicle)
+        else:
+            continue
+        if not close and _slowed_us(states, episode, vehicle):
+            close = [replace(episode, actor=named(vehicle), action="cut-in", object=named(EGO))]
+        yield from close
     for episode in ways(states, EGO):
         if episode.action in ("change-left", "change-right"):
             yield from _cut_in(states, pair, episode, vehicle, ours=True)
+
+
+def _slowed_us(states: States, move: Episode, vehicle: int) -> bool:
+    """Check whether the ego's driving was restrained since a vehicle moved in ahead of it."""
+    end = move.begin + BESIDE if move.end is None else move.end
+    return any(
+        one.restraint.by == "cut-in" and one.restraint.vehicle == vehicle
+        for one in restraints(states.ride)
+        if one.begin <= end + NOTICED and one.end >= move.begin
+    )
 
 
 def _cut_in(

@@ -8,7 +8,7 @@ import msgspec
 
 from xavi_dialogue.domain.answers import Counted, Identified
 from xavi_dialogue.domain.facts import Belief, Episode, Fact, Look, Measure
-from xavi_dialogue.domain.rewriting import with_wanted
+from xavi_dialogue.domain.rewriting import parts, with_wanted
 from xavi_dialogue.domain.terms import (
     Described,
     Event,
@@ -24,6 +24,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     Wanted,
 )
+from xavi_dialogue.domain.vocabulary import Kind
 from xavi_dialogue.nlg.content.clauses.clauses import (
     denied,
     episode_clause,
@@ -62,7 +63,9 @@ def plan_identified(answer: Identified, context: SpeechContext) -> Plan:
     if answer.such is not None and len(answer.looks) > 1:
         them = Vehicles(tuple(look.vehicle for look in answer.looks))
         clause = clause_of(with_wanted(answer.such, them), context.now)
-        told = () if all(isinstance(f, Measure | Episode) for f in answer.facts) else facts
+        known = all(isinstance(f, Measure | Episode) for f in answer.facts)
+        named = any(map(_telling_one, answer.looks)) or len(answer.facts) > 2 * MANY
+        told = () if known and named else _listed(_of_each(answer.facts, facts)) if known else facts
         return Plan((message("PLAIN", it=clause),), told)
     if len(answer.looks) == 1:
         return _one(answer, answer.looks[0], facts, context)
@@ -186,8 +189,10 @@ def _did(such: Proposition | None, look: Look, context: SpeechContext) -> Clause
 
 
 def _nobody(such: Proposition, now: float) -> Clause:
-    """Return a clause that a condition holds for nobody: "I did not wait for anybody"."""
-    clause = clause_of(with_wanted(such, Nobody()), now)
+    """Return a clause that a condition holds for nobody: "I did not wait for any car"."""
+    kind: Kind = next((one.kind for one in parts(such, Wanted)), "vehicle")
+    none = Nobody() if kind == "vehicle" else Nobody(Described(kind, definite=False))
+    clause = clause_of(with_wanted(such, none), now)
     if isinstance(clause.subject, Who) and isinstance(clause.subject.thing, Nobody):
         return clause
     return replace(clause, rest=tuple(map(denied, clause.rest)), negated=not clause.negated)
@@ -288,6 +293,14 @@ def _occasions(answer: Counted) -> tuple[Message, ...] | None:
         else message("OCCASION", when=Moment(begin))
         for begin, who in rows
     )
+
+
+def _of_each(facts: tuple[Fact, ...], said: tuple[Message, ...]) -> tuple[Message, ...]:
+    """Return the first of what is said of each vehicle."""
+    first: dict[object, Message] = {}
+    for fact, one in zip(facts, said, strict=True):
+        first.setdefault(getattr(fact, "actor", None), one)
+    return tuple(first.values())
 
 
 def _listed(facts: tuple[Message, ...]) -> tuple[Message, ...]:

@@ -76,6 +76,10 @@ def of_trip(spoken: Question) -> Question | None:
             return _DELAYED  # "who went before us?"
         case Which(thing=Described() | Wanted() as whom, such=such) if _met(whom, such):
             return Listing("vehicles", Everyone(whom.kind), _ridden(such))
+        case Which(thing=Described() | Wanted() as whom, such=Happens(event=of)) if _all_of(
+            whom, of
+        ):
+            return Which(Wanted(whom.kind), Happens(replace(of, time=WholeRide())))
         case HowMany(of=Described(doing=Event() as met, such=None) as whom) if _met(
             whom, Happens(met)
         ):
@@ -104,6 +108,20 @@ def _met(whom: Described | Wanted, such: Any) -> bool:
         ):
             return tense in ("past", "perfect")
     return False
+
+
+def _all_of(whom: Described | Wanted, of: Event) -> bool:
+    """Say whether it is asked of all of a kind who ever did something: "which pedestrians".
+
+    People cross one after another, so that who crossed may be several, too.
+    """
+    many = isinstance(whom, Described) and whom == Described(
+        whom.kind, plural=True, definite=whom.definite
+    )
+    plain = many or (isinstance(whom, Wanted) and of.action == "cross")
+    wanted = isinstance(of.actor, Wanted) or isinstance(of.object, Wanted)
+    past = of.tense in ("past", "perfect") and of.modal is None
+    return plain and wanted and past and of.time == Unsaid()
 
 
 def _ridden(such: Any) -> Any:

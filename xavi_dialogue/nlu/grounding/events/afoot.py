@@ -9,6 +9,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Everyone,
     Feature,
     Happens,
     Is,
@@ -36,7 +37,7 @@ _OURS: Final = (Junction, Lane, Road, Feature)
 
 def afoot(event: Event, g: Grounder) -> Event:
     """Read "get across", "step out", "be over" of people on foot as crossing our way."""
-    event = replace(event, actor=_walker(event, g))
+    event = _crossed(replace(event, actor=_walker(event, g)))
     if not on_foot(event.actor, g):
         return event
     action: ActionName = "cross" if event.action in ACROSS else event.action
@@ -44,6 +45,19 @@ def afoot(event: Event, g: Grounder) -> Event:
         return event
     ours = event.object is None or isinstance(event.object, _OURS)
     return replace(event, action=action, object=Ego() if ours else event.object, side=None)
+
+
+def _crossed(event: Event) -> Event:
+    """Read "our path" as us, and "did you cross anybody's path?" as whether he crossed ours."""
+    if event.action != "cross":
+        return event
+    if event.object == Feature("way") and not isinstance(event.actor, Ego):
+        return replace(event, object=Ego())
+    others = isinstance(event.object, Described | Pronoun | Vehicle | Vehicles | Wanted | Everyone)
+    done = event.tense in ("past", "perfect") and event.modal is None
+    if isinstance(event.actor, Ego) and others and done and event.object is not None:
+        return replace(event, actor=event.object, object=Ego())
+    return event
 
 
 def _walker(event: Event, g: Grounder) -> Thing:

@@ -171,9 +171,16 @@ def _candidates(search: Search) -> list[Match]:
         for vehicle in vehicles:
             if vehicle not in found and (match := search.match(vehicle, stage)) is not None:
                 found[vehicle] = match
-        if not _every(search) and any(m.total < GOOD for m in found.values()):
+        if not _every(search) and any(_will_do(search, m) for m in found.values()):
             break
     return sorted(found.values(), key=lambda m: (round(m.total, 3), m.vehicle))
+
+
+def _will_do(search: Search, match: Match) -> bool:
+    """Tell whether nobody else need be looked for: who is not named must have done it."""
+    thing = search.described
+    open_ = search.fits is not None and not thing.definite and not thing.plural
+    return match.total < GOOD and (match.deed is not None or not open_)
 
 
 def _every(search: Search) -> bool:
