@@ -133,6 +133,6 @@ def _metres(value: float) -> str:
         return f"{max(nearest(value * 100, 10), 10):.0f} centimetres"
     if value >= 950:
         return f"{nearest(value / 1000, 0.1):.1f} kilometres"
-    step = 0.5 if value < 5 else 1 if value < 20 else 5 if value < 100 else 10
+    step = 0.1 if value < 2 else 0.5 if value < 5 else 1 if value < 20 else 5 if value < 100 else 10
     rounded = nearest(value, step)
-    return "1 metre" if rounded == 1 else f"{rounded:g} metres"
+    return "1 metre" if rounded == 1 else f"{round(rounded, 1):g} metres"

@@ -160,6 +160,7 @@ def summary(asked: Asked, about: Thing | None, time: Window, *, ride: bool = Fal
     if vehicle is not None:
         told = _deeds(asked, vehicle, begin, end)
         told += [e for e in asked.world.account(begin, end) if number(e.object) == vehicle]
+    told = [_over(asked, e) for e in told]
     told = [e for e in told if e.action not in _HALTS or duration(asked, e) >= BRIEF] or told
     if ride:
         told = [e for e in told if e.end is not None or e.action not in ("brake", "slow-down")]
@@ -172,6 +173,14 @@ def summary(asked: Asked, about: Thing | None, time: Window, *, ride: bool = Fal
         look = first_look(asked, vehicle, begin)
         looks = looks if look is None else (look, *looks)
     return Happenings("summary", chosen, actor, begin, end, measures, looks)
+
+
+def _over(asked: Asked, episode: Episode) -> Episode:
+    """Return an episode as over, if it went on when we arrived."""
+    if episode.end is not None or episode.action == "arrive" or not asked.ride.arrived:
+        return episode
+    arrival = next(e.sim_time for e in asked.ride.events if e.kind == "arrived")
+    return replace(episode, end=max(episode.begin, arrival))
 
 
 def _before(asked: Asked, at: float) -> list[Episode]:

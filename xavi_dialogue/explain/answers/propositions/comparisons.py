@@ -26,7 +26,7 @@ from xavi_dialogue.explain.answers.propositions.measures import best_of, value_a
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.reference.moments import Window, instant, is_past, window
-from xavi_dialogue.explain.answers.reference.naming import check_sense, somebodies
+from xavi_dialogue.explain.answers.reference.naming import check_sense, of_kind, somebodies
 
 #: Maximum difference between two values that count as equal, by attribute.
 SAME: dict[Attribute, float] = {
@@ -135,6 +135,8 @@ def compares(of: Compares, asked: Asked) -> Finding:
         return _tallied(of, asked)
     if isinstance(of.left.to, Everyone) and isinstance(of.right, Quantity):
         return _of_any(of, of.left.to, of.right, asked)
+    if isinstance(of.left.thing, Everyone) and isinstance(of.right, Measured):
+        return _any_faster(of, of.left.thing, asked)
     at = instant(asked, of.left.time, of.left.tense)
     each = somebodies(asked, of.left.thing, at)
     if len(each) < 2:
@@ -155,6 +157,26 @@ def _of_any(of: Compares, whom: Everyone, limit: Quantity, asked: Asked) -> Find
     if not near:
         return unknown("not-applicable")
     return Finding(bool(found), tuple(found or near[:1]))
+
+
+def _any_faster(of: Compares, whom: Everyone, asked: Asked) -> Finding:
+    """Weigh whether anybody was faster, or slower, than us at the same time; with who was most."""
+    about = window(asked, of.left.time, of.left.tense)
+    times = [asked.now] if about.instant else _moments(asked, about)
+    sign = -1.0 if of.comparator == "less" else 1.0
+    found: list[tuple[float, Measure, Measure]] = []
+    for at in times:
+        ours = asked.world.measure("speed", Ego(), at)
+        for number in of_kind(asked, asked.world.in_view(at), whom.kind, at):
+            theirs = asked.world.measure("speed", Vehicle(number), at)
+            if ours.value is not None and theirs.value is not None:
+                found.append((sign * (theirs.value - ours.value), theirs, ours))
+    if not found:
+        return unknown("not-applicable")
+    most, theirs, ours = max(found, key=lambda one: one[0])
+    told = replace(of, left=replace(of.left, thing=theirs.thing))
+    holds = most > _as_told(theirs.value or 0.0, ours.value or 0.0)
+    return Finding(holds, answer=Verdict(told, holds, (theirs, ours)))
 
 
 def who_came(question: Which, asked: Asked) -> Answer | None:

@@ -43,7 +43,7 @@ from xavi_dialogue.explain.answers.reference.naming import (
     number,
     somebodies,
 )
-from xavi_dialogue.explain.answers.reference.occasions import did_not_happen, taken_place
+from xavi_dialogue.explain.answers.reference.occasions import did_not_happen, occasions, taken_place
 from xavi_dialogue.explain.answers.ride.comfort import stretch
 from xavi_dialogue.explain.answers.ride.places import told
 
@@ -305,6 +305,14 @@ def hardest(asked: Asked, episode: Episode, about: Window) -> Measure:
                    extreme="highest")  # fmt: skip
 
 
+def _hardest_of(asked: Asked, event: Event) -> Episode | None:
+    """Return the occasion of the hardest braking, if the question is about all of the ride."""
+    if not isinstance(event.time, WholeRide):
+        return None
+    braked = [e for e in occasions(asked, event) if e.peak is not None]
+    return max(braked, key=lambda e: e.peak or 0.0, default=None)
+
+
 def _of_event(question: HowMuch, asked: Asked, event: Event) -> Answer:
     """Return a measure of an event over its episode.
 
@@ -312,7 +320,8 @@ def _of_event(question: HowMuch, asked: Asked, event: Event) -> Answer:
         Unanswered: it did not take place.
     """
     of = question.of
-    episode = taken_place(asked, event)
+    episode = _hardest_of(asked, event) if of.attribute == "deceleration" else None
+    episode = episode or taken_place(asked, event)
     about = stretch(asked, episode)
     if of.attribute == "deceleration" and episode.peak is not None:
         return Measures((hardest(asked, episode, about),))

@@ -9,7 +9,7 @@ from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import Window, window
 from xavi_dialogue.explain.answers.reference.naming import first_look, looks, number
-from xavi_dialogue.explain.answers.reference.occasions import duration, overlaps
+from xavi_dialogue.explain.answers.reference.occasions import duration, let_first, overlaps
 
 YIELDS = frozenset[ActionName](("give-way", "wait", "let-go"))
 SLOWING = frozenset[ActionName](("brake", "slow-down", "stop"))
@@ -52,8 +52,9 @@ def let_past(event: Event, asked: Asked) -> tuple[Look, ...]:
         return ()
     about = window(asked, event.time, event.tense)
     near = about.widened() if about.instant else about
+    known = asked.world.episodes(Ego(), YIELDS, near.begin, near.end)
     found = [
-        e for e in asked.world.episodes(Ego(), YIELDS, near.begin, near.end)
+        e for e in (*known, *let_first(asked, asked.world.vehicles))
         if isinstance(e.object, Vehicle) and overlaps(asked, e, near)
     ]  # fmt: skip
     passed: dict[int, float] = {}

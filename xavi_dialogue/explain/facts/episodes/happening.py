@@ -90,6 +90,7 @@ TOLD_BY: dict[ActionName, Names] = {
     "exit-right": frozenset(("leave",)),
     "exit-straight": frozenset(("leave",)),
     "continue-next-exit": frozenset(("leave", "enter")),
+    "cut-in": frozenset(("pull-out",)),
     "change-left": frozenset(("cut-in",)),
     "change-right": frozenset(("cut-in",)),
 }

@@ -127,6 +127,25 @@ def whichever(thing: Thing, such: Proposition | None) -> Thing:
     return thing
 
 
+def of_anybody(of: Measured, other: Proposition | Measured | Quantity | None) -> Measured:
+    """Take "was anyone faster than us?" of all road users, at any time in the past."""
+    ours = isinstance(other, Measured) and isinstance(other.thing, Ego)
+    kind = _any_kind((of.thing,), extreme=False)
+    if of.attribute != "speed" or not ours or kind is None:
+        return of
+    past = isinstance(of.time, Unsaid) and of.tense in ("past", "perfect")
+    return replace(of, thing=Everyone(kind), time=WholeRide() if past else of.time)
+
+
+def tally(of: Measured, g: Grounder) -> Measured:
+    """Ground how many there were, or how often something was done."""
+    if of.event is not None:
+        whole = WholeRide() if isinstance(of.event.time, Unsaid) else of.event.time
+        return replace(of, event=g.event(replace(of.event, time=whole), "asked"))
+    found = g.thing(of.thing, g.window(Unsaid(), "perfect"))
+    return replace(of, thing=found, about=Exists(of.thing))
+
+
 def _corefer(spoken: Measured, g: Grounder) -> Measured:
     """Let "how fast is it going?" be of us, where we are spoken of."""
     alone = spoken.thing == Pronoun("it") and spoken.to is None and spoken.tense == "present"

@@ -42,7 +42,14 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.nlu.grounding.acts import dangers
-from xavi_dialogue.nlu.grounding.acts.measuring import just_named, measured, of_ride, spoken_of
+from xavi_dialogue.nlu.grounding.acts.measuring import (
+    just_named,
+    measured,
+    of_anybody,
+    of_ride,
+    spoken_of,
+    tally,
+)
 from xavi_dialogue.nlu.grounding.acts.recasting import of_nobody, something_wrong, within_limit
 from xavi_dialogue.nlu.grounding.acts.restating import restated
 from xavi_dialogue.nlu.grounding.acts.shared_subject import of_the_same
@@ -202,13 +209,13 @@ def at_moment(time: Time, tense: Tense, g: Grounder, outer: Window | None) -> Wi
 def _compares(spoken: Compares, g: Grounder, outer: Window | None) -> Compares:
     of, right = spoken.left, spoken.right
     if of.attribute == "count":
-        return replace(spoken, left=_tally(of, g))
+        return replace(spoken, left=tally(of, g))
     if isinstance(right, Quantity) and right.unit == "count" and of.attribute in _PACES:
         right = Quantity(round(right.value / 3.6, 6), "m/s")  # nobody says "km/h"
     near = isinstance(right, Quantity) and of.attribute in _APART and outer is None
     if near and isinstance(of.time, Unsaid) and of.tense in ("past", "perfect"):
         of = replace(of, time=WholeRide())  # "did he come within 5 metres?"
-    left = measured(of, g, timed, outer)
+    left = measured(of_anybody(of, right), g, timed, outer)
     match left.thing:
         case Vehicles(numbers=(one, two)) if spoken.comparator == "same":  # "are both as fast?"
             other = replace(left, thing=Vehicle(two))
@@ -221,15 +228,6 @@ def _compares(spoken: Compares, g: Grounder, outer: Window | None) -> Compares:
 
 _NEAR: Final = frozenset(("roomy", "close"))  # of whom is named in the same breath
 _PACES: Final = frozenset(("speed", "limit", "excess"))
-
-
-def _tally(of: Measured, g: Grounder) -> Measured:
-    """Ground how many there were, or how often something was done."""
-    if of.event is not None:
-        whole = WholeRide() if isinstance(of.event.time, Unsaid) else of.event.time
-        return replace(of, event=g.event(replace(of.event, time=whole), "asked"))
-    found = g.thing(of.thing, g.window(Unsaid(), "perfect"))
-    return replace(of, thing=found, about=Exists(of.thing))
 
 
 def _exists(spoken: Exists, g: Grounder, outer: Window | None) -> Exists:
