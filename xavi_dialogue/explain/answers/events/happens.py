@@ -7,6 +7,7 @@ from xavi_dialogue.domain.facts import Episode, Fact, Measure
 from xavi_dialogue.domain.terms import Ego, Event, Happens, Now, Unsaid, Vehicle, WholeRide
 from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
 from xavi_dialogue.explain.answers.events.arriving import arrived
+from xavi_dialogue.explain.answers.events.moving import moved
 from xavi_dialogue.explain.answers.events.picking import likeliest
 from xavi_dialogue.explain.answers.expectations.foreseen import (
     HALTS,
@@ -34,7 +35,12 @@ from xavi_dialogue.explain.answers.measuring.nearing import (
 from xavi_dialogue.explain.answers.reference import naming
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, expected, known, unknown
-from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, is_ahead, window
+from xavi_dialogue.explain.answers.reference.moments import (
+    SHORT,
+    Window,
+    is_ahead,
+    window,
+)
 from xavi_dialogue.explain.answers.reference.occasions import instead, occasion, occasions, overlaps
 from xavi_dialogue.explain.answers.ride.leaving import apart, by_road, left_behind, still_there
 from xavi_dialogue.explain.answers.ride.onward import other_exit
@@ -84,7 +90,7 @@ def _moves(asked: Asked, event: Event) -> Finding | None:
     if not plain or event.modal is not None or event.where is not None or event.manner:
         return None
     if event.tense in ("past", "perfect"):
-        return _moved(asked, event)
+        return moved(asked, event)
     if event.tense != "present":
         return None
     who = naming.somebodies(asked, event.actor, asked.now)
@@ -100,20 +106,6 @@ def _moves(asked: Asked, event: Event) -> Finding | None:
     doing = _under_way(asked, event, Window(asked.now, asked.now))
     facts: tuple[Fact, ...] = (begun,) if begun is not None else (speed,) if moving else doing
     return Finding(moving, facts or (speed,))
-
-
-def _moved(asked: Asked, event: Event) -> Finding | None:
-    """Return that somebody went who was in motion then, or is out of view; else None."""
-    if naming.number(event.actor) is None and not naming.is_us(event.actor):
-        return None
-    if occasion(asked, event) is not None:
-        return None
-    look = naming.look_of(asked, event.actor, asked.now)
-    if look is not None and not look.in_view:
-        return Finding(True, (look,))
-    at = asked.now if event.tense == "perfect" else window(asked, event.time, event.tense).end
-    speed = asked.world.measure("speed", event.actor, min(at, asked.now))
-    return Finding(True, (speed,)) if (speed.value or 0.0) >= MOVING else None
 
 
 def _all_the_way(event: Event) -> bool:

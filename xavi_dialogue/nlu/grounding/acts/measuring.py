@@ -19,6 +19,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
+    Exists,
     Is,
     Measured,
     Pronoun,

@@ -249,6 +249,8 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
     now = present and not window.said
     if held and now and found.action in ONGOING | LASTING:  # "are we speeding up?"
         held = tuple(e for e in held if e.end is None or e.end >= g.context.now - JUST)
+    if mode == "asked" and window.prefer == "nearest" and found.action in ("move", "stand"):
+        held = tuple(e for e in held if _off(e, window.begin, g.context.now) <= JUST)
     if held and is_present(window) and not window.said and halts_again(found, held[-1], g):
         return replace(found, time=window.term)
     if held:

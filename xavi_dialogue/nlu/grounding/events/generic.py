@@ -20,6 +20,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Junction,
+    Nobody,
     Not,
     Now,
     Proposition,
@@ -29,6 +30,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
     Vehicles,
+    WholeRide,
 )
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
 
@@ -214,8 +216,10 @@ def _beside(event: Event, where: Related) -> Proposition | None:
     if where.relation == "oncoming-to" and event.tense != "present" and other != Ego():
         along = Related("with", other, Ego(), Now())
         return Not(along, lexical=True)
-    ours = isinstance(event.actor, Ego) and event.tense != "present"
-    if where.relation == "beside" and ours and other != Ego():
+    ours = isinstance(event.actor, Ego) or (event.action in ("come", "go") and event.modal is None)
+    if where.relation == "beside" and ours and event.tense != "present" and other != Ego():
+        if isinstance(other, Nobody):  # "did anyone come near us?"
+            return Is("close", None, time=WholeRide(), tense=event.tense)
         return Is("close", other, time=event.time, tense=event.tense)
     return None
 
