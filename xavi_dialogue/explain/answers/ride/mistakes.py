@@ -18,6 +18,7 @@ from xavi_dialogue.explain.answers.reference.occasions import away, overlaps, ta
 from xavi_dialogue.explain.answers.ride.comfort import HARD, stretch
 from xavi_dialogue.explain.history.predicted_roads import Wrong, wrong_predictions
 
+LEAST = 0.05  # [s] between a decision and what follows it
 #: Actions that show which way a vehicle went.
 WAYS: tuple[ActionName, ...] = (
     "exit-left",
@@ -112,7 +113,26 @@ def wrong(of: Is, asked: Asked) -> Finding:
         right = Finding(of.state == "right")
         return right if vehicle is None else _borne_out(of, asked, vehicle, about)
     belief, came = found[-1]  # the question is about the latest
+    if vehicle is not None:
+        return _at_last(of, asked, belief, came)
     return Finding(of.state == "wrong", (came,), None, (belief,), mistaken=True)
+
+
+def _at_last(of: Is, asked: Asked, belief: Belief, came: Episode) -> Finding:
+    """Weigh what we expected of a vehicle right before it acted; a wrong belief is on record."""
+    before = came.begin - LEAST
+    wrong = [
+        one
+        for one in wrong_predictions(asked.ride.traces)
+        if one.vehicle == belief.vehicle and one.trace.sim_time <= before < one.came_at + SHORT
+    ]
+    last = asked.world.belief(belief.vehicle, before)
+    mistaken = max((one.trace.sim_time for one in wrong), default=belief.time)
+    if last is None or not wrong:
+        return Finding(of.state == "wrong", (came,), None, (belief,), mistaken=True)
+    if last.time > mistaken + LEAST:
+        return Finding(of.state == "right", (came,), None, (last,))
+    return Finding(of.state == "wrong", (came,), None, (last,), mistaken=True)
 
 
 def _borne_out(of: Is, asked: Asked, vehicle: int, about: Window) -> Finding:
