@@ -92,13 +92,10 @@ def recast(reading: Reading, turns: Sequence[Turn]) -> Reading:
 
     A follow-up with nothing beneath it becomes `Repair(kind="why")`.
     """
-    last = _last(turns)
-    if last is None:
-        return reading
-    acts = reading.acts
+    last, acts = _last(turns), reading.acts
     own = [k > 0 and isinstance(acts[k - 1], Ask) and _is_bare_why(a) for k, a in enumerate(acts)]
     return replace(reading, acts=tuple(
-        Elliptic(form="why") if mine else _recast(act, last)
+        Elliptic(form="why") if mine else act if last is None else _recast(act, last)
         for act, mine in zip(acts, own, strict=True)
     ))  # fmt: skip
 
