@@ -40,8 +40,8 @@ LIGHTS: frozenset[Attribute] = frozenset(("indicator", "brake-lights"))
 UNMARKED: frozenset[str] = frozenset(("taxi", "emergency"))
 #: What is still known of a vehicle that is out of view.
 LASTING: frozenset[Attribute] = frozenset(("colour", "kind", "size", "name", "origin"))
-#: Attributes of a vehicle that nobody can see from outside.
-INSIDE: frozenset[Attribute] = frozenset(("load", "occupant", "writing", "parts"))
+#: Attributes that we cannot see: of a vehicle from outside, or of the world.
+INSIDE: frozenset[Attribute] = frozenset(("load", "occupant", "writing", "parts", "weather"))
 NONE = ("none", "off", "no", "")
 
 

@@ -16,6 +16,7 @@ from xavi_dialogue.domain.terms import (
     Exists,
     Feature,
     Happens,
+    Has,
     Is,
     Lane,
     Measured,
@@ -160,6 +161,8 @@ def _found(clause: Clause) -> list[Found]:
             hard = (*subject.manner, _MANNERS[key])
             deed = with_fields(subject, manner=hard, time=clause.time, tense=tense_of(clause))
             return [(Happens(deed), 0.0)]  # "was that braking hard?"
+        if key == "raining" and isinstance(subject, Pronoun | Road | None):  # "is it icy?"
+            return [(Has("weather", "bad", time=clause.time, tense=tense_of(clause)), 0.0)]
         if key == "over" and bearing_here(clause):
             who = as_thing(subject) or Ego()
             return [(Happens(Event("keep-lane", who, tense=tense_of(clause))), 0.0)]
