@@ -7,12 +7,12 @@ it is supposed to show.
 from typing import Any, Literal
 
 from planner.record.light_record import GREENS
-from planner.record.trace import PlanTrace
+from planner.record.trace import ON_FOOT, PlanTrace
 from sim.scene import EGO, LightState, Signal
 from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.domain.answers import Answer, NotRecorded
 from xavi_dialogue.domain.meaning import Question, WhatIf, Whether, Why
-from xavi_dialogue.domain.terms import Event, Feature, Happens, Is, Proposition
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Happens, Is, Proposition, Vehicle
 from xavi_dialogue.domain.traffic_lights import LightColour, Shown, SupposedOfLight, TurnOnRed
 from xavi_dialogue.explain.answers.lights.lights_ahead import wanted_of
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -27,6 +27,7 @@ from xavi_dialogue.explain.facts.traffic_lights import light_in, meant, shown_at
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, planned
 from xavi_dialogue.explain.history.traffic_lights import ahead, passings
 
+AROUND = 1.0  # [s] by which the time at which we would have come somewhere may be off
 SOON = 6.0  # [s] in which somebody who goes first keeps us at the light
 STANDING = 0.3  # [m/s] below which we stand
 STATES: dict[LightColour, str] = {
@@ -67,6 +68,8 @@ def supposed(question: WhatIf, scene: Asked) -> Answer:
     passing = _passing(scene.ride, trace, again, signal)
     waits = _held(again, signal)
     first = () if waits else _let_go_first(scene.ride, again)
+    if past and not waits and not first and passing is not None:
+        first = _crossing_then(scene, passing)
     if not waits and not first and passed is None:
         first = _held_now(scene, signal, STATES[wanted])
     return SupposedOfLight(
@@ -170,6 +173,14 @@ def _let_go_first(ride: Ride, again: PlanTrace) -> tuple[int, ...]:
     found = [h for h in hold_ups(plan).values() if h.how == "right-of-way" and h.share >= LIKELY]
     found = [h for h in found if h.began <= again.sim_time + SOON]
     return tuple(h.vehicle for h in sorted(found, key=lambda h: (-h.expected, h.vehicle)))
+
+
+def _crossing_then(scene: Asked, time: float) -> tuple[int, ...]:
+    """List the people who were seen to cross our way when we would have come there, by number."""
+    crossed = scene.world.episodes(None, ("cross",), time - AROUND, time + AROUND, object=Ego())
+    who = (e.actor.number for e in crossed if isinstance(e.actor, Vehicle))
+    looks = ((v, scene.world.look(v, time)) for v in dict.fromkeys(who))
+    return tuple(sorted(v for v, look in looks if look is not None and look.kind in ON_FOOT))
 
 
 def _passing(ride: Ride, trace: PlanTrace, again: PlanTrace, signal: Signal) -> float | None:
