@@ -2,7 +2,8 @@
 
 import pytest
 
-from tests.dialogue.talking import Talk
+import xavi_dialogue
+from tests.dialogue.talking import RIDES, Talk
 
 
 @pytest.mark.parametrize("text", ["why are we stopping?", "why are you coming to a stop?"])
@@ -12,3 +13,54 @@ def test_why_we_stop_again_is_not_why_we_stood_before(text: str) -> None:
     assert "bicycle" in reply
     assert "traffic light" not in reply
     assert "light" in Talk("junction-0", 27.0, planner=False).say(text).reply.text
+
+
+@pytest.mark.parametrize(
+    ("at", "text", "told", "untold"),
+    [
+        (55.0, "did pedestrian 11 cross our way?", "Yes", "did not"),
+        (55.0, "did you cross anybody's path?", "Yes", "did not"),
+        (55.0, "did anyone cross our path?", "Yes, the pedestrian", "nobody"),
+        (55.0, "was vehicle 2 moving at 35 s?", "standing still", "Yes"),
+        (55.0, "were we moving at 20 s?", "standing still", "Yes"),
+        (55.0, "did anyone come near us?", "vehicle 3", "No"),
+        (55.0, "did the bus come near us?", "Yes", "No"),
+        (55.0, "was anyone faster than us?", "Yes, the black car", "No"),
+        (40.0, "is anyone faster than us?", "Yes, the red car", "No"),
+        (55.0, "how hard did you brake at most?", "1.9 m/s²", "0:49"),
+        (55.0, "how close did anyone come?", "1.1 metres", "1 metre "),
+        (55.0, "did you brake hard, and why?", "because", "because of nothing"),
+        (55.0, "did you stop, and why?", "because", "because of nothing"),
+        (50.0, "is it icy?", "the weather", "vehicle"),
+        (50.0, "is the road slippery?", "the weather", "destination"),
+    ],
+)
+def test_what_the_whole_ride_shows(at: float, text: str, told: str, untold: str) -> None:
+    reply = Talk("junction-0", at).say(text).reply.text
+    assert told in reply
+    assert untold not in reply
+
+
+def test_all_who_crossed_are_listed() -> None:
+    reply = Talk("junction-0", 55.0).say("which pedestrians crossed?").reply.text
+    assert all(reply.count(f"vehicle {number})") == 1 for number in (8, 9, 10, 11, 13))
+
+
+def test_all_whom_we_let_go_are_listed() -> None:
+    """Those for whom our driving was restrained count as much as those for whom we stood."""
+    reply = Talk("junction-0", 55.0).say("who did you give way to on this ride?").reply.text
+    assert all(f"vehicle {number})" in reply for number in (3, 8, 9, 10, 13))
+    assert "Yes" in Talk("junction-0", 55.0).say("did you give way to pedestrian 9?").reply.text
+
+
+def test_a_prediction_is_judged_by_what_was_expected_right_before() -> None:
+    """It was wrong seconds before, when vehicle 2 was not yet at its exit."""
+    reply = Talk("s3-0").say("did vehicle 2 do what you expected?").reply.text
+    assert "I was right" in reply
+
+
+def test_had_the_light_been_green_people_would_still_have_crossed() -> None:
+    ride = xavi_dialogue.open(RIDES / "junction-0.ride.jsonl.gz")
+    reply = ride.ask("what if the light had been green?", at=22.0).text
+    assert "would have let" in reply
+    assert "without stopping" not in reply

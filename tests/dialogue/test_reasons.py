@@ -125,7 +125,7 @@ def test_who_came_close_is_asked_of_all_that_were_ever_seen() -> None:
         told = Talk("junction-0", 45.0).hear(text)
         assert all(f"(vehicle {n})" in told for n in (2, 3, 11)), text
     told = Talk("junction-0", 45.0).hear("Did anybody come within 2 metres?")
-    assert told.startswith("Yes, we came as close as 1 metre to the green bicycle")
+    assert told.startswith("Yes, we came as close as 1.1 metres to the green bicycle")
     assert Talk("junction-0", 45.0).hear("Did anyone come within 0.2 metres?").startswith("No")
 
 

@@ -72,6 +72,35 @@ def test_a_lane_change_that_cuts_in() -> None:
     assert world.holds(Doing("cut-in", actor=Vehicle(2)), 0.0, 10.0) == ()
 
 
+def test_who_moves_in_far_ahead_cuts_in_if_that_slows_us() -> None:
+    actors = {
+        0: Actor(straight(0.0, 0.0, 12.0)),
+        1: Actor(shifted(straight(60.0, 3.5, 11.0), 3.0, 6.0, -3.5)),
+    }
+    slowed = Event("restrained", 5.0, vehicle=1, by="cut-in")
+    assert one(World(made(actors, 10.0, events=(slowed,))).episodes(actions="cut-in")).object
+    assert not World(made(actors, 10.0)).episodes(actions="cut-in")
+    other = Event("restrained", 5.0, vehicle=1, by="leader")
+    assert not World(made(actors, 10.0, events=(other,))).episodes(actions="cut-in")
+
+
+def test_who_walked_over_our_way_before_we_turned_into_it_crossed_it() -> None:
+    ahead = straight(0.0, 0.0, 10.0)
+
+    def turns(t: float) -> Pose:
+        return ahead(t) if t <= 5.0 else (50.0, -10.0 * (t - 5.0), -math.pi / 2.0, 10.0)
+
+    actors = {
+        0: Actor(turns),
+        1: Actor(straight(44.0, -30.0, 2.0), kind="pedestrian", length=0.3),  # on it at 3 s
+        2: Actor(straight(53.0, -40.0, 0.0), kind="pedestrian", length=0.3),
+    }
+    world = World(made(actors, 12.0))
+    crossed = one(world.episodes(actions="cross"))
+    assert (crossed.actor, crossed.object) == (Vehicle(1), Ego())
+    assert crossed.begin <= 3.0 <= (crossed.end or math.inf)
+
+
 def test_overtaking_and_passing() -> None:
     actors = {
         0: Actor(straight(0.0, 0.0, 12.0)),

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from planner.record.events import Event as RideEvent
 from tests.explain.answers.events.test_accounts import ONE, TWO
 from tests.explain.answers.stated import US, did, look, result, scene, they
 from xavi_dialogue.domain.answers import (
@@ -176,3 +177,10 @@ def test_those_who_take_part_are_shown_as_they_were_first() -> None:
     found = taking_part(scene(looks={1: look(1), 2: look(2), 3: look(3)}), told)
     assert [(one.vehicle, one.time) for one in found] == [(2, 4.0), (1, 8.0)]
     assert taking_part(scene(looks={}), told) == ()
+
+
+def test_nothing_goes_on_after_the_arrival() -> None:
+    told = (did("give-way", 4.0, None, object=ONE), did("arrive", 18.0, 18.0))
+    arrived = (RideEvent("arrived", 18.0),)
+    found = summed(time=WholeRide(), episodes=told, events=arrived)
+    assert [(e.action, e.end) for e in found.episodes] == [("give-way", 18.0), ("arrive", 18.0)]

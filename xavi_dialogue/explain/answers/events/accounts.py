@@ -160,12 +160,11 @@ def summary(asked: Asked, about: Thing | None, time: Window, *, ride: bool = Fal
     if vehicle is not None:
         told = _deeds(asked, vehicle, begin, end)
         told += [e for e in asked.world.account(begin, end) if number(e.object) == vehicle]
-    told = [_over(asked, e) for e in told]
     told = [e for e in told if e.action not in _HALTS or duration(asked, e) >= BRIEF] or told
     if ride:
         told = [e for e in told if e.end is not None or e.action not in ("brake", "slow-down")]
         told = condensed(asked, told) if vehicle is None else told
-    chosen = select(asked, told, TOLD)
+    chosen = select(asked, [_over(asked, e) for e in told], TOLD)
     measures = _of_ride(asked, begin, end) if ride and vehicle is None else ()
     actor = about if vehicle is not None else None
     looks = taking_part(asked, chosen)

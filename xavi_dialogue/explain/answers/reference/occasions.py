@@ -22,7 +22,9 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, was_said, window
 from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, known, number
 from xavi_dialogue.explain.causes.vehicles.when import LEEWAY
-from xavi_dialogue.explain.history.restraints import held_by, slowed_for
+from xavi_dialogue.explain.facts.episodes.waiting import went_before
+from xavi_dialogue.explain.facts.states import states_of
+from xavi_dialogue.explain.history.restraints import Restrained, held_by, slowed_for
 from xavi_dialogue.explain.history.ride import Ride
 
 PAUSE = 0.5  # [s] between two episodes of one kind, from which they are different ones
@@ -96,9 +98,15 @@ def let_first(asked: Asked, vehicles: Iterable[int]) -> tuple[Episode, ...]:
         Episode(Ego(), "give-way", one.begin, None if one.end > asked.now else one.end, who)
         for who in map(Vehicle, vehicles)
         for one in held_by(asked.ride, who.number, asked.world.begin, asked.now)
-        if min(one.end, asked.now) - one.begin >= SHORTEST
+        if min(one.end, asked.now) - one.begin >= SHORTEST and _went(asked, who.number, one)
     ]
     return tuple(sorted(found, key=lambda e: e.begin))
+
+
+def _went(asked: Asked, vehicle: int, one: Restrained) -> bool:
+    """Check whether somebody who restrained our driving went before us, or still may."""
+    states = states_of(asked.ride)
+    return went_before(states, vehicle, one.begin, min(one.end, asked.now))
 
 
 def _while_let_go(asked: Asked, event: Event) -> tuple[Episode, ...]:

@@ -13,6 +13,8 @@ from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego, Vehicle, Vehicles
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.causes.driving.roadside import TURNS, limit_at
+from xavi_dialogue.explain.facts.episodes.waiting import went_before
+from xavi_dialogue.explain.facts.states import states_of
 from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.restraints import Restrained, restraints
 from xavi_dialogue.explain.history.thresholds import HARD
@@ -43,6 +45,8 @@ def _yielded(asked: Asked, known: list[Episode]) -> Iterator[Episode]:
     for one in restraints(asked.ride):
         end, whom = min(one.end, asked.now), one.restraint.vehicle
         if one.restraint.by != "right-of-way" or whom is None or end - one.begin < SHORTEST:
+            continue
+        if not went_before(states_of(asked.ride), whom, one.begin, end):
             continue
         if not any(e.object == Vehicle(whom) and _meets(asked, e, one.begin, end) for e in known):
             over = None if one.end > asked.now else end

@@ -53,8 +53,9 @@ def let_past(event: Event, asked: Asked) -> tuple[Look, ...]:
     about = window(asked, event.time, event.tense)
     near = about.widened() if about.instant else about
     known = asked.world.episodes(Ego(), YIELDS, near.begin, near.end)
+    driven = () if event.action == "wait" else let_first(asked, asked.world.vehicles)
     found = [
-        e for e in (*known, *let_first(asked, asked.world.vehicles))
+        e for e in (*known, *driven)
         if isinstance(e.object, Vehicle) and overlaps(asked, e, near)
     ]  # fmt: skip
     passed: dict[int, float] = {}

@@ -143,11 +143,11 @@ def _slowed_for(states: States) -> Iterator[Episode]:
         for vehicle, one in slowed_for(states.ride, slowing.begin, end).items():
             if one.by != "right-of-way" or one.light is not None:  # else the light holds us
                 continue
-            if _went_before(states, vehicle, slowing.begin, end):
+            if went_before(states, vehicle, slowing.begin, end):
                 yield replace(slowing, action="give-way", object=named(vehicle), how="right-of-way")
 
 
-def _went_before(states: States, vehicle: int, begin: float, end: float) -> bool:
+def went_before(states: States, vehicle: int, begin: float, end: float) -> bool:
     """Check whether somebody for whom we slowed went first, or may still do so.
 
     Who has not crossed our way, and is behind us after it, went after us.
