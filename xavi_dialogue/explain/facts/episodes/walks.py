@@ -45,7 +45,8 @@ def _meets(walk: Motion, k: int, drive: Motion) -> tuple[float, Side] | None:
     here = np.asarray(walk.position[k])
     before, after = _cross(ahead, here - a), _cross(ahead, here + step - a)
     start, stop = _cross(step, a - here), _cross(step, b - here)
-    hit = (before * after < 0.0) & (start * stop <= 0.0) & (np.hypot(*ahead.T) >= LEAST)
+    hit = ((before < 0.0) != (after < 0.0)) & ((start < 0.0) != (stop < 0.0))
+    hit &= np.hypot(*ahead.T) >= LEAST
     found = np.flatnonzero(hit)
     if not len(found):
         return None
