@@ -15,10 +15,13 @@ def moved(asked: Asked, event: Event) -> Finding | None:
         return None
     about = window(asked, event.time, event.tense)
     then = asked.world.measure("speed", event.actor, min(about.middle, asked.now))
-    if about.instant and was_said(asked, event.time) and then.value is not None:
-        return Finding(then.value >= STANDING, (then,))
+    said = about.instant and was_said(asked, event.time) and then.value is not None
+    if said and (then.value or 0.0) < STANDING:
+        return Finding(False, (then,))
     if occasion(asked, event) is not None:
         return None
+    if said:
+        return Finding(True, (then,))
     look = naming.look_of(asked, event.actor, asked.now)
     if look is not None and not look.in_view:
         return Finding(True, (look,))

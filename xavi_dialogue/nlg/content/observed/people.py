@@ -65,6 +65,8 @@ def plan_identified(answer: Identified, context: SpeechContext) -> Plan:
         clause = clause_of(with_wanted(answer.such, them), context.now)
         known = all(isinstance(f, Measure | Episode) for f in answer.facts)
         named = any(map(_telling_one, answer.looks)) or len(answer.facts) > 2 * MANY
+        event = eventful(answer.such)
+        named = named or event is None or event.tense not in ("past", "perfect")
         told = () if known and named else _listed(_of_each(answer.facts, facts)) if known else facts
         return Plan((message("PLAIN", it=clause),), told)
     if len(answer.looks) == 1:

@@ -17,7 +17,7 @@ from xavi_dialogue.domain.terms import Described, Ego, Nobody, Thing, Vehicle, V
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Unclear, Window
 from xavi_dialogue.nlu.grounding.things import choosing, looks, scene
 from xavi_dialogue.nlu.grounding.things.match import Match
-from xavi_dialogue.nlu.grounding.things.passing import goes_past, passing_cost, placed
+from xavi_dialogue.nlu.grounding.things.passing import comes, goes_past, passing_cost, placed
 from xavi_dialogue.nlu.grounding.things.relative import Clause, clause_of
 from xavi_dialogue.nlu.grounding.things.such import Condition, condition_of
 
@@ -68,7 +68,7 @@ class Search:
             return Match(vehicle, look, misses, stage)
         done = None if self.clause is None else self.clause.episode(vehicle)
         if self.clause is not None:
-            seen = done is None or _comes(self.described)
+            seen = done is None or comes(self.described)
             misses["doing"] = _undone(self, look) if seen else self.clause.cost(vehicle)
         if self.condition is not None:
             misses["such"] = self.condition.cost(vehicle)
@@ -178,9 +178,8 @@ def _candidates(search: Search) -> list[Match]:
 
 def _will_do(search: Search, match: Match) -> bool:
     """Tell whether nobody else need be looked for: who is not named must have done it."""
-    thing = search.described
-    open_ = search.fits is not None and not thing.definite and not thing.plural
-    return match.total < GOOD and (match.deed is not None or not open_)
+    known = search.described.definite or search.described.plural or search.fits is None
+    return match.total < GOOD and (match.deed is not None or known)
 
 
 def _every(search: Search) -> bool:
@@ -208,7 +207,7 @@ def _pools(search: Search) -> Iterator[tuple[float, tuple[int, ...]]]:
 
 def _undone(search: Search, look: Look) -> float:
     """Weigh that somebody has not done what is said of him: who is seen to come is said to."""
-    if _comes(search.described):
+    if comes(search.described):
         before = search.grounder.context.look(look.vehicle, search.moment - SINCE)
         nears = look.oncoming or look.bearing.startswith("crossing") or _catches_up(search, look)
         near = before is None or before.distance > look.distance
@@ -224,12 +223,6 @@ def _goes_first(search: Search, vehicle: int) -> bool:
     """Tell whether somebody has right of way over us, so that he comes to where we are going."""
     world = search.grounder.context.world
     return world.relation("has-priority-over", Vehicle(vehicle), Ego(), search.moment) is True
-
-
-def _comes(thing: Described) -> bool:
-    """Tell whether somebody is described as coming now, which is to be seen."""
-    event = thing.doing
-    return event is not None and event.action in ("come", "approach") and event.tense == "present"
 
 
 def _catches_up(search: Search, look: Look) -> bool:

@@ -28,6 +28,12 @@ def placed(thing: Described) -> Described:
     return replace(thing, bearing=side, doing=replace(event, where=None))
 
 
+def comes(thing: Described) -> bool:
+    """Tell whether somebody is described as coming now, which is to be seen."""
+    event = thing.doing
+    return event is not None and event.action in ("come", "approach") and event.tense == "present"
+
+
 def goes_past(event: Event | None) -> bool:
     """Tell whether somebody is described by his going past us."""
     return event is not None and event.action in PASSING and event.object == Ego()
