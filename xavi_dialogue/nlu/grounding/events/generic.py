@@ -216,7 +216,7 @@ def _beside(event: Event, where: Related) -> Proposition | None:
     if where.relation == "oncoming-to" and event.tense != "present" and other != Ego():
         along = Related("with", other, Ego(), Now())
         return Not(along, lexical=True)
-    ours = isinstance(event.actor, Ego) or (event.action in ("come", "go") and event.modal is None)
+    ours = isinstance(event.actor, Ego) or (event.action == "come" and event.modal is None)
     if where.relation == "beside" and ours and event.tense != "present" and other != Ego():
         if isinstance(other, Nobody):  # "did anyone come near us?"
             return Is("close", None, time=WholeRide(), tense=event.tense)
