@@ -100,6 +100,17 @@ def test_who_was_in_motion_went(event: Event, more: Any, holds: Any) -> None:
         assert getattr(fact, shown) == 1
 
 
+@pytest.mark.parametrize(("time", "holds"), [(3.0, False), (6.0, True)])
+def test_whether_somebody_moved_at_a_moment_is_told_by_his_speed_then(
+    time: float, holds: bool
+) -> None:
+    values = {("speed", 1): lambda t: 1.0 if t >= 5.0 else 0.0}
+    asked = scene(looks={1: look(1, in_view=False)}, values=values)
+    found = room._moves(asked, Event("move", IT, time=At(time)))
+    assert found is not None
+    assert (found.holds, found.facts[0].time) == (holds, time)
+
+
 def test_a_going_on_record_is_told_as_such() -> None:
     went = they(1, "go", 6.0)
     asked = scene(looks=SEEN, values={("speed", 1): 5.0}, episodes=(went,))

@@ -16,6 +16,7 @@ def moved(asked: Asked, event: Event) -> Finding | None:
     about = window(asked, event.time, event.tense)
     then = asked.world.measure("speed", event.actor, min(about.middle, asked.now))
     said = about.instant and was_said(asked, event.time) and then.value is not None
+    said = said and event.action == "move" and event.tense == "past"
     if said and (then.value or 0.0) < STANDING:
         return Finding(False, (then,))
     if occasion(asked, event) is not None:
