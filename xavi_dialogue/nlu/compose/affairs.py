@@ -4,7 +4,17 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Act, Ask, Doing, HowDecide, Request, WhatIf, Whether, Why
+from xavi_dialogue.domain.meaning import (
+    Act,
+    Ask,
+    Beyond,
+    Doing,
+    HowDecide,
+    Request,
+    WhatIf,
+    Whether,
+    Why,
+)
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
@@ -13,6 +23,7 @@ from xavi_dialogue.domain.terms import (
     Is,
     Not,
     Pronoun,
+    Proposition,
     Related,
     Unknown,
 )
@@ -23,6 +34,8 @@ from xavi_dialogue.nlu.grammar.chart import Node
 
 WELL: Final = Ask(Whether(Is("safe", Ego())))
 _IN_TIME: Final = Event("stop", manner=("early",), tense="present", modal="could")
+#: Words with which it is asked what happens on other rides, too: "is it always this busy?".
+_HABITS: Final = frozenset(("always", "usually", "normally", "generally", "typically", "often"))
 _THINGS: Final = (
     Described(plural=True, definite=False),
     Pronoun("it"),
@@ -48,7 +61,20 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
             | Happens(Event("go", thing, manner=("safely",), tense="present"))
         ) if thing in _THINGS and thing != Pronoun("it"):
             return (WELL,)
+        case Whether(that) if (habit := _HABITS & set(words.split())) and _is_present(that):
+            ours = isinstance(that, Happens) and that.event.actor == Ego()
+            return (Beyond("capability" if ours else "off-topic", min(habit)),)
     return acts
+
+
+def _is_present(that: Proposition) -> bool:
+    """Check whether a proposition is about the present, and not about what must be."""
+    match that:
+        case Is(tense=tense) | Related(tense=tense):
+            return tense == "present"
+        case Happens(event=event):
+            return event.tense == "present" and event.modal is None
+    return False
 
 
 def why_not(acts: tuple[Act, ...], unit: Node, clause: Clause) -> tuple[Act, ...]:

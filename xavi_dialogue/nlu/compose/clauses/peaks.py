@@ -132,6 +132,14 @@ def nearest_of(clause: Clause) -> HowMuch | None:
     return HowMuch(of, "lowest")
 
 
+def longest_of(clause: Clause) -> Peak | None:
+    """Read "what took the longest?" as where most time was lost."""
+    took = clause.verb is not None and clause.verb.key == "take"
+    things = [as_thing(sem) for sem, _ in clause.objects]
+    longest = any(isinstance(one, Described) and one.extreme == "biggest" for one in things)
+    return Peak("delay", clause.time) if took and longest else None
+
+
 def peak_of(clause: Clause) -> Peak | None:
     """Read "when were we slowest", "who came closest to us", "where did you brake hardest"."""
     verb = None if clause.verb is None else clause.verb.key

@@ -48,6 +48,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import adopted, with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.clauses.nominal import asked_of, deed_of, propose
+from xavi_dialogue.nlu.compose.clauses.peaks import longest_of
 from xavi_dialogue.nlu.compose.clauses.risks import is_danger, risk_beside, who_endangers
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of, words_of
@@ -75,8 +76,7 @@ class What:
 
     def what(self, wh: Wh, clause: Clause, value: Any) -> Question:
         """Ask what or who it is of which the clause holds."""
-        lit = shown(clause)
-        if lit is not None:
+        if (lit := shown(clause) or longest_of(clause)) is not None:
             return lit
         named = isinstance(clause.subject, Measure) or (
             isinstance(clause.subject, Noun) and clause.verb is None
