@@ -180,6 +180,7 @@ def test_what_is_so_is_the_ground_of_a_why_and_supposes_nothing(text: str) -> No
         "why this way",
         "Is this the fastest way?",
         "Isn't there a quicker way to go?",
+        "Would it have been quicker to take another road?",
         "Is there another way there?",
         "Are we taking a detour?",
         "Why did you choose this route?",

@@ -25,8 +25,9 @@ def felt(name: str, special: Special) -> Proposition:
     """Return what a verb of feeling says: of a danger, somebody in our way, a surprise, comfort."""
     if name in _FEARING and special.clause.modal in ("should", "must"):
         return Is("dangerous", Ego(), time=time_of(special), tense=tense_of(special))  # "worry"?
-    if name in _FEARING and isinstance(special.subject, Wanted):  # "who worries you most?"
-        return Related("in-the-way-of", special.subject, Ego(), Next(), "future")
+    feared = next((x for x in (special.subject, special.object) if isinstance(x, Wanted)), None)
+    if name in _FEARING and feared is not None:  # "who worries you most?"
+        return Related("in-the-way-of", feared, Ego(), Next(), "future")
     if name == "feel:surprised" and isinstance(as_thing(special.object), Ego):
         by = special.subject  # who surprises us does not do what we expected
         named = isinstance(by, Vehicle | Pronoun) or (isinstance(by, Described) and by.definite)
