@@ -252,8 +252,13 @@ def _told(best: Trial) -> tuple[list[Part], Failure | None]:
 
 
 def _unclear(trial: Trial) -> tuple[clarify.Clarification, Act] | None:
-    """Ask which vehicle is meant, in the first act where that stays open."""
-    for part in trial.parts:
+    """Ask which vehicle is meant, in the first act where that stays open.
+
+    Beside a question that can be answered, a remark is context, and is not asked about.
+    """
+    asking = [part for part in trial.parts if isinstance(part.complete, Ask | Request)]
+    clear = any(part.answerable for part in asking)
+    for part in asking if clear else trial.parts:
         if part.notes.unclear and part.failure is None:
             unclear = part.notes.unclear[0]
             offers = []
