@@ -86,7 +86,7 @@ class LightForeseen(Value, frozen=True):
     foreseen: Foreseen | None  # None: it shows that already, or nothing is known about it
     shown: Shown | None = None
     past: bool = False  # the question is what was expected
-    asked: Literal["when", "whether", "how-sure"] = "when"
+    asked: Literal["when", "whether", "how-sure", "going"] = "when"  # going: when we go on
     holds: bool | None = None  # the reply to the question whether it will change
 
 

@@ -74,6 +74,8 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
             return _asked(lights_seen.unseen)
         case HowSure(of) if of is not None and lights_ahead.concerns(of):
             return _asked(lights_ahead.how_sure)
+        case When(of) | HowLong(of) if lights_ahead.until_we_go(of, scene):
+            return _asked(lights_ahead.going)
         case When(of) if lights_ahead.is_to_come(of, scene):
             return _asked(lights_ahead.when)
         case HowLong(of) if not isinstance(of, Event) and lights_ahead.is_to_come(of, scene):

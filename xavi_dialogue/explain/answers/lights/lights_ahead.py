@@ -9,15 +9,27 @@ from typing import Any
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer
 from xavi_dialogue.domain.meaning import HowKnow, HowLong, HowMuch, HowSure, When, Whether
-from xavi_dialogue.domain.terms import Believed, Feature, Happens, Has, Measured, Proposition
+from xavi_dialogue.domain.terms import (
+    Believed,
+    Event,
+    Feature,
+    Happens,
+    Has,
+    Measured,
+    Proposition,
+)
 from xavi_dialogue.domain.traffic_lights import COLOURS, LightColour, LightForeseen, LightTold
+from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.answers.lights.lights_turn import ONWARD, held
 from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.naming import is_us
 from xavi_dialogue.explain.answers.reference.reading import unwrapped
 from xavi_dialogue.explain.facts.episodes.light_events import SHOWING, light_of
 from xavi_dialogue.explain.facts.episodes.light_waits import holds
 from xavi_dialogue.explain.facts.traffic_lights import SAID, foreseen, meant, shown_at
 from xavi_dialogue.explain.history.traffic_lights import stretches
 
+STANDING = frozenset[ActionName](("wait", "stand", "stop"))
 LATELY = 20.0  # [s] after a change of a light in which a question means that change
 
 
@@ -68,6 +80,21 @@ def when(question: When, scene: Asked) -> Answer:
     return _forecast(question.of, scene, "when")
 
 
+def until_we_go(of: Proposition | Event | None, scene: Asked) -> bool:
+    """Check whether the question is until when a red light holds us: "when do we go on?"."""
+    event = of.event if isinstance(of, Happens) else of
+    if not isinstance(event, Event) or not is_us(event.actor) or event.object is not None:
+        return False
+    goes = event.action in ONWARD and event.tense in ("present", "future")
+    stands = event.action in STANDING and (event.tense == "future" or event.modal == "must")
+    return (goes or stands) and held(scene) is not None
+
+
+def going(question: When | HowLong, scene: Asked) -> Answer:
+    """Return when the light that holds us is expected to turn green."""
+    return _forecast(Has("colour", "green", Feature("light")), scene, "going")
+
+
 def staying(question: HowLong | HowMuch, scene: Asked) -> Answer:
     """Return how long a light is expected to show what it shows: when it changes next."""
     of = question.of
@@ -75,6 +102,8 @@ def staying(question: HowLong | HowMuch, scene: Asked) -> Answer:
     light, wanted = wanted_of(that)
     one = shown_at(scene.ride, light, scene.now)
     stays = one is not None and wanted == one.colour
+    if one is not None and wanted is not None and not stays:
+        return LightTold("colour", one, time=scene.now)  # it does not show that any more
     return _forecast(Has("colour", "", light) if stays else that, scene, "when")
 
 

@@ -155,6 +155,7 @@ def _belief(found: Foreseen, answer: LightForeseen, context: SpeechContext) -> d
     waits = came is None and found.shown.end is None
     return {
         "past": answer.past,
+        "light": Who(Feature("light")) if answer.asked == "going" else None,
         "when": Moment(found.time),
         "to": COLOURS[found.to],
         "middle": until(found.middle),

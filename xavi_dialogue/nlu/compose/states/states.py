@@ -185,7 +185,8 @@ def _found(clause: Clause) -> list[Found]:
                           ("suddenly", "uncomfortable"), ("close", "close"), ("late", "late"),
                           ("early", "late"), ("far", "far")):  # fmt: skip
         hurried = manner == "suddenly" and isinstance(subject, Passenger | Ego)  # "in a hurry"
-        open_ = not clause.objects and not isinstance(subject, Measure) and not hurried
+        timed = isinstance(subject, Event) and not clause.has("be")  # "why brake this early?"
+        open_ = not (clause.objects or isinstance(subject, Measure) or hurried or timed)
         if manner in clause.manner and open_:
             return [(_is(clause, state, "too" in clause.focus), 0.05)]
     if isinstance(subject, Measure) and subject.of.attribute in ("brake-lights", "indicator"):
