@@ -21,7 +21,7 @@ RED, ROLLING, ROUND = 20.0, 14.0, 34.5  # [s] in the ride `junction-0`
         (ROLLING, "does vehicle 8 go first?", "Yes, the pedestrian coming from the right (vehicle"),
         (RED, "you've stopped again", "We are standing still, because the traffic light is red."),
         (RED, "will you stop for those people?", "We are standing still, because"),
-        (RED, "are we going to be here forever?", "We should drive on in about"),
+        (RED, "are we going to be here forever?", "I expect the traffic light to turn green in"),
         (ROUND, "could you go a little more gently?", "I am sorry, but I cannot slow down"),
         (ROUND, "were you scared you'd bump into the people?", "No, I have no feelings"),
     ],

@@ -102,7 +102,9 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
             and isinstance(event.actor, Vehicle | Vehicles | Everyone)
         ):
             return owing.before_us
-        case Why(of=of, suspect=None) | HowKnow(of=of) if owing.is_rule(of):
+        case Why(of=of, suspect=None) if owing.is_rule(of):
+            return owing.why_rule
+        case HowKnow(of=of) if owing.is_known_rule(of):
             return owing.why_rule
         case Why(of=of, suspect=None, instead=None) if owing.is_owed(of):
             return owing.why_owed

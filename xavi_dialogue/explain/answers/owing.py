@@ -60,14 +60,30 @@ def is_rule(of: Proposition | None) -> bool:
     return isinstance(plain, Related) and plain.relation in ("has-priority-over", "must-yield-to")
 
 
+def is_known_rule(of: Proposition | None) -> bool:
+    """Check whether what is asked to be known is a rule, also as "it gives way to us"."""
+    return is_rule(of) or (isinstance(unwrapped(of)[0], Happens) and _rule(of) is not None)
+
+
+def _rule(of: Proposition | None) -> Related | None:
+    """Return the rule that a proposition states, also as "it gives way to us"."""
+    plain, _ = unwrapped(of)
+    match plain:
+        case Related():
+            return plain
+        case Happens(Event("give-way", Vehicle() as who, None | Ego(), tense="present") as event):
+            return Related("must-yield-to", who, Ego(), event.time)
+    return None
+
+
 def why_rule(question: Why | HowKnow, asked: Asked) -> Answer:
     """Return who has right of way, and the basis of that.
 
     Raises:
         Unanswered: a vehicle is unknown, or the record does not hold the rule.
     """
-    of, _ = unwrapped(question.of)
-    assert isinstance(of, Related)
+    of = _rule(question.of)
+    assert of is not None
     told = right_of_way(asked, of.thing, of.to, window(asked, of.time, of.tense))
     told = reason(asked, told)
     return replace(told, grounds=told.why is None)

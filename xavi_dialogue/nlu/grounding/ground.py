@@ -22,6 +22,7 @@ from xavi_dialogue.domain.meaning import (
     Listing,
     Question,
     Reading,
+    Repair,
     Request,
     Social,
     Unread,
@@ -233,22 +234,31 @@ def _told(best: Trial) -> tuple[list[Part], Failure | None]:
     Beside a question, what else was said is context: of that, nothing is owned up to. Where it
     is the question of which nothing was made, what else was said is not replied to, either.
     """
-    asking = [part for part in best.parts if isinstance(part.complete, Ask | Request)]
+    parts = _without_picks(best)
+    asking = [part for part in parts if isinstance(part.complete, Ask | Request)]
     answered = any(part.answerable for part in asking)
     lost = [part.failure for part in asking if part.failure is not None]
     unread = [one for one in best.reading.unread if one.asks]
     lost += [quoting.unread(best.reading, one) for one in unread]
     lost += [quoting.unread(best.reading, Unread(words)) for words in best.reading.ignored]
     if not lost and not answered:
-        lost = [part.failure for part in best.parts if part.failure is not None]
-    misdescribed = [p.failure for p in best.parts if p.answerable and p.failure is not None]
+        lost = [part.failure for part in parts if part.failure is not None]
+    heard = asking if answered else parts
+    misdescribed = [p.failure for p in heard if p.answerable and p.failure is not None]
     refusal = next(iter((*misdescribed, *lost)), None)
-    told = [part for part in best.parts if part.answerable]
+    told = [part for part in parts if part.answerable]
     if (asking or unread) and not answered and not misdescribed:
         told = [part for part in told if not isinstance(part.complete, Claim | Social)]
     if told and isinstance(refusal, NotUnderstood):
         refusal = replace(refusal, rest=True) if refusal.quote or refusal.words else None
     return told, refusal
+
+
+def _without_picks(best: Trial) -> list[Part]:
+    """Leave out numbers beside a question, which pick nobody: "in my country, 50 is allowed"."""
+    spoken = zip(best.reading.acts, best.parts, strict=True)
+    rest = [p for act, p in spoken if not isinstance(act, Repair) or act.kind != "pick"]
+    return rest if any(isinstance(p.complete, Ask | Request) for p in rest) else list(best.parts)
 
 
 def _unclear(trial: Trial) -> tuple[clarify.Clarification, Act] | None:
