@@ -29,3 +29,8 @@ def test_people_whom_we_are_about_to_let_go_are_first(at: float, question: str, 
 )
 def test_people_are_told_of_who_are_asked_about(at: float, question: str, begins: str):
     assert Talk("junction-0", at).hear(question).startswith(begins)
+
+
+def test_whether_people_may_walk_is_told_by_who_of_them_goes_first() -> None:
+    told = Talk("junction-0", 14.0).hear("Are those people allowed to walk there now?")
+    assert told.startswith("Yes, the pedestrian")

@@ -204,7 +204,7 @@ def rules(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(relations, "right_of_way", read)
     monkeypatch.setattr(
-        relations, "where_rule_holds", lambda asked, of, about: Window(about.end - 1.0, 7.0)
+        relations, "where_rule_holds", lambda asked, about: Window(about.end - 1.0, 7.0)
     )
 
 

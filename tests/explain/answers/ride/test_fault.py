@@ -40,21 +40,21 @@ def given(**more: Any) -> Given:
 
 def test_a_question_of_the_whole_ride_is_about_the_last_crossing() -> None:
     twice = given(traces=crossed(5.0, 12.0)).asked()
-    assert priority.where_rule_holds(twice, None, WHOLE) == Window(12.0, 12.0)
-    assert priority.where_rule_holds(twice, None, Window(-1.0, 19.9)) == Window(12.0, 12.0)
+    assert priority.where_rule_holds(twice, WHOLE) == Window(12.0, 12.0)
+    assert priority.where_rule_holds(twice, Window(-1.0, 19.9)) == Window(12.0, 12.0)
     part = Window(3.0, NOW)
-    assert priority.where_rule_holds(twice, None, part) == part
+    assert priority.where_rule_holds(twice, part) == part
     early = Window(0.0, 19.0)
-    assert priority.where_rule_holds(twice, None, early) == early
+    assert priority.where_rule_holds(twice, early) == early
 
 
 def test_without_a_junction_it_is_about_the_last_turn_or_now() -> None:
     turns = (deed("exit-left", 3.0, 5.0), deed("exit-right", 14.0, 16.0))
     asked = given(traces=(), deeds=turns).asked()
-    assert priority.where_rule_holds(asked, None, WHOLE) == Window(14.0, 16.0)
+    assert priority.where_rule_holds(asked, WHOLE) == Window(14.0, 16.0)
     going = given(traces=(), deeds=(deed("enter", 18.0),)).asked()
-    assert priority.where_rule_holds(going, None, WHOLE) == Window(18.0, NOW)
-    assert priority.where_rule_holds(given(traces=()).asked(), None, WHOLE) == PRESENT
+    assert priority.where_rule_holds(going, WHOLE) == Window(18.0, NOW)
+    assert priority.where_rule_holds(given(traces=()).asked(), WHOLE) == PRESENT
 
 
 @pytest.mark.parametrize(

@@ -260,7 +260,7 @@ def _count(of: Measured, asked: Asked) -> Answer:
 
 
 def _right_of_way(of: Measured, asked: Asked) -> Answer:
-    about = where_rule_holds(asked, None, window(asked, of.time, of.tense))
+    about = where_rule_holds(asked, window(asked, of.time, of.tense))
     return right_of_way(asked, of.thing, of.to, about)
 
 

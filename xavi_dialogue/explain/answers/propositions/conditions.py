@@ -163,7 +163,7 @@ def _allowed(of: Is, asked: Asked) -> Finding:
     if event is not None and event.action in RIGHT_OF_WAY and not _of_speed(event):
         about = _about(of, asked)
         past = is_past(asked, of.time, of.tense)
-        about = where_rule_holds(asked, of, about) if past else about
+        about = where_rule_holds(asked, about) if past else about
         found = right_of_way(asked, event.object, event.actor, about)
         if found.rule != "none" or "first" in event.manner:
             return owed(found, ours_yield=not is_us(event.actor))
@@ -294,7 +294,7 @@ def _at_fault(of: Is, asked: Asked) -> Finding:
 
 
 def _first(of: Is, asked: Asked) -> Finding:
-    about = where_rule_holds(asked, None, _about(of, asked))
+    about = where_rule_holds(asked, _about(of, asked))
     other = None if is_us(actor(of)) else actor(of)
     found = right_of_way(asked, other, Ego(), about)
     if found.first is None:

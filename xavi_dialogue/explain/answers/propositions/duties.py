@@ -146,7 +146,7 @@ def _not_given(asked: Asked, event: Event) -> Finding | None:
     if light is not None:
         return Finding(None, answer=light)  # the light holds us, though others go
     about = window(asked, event.time, "past")
-    about = about if vehicle is not None else where_rule_holds(asked, None, about)
+    about = about if vehicle is not None else where_rule_holds(asked, about)
     found = priority_at(asked, vehicle, about)
     if vehicle is not None and found.first is None and found.rule == "give-way":
         return _held(found, True)  # we are about it
@@ -209,7 +209,7 @@ def _owed(asked: Asked, event: Event, yielder: Thing | None, other: Thing | None
         if told is not None:
             return _held(told, True)
     if vehicle is None:
-        about = where_rule_holds(asked, None, about)
+        about = where_rule_holds(asked, about)
     if several or every is not None:
         if several:
             return owed_to_all(asked, several, about, ours=ours)
@@ -310,13 +310,13 @@ def who_first(asked: Asked, such: Proposition | None) -> Priority | None:
     before = (n for n in several if priority_at(asked, n, about).rule == "give-way")
     vehicle = vehicle if vehicle is not None else next(before, None)
     if past and vehicle is None:
-        about = where_rule_holds(asked, None, about)
+        about = where_rule_holds(asked, about)
     if vehicle is None and not past and (every := _to_all(asked, about, *pair)) is not None:
         return every
     told = priority_at(asked, vehicle, about)
     if told.rule == "none" and vehicle is None:
         ride = Window(asked.world.begin, asked.now)
-        told = priority_at(asked, None, where_rule_holds(asked, None, ride))
+        told = priority_at(asked, None, where_rule_holds(asked, ride))
     return told
 
 

@@ -158,7 +158,7 @@ def _right_of_way(of: Related, asked: Asked, about: Window) -> Finding:
     """Return who goes first as right of way, whichever way round the question is."""
     ours = is_us(of.thing) == (of.relation == "has-priority-over")
     past = is_past(asked, of.time, of.tense)
-    near = where_rule_holds(asked, of, about) if past else Window(asked.now, asked.now)
+    near = where_rule_holds(asked, about) if past else Window(asked.now, asked.now)
     several = of.thing if isinstance(of.thing, Vehicles) else of.to
     if isinstance(several, Vehicles):
         return owed_to_all(asked, several.numbers, near, ours=not ours)

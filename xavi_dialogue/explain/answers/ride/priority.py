@@ -13,7 +13,7 @@ from sim.scene import EGO
 from xavi_dialogue.domain.answers import Answer, NotRecorded, Priority
 from xavi_dialogue.domain.facts import Episode, Measure, Somebody
 from xavi_dialogue.domain.meaning import Fault, Question
-from xavi_dialogue.domain.terms import Ego, Happens, Proposition, Thing, Vehicle
+from xavi_dialogue.domain.terms import Ego, Happens, Thing, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.precedence import at_ring, on_ring, red_ahead
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -67,7 +67,7 @@ def fault(question: Fault, asked: Asked) -> Answer:
     event = question.of.event if isinstance(question.of, Happens) else None
     episode = None if event is None else occasion(asked, event)
     about = window(asked, tense="past") if episode is None else stretch(asked, episode)
-    vehicle = number(question.suspect)
+    vehicle = _foremost(asked, question.suspect, about)
     if vehicle is None and event is not None:
         vehicle = number(event.actor) or number(event.object)
     whole = episode is None and _whole(asked, about)
@@ -78,6 +78,14 @@ def fault(question: Fault, asked: Asked) -> Answer:
     driver = number(question.suspect)
     limit = _limit(asked, about, Ego() if driver is None else Vehicle(driver))
     return changed(found, legal=True, limit=limit)
+
+
+def _foremost(asked: Asked, thing: Thing | None, about: Window) -> int | None:
+    """Return the vehicle that is meant; of several, one that goes first, if there is one."""
+    if not isinstance(thing, Vehicles) or not thing.numbers:
+        return number(thing)
+    before = (n for n in thing.numbers if priority_at(asked, n, about).rule == "give-way")
+    return next(before, thing.numbers[0])
 
 
 def lawful(asked: Asked, about: Window | None, vehicle: int | None = None) -> Priority:
@@ -100,7 +108,7 @@ def right_of_way(asked: Asked, thing: Thing | None, to: Thing | None, about: Win
     Raises:
         Unanswered: a vehicle is unknown, or the record does not hold it.
     """
-    vehicle = number(thing) or number(to)
+    vehicle = _foremost(asked, thing, about) or _foremost(asked, to, about)
     return priority_at(asked, vehicle, about)
 
 
@@ -260,9 +268,8 @@ def rule_for(road: RoadFacts | None, vehicle: int | None, gave_way: bool) -> Rul
     return road.route[0].rule if road.route else "none"
 
 
-def where_rule_holds(asked: Asked, of: Proposition | None, about: Window) -> Window:
+def where_rule_holds(asked: Asked, about: Window) -> Window:
     """Return the stretch whose right of way matters: of the whole ride, its last crossing."""
-    del of
     return _last_crossing(asked, about) if _whole(asked, about) else about
 
 
