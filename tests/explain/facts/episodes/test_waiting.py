@@ -14,7 +14,8 @@ from tests.explain.facts.scenes import Actor, made, speeds, straight
 from tests.traces import Aim, End, Way, trace_of
 from tests.traces import World as Plain
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.domain.terms import Ego, Feature, Vehicle
+from xavi_dialogue.explain.facts.episodes import waiting
 from xavi_dialogue.explain.facts.episodes.waiting import top_holders, waits
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.ride import Ride
@@ -248,6 +249,35 @@ def test_who_stands_long_after_stood_for_something_else() -> None:
 
 def test_who_was_past_before_was_not_waited_for() -> None:
     assert other("right-of-way", Actor(straight(80.0, 0.0, 7.0))) == []
+
+
+@pytest.mark.parametrize(
+    ("how", "lit", "left"),
+    [
+        ("right-of-way", (6.0, None), []),  # the light holds it all the time
+        ("right-of-way", (6.0, 7.0), [(7.0, None)]),
+        ("right-of-way", (6.0, 11.0), []),
+        ("right-of-way", (10.5, None), [(6.0, 10.5)]),
+        ("leader", (6.0, None), [(6.0, None)]),  # in a row at the light
+    ],
+)
+def test_who_is_held_by_a_light_lets_nobody_go_first(
+    monkeypatch: pytest.MonkeyPatch,
+    how: HoldUp,
+    lit: tuple[float, float | None],
+    left: list[tuple[float, float | None]],
+) -> None:
+    red = Episode(Vehicle(1), "wait", *lit, Feature("light"), standing=True)
+    monkeypatch.setattr(waiting, "waits_at_lights", lambda *_: iter((red,)))
+    held_up = Way(("exit-left",), held_up=(HeldUp(2, 0.0, 30.0, how, 5.0, 2.0),))
+    still = Actor(
+        lambda t: (50.0, -10.0 - max(6.0 - t, 0.0) ** 2, math.pi / 2.0, 2.0 * max(6.0 - t, 0.0)),
+        aims=(Aim("exit-left", 1.0, (held_up,)),),
+    )
+    crossing = Actor(straight(50.0, 0.0, 0.0))
+    ride = made({0: Actor(straight(0.0, 0.0, 2.0)), 1: still, 2: crossing}, 12.0)
+    found = [e for e in waits(States(ride), 1) if e.object == Vehicle(2)]
+    assert [(e.begin, e.end) for e in found] == left
 
 
 @pytest.mark.parametrize(

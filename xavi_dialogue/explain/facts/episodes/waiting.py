@@ -44,9 +44,8 @@ def _waits(states: States, vehicle: int) -> list[Episode]:
         ]
         ended = (_until_past(states, vehicle, wait) for wait in found)
         lit = list(waits_at_lights(states.ride, vehicle, stood))
-        others = [wait for wait in ended if wait is not None]
-        others = [w for w in others if w.object != Ego() or not any(_meet(w, x) for x in lit)]
-        return [*others, *lit]
+        apart = (_apart_from(states, lit, wait) for wait in ended if wait is not None)
+        return [*(wait for wait in apart if wait is not None), *lit]
     given = _merged((*_gave_way(states, stood), *_slowed_for(states)))
     lit = list(waits_at_lights(states.ride, EGO, stood))
     given += lit
@@ -58,6 +57,23 @@ def _waits(states: States, vehicle: int) -> list[Episode]:
         if not any(g.object == wait.object and _meet(g, wait) for g in given)
     ]
     return given + told
+
+
+def _apart_from(states: States, lit: list[Episode], wait: Episode) -> Episode | None:
+    """Return the part of a vehicle's wait in which no light holds it; None if there is none.
+
+    Who waits in a row at a light, behind somebody, waits for both.
+    """
+    met = [one for one in lit if _meet(one, wait)]
+    if not met or (wait.object != Ego() and wait.how != "right-of-way"):
+        return wait
+    if wait.object == Ego():
+        return None
+    since = min(one.begin for one in met)
+    if since - wait.begin > STARTING:
+        return replace(wait, end=since)
+    begin = max(_end(states, one) for one in met)
+    return replace(wait, begin=begin) if _end(states, wait) - begin > STARTING else None
 
 
 def _until_past(states: States, vehicle: int, wait: Episode) -> Episode | None:
