@@ -202,6 +202,13 @@ def test_whom_it_let_go_first_is_why(
     assert found.asked is None
 
 
+def test_who_waits_for_us_in_its_way_need_not_let_us_go_first(ways: Ways) -> None:
+    blocked = they(1, "wait", 8.0, 9.0, object=US, how="blocked")
+    assert why(does("stand"), blocked, STOPS).causes == (MotionCause("blocked", 0),)
+    given = replace(blocked, action="give-way", how="right-of-way")
+    assert why(does("stand"), given, STOPS).causes == (MotionCause("right-of-way", 0),)
+
+
 # Not going --------------------------------------------------------------------------------------
 
 

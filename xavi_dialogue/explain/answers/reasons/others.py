@@ -171,7 +171,7 @@ def _parked(scene: Asked, vehicle: int, standing: Episode) -> bool:
 
 
 def _yielded(event: Event, scene: Asked, vehicle: int) -> Answer | None:
-    """Return whom a vehicle let go first, if it was seen to do so at the time asked about."""
+    """Return whom a vehicle waited for or let go first, if it was seen to do so then."""
     if event.action not in YIELDS | STILL:
         return None
     found = _last(scene, vehicle, ("give-way", "wait"), event)
@@ -179,7 +179,8 @@ def _yielded(event: Event, scene: Asked, vehicle: int) -> Answer | None:
     if found is None or not isinstance(whom, Ego | Vehicle):
         return None
     other = whom.number if isinstance(whom, Vehicle) else EGO
-    first = Hindrance((MotionCause("right-of-way", other),))
+    how = (found.how if found.action == "wait" else None) or "right-of-way"
+    first = Hindrance((MotionCause(how, other),))
     return _told(scene, vehicle, found, None, first, found.begin)
 
 
