@@ -272,8 +272,11 @@ def _slowed_for(of: Proposition | None, scene: Asked) -> bool:
     except Unanswered as unanswered:
         return isinstance(unanswered.result, NeedRollout)
     # What we do for another reason does not show what we will do for them.
-    ahead = event.tense == "future" and getattr(found, "suspected", None) == "none"
-    return not ahead or stands(scene)
+    if getattr(found, "suspected", None) != "none":
+        return True
+    if owing.must_let(event, scene):
+        return False  # the rule of the road answers that
+    return event.tense != "future" or stands(scene)
 
 
 def _slowed_for_anybody(event: Event) -> bool:

@@ -54,6 +54,14 @@ def is_owed(of: Proposition) -> bool:
     return False
 
 
+def must_let(event: Event, asked: Asked) -> bool:
+    """Check whether the question is if we must let somebody go first, and by the rule we must."""
+    vehicle = number(event.object)
+    if not is_owed(Happens(event)) or event.tense != "present" or vehicle is None:
+        return False
+    return priority_at(asked, vehicle, Window(asked.now, asked.now)).rule == "give-way"
+
+
 def is_rule(of: Proposition | None) -> bool:
     """Check whether a proposition says which of two has right of way."""
     plain, _ = unwrapped(of)

@@ -39,8 +39,9 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, is_past
 from xavi_dialogue.explain.answers.reference.naming import number, somebodies
 from xavi_dialogue.explain.answers.ride.crossings import meets_ahead, passes_by
+from xavi_dialogue.explain.answers.ride.cycling import likely_let
 from xavi_dialogue.explain.answers.ride.priority import priority_at
-from xavi_dialogue.explain.answers.ride.walking import about_to_cross, walks_first
+from xavi_dialogue.explain.answers.ride.walking import walks_first
 
 GOING: Final = frozenset[ActionName](("go", "move", "enter", "cross", "turn", "continue", "pass"))
 WAITS: Final[tuple[ActionName, ...]] = ("give-way", "wait")
@@ -176,7 +177,7 @@ def _in_order(
 ) -> tuple[Look, ...]:
     """Find those in view who go before or after us by the rules, the closest first."""
     now, seen = Window(asked.now, asked.now), asked.world.in_view(asked.now)
-    ruled: dict[int, str] = {v: "vehicle" for v in seen if about_to_cross(asked, v)}
+    ruled: dict[int, str] = {v: "vehicle" for v in seen if likely_let(asked, v)}
     for fact in road.priority:
         if not (meets_ahead(asked, fact.vehicle) and passes_by(asked, fact.vehicle)):
             ruled[fact.vehicle] = fact.who

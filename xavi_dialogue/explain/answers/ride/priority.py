@@ -32,6 +32,7 @@ from xavi_dialogue.explain.answers.ride.crossings import (
     stood,
     went_first,
 )
+from xavi_dialogue.explain.answers.ride.cycling import likely_let, rides_first
 from xavi_dialogue.explain.answers.ride.walking import about_to_cross, walks_first
 from xavi_dialogue.explain.history.ride import planned
 
@@ -143,9 +144,9 @@ def priority_at(
     if ahead and rule in ("priority", "give-way") and passes_by(asked, vehicle):
         rule = rule_for(asked.world.road(time), None, gave_way=False) if general else "none"
         vehicle = None if general else vehicle
-    walks = walks_first(asked, vehicle, about, waited)
-    walks = walks or (present and rule in (None, "none") and about_to_cross(asked, vehicle))
-    rule = "give-way" if walks else rule
+    owed = walks_first(asked, vehicle, about, waited) or rides_first(asked, vehicle, about)
+    owed = owed or (present and rule in (None, "none") and likely_let(asked, vehicle))
+    rule = "give-way" if owed else rule
     if rule is None and not blame:
         raise Unanswered(NotRecorded("not-recorded", about="right-of-way", since=time))
     crossing = rule in ("priority", "give-way", "equal", "depends")
@@ -162,8 +163,8 @@ def priority_at(
 
 def _crossing_now(asked: Asked) -> int | None:
     """Return whose way crosses ours now; those on foot whom we are likely to let go are first."""
-    walking = (v for v in asked.world.in_view(asked.now) if about_to_cross(asked, v))
-    return next(walking, None) or crossing_now(asked)
+    seen = sorted(asked.world.in_view(asked.now), key=lambda v: not about_to_cross(asked, v))
+    return next((v for v in seen if likely_let(asked, v)), None) or crossing_now(asked)
 
 
 def _let_by(
