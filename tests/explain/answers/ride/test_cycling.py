@@ -26,7 +26,7 @@ def turning(
     light = LightAhead(distance, "lights", 0, state, 0.0, False)
     road = RoadFacts({0: place()}, (step(distance, turn=turn),), lights=(light,))
     plain = World({1: (Aim(aim, 1.0, (Way((aim,)),)),)}, (("continue",),), lambda *_: (End(), 1))
-    near = {"kind": "bicycle", "ahead": -6.0, "left": -2.0, "distance": 4.0} | more
+    near: Any = {"kind": "bicycle", "ahead": -6.0, "left": -2.0, "distance": 4.0} | more
     trace = plan(NOW, road=road, predictions=trace_of(plain).predictions)
     return Given(looks={1: look(**near)}, road=road, traces=(trace,))
 

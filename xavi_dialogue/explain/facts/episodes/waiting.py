@@ -44,8 +44,8 @@ def _waits(states: States, vehicle: int) -> list[Episode]:
         ]
         ended = (_until_past(states, vehicle, wait) for wait in found)
         lit = list(waits_at_lights(states.ride, vehicle, stood))
-        apart = (_apart_from(states, lit, wait) for wait in ended if wait is not None)
-        return [*(wait for wait in apart if wait is not None), *lit]
+        lightless = (_apart_from(states, lit, wait) for wait in ended if wait is not None)
+        return [*(wait for wait in lightless if wait is not None), *lit]
     given = _merged((*_gave_way(states, stood), *_slowed_for(states)))
     lit = list(waits_at_lights(states.ride, EGO, stood))
     given += lit
