@@ -102,9 +102,7 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
             and isinstance(event.actor, Vehicle | Vehicles | Everyone)
         ):
             return owing.before_us
-        case Why(of=of, suspect=None) if owing.is_rule(of):
-            return owing.why_rule
-        case HowKnow(of=of) if owing.is_known_rule(of):
+        case Why(suspect=None) | HowKnow() if owing.asks_rule(question):
             return owing.why_rule
         case Why(of=of, suspect=None, instead=None) if owing.is_owed(of):
             return owing.why_owed
@@ -274,9 +272,8 @@ def _slowed_for(of: Proposition | None, scene: Asked) -> bool:
     # What we do for another reason does not show what we will do for them.
     if getattr(found, "suspected", None) != "none":
         return True
-    if owing.must_let(event, scene):
-        return False  # the rule of the road answers that
-    return event.tense != "future" or stands(scene)
+    ruled = owing.must_let(event, scene)  # the rule of the road answers that
+    return not ruled and (event.tense != "future" or stands(scene))
 
 
 def _slowed_for_anybody(event: Event) -> bool:

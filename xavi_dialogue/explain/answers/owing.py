@@ -68,9 +68,10 @@ def is_rule(of: Proposition | None) -> bool:
     return isinstance(plain, Related) and plain.relation in ("has-priority-over", "must-yield-to")
 
 
-def is_known_rule(of: Proposition | None) -> bool:
-    """Check whether what is asked to be known is a rule, also as "it gives way to us"."""
-    return is_rule(of) or (isinstance(unwrapped(of)[0], Happens) and _rule(of) is not None)
+def asks_rule(question: Why | HowKnow) -> bool:
+    """Check whether a question is about a rule; one how we know it also about "it gives way"."""
+    known = isinstance(question, HowKnow) and _rule(question.of) is not None
+    return known or is_rule(question.of)
 
 
 def _rule(of: Proposition | None) -> Related | None:

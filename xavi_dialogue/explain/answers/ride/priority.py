@@ -136,8 +136,7 @@ def priority_at(
         waited = None  # the question is about now
     if vehicle is None and waited is not None:
         vehicle = number(waited.object)
-    rule: Rule | None = rule_for(asked.world.road(time), vehicle, waited is not None)
-    rule = rule if met is None else met[1]
+    rule = met[1] if met else rule_for(asked.world.road(time), vehicle, waited is not None)
     if rule == "none" and vehicle is not None:
         rule = _changing(asked, vehicle, about) or rule
     ahead = about.end >= asked.now - SHORT and meets_ahead(asked, vehicle)
