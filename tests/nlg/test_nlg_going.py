@@ -12,13 +12,15 @@ from xavi_dialogue.domain.answers import (
     CrossingVehicle,
     GoReason,
     MotionCause,
+    MotionReason,
     PlaceReason,
     Share,
     SignalReason,
     Unslowed,
 )
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Ego, Event, Junction, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Junction, Vehicle
+from xavi_dialogue.domain.traffic_lights import Shown
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlg.content.clauses.clauses import event_clause, verb_phrase
 from xavi_dialogue.nlg.say import say
@@ -121,3 +123,16 @@ def test_a_turn_that_is_foreseen_is_not_said_to_meet_anybody() -> None:
             assert event_clause(replace_struct(event, tense=tense), 9.0).rest == ()
         past = replace_struct(event, tense="past")
         assert event_clause(past, 9.0, negated=True).rest[0] == Who(whom, None)
+
+
+@pytest.mark.parametrize(
+    ("deed", "told"),
+    [
+        ("stand", "because the traffic light was red until 0:09"),
+        ("speed-up", "because the traffic light has turned green"),
+    ],
+)
+def test_a_light_that_turned_green_is_no_reason_for_standing(deed: ActionName, told: str) -> None:
+    green = MotionCause("light", shown=Shown(Feature("light"), "green", 9.0, True))
+    text = say(MotionReason(Episode(E, deed, 5.0, speed_to=0.0), (green,), asked=deed), CONTEXT)
+    assert told in text.text

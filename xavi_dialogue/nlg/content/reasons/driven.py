@@ -1,5 +1,7 @@
 """Driven: one reason for how we drove, as a clause."""
 
+from msgspec.structs import replace
+
 from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.terms import Vehicle
@@ -15,6 +17,7 @@ TURNED = ("given-up", "next-move")
 GONE = ("ahead", "left", "right", "behind", "behind-left", "behind-right")
 ASIDE = ("ahead-left", "ahead-right")  # where a vehicle sets the pace in the lane we enter
 PACED = ("leader", "blocked", "lane-ahead")  # reasons for which a speed or a standstill is stated
+HELD = ("stop", "stand", "wait", "give-way", "slow-down", "brake")  # what a red light leads to
 CHANGED = 1.0  # [m/s] minimum difference between the speed now and when it slowed us
 
 
@@ -73,7 +76,7 @@ def motion_cause(
         higher=deed == "speed-up",
         foreseen=foreseen,
         side=cause.side,
-        **_shown(cause, past=past),
+        **_shown(cause, past=past, held=deed in HELD),
         **chances(cause.probability if cause.probability is not None else 1.0, context),
     )
 
@@ -98,11 +101,16 @@ def _pace(
     return (then, True) if change > 0.0 else (now.speed, False)
 
 
-def _shown(cause: MotionCause, *, past: bool) -> dict[str, object]:
-    """Return the slots for the traffic light that holds us."""
+def _shown(cause: MotionCause, *, past: bool, held: bool) -> dict[str, object]:
+    """Return the slots for the traffic light that holds us.
+
+    A light that has turned green is a reason for setting off; for standing, it was red until then.
+    """
     shown = cause.shown
     if shown is None:
         return {}
+    if held and shown.colour == "green" and shown.begun:
+        shown = replace(shown, colour="red", end=shown.begin, ended=True)
     turned = shown.colour == "amber" and shown.begun
     freed = shown.colour == "green" and shown.begun
     over = shown.end is not None and shown.ended and not past and not freed
