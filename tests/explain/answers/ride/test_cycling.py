@@ -1,5 +1,6 @@
 """Whether we have to let a bicycle beside us go first, and that it is told so."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -9,8 +10,9 @@ from planner.record.places import LightAhead, RoadFacts
 from tests.explain.answers.given import NOW, Given, look, place, plan, step
 from tests.traces import Aim, End, Way, World, trace_of
 from xavi_dialogue.domain.answers import Priority
-from xavi_dialogue.domain.terms import Ego, Event, Now, Vehicle
-from xavi_dialogue.explain.answers import owing, turns
+from xavi_dialogue.domain.meaning import Whether
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Now, Vehicle
+from xavi_dialogue.explain.answers import causal, owing, turns
 from xavi_dialogue.explain.answers.reference.moments import Window
 from xavi_dialogue.explain.answers.ride import cycling
 from xavi_dialogue.explain.answers.ride.priority import priority_at
@@ -89,3 +91,15 @@ def test_whom_our_driving_let_go_first_went_first_by_the_rule() -> None:
     assert not cycling.rides_first(given.asked(), 1, Window(14.0, 16.0))
     given.looks = {1: look()}
     assert not cycling.rides_first(given.asked(), 1, Window(8.0, 12.0))
+
+
+def test_whether_we_must_wait_for_it_is_answered_by_the_rule(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The light is why we stand now, which is no reason to deny that it goes first."""
+    light = SimpleNamespace(suspected="none")
+    monkeypatch.setattr(causal, "_because_of", lambda *_: light)
+    event = Event("wait", Ego(), Vehicle(1), time=Now(), tense="present", modal="must")
+    question = Whether(Happens(event))
+    assert causal.explainer(question, turning().asked()) is None
+    assert causal.explainer(question, turning("G").asked()) is not None
