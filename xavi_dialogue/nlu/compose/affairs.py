@@ -10,7 +10,9 @@ from xavi_dialogue.domain.meaning import (
     Beyond,
     Doing,
     HowDecide,
+    Listing,
     Request,
+    Summarise,
     WhatIf,
     Whether,
     Why,
@@ -56,6 +58,10 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
             return Ask(Doing()), WELL
         case HowDecide(Happens(Event("do", Ego(), None, tense="present"))):
             return Ask(Doing()), WELL
+        case HowDecide(Happens(Event("do", Ego(), None, tense="past", modal=None))):
+            return (Ask(Summarise()),)  # "so how did you do?"
+        case HowDecide(Is("wrong", Ego(), tense="past")):
+            return (Ask(Listing("wrong-predictions")),)  # "how did you do, any mistakes?"
         case Whether(
             Is("safe" | "better", thing, tense="present")
             | Happens(Event("go", thing, manner=("safely",), tense="present"))
