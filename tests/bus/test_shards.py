@@ -28,7 +28,9 @@ def test_the_home_of_a_car_is_the_same_for_all_versions() -> None:
     assert [home(car, 4) for car in ("car", "shuttle-1", "shuttle-2", "shuttle-3")] == [4, 4, 3, 2]
 
 
-@pytest.mark.parametrize("text", ["0/4", "5/4", "2", "2/", "a/b", "1/1001", "-1/4", "1/4/2"])
+@pytest.mark.parametrize(
+    "text", ["0/4", "5/4", "2", "2/", "a/b", "1/1001", "-1/4", "1/4/2", "", "١/٢"]
+)
 def test_what_is_no_shard_is_not_read(text: str) -> None:
     with pytest.raises(ValueError, match="no shard"):
         Shard.read(text)

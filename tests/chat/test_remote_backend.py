@@ -102,6 +102,8 @@ def test_a_service_that_is_there_and_does_not_answer_is_not_said_to_be_missing(
 ) -> None:
     town.drive("car")
     town.service.hub.connect().appear(Keys("bus-7").of("alive/service"))
+    assert "none answers about the car 'car'; xavi doctor tells" in missing(town)
+    town.service.hub.connect().appear(Keys("car").of("alive/service"))
     assert missing(town) == "the dialogue service is there, but does not answer"
     reply = ask_there(THERE, ADA, "One?", 2.0, "passenger")
     assert "is there, but does not answer" in reply.text

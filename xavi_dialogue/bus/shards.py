@@ -37,9 +37,11 @@ class Shard:
         Raises:
             ValueError: there is no such shard.
         """
-        found = re.fullmatch(r"(\d{1,4})/(\d{1,4})", text)
+        found = re.fullmatch(r"(\d{1,4})/(\d{1,4})", text, re.ASCII)
         if found is None or not 1 <= int(found[1]) <= int(found[2]) <= LARGEST:
-            raise ValueError(f"{text!r} is no shard; the second of four is 2/4")
+            raise ValueError(
+                f"{text!r} is no shard of at most {LARGEST}; the second of four is 2/4"
+            )
         return cls(int(found[1]), int(found[2]))
 
     def has(self, vehicle: str) -> bool:

@@ -1,7 +1,7 @@
 """A chat with a car and a service that others started; it starts and stops no process."""
 
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 
@@ -158,20 +158,31 @@ def _wait_for_service(
             return
         except ServiceLost as error:
             if system.monotonic() > give_up:
-                raise NotOnBus(_silent(there, error, seen=bool(services.names))) from None
+                raise NotOnBus(_silent(there, error, services.names)) from None
         system.sleep(POLL)
 
 
-def _silent(there: RemoteCar, error: ServiceLost, *, seen: bool) -> str:
-    """Explain why no service answers; a denied request looks like an absent service."""
-    if not seen:
+def _silent(there: RemoteCar, error: ServiceLost, served: Collection[str]) -> str:
+    """Explain why no service answers; a denied request looks like an absent service.
+
+    Args:
+        there: the car.
+        error: what came of a request.
+        served: the cars about which some service says that it answers.
+    """
+    if not served:
         return (
             "there is a hub, but no dialogue service that answers; start one with:"
             " xavi serve --connect ENDPOINT"
         )
     if there.link.config is not None and isinstance(error.__cause__, NobodyThere):
         return "the dialogue service is there, but this key may not ask it; a passenger's may"
-    return "the dialogue service is there, but does not answer"
+    if there.vehicle in served:
+        return "the dialogue service is there, but does not answer"
+    return (
+        f"there are dialogue services, but none answers about the car {there.vehicle!r};"
+        " xavi doctor tells which is missing"
+    )
 
 
 def _wait_for_car(there: RemoteCar, client: Client, cars: NamesOnBus, patience: float) -> None:

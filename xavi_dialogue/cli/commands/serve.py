@@ -143,7 +143,7 @@ def _serve(shell: Streams) -> Callable[..., None]:
         with shell.errors():
             link = Link.of_hub(listen, tuple(connect or ()), mode, zenoh)
             check(link, "answer passengers")
-            part = _shard(shard or "1/1")
+            part = _shard("1/1" if shard is None else shard)
             memory = TurnLog(
                 keeping_in(store, keep_days), lambda text: shell.note(f"warning: {text}")
             )
