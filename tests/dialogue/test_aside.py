@@ -16,3 +16,9 @@ def test_a_number_in_a_remark_picks_nobody() -> None:
 def test_how_a_rule_is_known_is_told_by_the_map() -> None:
     told = Talk("town-0", 6.0).hear("How do you know that the yellow car gives way?")
     assert told.startswith("We have right of way, and the yellow car")
+
+
+def test_how_something_is_done_is_no_question_of_other_rides() -> None:
+    told = Talk("town-0", 15.0).hear("Is the white bus driving normally?")
+    assert "only know about this ride" not in told
+    assert "only know about this ride" in Talk("town-0", 15.0).hear("Is it always this busy here?")

@@ -27,10 +27,10 @@ def test_people_whom_we_are_about_to_let_go_are_first(at: float, question: str, 
         (40.0, "Who worries you most?", "The pedestrian (vehicle 13) will be in our way"),
     ],
 )
-def test_people_are_told_of_who_are_asked_about(at: float, question: str, begins: str):
+def test_answers_name_the_people_of_the_question(at: float, question: str, begins: str):
     assert Talk("junction-0", at).hear(question).startswith(begins)
 
 
-def test_whether_people_may_walk_is_told_by_who_of_them_goes_first() -> None:
+def test_people_who_go_first_are_allowed_to_walk() -> None:
     told = Talk("junction-0", 14.0).hear("Are those people allowed to walk there now?")
     assert told.startswith("Yes, the pedestrian")

@@ -36,8 +36,9 @@ from xavi_dialogue.nlu.grammar.chart import Node
 
 WELL: Final = Ask(Whether(Is("safe", Ego())))
 _IN_TIME: Final = Event("stop", manner=("early",), tense="present", modal="could")
-#: Words with which it is asked what happens on other rides, too: "is it always this busy?".
-_HABITS: Final = frozenset(("always", "usually", "normally", "generally", "typically", "often"))
+#: Words with which it is asked what happens on other rides, too: "is it always this busy?". They
+#: do not include "normally", which may also tell how something is done.
+_HABITS: Final = frozenset(("always", "usually", "typically", "often"))
 _THINGS: Final = (
     Described(plural=True, definite=False),
     Pronoun("it"),

@@ -1,4 +1,4 @@
-"""Whether we have to let a bicycle beside us go first, and that it is told so."""
+"""Whether a bicycle beside us has right of way, and what answers say of it."""
 
 from types import SimpleNamespace
 from typing import Any

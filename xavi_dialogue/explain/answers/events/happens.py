@@ -35,12 +35,7 @@ from xavi_dialogue.explain.answers.measuring.nearing import (
 from xavi_dialogue.explain.answers.reference import naming
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, expected, known, unknown
-from xavi_dialogue.explain.answers.reference.moments import (
-    SHORT,
-    Window,
-    is_ahead,
-    window,
-)
+from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, is_ahead, window
 from xavi_dialogue.explain.answers.reference.occasions import instead, occasion, occasions, overlaps
 from xavi_dialogue.explain.answers.ride.leaving import apart, by_road, left_behind, still_there
 from xavi_dialogue.explain.answers.ride.onward import other_exit

@@ -1,5 +1,6 @@
 """Walking: whether we have to let somebody on foot go first, by what they do or are about to do."""
 
+from collections.abc import Collection
 from typing import Final
 
 from planner.record.trace import ON_FOOT
@@ -13,7 +14,7 @@ from xavi_dialogue.explain.answers.reference.occasions import overlaps
 from xavi_dialogue.explain.facts.episodes.waiting import let_first, top_holders
 from xavi_dialogue.explain.history.restraints import held_by
 
-LIKELY: Final = 0.5  # share of the rollouts from which on we count on it
+LIKELY: Final = 0.5  # minimum probability, or share of the rollouts
 
 
 def walks_first(asked: Asked, vehicle: int | None, about: Window, waited: Episode | None) -> bool:
@@ -34,8 +35,13 @@ def about_to_cross(asked: Asked, vehicle: int | None) -> bool:
 
     At a red light, it is the light that holds us.
     """
-    look = None if vehicle is None else asked.world.look(vehicle, asked.now)
     trace = asked.world.states.trace(asked.now)
-    if vehicle is None or look is None or trace is None or red_ahead(trace.road):
+    if trace is None or red_ahead(trace.road) or vehicle is None:
         return False
-    return look.in_view and look.kind in ON_FOOT and let_first(trace, vehicle) >= LIKELY
+    return in_view(asked, vehicle, ON_FOOT) and let_first(trace, vehicle) >= LIKELY
+
+
+def in_view(asked: Asked, vehicle: int, kinds: Collection[str]) -> bool:
+    """Check whether a road user is in view now and of one of some kinds."""
+    look = asked.world.look(vehicle, asked.now)
+    return look is not None and look.in_view and look.kind in kinds
