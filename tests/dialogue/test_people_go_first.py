@@ -34,3 +34,16 @@ def test_answers_name_the_people_of_the_question(at: float, question: str, begin
 def test_people_who_go_first_are_allowed_to_walk() -> None:
     told = Talk("junction-0", 14.0).hear("Are those people allowed to walk there now?")
     assert told.startswith("Yes, the pedestrian")
+
+
+@pytest.mark.parametrize(
+    ("whom", "told"),
+    [
+        ("people", "There were four pedestrians that I let go first."),
+        ("bikes", "There was one bike that I let go first: the green bicycle"),
+        ("vehicles", "There were five vehicles that I let go first."),
+    ],
+)
+def test_as_many_are_counted_as_we_let_go_first(whom: str, told: str):
+    talk = Talk("junction-0", 60.0)
+    assert talk.hear(f"How many {whom} did you let go first on this ride?").startswith(told)

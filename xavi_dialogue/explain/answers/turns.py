@@ -9,7 +9,7 @@ from typing import Final
 from msgspec.structs import replace
 
 from planner.record.places import RoadFacts
-from xavi_dialogue.domain.answers import Answer, Identified, Priority, Unblocking
+from xavi_dialogue.domain.answers import Answer, Counted, Identified, Priority, Unblocking
 from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.meaning import HowMany, HowMuch, Which, Why
 from xavi_dialogue.domain.terms import (
@@ -27,6 +27,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicles,
     Wanted,
+    WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import queues
@@ -37,9 +38,10 @@ from xavi_dialogue.explain.answers.propositions import measures
 from xavi_dialogue.explain.answers.propositions.reasons import why
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, is_past
-from xavi_dialogue.explain.answers.reference.naming import number, somebodies
+from xavi_dialogue.explain.answers.reference.naming import is_us, number, of_kind, somebodies
 from xavi_dialogue.explain.answers.ride.crossings import meets_ahead, passes_by
 from xavi_dialogue.explain.answers.ride.cycling import likely_let
+from xavi_dialogue.explain.answers.ride.delays import let_past
 from xavi_dialogue.explain.answers.ride.priority import priority_at
 from xavi_dialogue.explain.answers.ride.walking import walks_first
 
@@ -117,6 +119,8 @@ def how_many(question: HowMany, asked: Asked) -> Answer:
         Unanswered: it is about something that the record does not contain.
     """
     doing = question.such.doing if isinstance(question.such, Described) else None
+    if doing is not None and _let(doing):
+        return _counted(question, doing, asked)
     if doing is None or not _asks_whom(Happens(doing)) or is_past(asked, Unsaid(), doing.tense):
         return counting.how_many(question, asked)
     road = asked.world.road(asked.now)
@@ -127,6 +131,23 @@ def how_many(question: HowMany, asked: Asked) -> Answer:
         return Priority(asked.now, "none", number=True)
     told = Priority(asked.now, "give-way", before[0].vehicle, others=_numbers(before[1:]))
     return replace(told, number=True, why=grounds(asked, road, before))
+
+
+def _let(doing: Event) -> bool:
+    """Check whether somebody is described as let go first by us."""
+    past = doing.tense in ("past", "perfect") and doing.modal is None
+    return past and doing.action in ("let-go", "give-way") and is_us(doing.actor)
+
+
+def _counted(question: HowMany, doing: Event, asked: Asked) -> Counted:
+    """Return how many road users we let go first: the same that a list of them names."""
+    assert isinstance(question.such, Described)
+    about = replace(doing, time=WholeRide()) if doing.time == Unsaid() else doing
+    seen = let_past(about, asked)
+    kind = question.such.kind
+    numbers = {n for x in seen for n in of_kind(asked, (x.vehicle,), kind, x.time)}
+    found = tuple(look for look in seen if look.vehicle in numbers)
+    return Counted(Everyone(kind), len(found), found if len(found) == 1 else (), such=question.such)
 
 
 def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:

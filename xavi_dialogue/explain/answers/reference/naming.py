@@ -23,6 +23,7 @@ Somebodies: TypeAlias = tuple[Somebody, ...]
 #: Kinds by which passengers mean any motor vehicle.
 ANY: frozenset[Kind] = frozenset(("vehicle", "car"))
 #: Kinds that nobody calls a car.
+BIKES: frozenset[Kind] = frozenset(("bicycle", "bike", "motorcycle", "scooter"))
 NO_CAR: frozenset[Kind] = frozenset(("pedestrian", "bicycle", "bike", "wheelchair", "scooter"))
 
 
@@ -73,13 +74,17 @@ def known(asked: Asked, thing: Vehicle, at: float) -> Vehicle:
 def of_kind(
     asked: Asked, vehicles: tuple[int, ...], kind: Kind, at: float, *, strict: bool = False
 ) -> tuple[int, ...]:
-    """Return the vehicles of a kind; "car" means any motor vehicle unless `strict`."""
+    """Return the vehicles of a kind; "car" means any motor vehicle unless `strict`.
+
+    A "bike" may have a motor.
+    """
     if kind == "vehicle":
         return vehicles
     found = ((v, asked.world.look(v, at)) for v in vehicles)
     if kind in ANY and not strict:
         return tuple(v for v, look in found if look is None or look.kind not in NO_CAR)
-    return tuple(v for v, look in found if look is not None and look.kind == kind)
+    kinds = BIKES if kind == "bike" else (kind,)
+    return tuple(v for v, look in found if look is not None and look.kind in kinds)
 
 
 def looks(asked: Asked, vehicles: tuple[int, ...], at: float) -> tuple[Look, ...]:
