@@ -4,6 +4,7 @@ import gzip
 import os
 import subprocess
 import sys
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from planner.record.trace import encode
 from planner.record.trace_reading import decode
 from tests import stories
 from xavi_dialogue.service.in_process import make_pipeline
-from xavi_dialogue.transcripts.coverage import measure
+from xavi_dialogue.transcripts.coverage import Coverage, Item
 from xavi_dialogue.transcripts.replay import (
     BESIDE,
     ENDING,
@@ -39,17 +40,23 @@ RULES_READ, RULES_SAID = 0.8, 0.7  # shares of the rules that conversations have
 
 each = pytest.mark.parametrize("one", TRANSCRIPTS, ids=lambda one: one.path.stem)
 
+# It measures coverage, and prints it after each text and its replies as they come out meanwhile.
 REPLAY = """
 import sys
 from pathlib import Path
 import msgspec
-from xavi_dialogue.transcripts.replay import recording, replay_recorded, transcripts_in
-from xavi_dialogue.service.in_process import make_pipeline
+from xavi_dialogue.transcripts import coverage
+from xavi_dialogue.transcripts.replay import transcripts_in
 from xavi_dialogue.transcripts.transcript import write
-for one in transcripts_in(Path(sys.argv[1])):
-    played = replay_recorded(one.transcript, recording(one.ride), make_pipeline())
-    sys.stdout.write(write(played.transcript))
-    sys.stderr.buffer.write(msgspec.json.encode(played.replies) + b"\\n")
+replay = coverage.replay_recorded
+def shown(*given):
+    played = replay(*given)
+    one = [write(played.transcript), msgspec.json.encode(played.replies).decode()]
+    sys.stdout.buffer.write(msgspec.json.encode(one) + b"\\n")
+    return played
+coverage.replay_recorded = shown
+found = coverage.measure(transcripts_in(Path(sys.argv[1])))
+sys.stdout.buffer.write(msgspec.json.encode(list(found.counts.items())))
 """
 
 
@@ -65,7 +72,18 @@ def test_a_conversation_comes_out_of_its_recording(one: Written) -> None:
     assert write(played(one.path).transcript) == one.text
 
 
-def test_conversations_do_not_depend_on_the_hash_seed(root: Path) -> None:
+@dataclass(frozen=True)
+class Elsewhere:
+    """What conversations come to in a process with another hash seed."""
+
+    texts: tuple[str, ...]
+    replies: tuple[str, ...]  # all that clients get, to the last digit
+    coverage: Coverage
+
+
+@pytest.fixture(scope="module")
+def elsewhere(root: Path) -> Elsewhere:
+    """All conversations, replayed once in another process, by ride."""
     run = subprocess.run(
         [sys.executable, "-c", REPLAY, str(FOLDER)],
         capture_output=True,
@@ -73,12 +91,18 @@ def test_conversations_do_not_depend_on_the_hash_seed(root: Path) -> None:
         cwd=root,
         env={**os.environ, "PYTHONHASHSEED": other_seed(), "PYTHONPATH": str(root)},
     )
-    assert run.stdout.decode() == "".join(one.text for one in TRANSCRIPTS)
-    # All that clients get, to the last digit.
-    ours = [msgspec.json.encode(played(one.path).replies) for one in TRANSCRIPTS]
-    answers = run.stderr.splitlines()
+    *lines, counts = run.stdout.splitlines()
+    each = msgspec.json.decode(b"[" + b",".join(lines) + b"]", type=list[tuple[str, str]])
+    found = msgspec.json.decode(counts, type=list[tuple[Item, int]])
+    return Elsewhere(tuple(a for a, _ in each), tuple(b for _, b in each), Coverage(dict(found)))
+
+
+def test_conversations_do_not_depend_on_the_hash_seed(elsewhere: Elsewhere) -> None:
+    written = [one for about in ABOUT.values() for one in about]
+    assert elsewhere.texts == tuple(one.text for one in written)
+    ours = [msgspec.json.encode(played(one.path).replies).decode() for one in written]
     differing = [
-        one.path.stem for one, a, b in zip(TRANSCRIPTS, ours, answers, strict=True) if a != b
+        one.path.stem for one, a, b in zip(written, ours, elsewhere.replies, strict=True) if a != b
     ]
     assert not differing
 
@@ -120,8 +144,8 @@ def test_what_is_made_up_keeps_to_the_format_of_traces(path: Path) -> None:
         assert decode(encode(trace)) == trace  # strictly by the type that the schema is made from
 
 
-def test_every_type_and_reason_is_exercised_and_most_rules() -> None:
-    coverage = measure(TRANSCRIPTS)
+def test_every_type_and_reason_is_exercised_and_most_rules(elsewhere: Elsewhere) -> None:
+    coverage = elsewhere.coverage
     assert coverage.missing == ()
     assert coverage.share("rules of nlu_") >= RULES_READ
     assert coverage.share("rules of answer_") >= RULES_SAID
