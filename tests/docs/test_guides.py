@@ -6,6 +6,8 @@ import shlex
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import pyarrow.parquet as pq
@@ -47,7 +49,8 @@ STATUSES = {"xavi trace check": {0, 1}, "xavi doctor": {0, 1}}
 #: What is run instead, to the same effect in less time.
 SHORTER = {
     "--seeds 0-9": "--seeds 0",
-    "xavi audit": "xavi audit --reports 0",  # tests/audit/test_report.py writes them
+    # tests/audit/test_report.py writes reports, and test_running.py has several processes
+    "xavi audit": "xavi audit --reports 0 --jobs 1",
     ".venv/bin/xavi": "xavi",
 }
 RIDES = ("s1-0", "s2-2")  # saved rides that are there, beside those that a page names
@@ -89,35 +92,63 @@ def run(command: str, folder: Path) -> None:
     assert done.stdout or done.stderr or "drive" in arguments, command
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("page", [*GUIDES, *OTHERS], ids=lambda page: page.stem)
-def test_the_command_lines_of_a_page_run(page: Path, tmp_path: Path) -> None:
+Run = Callable[[Path], tuple[Path, int]]
+
+
+@pytest.fixture(scope="module")
+def run_all(tmp_path_factory: pytest.TempPathFactory) -> Run:
+    """Runs the command lines of a page, once; gives the folder with the results, and how many."""
+
+    @cache
+    def ran(page: Path) -> tuple[Path, int]:
+        return run_page(page, tmp_path_factory.mktemp(page.stem))
+
+    return ran
+
+
+def run_page(page: Path, folder: Path) -> tuple[Path, int]:
     """One after the other in one folder, so that files that one writes are there for the next."""
-    here = tmp_path / "transcripts" / "rides"
+    here = folder / "transcripts" / "rides"
     here.mkdir(parents=True)
     for ride in (ROOT / "transcripts" / "rides").iterdir():
         name = ride.name.partition(".")[0]
         if name in RIDES or ride.name in page.read_text(encoding="utf-8"):
             shutil.copy(ride, here)
-    (tmp_path / "questions.txt").write_text("Why did you brake? @ braking\n", encoding="utf-8")
+    (folder / "questions.txt").write_text("Why did you brake? @ braking\n", encoding="utf-8")
     ran = 0
     for command in commands(page):
         if command.startswith("make "):
             target = next(word for word in command.split()[1:] if not word.startswith("-"))
             assert target in targets(ROOT), command
         elif reason(command) is None:
-            run(command, tmp_path)
+            run(command, folder)
             ran += 1
+    return folder, ran
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", [*GUIDES, *OTHERS], ids=lambda page: page.stem)
+def test_the_command_lines_of_a_page_run(page: Path, run_all: Run) -> None:
+    _, ran = run_all(page)
     assert ran >= 2 or page not in GUIDES
 
 
 @pytest.mark.slow
-def test_the_question_to_many_rides_is_asked_and_answered(tmp_path: Path) -> None:
-    page = ROOT / "docs" / "guides" / "researchers.md"
-    (command,) = (one for one in commands(page) if one.startswith("xavi audit"))
-    run(command, tmp_path)
-    (answer,) = pq.read_table(tmp_path / "audits" / "answers.parquet").to_pylist()
+def test_the_question_to_many_rides_is_asked_and_answered(run_all: Run) -> None:
+    folder, _ = run_all(ROOT / "docs" / "guides" / "researchers.md")
+    (answer,) = pq.read_table(folder / "audits" / "answers.parquet").to_pylist()
     assert answer["kind"] == "answer"
+
+
+@cache
+def help_of(name: str) -> str:
+    """What a command says of its options."""
+    return subprocess.run(
+        [sys.executable, "-m", "xavi_dialogue", name, "--help"],
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
 
 
 @pytest.mark.parametrize("page", [*GUIDES, *OTHERS], ids=lambda page: page.stem)
@@ -126,14 +157,8 @@ def test_options_of_commands_that_are_not_run_exist(page: Path) -> None:
         program, name, *arguments = shlex.split(command, comments=True)
         if program != "xavi":
             continue
-        helped = subprocess.run(
-            [sys.executable, "-m", "xavi_dialogue", name, "--help"],
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout
         for option in (one for one in arguments if one.startswith("--")):
-            assert re.search(rf"(?<!\S){option}\b", helped), command
+            assert re.search(rf"(?<!\S){option}\b", help_of(name)), command
 
 
 def test_every_page_is_in_the_site() -> None:
