@@ -13,7 +13,7 @@ import pytest
 from distributed import LocalCluster
 
 from xavi_dialogue.audit import audit, report
-from xavi_dialogue.audit.audit import Audit, Progress
+from xavi_dialogue.audit.audit import Audit, Progress, Runner
 from xavi_dialogue.audit.errors import AuditError
 from xavi_dialogue.audit.program import TOP, files, program
 from xavi_dialogue.audit.questions import Question
@@ -60,13 +60,21 @@ class Watched:
         self.lost += 1
 
 
-def in_processes(folder: Path, rides: Sequence[Source], watched: Watched, jobs: int = 2) -> Audit:
+def carried_out(folder: Path, rides: Sequence[Source], watched: Watched, runner: Runner) -> Audit:
     store = Store(folder)
-    found = audit.run(
-        rides, QUESTIONS, store, lambda tasks, lost: local.run(tasks, jobs, lost), watched.progress
-    )
+    found = audit.run(rides, QUESTIONS, store, runner, watched.progress)
     report.write(found, store, 10, None)
     return found
+
+
+def in_processes(folder: Path, rides: Sequence[Source], watched: Watched) -> Audit:
+    """An audit by two processes."""
+    return carried_out(folder, rides, watched, lambda tasks, lost: local.run(tasks, 2, lost))
+
+
+def here(folder: Path, rides: Sequence[Source], watched: Watched) -> Audit:
+    """An audit by this process, which gives the same results sooner, as it needs no start."""
+    return carried_out(folder, rides, watched, lambda tasks, _: ((t, work(t)) for t in tasks))
 
 
 def content(folder: Path) -> dict[str, bytes]:
@@ -82,7 +90,7 @@ def content(folder: Path) -> dict[str, bytes]:
 def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of an audit that nothing interrupted."""
     folder = tmp_path_factory.mktemp("whole")
-    found = in_processes(folder, sources(), Watched(), jobs=1)
+    found = here(folder, sources(), Watched())
     assert found.failed == ()
     assert len(found.rides) == 4
     return folder
@@ -96,15 +104,15 @@ def test_a_killed_process_changes_nothing(whole: Path, tmp_path: Path) -> None:
 
 
 def test_an_audit_goes_on_where_it_broke_off(whole: Path, tmp_path: Path) -> None:
-    in_processes(tmp_path, sources()[:2], Watched())
+    here(tmp_path, sources()[:2], Watched())
     ride = next((tmp_path / "rides").iterdir())
     ride.write_bytes(ride.read_bytes()[:-20])  # as after a full disk
     watched = Watched()
-    in_processes(tmp_path, sources(), watched)
+    here(tmp_path, sources(), watched)
     assert (watched.known, watched.steps) == (1, 3)
     assert content(tmp_path) == content(whole)
     again = Watched()
-    in_processes(tmp_path, sources(), again)
+    here(tmp_path, sources(), again)
     assert (again.known, again.steps) == (4, 0)
     assert content(tmp_path) == content(whole)
 
@@ -153,7 +161,7 @@ def test_recordings_are_asked_alike(root: Path, tmp_path: Path) -> None:
     rides.mkdir()
     shutil.copy(root / "transcripts" / "rides" / "s1-0.ride.jsonl.gz", rides / "good.ride.jsonl.gz")
     (rides / "bad.ride.jsonl.gz").write_bytes(b"no ride")
-    found = in_processes(tmp_path / "out", recorded(rides), Watched(), jobs=1)
+    found = here(tmp_path / "out", recorded(rides), Watched())
     (good,) = found.rides
     assert good.facts.scenario == "s1"
     assert good.facts.distance is not None
@@ -223,7 +231,7 @@ def test_a_page_names_recordings_as_seen_from_its_folder(root: Path, tmp_path: P
     rides = tmp_path / "rides"
     rides.mkdir()
     shutil.copy(root / "transcripts" / "rides" / "s1-0.ride.jsonl.gz", rides / "a.ride.jsonl.gz")
-    found = in_processes(tmp_path / "out", recorded(rides), Watched(), jobs=1)
+    found = here(tmp_path / "out", recorded(rides), Watched())
     assert not found.failed
     page = (tmp_path / "out" / "audit.html").read_text(encoding="utf-8")
     assert "xavi explain ../rides/a.ride.jsonl.gz" in page
@@ -239,5 +247,5 @@ def test_a_stored_ride_that_was_spoilt_is_driven_again(whole: Path, tmp_path: Pa
     ride.write_bytes(data)
     answers = sorted((folder / "answers").iterdir())[0]
     answers.write_bytes(answers.read_bytes()[:-9])
-    in_processes(folder, sources(), Watched(), jobs=1)
+    here(folder, sources(), Watched())
     assert content(folder) == content(whole)
