@@ -87,7 +87,7 @@ def grammar() -> Grammar:
         resources.files("grammars").joinpath(name).read_text(encoding="utf-8")
         for name in GRAMMAR_FILES
     )
-    built = lark.Lark(text, parser="earley", lexer="basic", start=["utterance"])
+    built = lark.Lark(text, parser=None, lexer="basic", start=["utterance"])  # for its rules
     by_name: dict[str, list[Rule]] = {}
     for rule in built.rules:
         by_name.setdefault(str(rule.origin.name), []).append(rule)
