@@ -44,14 +44,15 @@ def write(folder: Path, *lines: dict[str, object]) -> None:
     (folder / "some.jsonl").write_text("\n".join(map(json.dumps, lines)))
 
 
-@pytest.fixture
-def questions(tmp_path: Path) -> Path:
-    write(tmp_path / "learn", RIGHT, WRONG)
-    write(tmp_path / "blind", RIGHT, FOLLOWS)
-    return tmp_path
+@pytest.fixture(scope="module")
+def questions(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("questions")
+    write(folder / "learn", RIGHT, WRONG)
+    write(folder / "blind", RIGHT, FOLLOWS)
+    return folder
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def report(questions: Path) -> ParseReport:
     return measure(questions, RIDE, lambda _: None, FEW)
 
