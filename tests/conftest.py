@@ -1,7 +1,7 @@
 """What all tests share: one deterministic Hypothesis profile, and where the repository lies."""
 
 import gc
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -26,6 +26,19 @@ def pytest_collection() -> Iterator[None]:
         gc.freeze()
         gc.set_threshold(*GARBAGE)
         gc.enable()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def unfreeze() -> Iterator[Callable[[], None]]:
+    """Let rides that end leave excluded from collections what is loaded; gives what includes it.
+
+    Each ride begins with a collection and excludes what that leaves until it ends. With all tests
+    loaded the next ride would look through millions of objects first.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        include = gc.unfreeze
+        patch.setattr(gc, "unfreeze", lambda: None)
+        yield include
 
 
 @pytest.fixture(scope="session")

@@ -1,11 +1,22 @@
 """What is loaded is spared from collections while a ride goes on."""
 
 import gc
+from collections.abc import Callable, Iterator
 
 import pytest
 
 from xavi_dialogue.process import garbage
 from xavi_dialogue.process.garbage import QUIET, REVISED_EVERY, YOUNG, Sweeper, settled
+
+
+@pytest.fixture(autouse=True)
+def as_in_a_ride(unfreeze: Callable[[], None]) -> Iterator[None]:
+    """Nothing is excluded from collections beforehand, and all can be included again."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(gc, "unfreeze", unfreeze)
+        unfreeze()
+        yield
+    gc.freeze()
 
 
 def test_what_is_loaded_is_spared_until_the_ride_is_over() -> None:
