@@ -26,10 +26,11 @@ dashboard: runtime ## set up if need be, then ride with a web page to look at
 	@$(BIN)/xavi dashboard $(ARGS)
 
 # The tests run even where lint finds fault, so that one run tells all; either failing fails it.
+# Files are shared out in the order of tests/conftest.py, the longest first.
 test: develop ## everything that must hold: lint, types, tests
 	@status=0; \
 	$(MAKE) --no-print-directory lint || status=1; \
-	$(BIN)/python -m pytest -n 2 --dist loadfile --ignore=tests/drills \
+	$(BIN)/python -m pytest -n 2 --dist loadfile --no-loadscope-reorder --ignore=tests/drills \
 		--ignore=tests/browser $(ARGS) || status=1; \
 	exit $$status
 

@@ -13,6 +13,30 @@ settings.load_profile("deterministic")
 
 ROOT = Path(__file__).parents[1]
 GARBAGE = (20_000, 20, 20)  # thresholds of the collector; the tests make many short-lived objects
+#: The files that take longest, in this order. They run first, so that what is left for the end are
+#: short ones, and processes that share the files out end together.
+LONGEST = (
+    "chat/test_processes.py",
+    "test_transcripts.py",
+    "docs/test_guides.py",
+    "audit/test_running.py",
+    "test_packaging.py",
+    "simulated/test_world.py",
+    "explain/answers/test_every_question.py",
+    "process/test_kernel_cache.py",
+    "chat/test_killed.py",
+    "planner/driving/test_signal_rides.py",
+    "library/test_connection.py",
+    "chat/test_client_example.py",
+    "benchmarks/test_foreign.py",
+    "sim/scenarios/test_worlds.py",
+)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put the longest files first; a name that is none of a file is a mistake."""
+    ranks = {(ROOT / "tests" / name).resolve(strict=True): k for k, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: ranks.get(item.path, len(ranks)))
 
 
 @pytest.hookimpl(wrapper=True)
