@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Record,
+    Related,
     Road,
     Thing,
     Unknown,
@@ -216,6 +217,9 @@ def _place_of(thing: Described, speaker: ReferringContext) -> str:
         return place
     if thing.origin is not None:
         return word("vehicles", "was", thing.origin)
+    such = thing.such
+    if isinstance(such, Related) and such.relation == "in-the-way-of" and such.to == Ego():
+        return "in our way"
     return ""
 
 

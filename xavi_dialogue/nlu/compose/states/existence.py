@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Proposition,
+    Related,
     Relative,
     Thing,
     Unknown,
@@ -73,6 +74,9 @@ def existing(clause: Clause) -> list[Found]:
     inside = next((as_thing(c.sem) for c in clause.complements if c.key == "in"), None)
     if isinstance(inside, Described) and isinstance(thing, Described | Nobody):
         return [(Has("occupant", "", inside, clause.time, tense_of(clause)), 0.0)]
+    if isinstance(thing, Described | Nobody) and (way := _way_of(clause)) is not None:
+        in_way = Related("in-the-way-of", thing, way.of or Ego(), clause.time, tense_of(clause))
+        return [(in_way, 0.0)]  # "is there anybody in our way"
     thing = _where(thing, clause)
     if isinstance(thing, Nobody):
         described = thing.described or Described(definite=False)
@@ -86,6 +90,12 @@ def existing(clause: Clause) -> list[Found]:
     denied = clause.objects and words_of(clause.objects[0][1]).startswith("no ")
     past = 0.0 if clause.that is None else PASSED_OVER
     return [(Not(there) if denied else there, past)]
+
+
+def _way_of(clause: Clause) -> Feature | None:
+    """Find the way that somebody is said to be in."""
+    places = (as_thing(c.sem) for c in clause.complements if c.key in ("in", "on"))
+    return next((p for p in places if isinstance(p, Feature) and p.kind == "way"), None)
 
 
 def from_whom(clause: Clause) -> Thing | None:

@@ -69,6 +69,7 @@ from xavi_dialogue.nlu.grounding.events.timing import believed_then
 from xavi_dialogue.nlu.grounding.events.windows import is_stale, pointed
 from xavi_dialogue.nlu.grounding.salience import naming, vehicles_of
 from xavi_dialogue.nlu.grounding.things.descriptions import is_such
+from xavi_dialogue.nlu.grounding.things.in_way import anybody_in_way
 from xavi_dialogue.nlu.grounding.things.pronouns import CLEAR, apart
 
 NOTHING_SAID: Final = 0.5  # cost of "that" where nothing has been said
@@ -127,7 +128,10 @@ def proposition(
         case Related() if (there := somebody_behind(spoken, g)) is not None:
             return g.proposition(there, mode, outer)
         case Related():
-            return walked(_related(past_hider(come_along(spoken), g), g, outer), g)
+            then = at_moment(spoken.time, spoken.tense, g, outer)
+            return anybody_in_way(spoken, g, then) or walked(
+                _related(past_hider(come_along(spoken), g), g, outer), g
+            )
         case Has():
             window = at_moment(spoken.time, spoken.tense, g, outer)
             return replace(spoken, thing=g.thing(spoken.thing, window), time=window.term)
@@ -135,8 +139,7 @@ def proposition(
             spoken = believed_then(spoken)
             window = at_moment(spoken.time, spoken.tense, g, outer)
             content = g.proposition(spoken.content, "supposed", window)
-            if isinstance(spoken.content, That):  # what came true or not, as it was foreseen
-                content = affirmed(content)
+            content = affirmed(content) if isinstance(spoken.content, That) else content
             while isinstance(content, Believed):  # nobody asks what we believed that we believed
                 content = content.content
             match spoken.content, content:  # "it shot past. Did you see it coming?"
@@ -154,21 +157,21 @@ def _related(spoken: Related, g: Grounder, outer: Window | None) -> Related:
     window = at_moment(spoken.time, spoken.tense, g, outer)
     thing = _pointed_at(spoken, g) or g.thing(spoken.thing, window)
     place = _place(spoken, g)
-    alike = spoken.relation == "same-as" and is_such(thing, place, g, window)
-    to = thing if alike else apart(place, thing, g).thing(place, window)
+    same = spoken.relation == "same-as" and is_such(thing, place, g, window)
+    to = thing if same else apart(place, thing, g).thing(place, window)
     return replace(spoken, thing=thing, to=to, time=window.term)
 
 
 def _pointed_at(spoken: Related, g: Grounder) -> Thing | None:
     """Take "that" in "is that the same red car as before?" for a red car that is in view."""
-    to, now = spoken.to, g.context.now
+    to = spoken.to
     if spoken.relation != "same-as" or not isinstance(spoken.thing, Pronoun):
         return None
     if not isinstance(to, Described) or (to.colour is None and to.kind in ("vehicle", "car")):
         return None
-    plain = Described(kind=to.kind, colour=to.colour, size=to.size)
-    found = g.thing(plain, g.window(Now(), "present"))
-    look = g.context.look(found.number, now) if isinstance(found, Vehicle) else None
+    alike = Described(kind=to.kind, colour=to.colour, size=to.size)
+    found = g.thing(alike, g.window(Now(), "present"))
+    look = g.context.look(found.number, g.context.now) if isinstance(found, Vehicle) else None
     return found if look is not None and look.in_view else None
 
 
@@ -235,9 +238,8 @@ def _exists(spoken: Exists, g: Grounder, outer: Window | None) -> Exists:
     thing = spoken.thing
     if isinstance(thing, Described) and not thing.definite:
         thing = replace(thing, plural=True)
-        doing = thing.doing
-        after = getattr(getattr(doing, "time", None), "anchor", None)
-        if doing is not None and isinstance(after, Described | Pronoun | Vehicle):
+        after = getattr(getattr(thing.doing, "time", None), "anchor", None)
+        if (doing := thing.doing) is not None and isinstance(after, Described | Pronoun | Vehicle):
             g = g.beside(naming(g.context.discourse, g.thing(after, window)))
             thing = replace(thing, other=True, doing=replace(doing, time=Unsaid()))
     return replace(spoken, thing=g.thing(thing, window), time=window.term)
