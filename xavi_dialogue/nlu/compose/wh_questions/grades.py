@@ -50,8 +50,8 @@ from xavi_dialogue.nlu.compose.wh_questions.lasting import (
     how_often,
     left_over,
     long_lasting,
-    meanwhile,
     measured,
+    pace,
 )
 from xavi_dialogue.nlu.compose.wh_questions.savings import UNREAL
 from xavi_dialogue.nlu.compose.wh_questions.towards import reference
@@ -75,7 +75,7 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
         case "fast" if _permitted(clause):
             return measured("limit", clause, actor if isinstance(actor, Described) else Ego())
         case "fast":
-            return measured("speed", clause, actor, time=meanwhile(clause, event))
+            return pace(clause, event, actor, words)
         case "hard" if isinstance(clause.subject, Event):
             deed = clause.subject
             return measured("deceleration", clause, deed.actor, event=deed)

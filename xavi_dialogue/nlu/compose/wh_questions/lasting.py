@@ -97,6 +97,24 @@ def _placed(thing: Thing, clause: Clause) -> Thing:
     return cast(Thing, with_fields(thing, bearing=where.removeprefix("bearing-")))
 
 
+def pace(
+    clause: Clause, event: Event | None, actor: Thing | None, words: tuple[str, ...]
+) -> HowMuch:
+    """Ask how fast somebody is or was; "how slow did we get" for the slowest."""
+    time = _during_deed(clause) or meanwhile(clause, event)
+    least = "slow" in words and clause.tense == "past" and clause.verb is not None
+    return measured("speed", clause, actor, time=time, extreme="lowest" if least else None)
+
+
+def _during_deed(clause: Clause) -> Relative | None:
+    """Take "for that left turn", "in the turn" for the time of what it was then."""
+    if clause.tense != "past" or not isinstance(clause.time, Unsaid):
+        return None
+    deeds = (c.sem for c in clause.complements if c.key in ("in", "for", "on", "through", "at"))
+    deed = next((sem for sem in deeds if isinstance(sem, Event)), None)
+    return None if deed is None else Relative("during", with_fields(deed, tense="past"))
+
+
 def meanwhile(clause: Clause, event: Event | None) -> Any:
     """Tell the time of "how fast did you take the bend": that of the deed."""
     if event is None or clause.tense not in ("past", "perfect"):

@@ -143,3 +143,26 @@ def deed_of(event: Event) -> Sem | None:
     """Give what is avoided."""
     thing = event.object
     return None if isinstance(thing, (Pronoun, Unknown)) else cast("Sem | None", thing)
+
+
+def pointed_at(clause: Clause) -> Thing:
+    """Return what "who is that?" and "who is closest now?" ask for."""
+    most = superlative(clause)
+    if most is None:
+        return Pronoun("that")
+    return Described(extreme=cast(Any, most), definite=True)
+
+
+def superlative(clause: Clause) -> str | None:
+    """Return by what one of several stands out: "who is closest?"."""
+    for sem, _ in clause.objects:
+        extreme = getattr(sem, "extreme", None)
+        if extreme in ("nearest", "farthest", "fastest", "slowest", "biggest"):
+            return cast(str, extreme)
+    told = (_OUTSTANDING.get(word) for word in sorted(clause.focus))
+    return next((extreme for extreme in told if extreme), None)
+
+
+_OUTSTANDING = {"fastest": "fastest", "quickest": "fastest", "slowest": "slowest",
+                "nearest": "nearest", "closest": "nearest", "furthest": "farthest",
+                "farthest": "farthest", "biggest": "biggest", "largest": "biggest"}  # fmt: skip

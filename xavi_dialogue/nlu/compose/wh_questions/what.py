@@ -66,7 +66,7 @@ from xavi_dialogue.nlu.compose.verbs.others import (
 from xavi_dialogue.nlu.compose.wh_questions import doings
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured
 from xavi_dialogue.nlu.compose.wh_questions.reasoning import reasoned
-from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, content_of, fact, held_then
+from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, content_of, fact, held_then, pointed_at
 
 
 class What:
@@ -103,7 +103,7 @@ class What:
         if _next_named(clause):
             return Doing(Ego(), Next(), "future")
         if isinstance(subject, Wanted) or subject is None:
-            subject = clause.objects[0][0] if clause.objects else Pronoun("that")
+            subject = clause.objects[0][0] if clause.objects else pointed_at(clause)
         for phrase in clause.complements:
             if phrase.sem is not None:
                 subject = adopted(subject, phrase) or subject

@@ -54,6 +54,7 @@ from xavi_dialogue.nlu.compose.wh_questions.wh import (
     content_of,
     fact,
     held_then,
+    superlative,
     time_of,
 )
 
@@ -125,7 +126,7 @@ class WhichOne:
         taken = clause.verb is not None and clause.verb.key == "take"
         if taken and isinstance(clause.subject, Ego) and thing in _BARE:
             return way_at(Ego(), time_of(clause, value), clause.tense)
-        extreme = _superlative(clause)
+        extreme = superlative(clause)
         if isinstance(thing, Described | Wanted):
             thing = thing if isinstance(thing, Described) or extreme is None else Described()
         if isinstance(thing, Described):
@@ -216,17 +217,3 @@ def way_at(actor: Thing, time: Any, tense: str, attribute: str = "turn") -> Ques
         place = None
     when = Unsaid() if place is not None or time == Rank(-1) else time
     return HowMuch(Measured(cast(Any, attribute), actor, place, time=when, tense=cast(Any, tense)))
-
-
-def _superlative(clause: Clause) -> str | None:
-    for sem, _ in clause.objects:
-        extreme = getattr(sem, "extreme", None)
-        if extreme in ("nearest", "farthest", "fastest", "slowest", "biggest"):
-            return cast(str, extreme)
-    told = (_OUTSTANDING.get(word) for word in sorted(clause.focus))
-    return next((extreme for extreme in told if extreme), None)
-
-
-_OUTSTANDING = {"fastest": "fastest", "quickest": "fastest", "slowest": "slowest",
-                "nearest": "nearest", "closest": "nearest", "furthest": "farthest",
-                "farthest": "farthest", "biggest": "biggest", "largest": "biggest"}  # fmt: skip
