@@ -247,7 +247,9 @@ def test_whether_we_let_somebody_go_first() -> None:
         assert found.holds is True
         assert weighed(action(name, US, Vehicle(3), tense="future")) is None
         assert weighed(action(name, US, tense="future")) is None
-        assert weighed(action(name, US, ONE, tense="present")) is None
+        found = weighed(action(name, US, ONE, tense="present"))
+        assert (found.holds, found.answer.vehicle) == (True, 1)  # we shall, as we have to
+        assert weighed(action(name, US, Vehicle(3), tense="present")) is None
 
 
 def test_way_that_we_did_not_give_is_told_with_who_went_first() -> None:

@@ -114,7 +114,8 @@ def _before_him(asked: Asked, event: Event) -> Finding | None:
 def _unwilling(asked: Asked, event: Event) -> Finding | None:
     """Return that somebody goes first by the rule, for a question whether they stop for us."""
     if event.action in ("give-way", "let-go") and is_us(event.actor):
-        meant = event.tense == "future" or (event.modal == "want" and event.tense == "present")
+        now = event.tense == "present" and event.modal in (None, "want")
+        meant = event.tense == "future" or (now and occasion(asked, event) is None)
         if not meant or number(event.object) is None:
             return _not_given(asked, event)
         owed_him = _owed(asked, replace(event, tense="present"), event.actor, event.object)

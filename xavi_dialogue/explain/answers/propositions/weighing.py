@@ -33,6 +33,7 @@ from xavi_dialogue.explain.answers.events.beliefs import foreknown, time_of
 from xavi_dialogue.explain.answers.events.happens import happens
 from xavi_dialogue.explain.answers.expectations.foreseen import macros
 from xavi_dialogue.explain.answers.expectations.plans import plan_ahead
+from xavi_dialogue.explain.answers.owing import is_rule
 from xavi_dialogue.explain.answers.propositions.alternatives import (
     feared,
     is_our_course,
@@ -132,6 +133,8 @@ def _joined(of: Both, asked: Asked) -> Finding:
     if of.join == "or" and (held := stops(of)) is not None:
         return _open_to_all(weigh(held, asked))
     owed = next((part for part in of.contents if is_owed(part)), None)
+    if owed is None and of.join == "or":
+        owed = next((part for part in of.contents if is_rule(part)), None)
     if owed is not None:  # the rule decides, also for what else is asked
         return _open_to_all(weigh(owed, asked)) if of.join == "or" else weigh(owed, asked)
     if of.join == "or" and (chosen := either(of, asked)) is not None:
@@ -195,6 +198,9 @@ def either(of: Both, asked: Asked) -> Finding | None:
     on = [(p, one) for p, one in likely if _is_under_way(p, one)]
     likely = on if len(on) == 1 else likely
     deeds = [part for part, _ in likely if isinstance(part, Happens)]
+    rules = [one for _, one in likely if isinstance(one.answer, Priority)]
+    if len(likely) > 1 and rules:
+        return _open_to_all(rules[0])  # "do we let him go, or does he turn off?"
     if len(likely) > 1 and len(likely) == len(found) == len(deeds):
         both = replace(of, join="and")
         return Finding(True, answer=replace(Finding(True).verdict(both), either=True))

@@ -1,6 +1,9 @@
 """Having: what "we have priority", "he has his indicator on", "you have a lorry behind" say."""
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.terms import (
+    Both,
     Described,
     Ego,
     Event,
@@ -23,7 +26,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.states.rooms import roomy
 from xavi_dialogue.nlu.compose.verbs.deeds import tense_of, time_of
 from xavi_dialogue.nlu.compose.verbs.lights import had_light
@@ -40,6 +43,8 @@ def had(special: Special) -> Proposition:
                  ("over", "bearing-ahead", "with")), None)  # fmt: skip
     if over is None and not isinstance(special.clause.than, Clause):
         over = as_thing(special.clause.than)
+    if isinstance(sem, Group) and (rivals := _rivals(special, sem)) is not None:
+        return rivals
     if isinstance(sem, Measure) and sem.of.attribute == "right-of-way":
         other = over or sem.of.to or Everyone()
         time = time_of(special) if isinstance(sem.of.time, Unsaid) else sem.of.time
@@ -70,6 +75,19 @@ def had(special: Special) -> Proposition:
     if isinstance(thing, Described | Nobody) and isinstance(special.subject, Ego | Passenger):
         return Exists(thing, time_of(special), tense_of(special))  # "you've a lorry on the left"
     return Related("with", special.subject, thing, time_of(special), tense_of(special))
+
+
+def _rivals(special: Special, sem: Group) -> Proposition | None:
+    """Read "do we have right of way or him" as which of the two has it over the other."""
+    first, *others = sem.members
+    right = isinstance(first, Measure) and first.of.attribute == "right-of-way"
+    if sem.join != "or" or not right or len(others) != 1:
+        return None
+    other = as_thing(others[0])
+    if other is None:
+        return None
+    ours = Related("has-priority-over", special.subject, other, time_of(special), _tense(special))
+    return Both((ours, replace(ours, thing=other, to=special.subject)), "or")
 
 
 def _tense(special: Special) -> Tense:
