@@ -47,9 +47,12 @@ from xavi_dialogue.domain.terms import (
     Not,
     Now,
     Pronoun,
+    Proposition,
+    Rank,
     Related,
     That,
     Unsaid,
+    Vehicle,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.verbs.trends import believed
@@ -211,6 +214,10 @@ def _of_told(before: Act, later: Act) -> Act | None:
             time = Unsaid() if isinstance(event.time, Now) else event.time
             undone = structs.replace(event, modal=None, tense="perfect", time=time)
             return Ask(Why(Not(Happens(undone))))
+        case Claim(that=Happens(event=Event(actor=Described() | Pronoun() | Vehicle()) as event)), (
+            Elliptic(thing=None, event=None, time=Unsaid(), negated=True, form="why-not")
+        ) if event.modal is None:  # "the lorry went, why didn't you?"
+            return Ask(Why(Not(Happens(structs.replace(event, actor=Ego())))))
         case Ask(question=Why(of=Not())), Elliptic(event=None, negated=True, form="why-not"):
             return before  # "I thought it would stop. Why didn't it?"
         case Claim(that=Happens(event=event) as that), Ask(
@@ -228,8 +235,18 @@ def _of_told(before: Act, later: Act) -> Act | None:
             )
             | Ask(question=Why(of=That() | Believed(content=That()), suspect=None))
         ) if not (isinstance(that, Caused) or is_clear(that)):
-            return Ask(Why(that))  # "we are going faster, why is that?"
+            return Ask(Why(_latest(that)))  # "we are going faster, why is that?"
     return None
+
+
+def _latest(told: Proposition) -> Proposition:
+    """Take "this is the second time you stopped", "second time we stop" for the latest stop."""
+    match told:
+        case Happens(event=Event(time=Rank(), tense="present") as event):
+            return Happens(structs.replace(event, time=Rank(-1), tense="past"))
+        case Compares(left=Measured(attribute="count", event=Event() as event), comparator="same"):
+            return Happens(structs.replace(event, time=Rank(-1), tense="past"))
+    return told
 
 
 def _of_world(before: Act, later: Act) -> Act | None:

@@ -204,6 +204,12 @@ def _amiss(of: Is, asked: Asked) -> Finding:
     return Finding(None, answer=answer)
 
 
+def _usual(of: Is, asked: Asked) -> Finding:
+    """Weigh that what we did is normal: that nothing went wrong in it."""
+    ours = of.event is not None and is_us(of.event.actor)
+    return wrong(of, asked) if ours else unknown("not-recorded")
+
+
 def _possible(of: Is, asked: Asked) -> Finding:
     """Weigh that an action is possible: that the decision had it among its options."""
     if of.event is None:
@@ -327,7 +333,7 @@ STATES: Mapping[State, Callable[[Is, Asked], Finding]] = {
     "sure": _sure, "over": over, "late": late, "stuck": stuck,
     "wrong": _amiss, "right": _amiss, "at-fault": _at_fault,
     "first": _first, "last": _first, "big": _big, "busy": busy,
-    "normal": _constant(None, "not-recorded"),
+    "normal": _usual,
     "dirty": _constant(None, "not-sensed"),
     "faulty": broken_down,
     "awake": minded, "upset": minded,

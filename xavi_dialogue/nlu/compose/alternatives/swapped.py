@@ -11,6 +11,11 @@ def swapped(of: Proposition) -> Proposition:
         case Both(contents=(Is() as one, other), join="or") if one == other:
             return one  # "are we late or on time?"
         case Both(
+            contents=(Is(state="normal" | "right") as one, Is(state="wrong" | "at-fault")),
+            join="or",
+        ):
+            return one  # "is that normal or a mistake?"
+        case Both(
             contents=(Related(thing=one, to=to) as first, Related(thing=other) as later), join="or"
         ) if later == replace(first, thing=other) and to in (other, Everyone()):
             return replace(of, contents=(replace(first, to=other), replace(later, to=one)))

@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from typing import Final
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import (
@@ -88,6 +90,14 @@ def asserted(context: Context) -> Proposition | None:
         if not isinstance(proposition, That):
             return proposition
     return questioned(context)
+
+
+def of_others(context: Context) -> Proposition | None:
+    """Return what was said last if that is what others do or would do: "..., so why not you?"."""
+    match asserted(context):
+        case Happens(event=Event(actor=actor) as event) if not isinstance(actor, Ego | None):
+            return Happens(replace(event, modal=None))
+    return None
 
 
 def questioned(context: Context) -> Proposition | None:

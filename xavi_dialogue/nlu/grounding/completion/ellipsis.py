@@ -56,6 +56,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
     main_event,
+    of_others,
     proposition_of,
     questioned,
 )
@@ -117,6 +118,8 @@ def _about_exits(question: Question | None) -> bool:
 
 def _why(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
     of = asserted(g.context) if _bare(spoken) else questioned(g.context)
+    if isinstance(spoken.thing, Ego) and (theirs := of_others(g.context)) is not None:
+        of = theirs
     if _bare(spoken) and spoken.negated and _is_suspicion(question):
         return Ask(question)  # type: ignore[arg-type]
     if isinstance(spoken.thing, PLACES):
@@ -144,8 +147,7 @@ def _is_suspicion(question: Question | None) -> bool:
 
 
 def _bare(spoken: Elliptic) -> bool:
-    plain = spoken.thing is None and spoken.event is None
-    return plain and isinstance(spoken.time, Unsaid)
+    return spoken.thing is None and spoken.event is None and spoken.time == Unsaid()
 
 
 def _same(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
