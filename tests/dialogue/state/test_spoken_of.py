@@ -148,11 +148,23 @@ OTHERS = replace(BELIEF, vehicle=7, expectations=(Expectation(("stop",), 0.9),))
 @pytest.mark.parametrize("deeds", [(TURNED,), THREE])
 def test_the_last_of_several_deeds_is_what_that_was(deeds: tuple[Episode, ...]) -> None:
     for result in (Happenings("when", deeds), Activity(Vehicle(3), 9.0, deeds, 3.0, None),
-                   Identified((LOOK,), facts=deeds)):  # fmt: skip
+                   Identified((LOOK,), STOPS, deeds)):  # fmt: skip
         found = discourse_of([turn(result)])
         assert found.propositions == (Happens(TURN_EVENT),)
         assert found.episode == (6.0, 9.0)
     assert deeper(turn(Happenings("list", deeds))) == why(TURN_EVENT)
+
+
+def test_who_somebody_is_is_no_topic_though_it_tells_what_he_does() -> None:
+    assert discourse_of([turn(Identified((LOOK,), facts=THREE))]).episode is None
+
+
+@pytest.mark.parametrize(("later", "episode"), [(20.0, (6.0, 9.0)), (30.0, None)])
+def test_what_was_spoken_of_is_over_after_a_while(later: float, episode: Any) -> None:
+    before = discourse_of([turn(Happenings("when", (TURNED,)))])
+    asked = spoken(Helpful())
+    reply = replace(asked.reply, sim_time=later)
+    assert after(before, replace(asked, reply=reply)).episode == episode
 
 
 @pytest.mark.parametrize("history", [(BELIEF,), (OTHERS, OTHERS, BELIEF)])

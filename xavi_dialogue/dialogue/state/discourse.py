@@ -67,6 +67,7 @@ REMEMBERED = 20  # turns; later ones no longer refer to what was said before the
 ASSERTED = 6  # maximum of propositions that are kept
 TIMES = 4  # maximum of moments named by the passenger that are kept
 _UNSETTLED = frozenset(("do", "go", "overtake"))  # that a decision calls by another name
+STALE = 15.0  # [s] between two questions after which the earlier one is over
 LONG = 60.0  # [s] longest episode that "that" or "then" may mean
 
 
@@ -90,7 +91,7 @@ def after(discourse: Discourse, turn: Turn) -> Discourse:
         mentions=renewed(decayed(discourse.mentions), named),
         question=new.question or discourse.question,
         propositions=(*new.propositions, *discourse.propositions)[:ASSERTED],
-        episode=new.episode or discourse.episode,
+        episode=new.episode or (None if _is_over(discourse, turn) else discourse.episode),
         offered=() if offer is None else offer.acts,
         offered_things=() if offer is None else offer.things,
         pending=None if offer is None else offer.pending,
@@ -100,6 +101,12 @@ def after(discourse: Discourse, turn: Turn) -> Discourse:
         decided=weighed[1],
         times=tuple(dict.fromkeys((*new.times, *discourse.times)))[:TIMES],
     )
+
+
+def _is_over(discourse: Discourse, turn: Turn) -> bool:
+    """Check whether what was spoken of is too long ago to be meant by "that" any more."""
+    asked = discourse.asked_at
+    return asked is not None and turn.reply.sim_time - asked > STALE
 
 
 _Weighed: TypeAlias = tuple[Event | None, Event | None]
@@ -266,8 +273,8 @@ def _told(result: Answer | Refusal, now: float) -> tuple[float, float] | None:
             return contrast.decided, contrast.decided
         case Method(decided=float() as decided):
             return decided, decided
-        case Happenings(form="list" | "summary"):
-            return None
+        case Happenings(form="list" | "summary") | Identified(such=None):
+            return None  # who somebody is tells what he does, but not as the topic
         case Priority(time=time) | Beliefs(time=float() as time):
             return time, time
     deeds = tuple(parts(result, Episode))
