@@ -55,7 +55,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.verbs.trends import believed
+from xavi_dialogue.nlu.compose.verbs.trends import as_slowing, believed
 from xavi_dialogue.nlu.compose.wh_questions.wh import answer_to
 from xavi_dialogue.nlu.joining.blaming import HELD, asked_with, is_clear
 from xavi_dialogue.nlu.joining.recalling import recalled
@@ -224,6 +224,10 @@ def _of_told(before: Act, later: Act) -> Act | None:
             question=Why(of=Happens(event=Event(action="do", object=Pronoun(), actor=actor)))
         ) if actor == event.actor or isinstance(actor, Pronoun):
             return Ask(Why(that))  # "you braked, why did you do that?"
+        case Claim(that=Compares() as that), Ask(
+            question=Why(of=Happens(event=Event(action="do", object=Pronoun())))
+        ):
+            return Ask(Why(_latest(that)))  # "the speed dropped, why?"
         case Claim(that=that), (
             Repair(kind="why")
             | Elliptic(
@@ -246,7 +250,7 @@ def _latest(told: Proposition) -> Proposition:
             return Happens(structs.replace(event, time=Rank(-1), tense="past"))
         case Compares(left=Measured(attribute="count", event=Event() as event), comparator="same"):
             return Happens(structs.replace(event, time=Rank(-1), tense="past"))
-    return told
+    return as_slowing(told) or told
 
 
 def _of_world(before: Act, later: Act) -> Act | None:

@@ -1,4 +1,4 @@
-"""Extents: superlatives with a clause, such as "the fastest we went"."""
+"""Extents: superlatives with a clause: "the fastest we went", "who is closest"."""
 
 from typing import Any, cast
 
@@ -12,6 +12,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure
 from xavi_dialogue.nlu.compose.clauses.traits import Traits
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
@@ -57,3 +58,18 @@ def _may(event: Event, traits: Traits) -> bool:
     able = event.modal in ("can", "could", "should", "might") and event.tense == "present"
     inner = () if traits.gerund is None else leaves_of(traits.gerund)
     return able or any((leaf.category, leaf.key) == ("SEMI", "allowed") for leaf in inner)
+
+
+def superlative(clause: Clause) -> str | None:
+    """Return by what one of several stands out: "who is closest?"."""
+    for sem, _ in clause.objects:
+        extreme = getattr(sem, "extreme", None)
+        if extreme in ("nearest", "farthest", "fastest", "slowest", "biggest"):
+            return cast(str, extreme)
+    told = (_OUTSTANDING.get(word) for word in sorted(clause.focus))
+    return next((extreme for extreme in told if extreme), None)
+
+
+_OUTSTANDING = {"fastest": "fastest", "quickest": "fastest", "slowest": "slowest",
+                "nearest": "nearest", "closest": "nearest", "furthest": "farthest",
+                "farthest": "farthest", "biggest": "biggest", "largest": "biggest"}  # fmt: skip

@@ -16,9 +16,10 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.extents import superlative
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Sem, as_thing
 from xavi_dialogue.nlu.compose.clauses.traits import Traits
-from xavi_dialogue.nlu.compose.clauses.tree import is_negated
+from xavi_dialogue.nlu.compose.clauses.tree import is_negated, leaves_of
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
@@ -79,6 +80,9 @@ class Followers:
 
     def _clause_behind(self, part: Node, traits: Traits) -> None:
         traits.gerund = part
+        if (most := self._most(part)) is not None:
+            traits.fields |= {"extreme": most, "definite": True}  # "the one who is nearest"
+            return
         if traits.reason and part.name in ("contact", "relative"):
             found = self.clauses.noun_clause(part)  # "the reason you stopped"
         else:
@@ -98,6 +102,13 @@ class Followers:
                 pass
             case _:
                 traits.fields["such"] = found
+
+    def _most(self, part: Node) -> str | None:
+        """Return by what somebody stands out of whom a relative clause says no more than that."""
+        if part.name != "relative" or not any(x.key == "superlative" for x in leaves_of(part)):
+            return None
+        clause = self.clauses.relative_clause(part)
+        return superlative(clause) if clause.verb is None and not clause.objects else None
 
     def _placed(self, event: Event, traits: Traits) -> Event:
         """Turn "standing on the right" into the bearing of the road user."""

@@ -26,6 +26,7 @@ _DIRECTIONS: dict[str, str] = {
     "reduce": "less", "grow": "more", "increase": "more", "rise": "more", "widen": "more",
     "big": "more", "high": "more", "long": "more", "far": "more", "wide": "more", "fast": "more",
     "jump": "more", "leap": "more", "shoot": "more", "go": "more", "move": "more",
+    "up": "more", "down": "less",
     "small": "less", "low": "less", "close": "less", "slow": "less", "short": "less",
 }  # fmt: skip
 
@@ -36,12 +37,29 @@ def trend(clause: Clause) -> Proposition | None:
     if of is None:
         return None
     words = [key for key, _ in (*clause.comparisons, *clause.adjectives)]
+    words += [leaf.key for leaf in clause.particles]
     words += [clause.verb.key] if clause.verb is not None else []
     way = next((_DIRECTIONS[word] for word in words if word in _DIRECTIONS), None)
     changes = isinstance(clause.subject, Measure) and bool(_CHANGING.intersection(words))
     if way is None:
         return changed(of, clause.tense, clause.time) if changes else None
     return _compared(of, way, clause.tense, clause.time)
+
+
+def as_slowing(of: Proposition | None) -> Proposition | None:
+    """Read "our speed dropped" as slowing down, where the reason is asked for."""
+    match of:
+        case Compares(
+            left=Measured(attribute="speed", thing=thing, tense=tense),
+            comparator="less" | "more" as way,
+            right=Measured(attribute="speed") | Quantity() as right,
+        ) if tense in ("past", "perfect"):
+            slower = way == "less"
+            if isinstance(right, Measured) and right.thing == thing:
+                return Happens(Event("slow-down" if slower else "speed-up", thing, tense=tense))
+            if isinstance(right, Quantity) and slower:
+                return Happens(Event("slow-down", thing, tense=tense))
+    return of
 
 
 _CHANGING = frozenset({"change", "vary", "alter"})

@@ -44,7 +44,7 @@ from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.nominal import propose
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
-from xavi_dialogue.nlu.compose.verbs.trends import believed
+from xavi_dialogue.nlu.compose.verbs.trends import as_slowing, believed, trend
 from xavi_dialogue.nlu.compose.wh_questions.amounts import amounts
 from xavi_dialogue.nlu.compose.wh_questions.grades import graded
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured, since
@@ -89,6 +89,9 @@ class Asking(What, WhichOne):
             if clause.negated and isinstance(clause.subject, Ego):  # "why did you not change?"
                 change = Event("change-lane", time=clause.time, tense=cast(Any, clause.tense))
                 return Why(Not(Happens(change)))
+            paced = as_slowing(trend(clause))  # "why did our speed drop?"
+            if isinstance(paced, Happens):
+                return Why(paced)
             return HowSure(None, clause.time, changed=True)
         of = fact(value)
         match of:
@@ -108,7 +111,7 @@ class Asking(What, WhichOne):
         if isinstance(of, Happens) and is_that(of.event.actor) and not clause.aux:
             of = Happens(with_fields(of.event, actor=Ego()))  # "why all this weaving?"
         suspect = as_thing(clause.because) if not isinstance(clause.because, Clause) else None
-        return Why(of, suspect=suspect)
+        return Why(as_slowing(of) or That(), suspect=suspect)
 
     # --- which -------------------------------------------------------
 
@@ -162,6 +165,9 @@ class Asking(What, WhichOne):
                 of = Happens(with_fields(of.event, tense=clause.tense))
             return When(of, "end" if value.name == "end" and value.content else "begin")
         if isinstance(value, Special) and value.name == "change":
+            paced = as_slowing(trend(clause))  # "why did our speed drop?"
+            if isinstance(paced, Happens):
+                return Why(paced)
             return HowSure(None, clause.time, changed=True)
         of = fact(value)
         if isinstance(of, Is) and of.state == "sure" and clause.that is not None:

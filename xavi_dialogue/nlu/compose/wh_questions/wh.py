@@ -33,6 +33,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.extents import superlative
 from xavi_dialogue.nlu.compose.clauses.nominal import done_by, event_in, propose
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, as_thing
 from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
@@ -151,18 +152,3 @@ def pointed_at(clause: Clause) -> Thing:
     if most is None:
         return Pronoun("that")
     return Described(extreme=cast(Any, most), definite=True)
-
-
-def superlative(clause: Clause) -> str | None:
-    """Return by what one of several stands out: "who is closest?"."""
-    for sem, _ in clause.objects:
-        extreme = getattr(sem, "extreme", None)
-        if extreme in ("nearest", "farthest", "fastest", "slowest", "biggest"):
-            return cast(str, extreme)
-    told = (_OUTSTANDING.get(word) for word in sorted(clause.focus))
-    return next((extreme for extreme in told if extreme), None)
-
-
-_OUTSTANDING = {"fastest": "fastest", "quickest": "fastest", "slowest": "slowest",
-                "nearest": "nearest", "closest": "nearest", "furthest": "farthest",
-                "farthest": "farthest", "biggest": "biggest", "largest": "biggest"}  # fmt: skip

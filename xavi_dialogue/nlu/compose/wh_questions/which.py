@@ -41,6 +41,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.extents import superlative
 from xavi_dialogue.nlu.compose.clauses.nominal import asked_of
 from xavi_dialogue.nlu.compose.clauses.peaks import most_of, of_choice
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, SideOf, as_thing
@@ -54,7 +55,6 @@ from xavi_dialogue.nlu.compose.wh_questions.wh import (
     content_of,
     fact,
     held_then,
-    superlative,
     time_of,
 )
 
