@@ -12,6 +12,7 @@ import numpy as np
 
 from planner.kernels.course import Bools
 from planner.kernels.driving import OPEN
+from planner.kernels.elementary import arctan2
 from planner.motion.obstacles import Obstacle
 from planner.motion.tracks import Observed
 from planner.roads.trajectory import Array
@@ -195,7 +196,7 @@ def _along(person: Observed, route: Route, arcs: Array) -> Obstacle:
     share = (arcs - at[leg]) / np.maximum(lengths[leg], 1e-6)
     position = points[leg] + share[:, None] * sides[leg]
     position[arcs > at[-1]] = np.nan
-    heading = np.arctan2(sides[leg, 1], sides[leg, 0])
+    heading = arctan2(sides[leg, 1], sides[leg, 0])
     speed = np.gradient(arcs) / STEP if len(arcs) > 1 else np.zeros(len(arcs))
     heading = np.where(lengths[leg] < 1e-3, direction_of(person), heading)
     return Obstacle(

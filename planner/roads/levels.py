@@ -14,6 +14,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.kernels.elementary import arctan2
 from sim.roads.lines import ON_LANE, crossings
 from sim.roads.network import Lane, Link, Network, angle_between
 from sim.scene import Point
@@ -77,10 +78,10 @@ def _along(one: Passing, states: Array, lengths: Array) -> Bools:
     best = np.argmin(away, axis=1)
     rows = np.arange(len(states))
     arc = np.concatenate(([0.0], np.cumsum(long)))[best] + share[rows, best] * long[best]
-    turned = states[:, 2] - np.arctan2(sides[:, 1], sides[:, 0])[best]
+    turned = states[:, 2] - arctan2(sides[:, 1], sides[:, 0])[best]
     if one.on_foot:
         turned = 2.0 * turned  # people walk both ways
-    turned = np.abs(np.arctan2(np.sin(turned), np.cos(turned)))
+    turned = np.abs(arctan2(np.sin(turned), np.cos(turned)))
     found: Bools = (away[rows, best] <= ON_LANE) & (turned <= one.turn * (1.0 + one.on_foot))
     found &= (arc >= one.before) & (arc <= one.after + lengths)
     return found

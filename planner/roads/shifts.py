@@ -11,6 +11,8 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.kernels.elementary import arctan2
+
 Array = NDArray[np.float64]
 
 ASIDE = (1.2, 3.6)  # [m] to the side, from a jog that is driven as it is drawn to a lane's width
@@ -50,7 +52,7 @@ def shifted(points: Array, joints: Array) -> Array:
 def _middles(points: Array) -> Iterator[int]:
     """Yield the middles of jogs, in order: of a row of places that would do, the one halfway."""
     steps = np.diff(points, axis=0)
-    heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
+    heading = np.unwrap(arctan2(steps[:, 1], steps[:, 0]))
     jogs = np.zeros(len(points), np.bool_)
     for reach in WITHIN:
         middle = np.arange(reach + 1, len(points) - reach - 1)

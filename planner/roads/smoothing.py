@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.kernels.along import averaged
+from planner.kernels.elementary import arctan2
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -38,7 +39,7 @@ def smoothed(points: Array) -> tuple[Array, Ints]:
     """
     steps = np.diff(points, axis=0)
     long = np.hypot(steps[:, 0], steps[:, 1])
-    heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
+    heading = np.unwrap(arctan2(steps[:, 1], steps[:, 0]))
     begin, end = _slopes(long, heading)
     bent = np.abs(begin) + np.abs(end) > 1e-3
     if not np.any(bent):

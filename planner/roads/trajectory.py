@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.kernels.elementary import arctan2, power
 from planner.kernels.resampling import nearest, resampled
 from planner.roads.levels import Levels, Passing
 from planner.roads.shifts import shifted
@@ -186,8 +187,8 @@ def _blended(
     stretch = np.maximum(1.0 - aside * bent, 0.2)  # of the shifted line against the line
     points[:over, 0] -= aside * np.sin(ahead)
     points[:over, 1] += aside * np.cos(ahead)
-    heading[:over] += np.arctan2(rise, stretch)
-    bend[:over] = bent / stretch + turning / (stretch**2 + rise**2) ** 1.5
+    heading[:over] += arctan2(rise, stretch)
+    bend[:over] = bent / stretch + turning / power(stretch**2 + rise**2, 1.5)
     x, y = points[:, 0], points[:, 1]
     steps = np.maximum(np.hypot(x[1:] - x[:-1], y[1:] - y[:-1]), 1e-3)
     arc = np.concatenate(([0.0], np.cumsum(steps)))
@@ -242,7 +243,7 @@ def _sample(network: Network, lanes: tuple[str, ...]) -> Path:
     arc = np.linspace(0.0, at[-1], max(3, math.ceil(at[-1] / SPACING) + 1))
     even = np.column_stack((np.interp(arc, at, raw[:, 0]), np.interp(arc, at, raw[:, 1])))
     arc, even, begins = _rounded(arc, even, np.interp(starts, along, at[index]))
-    heading = np.unwrap(np.arctan2(np.gradient(even[:, 1]), np.gradient(even[:, 0])))
+    heading = np.unwrap(arctan2(np.gradient(even[:, 1]), np.gradient(even[:, 0])))
     cap = np.array(caps)[np.searchsorted(begins, arc + 1e-9, side="right") - 1]
     row = tuple(zip(lanes, begins.tolist(), strict=True))
     return Path(even, arc, heading, curvature_of(heading, arc), cap, row)
@@ -267,7 +268,7 @@ def _rounded(arc: Array, points: Array, starts: Array) -> tuple[Array, Array, Ar
     loose: NDArray[np.bool_] | None = None
     for _ in range(ROUNDS):
         steps = np.diff(bent, axis=0)
-        heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
+        heading = np.unwrap(arctan2(steps[:, 1], steps[:, 0]))
         sharp = np.abs(np.diff(heading)) > TIGHTEST * np.hypot(*steps[1:].T)
         if not np.any(sharp):
             break
@@ -289,7 +290,7 @@ def _rounded(arc: Array, points: Array, starts: Array) -> tuple[Array, Array, Ar
 def _hairpins(points: Array) -> NDArray[np.bool_]:
     """Return whether a line turns back at each of its inner points [N - 2]."""
     steps = np.diff(points, axis=0)
-    heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
+    heading = np.unwrap(arctan2(steps[:, 1], steps[:, 0]))
     inner = np.arange(len(points) - 2)
     low, high = np.maximum(inner - HAIRPIN[0], 0), inner + 1 + HAIRPIN[0]
     turned = heading[np.minimum(high, len(heading) - 1)] - heading[low]
