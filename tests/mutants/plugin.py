@@ -80,6 +80,7 @@ class Planter:
         if self.reach.failed:
             session.testsfailed = len(self.reach.failed)
             return True
+        gc.unfreeze()  # what is excluded from collections is not listed, either
         self.functions = swap.living(self.files.values())
         self.caches = swap.caches(self.files.values())
         gc.freeze()
