@@ -15,6 +15,7 @@ from planner.motion.tracks import (
     sample_path,
 )
 from sim.roads.network import Location
+from tests.planner import crossroads
 from tests.planner.drives import (
     LENGTH,
     SIZE,
@@ -92,3 +93,24 @@ def test_driving_on_looks_as_far_ahead_as_one_may_get() -> None:
     # 4 s at 20 m/s and 20 m more: up to 150 m.
     assert row == ("in_0", ":J_0", ":J2_0", "out_0")
     assert position[-1, 0] == pytest.approx(130.0, abs=0.1)
+    # In 2 s it is 40 m and 20 m more, and no farther: up to 95 m.
+    *_, short = drive_on(crossing(yields=False), here(25.0, 20.0), 0, NOBODY, SIZE, 10)
+    assert short == ("in_0",)
+
+
+def test_driving_on_ends_at_a_light_that_stays_red_and_only_there() -> None:
+    """Lights count at their lines; signs do not, as they are for those who plan."""
+    south = Location("south_in_0", crossroads.ARM - 60.0, 0.0)
+    place, heading = crossroads.crossroads().line(("south_in_0",)).pose(south.offset)
+    start = Situation(0.0, place, heading, 10.0, 0.0, south)
+    reached = {}
+    for letters in (crossroads.EAST_WEST, crossroads.NORTH_SOUTH):
+        traffic = Traffic.of((), crossroads.shown([(0.0, letters)]))
+        position, _, speed, _ = drive_on(crossroads.crossroads(), start, 0, traffic, SIZE, 70)
+        there = ~np.isnan(position[:, 0])
+        reached[letters] = float(np.max(position[there, 1])), float(speed[there][-1])
+    red, green = reached[crossroads.EAST_WEST], reached[crossroads.NORTH_SOUTH]
+    assert -crossroads.HALF - 3.0 < red[0] < -crossroads.HALF
+    assert red[1] == pytest.approx(0.0, abs=0.1)
+    assert green[0] > crossroads.HALF
+    assert green[1] > 9.0

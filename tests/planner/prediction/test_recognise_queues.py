@@ -49,6 +49,17 @@ def test_a_goal_that_others_keep_one_from_is_driven_to_as_far_as_they_let_it() -
     assert stretch.until == pytest.approx(70.2, abs=0.25)
 
 
+def test_of_ways_that_are_all_blocked_only_the_best_is_expected() -> None:
+    steps = np.zeros(3)
+    ego = replace(eastward(70.0, steps.tolist(), y=1.75), vehicle=0, width=6.0)  # in both lanes
+    planned = Settings(rationality=0.5)
+    found = beliefs(ego, eastward(30.0, [8.0] * 3), roads=avenue(), planned=planned)[1]
+    (on_,) = [b for b in found if b.goal.kind == "continue"]
+    (way,) = on_.trajectories
+    assert way.actions == ("continue",)
+    assert np.nanmax(way.motion.position[:, 0]) < 70.0 - SIZE[0]
+
+
 def test_the_ego_is_left_out_and_the_others_keep_their_order() -> None:
     row = [replace(eastward(90.0 - 20.0 * k, [8.0]), vehicle=v) for k, v in enumerate((5, 0, 3))]
     assert list(beliefs(*row)) == [5, 3]
