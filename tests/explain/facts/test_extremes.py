@@ -152,3 +152,9 @@ def test_why_there_is_no_extreme(
 def test_the_first_value_of_what_is_gone_has_a_reason() -> None:
     assert over("first", "gap", 7.0, 8.0, Vehicle(2)).gap == "out-of-view"
     assert over("last", "lane", 7.0, 8.0, ONE).gap == "not-applicable"
+
+
+def test_why_there_is_no_value_is_looked_for_in_the_middle_too() -> None:
+    """The second is in view from 3 to 6 s alone, and beside us then: it has no gap to us."""
+    assert over("highest", "gap", to=TWO).gap == "not-applicable"
+    assert over("highest", "gap", begin=0.0, end=1.0, to=TWO).gap == "out-of-view"

@@ -152,3 +152,14 @@ def test_the_side_is_that_of_where_it_goes() -> None:
         actors = {0: OURS, 1: Actor(straight(9.0, 0.0, 8.0), aims=aims)}
         found = of(States(made(actors, 8.0)), "heading", ONE)
         assert (found.word, found.side) == (way, side)
+
+
+@pytest.mark.parametrize("lost", [0, 1])
+def test_where_somebody_came_from_is_seen_from_where_we_were(
+    lost: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = States(made({0: OURS, 1: Actor(straight(30.0, 5.0, 10.0))}, 8.0))
+    assert of(found, "origin", ONE).word == "ahead"
+    known = found.state
+    monkeypatch.setattr(found, "state", lambda v, t: None if v == lost else known(v, t))
+    assert of(found, "origin", ONE).gap == "out-of-view"

@@ -150,3 +150,10 @@ def test_one_question_has_one_world() -> None:
     record = made(TWO, 3.0).record
     assert world_of(record) is world_of(record)
     assert world_of(replace(record, now=2.0)) is not world_of(record)
+
+
+def test_speeds_are_told_to_the_hundredth() -> None:
+    world = World(made({0: Actor(straight(0.0, 0.0, 8.26))}, 3.0, roads=roads))
+    assert world.measure("speed", Ego(), 2.0).value == 8.26
+    assert world.measure("excess", Ego(), 2.0).value == -5.63
+    assert world.extreme("speed", Ego(), "highest", 0.0, 3.0).value == 8.26

@@ -120,3 +120,22 @@ def test_braking_to_a_standstill_ends_where_it_stands() -> None:
     (brake,) = world.episodes(Ego(), "brake")
     assert brake.standing
     assert brake.end == pytest.approx(4.0, abs=0.21)
+
+
+def test_a_decision_that_knows_no_way_has_that_of_the_last_one_that_did() -> None:
+    """At first we meant to turn left; the decisions from 4 s on lead elsewhere."""
+    facts = {}
+    for time in range(6):
+        road = roads(float(time))
+        turn = "exit-left" if time < 2 else "exit-straight"
+        route = (with_fields(road.route[0], turn=turn), *road.route[1:])
+        lost = with_fields(road, route=(), distance=None)
+        facts[time] = lost if time >= 4 else with_fields(road, route=route)
+    ride = made(ACTORS, 5.0, roads=lambda t: facts[int(t)])
+    found = junctions_ahead(ride, 5.0)
+    assert [s.turn for s in found] == ["exit-straight", "exit-right"]
+    assert [s.distance for s in found] == pytest.approx([30.0, 100.0], abs=0.1)
+    assert [s.turn for s in junctions_ahead(ride, 1.0)] == ["exit-left", "exit-right"]
+    nowhere = made(ACTORS, 5.0, roads=lambda t: facts[4])
+    assert junctions_ahead(nowhere, 5.0) == ()
+    assert junctions_ahead(made(ACTORS, 5.0), 5.0) == ()

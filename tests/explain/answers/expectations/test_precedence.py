@@ -173,3 +173,30 @@ def test_who_drives_ahead_on_our_line_has_joined_it_already() -> None:
 
 def test_nobody_is_apart_without_a_prediction() -> None:
     assert not is_apart(OURS, 1)
+
+
+@pytest.mark.parametrize(("degrees", "into"), [(45.0, True), (225.0, True), (-45.0, False)])
+def test_a_road_may_lead_anywhere(degrees: float, into: bool) -> None:
+    path = tuple((1.5 * k, 1.5 * k) for k in range(31))
+    slanted = replace(OURS, rollouts=(replace(OURS.rollouts[0], path=path),))
+    assert into_our_road(slanted, heading(degrees, x=20.0, y=20.0)) is into
+    assert into_our_road(slanted, heading(45.0, x=26.0, y=14.0)) is True  # 8.5 m beside it
+    assert into_our_road(slanted, heading(45.0, x=27.0, y=13.0)) is False
+
+
+@pytest.mark.parametrize(
+    ("way", "before"),
+    [
+        (crossing(40.0, 10.0), True),  # there after 1.8 s, we after 4 s
+        (crossing(50.0, 10.0), True),
+        (crossing(60.0, 12.0), False),  # we come 4.2 s later
+        (crossing(10.0, 5.0), False),  # behind us
+        (crossing(80.0, 10.0), False),
+        (crossing(40.0, 0.5), False),
+    ],
+)
+def test_a_way_leads_across_shortly_before_us(way: Any, before: bool) -> None:
+    assert precedence.before_us(OURS, way) is before
+    assert precedence.before_us(plan(20.0, "continue"), way) is None
+    assert precedence.before_us(OURS, replace(way, path=())) is None
+    assert precedence.before_us(OURS, replace(way, speed=())) is None

@@ -1,15 +1,19 @@
 """Whether we come closer to somebody, and whether somebody moves over, by how both drive now."""
 
 import pytest
+from msgspec.structs import replace
 
 from tests.explain.answers.given import NOW, Given, look, their
-from xavi_dialogue.domain.terms import Ego, Event, Now, Vehicle
+from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.terms import Ego, Event, Now, Tense, Vehicle
 from xavi_dialogue.explain.answers.measuring import nearing
 from xavi_dialogue.explain.answers.measuring.nearing import (
     ASIDE_IN,
     SINCE,
     closes,
     comes_before,
+    keeps,
     moves_over,
     past_leader,
 )
@@ -96,3 +100,41 @@ def test_we_overtake_who_is_slower_in_another_lane(left: float, theirs: float, h
     assert found.holds is holds
     ahead = Given(looks={1: look(1, left=0.0)}).asked()
     assert nearing.nears(ahead, Event("overtake", Ego(), Vehicle(1), tense="future")) is None
+
+
+def keeping(**more: object) -> Episode:
+    known: dict[str, object] = {"actor": Ego(), "action": "keep-distance", "begin": 12.0}
+    return Episode(**(known | {"object": Vehicle(1)} | more))  # type: ignore[arg-type]
+
+
+BOTH = {1: look(1), 2: look(2)}
+KEEP = Event("keep-distance", Ego(), Vehicle(1), tense="present")
+
+
+@pytest.mark.parametrize("tense", ["present", "perfect"])
+def test_we_keep_our_distance_to_whom_we_follow(tense: Tense) -> None:
+    found = keeps(Given(looks=BOTH, deeds=(keeping(),)).asked(), replace(KEEP, tense=tense))
+    assert found is not None
+    assert found.holds is True
+    assert found.facts[0] == keeping()
+
+
+@pytest.mark.parametrize(
+    ("event", "deed"),
+    [
+        (replace(KEEP, tense="past"), keeping()),
+        (replace(KEEP, action="follow"), keeping(action="follow")),
+        (replace(KEEP, actor=Vehicle(1), object=Ego()), keeping(actor=Vehicle(1), object=Ego())),
+        (KEEP, keeping(end=15.0)),
+        (KEEP, keeping(object=Vehicle(2))),
+    ],
+)
+def test_what_is_no_distance_that_we_keep_is_answered_elsewhere(
+    event: Event, deed: Episode
+) -> None:
+    assert keeps(Given(looks=BOTH, deeds=(deed,)).asked(), event) is None
+
+
+def test_the_distance_that_we_kept_then_is_answered_elsewhere() -> None:
+    asked = Given(looks=BOTH, deeds=(keeping(),)).asked(Span(13.0, 14.0, said=True))
+    assert keeps(asked, KEEP) is None

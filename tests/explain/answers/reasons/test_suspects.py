@@ -23,7 +23,11 @@ from xavi_dialogue.domain.answers import (
 from xavi_dialogue.domain.evidence import Causation, Share
 from xavi_dialogue.domain.terms import Event, Exit, Related
 from xavi_dialogue.explain.answers.reasons.choices import is_choice, is_kept_from
-from xavi_dialogue.explain.answers.reasons.suspects import with_suspect
+from xavi_dialogue.explain.answers.reasons.suspects import (
+    or_light,
+    with_suspect,
+    with_suspects,
+)
 
 # --- names --------------------------------------------------------------------------------------
 
@@ -199,3 +203,60 @@ def test_one_of_several_that_are_not_named_is_not_the_only_cause() -> None:
     causation = Causation("several", (1, 2, 5), minimal=False)
     told_: Any = with_suspect(replace(of_motion(1), causation=causation), 1, alone=True)
     assert (told_.suspected, told_.besides) == ("beside", ())
+
+
+def undecided(*same: int) -> ChoiceReason:
+    """A choice because of 1 and 2, which is made without some of them all the same."""
+    found = of_choice(1, 2)
+    causes = tuple(
+        replace(cause, decision_changes=cause.vehicle not in same)
+        for cause in found.contrast.causes
+    )
+    causation = Causation("both", (1, 2))
+    return replace(found, contrast=replace(found.contrast, causes=causes, causation=causation))
+
+
+@pytest.mark.parametrize(
+    ("found", "suspects", "which", "suspect", "part", "besides"),
+    [
+        (of_motion(1, 2), (1, 2), False, 1, "all", (2,)),
+        (of_motion(2, 1), (1, 2), False, 2, "all", (1,)),
+        (of_motion(1, 2), (1, 3), False, 1, "some", (3,)),
+        (of_motion(3), (1, 2), False, 1, "none", (2,)),
+        (of_motion(3), (1, 2), True, 1, "neither", (2,)),
+        (of_motion(2, 1), (1, 2), True, 2, "all-alike", (1,)),
+        (of_motion(2), (1, 2), True, 2, "which", (1,)),
+        (of_motion(2, 1), (1, 2, 5), True, 2, "some", (5,)),
+        # Which of them decides is asked; where neither does, both are.
+        (undecided(), (1, 2), True, 1, "all-alike", (2,)),
+        (undecided(1), (1, 2), True, 2, "which", (1,)),
+        (undecided(2), (1, 2), True, 1, "which", (2,)),
+        (undecided(1, 2), (1, 2), True, 1, "all-alike", (2,)),
+        (undecided(1), (1, 2), False, 1, "all", (2,)),
+    ],
+)
+def test_which_of_several_suspects_are_a_reason(
+    found: Any, suspects: Any, which: bool, suspect: int, part: str, besides: Any
+) -> None:
+    told_: Any = with_suspects(found, suspects, which=which)
+    assert (told_.suspect, told_.suspected, told_.besides) == (suspect, part, besides)
+
+
+def test_some_of_a_group_stand_for_all_of_it() -> None:
+    told_: Any = with_suspects(of_motion(2, 5), (1, 2), together=True)
+    assert (told_.suspect, told_.suspected, told_.besides) == (2, "main", ())
+    every: Any = with_suspects(of_motion(2, 1), (1, 2), together=True)
+    assert (every.suspected, every.besides) == ("all", (1,))
+    none: Any = with_suspects(of_motion(5), (1, 2), together=True)
+    assert (none.suspected, none.besides) == ("none", (2,))
+    other = Measures(())
+    assert with_suspects(other, (1, 2)) == other
+
+
+@pytest.mark.parametrize(("suspect", "part"), [(1, "either"), (2, "either"), (3, "none")])
+def test_whether_it_is_somebody_or_the_light_is_told_by_the_reason(suspect: int, part: str) -> None:
+    told_: Any = or_light(with_suspect(of_motion(1, 2), suspect))
+    assert told_.suspected == part
+    unasked = of_motion(1)
+    assert or_light(unasked) == unasked
+    assert or_light(Measures(())) == Measures(())

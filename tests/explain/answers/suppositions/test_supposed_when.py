@@ -47,3 +47,11 @@ def test_other_deeds_and_times_that_are_said_are_not_of_the_turn_ahead() -> None
     assert not is_turn_ahead(scene(plan), Event("stop", modal="would"))
     assert not is_turn_ahead(scene(plan, past=SimpleNamespace(said=True)), STRAIGHT)
     assert is_turn_ahead(scene(plan, past=SimpleNamespace(said=False)), STRAIGHT)
+
+
+@pytest.mark.parametrize("event", [Event("turn"), Event("leave"), Event("exit-left")])
+def test_any_turn_may_be_ahead(event: Event) -> None:
+    """Without a side, any of the turns may be meant."""
+    assert is_turn_ahead(scene(("exit-right",)), event)
+    assert not is_turn_ahead(scene(("exit-right",), turned("exit-left", 12.0)), event)
+    assert not is_turn_ahead(scene(("stop",)), event)

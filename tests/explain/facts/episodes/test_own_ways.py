@@ -1,5 +1,6 @@
 """What we did ourselves, as our events tell it."""
 
+import math
 from collections.abc import Callable
 
 import pytest
@@ -7,9 +8,9 @@ import pytest
 from planner.record.events import Event
 from planner.record.places import RoadFacts, RoadPlace, RouteStep
 from planner.record.trace import Action
-from tests.explain.facts.scenes import Actor, made, speeds
+from tests.explain.facts.scenes import Actor, Pose, made, speeds
 from xavi_dialogue.domain.terms import Destination, Ego, Junction, Vehicle
-from xavi_dialogue.explain.facts.episodes.own import driving_on, told
+from xavi_dialogue.explain.facts.episodes.own import bearing, driving_on, told
 from xavi_dialogue.explain.facts.episodes.ways import ways
 from xavi_dialogue.explain.facts.states import States
 
@@ -111,3 +112,47 @@ def test_what_our_events_tell() -> None:
         (Ego(), "arrive", 7.0, 7.0, Destination()),
         (Ego(), "continue", 1.0, 5.0, None),
     ]
+
+
+def bearing_by(angle: float) -> Actor:
+    """We drive east, bear to a side by an angle [rad] between 4 and 5 s, and go on so."""
+
+    def pose(t: float) -> Pose:
+        share = min(max(t - 4.0, 0.0), 1.0)
+        along = max(t - 5.0, 0.0) * 10.0
+        x = 10.0 * min(t, 5.0) + along * math.cos(angle)
+        return x, along * math.sin(angle), angle * share, 10.0
+
+    return Actor(pose)
+
+
+@pytest.mark.parametrize(("angle", "side"), [(0.6, "left"), (-0.6, "right"), (1.3, "left")])
+def test_bearing_to_a_side_is_told_with_that_side(angle: float, side: str) -> None:
+    (found,) = bearing(States(made({0: bearing_by(angle)}, 9.0)))
+    assert (found.actor, found.action, found.side) == (Ego(), "swerve", side)
+    assert (found.begin, found.end) == (pytest.approx(4.0, abs=0.21), pytest.approx(5.0, abs=0.21))
+
+
+@pytest.mark.parametrize(
+    ("action", "begin", "end", "part"),
+    [
+        ("exit-left", 3.0, 6.0, True),
+        ("change-left", 1.0, 3.2, True),  # within a second of it
+        ("change-left", 0.5, 2.5, False),
+        ("change-left", 5.8, 8.0, True),
+        ("change-left", 7.0, 8.0, False),
+        ("exit-straight", 3.0, 6.0, False),  # along the lane
+        ("continue", 3.0, 6.0, False),
+    ],
+)
+def test_bearing_to_a_side_within_a_turn_is_part_of_that(
+    action: Action, begin: float, end: float, part: bool
+) -> None:
+    events = tuple(
+        Event(kind, time, action, 1)
+        for kind, time in (
+            ("action-started", begin), ("action-committed", begin), ("action-ended", end)
+        )
+    )  # fmt: skip
+    found = list(bearing(States(made({0: bearing_by(0.6)}, 9.0, events=events))))
+    assert (found == []) is part
