@@ -246,3 +246,28 @@ def test_mass_is_shared_out_within_what_goes_on():
     assert shared_out({"a": 0.3, "b": 0.1}, 2, 0.5) == pytest.approx(
         {"a": 0.3 + 0.1 * odds["a"] / total, "b": 0.1 + 0.1 * odds["b"] / total}
     )
+
+
+def test_the_actions_at_a_node_are_those_recorded_there():
+    aims = {1: (Aim("continue", 0.5, (Way(("continue",)),)), Aim("stop", 0.5, (Way(("stop",)),)))}
+    plans = (("continue", "exit-right"), ("stop", "change-left"), ("continue", "stop"))
+    world = World(aims, plans, lambda plan, _: (End(time=9.0), len(plan)))
+    for given_ in ({}, {1: frozenset({(0, 0)})}):
+        model = CausalModel(trace_of(world), given_)
+        assert model.options() == ("continue", "stop")
+        assert model.options(("continue",)) == ("exit-right", "stop")
+        assert model.options(("stop",)) == ("change-left",)
+        assert model.options(("continue", "stop")) == ()
+        assert model.options(("exit-left",)) == ()
+
+
+def test_of_continuations_that_nothing_covers_none_is_left_out():
+    """The one sample that was drawn cannot be: both continuations are known all the same."""
+    aims = {1: (Aim("continue", 1.0, (Way(("continue",)),)),)}
+    world = World(aims, (("continue", "stop"), ("continue", "exit-right")),
+                  lambda plan, _: (End(time=9.0 if plan[1] == "stop" else 5.0), 2))  # fmt: skip
+    found = CausalModel(trace_of(world)).intervene(("continue",))
+    assert found is not None
+    assert found.plan == ("continue", "exit-right")
+    assert CausalModel(trace_of(world)).intervene({2: "stop"}).plan == ("continue", "stop")
+    assert CausalModel(trace_of(world)).intervene({2: "exit-left"}) is None

@@ -147,3 +147,23 @@ def test_talk_explains_nothing() -> None:
 
 def test_kinds_are_spelt_with_hyphens() -> None:
     assert kind_of(SupposedOfUs(CONTRAST)) == "supposed-of-us"
+
+
+@pytest.mark.parametrize(
+    ("reason", "refusal"),
+    [
+        ("busy", Unavailable("busy")),
+        ("timed-out", Unavailable("timed-out")),
+        ("planner-unavailable", Unavailable("planner-unavailable")),
+        ("planner-failed", Unavailable("planner-failed")),
+        ("too-little-evidence", TooLittle("too-little-evidence")),
+        ("outside-record", NotRecorded("not-recorded")),
+        ("trace-gap", NotRecorded("gap-in-record")),
+    ],
+)
+def test_a_failure_is_told_as_what_it_is(reason: Reason, refusal: Refusal) -> None:
+    assert failed(reason) == refusal
+    # Only where the planner cannot be had, the lack of roads is why.
+    told = failed(reason, roadless=True)
+    without = reason in ("busy", "timed-out", "planner-unavailable")
+    assert told == (Unavailable(reason, True) if without else refusal)  # type: ignore[arg-type]

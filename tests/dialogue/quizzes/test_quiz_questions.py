@@ -259,3 +259,14 @@ def test_some_questions_have_no_solution() -> None:
     assert solved(without(3), same, 9.0) == Quiz(
         posed=without(3), at=9.0, actions=("stop",), same=True
     )
+
+
+def test_those_in_our_way_are_those_of_the_last_manoeuvre() -> None:
+    """At 4 s we decided to turn, and 1 was in our way most; to change lanes at 3 s, it was 3."""
+    before = events("exit-left", "change-left", decided=0)
+    happened = (*before, *events("exit-right", decided=1))
+    found = candidates((), (), record(*happened))
+    assert found[:2] == (without(1, 4.0), who("exit-right"))
+    back = (*events("exit-right", decided=1), *events("change-left", decided=0))
+    assert without(3, 3.0) in candidates((), (), record(*back))
+    assert without(1, 3.0) not in candidates((), (), record(*back))

@@ -239,10 +239,10 @@ def test_what_a_lower_limit_takes_is_no_delay() -> None:
 
     kept_to = speeds(0.0, 0.0, ((0.0, 10.0), (3.8, 10.0), (4.0, 5.0), (20.0, 5.0)))
     states = States(made({0: Actor(kept_to)}, 16.0, roads=limits))
-    assert delay(states, Episode(US, "slow-down", 3.8, 4.0)).value == pytest.approx(0.0, abs=0.2)
+    assert delay(states, Episode(US, "slow-down", 3.0, 4.0)).value == pytest.approx(0.0, abs=0.2)
     marks = ((0.0, 10.0), (3.8, 10.0), (4.0, 5.0), (6.0, 5.0), (6.2, 2.5), (10.2, 2.5), (10.4, 5.0))
     slower = States(made({0: Actor(speeds(0.0, 0.0, marks))}, 16.0, roads=limits))
-    found = delay(slower, Episode(US, "slow-down", 3.8, 6.2))
+    found = delay(slower, Episode(US, "slow-down", 3.0, 6.2))
     assert found.value == pytest.approx(2.1, abs=0.3)  # 10.5 m in 4.2 s, of 5 m/s
     assert found.until == pytest.approx(10.4, abs=0.21)
     assert not found.at_least

@@ -268,3 +268,12 @@ def test_way_that_we_did_not_give_is_told_with_who_went_first() -> None:
     assert weighed(anybody, **meeting(12.0, "vehicle")).holds is False
     modal = action("give-way", US, ONE, time=THEN, modal="might")
     assert weighed(modal, **meeting(12.0, "vehicle")) is None
+
+
+def test_way_that_he_had_and_nobody_has_taken_yet_is_being_given() -> None:
+    """Nobody has come to where the lines meet: we are about to let him go first."""
+    facts: dict[str, Any] = {"traces": [decision(9.0, road=ROAD)], "road": ROAD}
+    found = weighed(action("give-way", US, ONE, time=THEN), **facts)
+    assert (found.holds, found.answer.holds, found.answer.rule) == (True, True, "give-way")
+    assert weighed(action("give-way", US, Vehicle(3), time=THEN), **facts) is None
+    assert weighed(action("give-way", US, time=THEN), **facts) is None

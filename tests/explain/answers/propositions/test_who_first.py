@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Related,
+    Vehicles,
     Wanted,
 )
 from xavi_dialogue.explain.answers.propositions.duties import of_order, who_first
@@ -131,3 +132,11 @@ def test_where_nobody_crosses_now_the_last_crossing_is_told() -> None:
     assert first(such, traces=traces, road=road).rule == "none"
     found = first(Related("has-priority-over", TWO, US), traces=traces, road=road)
     assert (found.vehicle, found.rule) == (2, "none")
+
+
+def test_of_several_the_one_that_goes_before_us_is_told() -> None:
+    for numbers, vehicle, rule in (((3, 2, 1), 2, "give-way"), ((1, 3), 1, "give-way")):
+        found = first(Related("has-priority-over", Vehicles(numbers), US))
+        assert (found.vehicle, found.rule) == (vehicle, rule)
+    both = first(Related("must-yield-to", US, Vehicles((3, 1))))
+    assert (both.vehicle, both.rule) == (1, "give-way")
