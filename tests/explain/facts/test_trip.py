@@ -237,10 +237,10 @@ def test_what_a_lower_limit_takes_is_no_delay() -> None:
         limit = 14.0 if time < 4.0 else 5.0
         return RoadFacts({0: RoadPlace("a", 0, 1, limit, False, False)})
 
-    kept_to = speeds(0.0, 0.0, ((0.0, 10.0), (3.8, 10.0), (4.0, 5.0), (20.0, 5.0)))
+    kept_to = speeds(0.0, 0.0, ((0.0, 10.0), (3.3, 10.0), (3.5, 5.0), (20.0, 5.0)))
     states = States(made({0: Actor(kept_to)}, 16.0, roads=limits))
-    assert delay(states, Episode(US, "slow-down", 3.0, 4.0)).value == pytest.approx(0.0, abs=0.2)
-    marks = ((0.0, 10.0), (3.8, 10.0), (4.0, 5.0), (6.0, 5.0), (6.2, 2.5), (10.2, 2.5), (10.4, 5.0))
+    assert delay(states, Episode(US, "slow-down", 3.0, 3.6)).value == pytest.approx(0.0, abs=0.2)
+    marks = ((0.0, 10.0), (3.3, 10.0), (3.5, 5.0), (6.0, 5.0), (6.2, 2.5), (10.2, 2.5), (10.4, 5.0))
     slower = States(made({0: Actor(speeds(0.0, 0.0, marks))}, 16.0, roads=limits))
     found = delay(slower, Episode(US, "slow-down", 3.0, 6.2))
     assert found.value == pytest.approx(2.1, abs=0.3)  # 10.5 m in 4.2 s, of 5 m/s
