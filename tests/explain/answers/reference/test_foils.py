@@ -212,3 +212,12 @@ def test_a_turn_that_opens_only_after_the_stop_is_asked_about_there() -> None:
     shut = [decision(12.0, HALT, ends={("continue",): End(time=12.0)})]
     premise, foil = foil_at(Event("turn", side="right"), chosen(traces=shut, events=[]))
     assert (premise.node, foil) == (("stop",), TURN)
+
+
+def test_sooner_or_later_is_what_was_done() -> None:
+    for manner in ("early", "late"):
+        assert settled(chosen(), Event("change-lane", manner=(manner,))) == ("change-left",)
+        undone = settled(chosen(), Event("turn", manner=(manner,)))
+        assert undone == ("exit-left", "exit-right")
+    plain = settled(chosen(), Event("change-lane", tense="present", manner=("fast",)))
+    assert plain == ("change-left", "change-right")

@@ -274,3 +274,10 @@ def test_a_ride_that_only_drove_on() -> None:
         decided({"continue": End()}, plans=[("continue",)], lines={"continue": steady(5.0)})
     )
     assert premise(plain, subject(is_past=False)).trace is plain.latest
+
+
+def test_what_is_over_is_what_a_question_is_about_unless_that_is_yet_to_come() -> None:
+    plain = Subject(Event("change-left"), ("change-left",), True, None)
+    assert premise(journey(), plain) == premise(journey(), subject("change-left"))
+    with pytest.raises(Unanswered):
+        premise(journey(), subject("change-left", coming=True))
