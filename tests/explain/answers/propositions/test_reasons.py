@@ -18,7 +18,19 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import HowDecide, Whether, Why
-from xavi_dialogue.domain.terms import Caused, Event, Exit, Happens, Is, Not, Vehicle
+from xavi_dialogue.domain.terms import (
+    Caused,
+    Described,
+    Ego,
+    Event,
+    Everyone,
+    Exit,
+    Happens,
+    Is,
+    Not,
+    Thing,
+    Vehicle,
+)
 
 
 def why(action: str, **more: object) -> Why:
@@ -173,3 +185,11 @@ def test_every_option_that_was_simulated_is_counted() -> None:
     found = told(ride, HowDecide(), trace.sim_time)
     assert isinstance(found, Method)
     assert found.tried == len(tried)
+
+
+@pytest.mark.parametrize("actor", [Everyone(), Described(definite=False)])
+def test_why_anybody_braked_is_told_of_us(actor: Thing) -> None:
+    """Of nobody in particular only our own braking is known."""
+    found = told(story("braking"), why("brake", actor=actor), 8.0)
+    assert isinstance(found, MotionReason)
+    assert found.deed.actor == Ego()

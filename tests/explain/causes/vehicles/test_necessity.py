@@ -2,17 +2,21 @@
 
 from collections.abc import Mapping
 
+import pytest
 from msgspec.structs import replace
 
 from planner.record.trace import Action, PlanTrace, WhatIf
 from tests.traces import Aim, World, s1_ride, s1_world, trace_of
 from xavi_dialogue.causal.model import Actions
-from xavi_dialogue.domain.answers import ChoiceReason, NeedRollout
+from xavi_dialogue.domain.answers import Cause, ChoiceReason, NeedRollout
 from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.meaning import Ask, Why
 from xavi_dialogue.domain.terms import Event, Happens, Vehicle
 from xavi_dialogue.explain.answers.engine import Result, explain
+from xavi_dialogue.explain.causes.vehicles import necessity
 from xavi_dialogue.explain.history.record import Record
+from xavi_dialogue.explain.history.ride import Ride
 
 RIDE = s1_ride()
 DECISION = RIDE.traces[1]
@@ -85,3 +89,20 @@ def test_where_the_planner_cannot_be_asked_the_record_speaks() -> None:
     assert isinstance(found, ChoiceReason)
     assert found.contrast.causes[0].vehicle == 1
     assert found.contrast.causes[0].necessary is None
+
+
+@pytest.mark.parametrize(("minimal", "stated"), [(True, [2]), (False, [])])
+def test_of_several_that_were_not_tried_alone_those_that_are_needed_are_stated(
+    minimal: bool, stated: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = Causation("several", (2,), minimal=minimal)
+    monkeypatch.setattr(necessity, "actual_causes", lambda *_: found)
+    gone = (NEED, replace(NEED, removed=2))
+    ride = Ride(Record(RIDE.now, RIDE.traces, RIDE.events, refused=gone))
+    model = ride.model(DECISION)
+    fact, foil = (model.intervene((action,)) for action in ("change-left", "continue"))
+    assert fact is not None
+    told = necessity.proven(ride, model, (Cause(1, ("continue",), 0.5),), fact, foil)
+    assert [cause.vehicle for cause in told.causes] == stated
+    assert told.causation is not None
+    assert told.causation.kind == "several"
