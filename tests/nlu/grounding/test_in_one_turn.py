@@ -104,7 +104,5 @@ def test_he_is_not_just_anybody_where_another_place_is_asked_about(first: Questi
     found = ground((reading(Ask(first), Ask(speed_of(Pronoun("he")))),), InLine(CARS), Discourse())
     named = [one.act.question for one in found.acts if isinstance(one.act, Ask)][1:]
     assert speed_of(Vehicle(2)) not in [
-        HowMuch(Measured("speed", one.of.thing))  # type: ignore[union-attr]
-        for one in named
-        if isinstance(one, HowMuch)
+        HowMuch(Measured("speed", one.of.thing)) for one in named if isinstance(one, HowMuch)
     ]

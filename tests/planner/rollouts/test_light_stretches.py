@@ -28,7 +28,9 @@ def joined(*legs: Any) -> tuple[HeldByLight, ...]:
 
 
 def stretch(light: Signal, first: int, last: int) -> HeldByLight:
-    since, until = (pytest.approx(START + DT * step) for step in (first, last + 1))
+    since, until = cast(
+        "list[float]", [pytest.approx(START + DT * step) for step in (first, last + 1)]
+    )
     return HeldByLight(light.controller, light.index, since, until)
 
 

@@ -152,7 +152,7 @@ def test_a_change_to_a_faster_lane_is_tried_first_if_that_pays_for_the_effort(
         for k, fast in enumerate((10.0, limit))
     ]
     one = ran(search(drawn(lanes), "road", 300.0, 100.0, rollouts=3))
-    plans = {action: one._invites(plan_at(one, action)) for action in ("continue", "change-left")}  # type: ignore[arg-type]
+    plans = {action: one._invites(plan_at(one, action)) for action in ("continue", "change-left")}
     assert plans["change-left"] - 1.0 < plans["continue"]
     assert one.rollouts[0].actions[0] == first
 

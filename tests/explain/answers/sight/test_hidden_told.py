@@ -255,13 +255,13 @@ def test_seeing_past_it_is_supposed_of_what_it_hides() -> None:
     assert told(WhatIf(sees_past(OTHER)), free) == SupposedSeeing((), NOW, (), (), 0.0)
     # A building hides it as well, so that nothing would change.
     walled = replace(FROM_LEFT, walled=True)
-    same = (("continue",), ("continue",), 0.0)
+    same: Any = (("continue",), ("continue",), 0.0)
     found = told(WhatIf(sees_past(BUS)), hiding(NOW, walled))
     assert found == SupposedSeeing((BY_BUS,), NOW, *same)
     lately = told(WhatIf(sees_past(BUS)), hiding(NOW - 1.5, walled))
     assert not lately.past
     over = told(WhatIf(sees_past(BUS)), hiding(NOW - 1.6, walled))
-    assert over == SupposedSeeing((BY_BUS,), NOW - 1.6, *same, past=True)
+    assert over == SupposedSeeing((BY_BUS,), NOW - 1.6, *same, True)
     was = told(WhatIf(sees_past(BUS, tense="past")), hiding(NOW, walled))
     assert was.past
     assert told(WhatIf(Not(sees_past(BUS))), BOTH) is None

@@ -16,9 +16,9 @@ STOOD, SLOWED = deed("stand", 12.0, 18.0), deed("slow-down", 8.0, 17.0)
 
 
 @pytest.fixture(autouse=True)
-def reasons(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
+def reasons(monkeypatch: pytest.MonkeyPatch) -> dict[Any, Any]:
     """Reasons for each way of driving, by its name; no light held us."""
-    known: dict[str, Any] = {}
+    known: dict[Any, Any] = {}
 
     def told(ride: Any, world: Any, done: Any, at: float | None) -> Any:
         causes = (known[done.action],) if done.action in known else ()
@@ -41,21 +41,21 @@ def free(*deeds: Any, time: float = NOW, **looks: Any) -> MotionCause | None:
     return freed(asked.ride, asked.world, time)
 
 
-def test_who_went_first_has_let_us_go(reasons: dict[str, Any]) -> None:
+def test_who_went_first_has_let_us_go(reasons: dict[Any, Any]) -> None:
     reasons["stand"] = MotionCause("right-of-way", 1)
     assert free(STOOD) == MotionCause("let-go", 1)
     assert reasons["at", "stand"] == 18.0  # as it ended
 
 
 @pytest.mark.parametrize(("after", "moved"), [(1.1, True), (1.0, False), (0.0, False)])
-def test_who_stood_ahead_has_moved_on(after: float, moved: bool, reasons: dict[str, Any]) -> None:
+def test_who_stood_ahead_has_moved_on(after: float, moved: bool, reasons: dict[Any, Any]) -> None:
     reasons["stand"] = MotionCause("leader", 1)
     found = free(STOOD, v1=rising(1, 0.0, after))
     assert found == (MotionCause("moved-on", 1) if moved else None)
     assert free(STOOD) is None  # it was not seen
 
 
-def test_the_last_that_held_us_up_counts(reasons: dict[str, Any]) -> None:
+def test_the_last_that_held_us_up_counts(reasons: dict[Any, Any]) -> None:
     reasons["stand"] = MotionCause("right-of-way", 1)
     reasons["slow-down"] = MotionCause("right-of-way", 2)
     assert free(SLOWED, STOOD) == MotionCause("let-go", 1)
@@ -65,7 +65,7 @@ def test_the_last_that_held_us_up_counts(reasons: dict[str, Any]) -> None:
 
 @pytest.mark.parametrize(("end", "lately"), [(16.0, True), (15.9, False)])
 def test_what_ended_long_ago_does_not_explain_it(
-    end: float, lately: bool, reasons: dict[str, Any]
+    end: float, lately: bool, reasons: dict[Any, Any]
 ) -> None:
     reasons["stand"] = MotionCause("right-of-way", 1)
     found = free(deed("stand", 12.0, end))
@@ -74,7 +74,7 @@ def test_what_ended_long_ago_does_not_explain_it(
     assert free(deed("follow", 12.0, 18.0)) is None
 
 
-def test_what_still_goes_on_is_looked_at_now(reasons: dict[str, Any]) -> None:
+def test_what_still_goes_on_is_looked_at_now(reasons: dict[Any, Any]) -> None:
     reasons["stand"] = MotionCause("right-of-way", 1)
     assert free(deed("stand", 12.0)) == MotionCause("let-go", 1)
     assert reasons["at", "stand"] == NOW
@@ -82,7 +82,7 @@ def test_what_still_goes_on_is_looked_at_now(reasons: dict[str, Any]) -> None:
     assert reasons["at", "stand"] == NOW
 
 
-def test_what_is_nobody_does_not_let_us_go(reasons: dict[str, Any]) -> None:
+def test_what_is_nobody_does_not_let_us_go(reasons: dict[Any, Any]) -> None:
     assert free(STOOD) is None
     reasons["stand"] = MotionCause("turn")
     assert free(STOOD) is None
@@ -114,7 +114,7 @@ def test_the_light_that_turned_green_freed_us(
     assert found == (MotionCause("light", shown=shown) if lit else None)  # type: ignore[arg-type]
 
 
-def test_speeding_up_is_told_with_what_held_us_up_first(reasons: dict[str, Any]) -> None:
+def test_speeding_up_is_told_with_what_held_us_up_first(reasons: dict[Any, Any]) -> None:
     reasons["stand"] = MotionCause("right-of-way", 1)
     reasons["speed-up"] = MotionCause("starting")
     asked = Given(deeds=(STOOD,)).asked()

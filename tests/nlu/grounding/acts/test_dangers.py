@@ -123,7 +123,7 @@ def test_it_is_us_only_where_a_time_is_named() -> None:
     assert threatened(spoken, grounder(NEAR)) == spoken
     ride = replace(spoken, time=WholeRide())
     assert threatened(ride, grounder(NEAR)) == replace(ride, thing=HIM)
-    him = replace(ride, thing=Pronoun("him"))
+    him = replace(ride, thing=Pronoun("he"))
     assert threatened(him, grounder(NEAR)) == him
     for other in (None, Vehicle(2)):
         assert threatened(replace(ride, thing=other), grounder(NEAR)).thing == other

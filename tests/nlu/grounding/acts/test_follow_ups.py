@@ -72,7 +72,7 @@ def option_of(said: Discourse) -> Not:
 @pytest.mark.parametrize("form", ["that", "this"])
 @pytest.mark.parametrize("asked", [
     Why(SLOWED), WhatIf(SLOWED), HowMuch(Measured("speed")), HowSure(SLOWED),
-    Compare((SLOWED, Happens(GO)), "better"),
+    Compare((SLOWED, Happens(GO)), "best"),
 ])  # fmt: skip
 def test_that_for_a_cause_is_what_was_told_of_us(form: Any, asked: Question) -> None:
     g = grounder(of(asked, option=replace(LEFT, modal="can")))
@@ -109,11 +109,11 @@ def test_whether_somebody_is_the_reason_is_asked_of_the_option_under_discussion(
 
 DECISIONS = (
     Listing("options"), Listing("rivals"), Listing("decisions"), HowDecide(), WhatWouldChange(),
-    Compare((Happens(GO), Happens(LEFT)), "better"), HowSure(Happens(LEFT)), Why(NOT_LEFT),
+    Compare((Happens(GO), Happens(LEFT)), "best"), HowSure(Happens(LEFT)), Why(NOT_LEFT),
 )  # fmt: skip
 OTHERS = (
     Listing("vehicles"), Compare((HIM, Vehicle(2)), by="speed"), Why(Happens(Event("brake", HIM))),
-    Compare((Happens(GO), Happens(Event("stop", HIM))), "better"),
+    Compare((Happens(GO), Happens(Event("stop", HIM))), "best"),
     HowSure(Happens(Event("turn", HIM))), HowSure(Happens(Event("collide"))), HowSure(None),
     Why(Exists(HIM)), WhatIf(SLOWED), Why(SLOWED),
 )  # fmt: skip
@@ -145,7 +145,7 @@ def test_how_close_the_two_are_is_of_a_decision_after_a_reason_or_a_supposition(
     # Else "them all" are whoever is near.
     of_him = Why(Happens(Event("brake", HIM)))
     assert followed(CLOSE_TWO, grounder(weighed(of_him))) == CLOSE
-    him = Whether(Is("close", Pronoun("him")))
+    him = Whether(Is("close", Pronoun("he")))
     assert followed(him, grounder(weighed(Why(NOT_LEFT)))) == him
 
 
@@ -175,7 +175,7 @@ def test_what_would_change_most_is_asked_of_the_option() -> None:
 def test_what_else_there_was_is_asked_of_the_decision_that_was_told_of() -> None:
     for kind in ("options", "rivals"):
         g = grounder(TOLD)
-        assert followed(Listing(kind), g) == Listing(kind, time=At(12.0))  # type: ignore[arg-type]
+        assert followed(Listing(kind), g) == Listing(kind, time=At(12.0))
         assert g.notes.leaned
     decided = of(HowDecide(), episode=(9.0, 9.0))
     assert followed(Listing("options"), grounder(decided)) == Listing("options", time=At(9.0))
@@ -258,7 +258,7 @@ def test_what_is_not_of_a_decision_is_left_as_it_is() -> None:
 
 
 def compare(*options: Any, said: Discourse = TOLD) -> tuple[Any, ...]:
-    return compared(Compare(options, "better"), options, grounder(said)).options
+    return compared(Compare(options, "best"), options, grounder(said)).options
 
 
 def test_only_what_was_decided_is_compared_with_the_option() -> None:
@@ -310,6 +310,6 @@ def test_what_would_have_been_better_is_asked_of_when_that_was() -> None:
         (passed, of(HowSure(SLOWED), episode=(4.0, 6.0)), Span(4.0, 6.0)),
     ):  # fmt: skip
         g = grounder(said)
-        compared(Compare((spoken,), "better"), (spoken,), g)
+        compared(Compare((spoken,), "best"), (spoken,), g)
         assert g.notes.span == span
         assert g.notes.leaned == (span is not None)

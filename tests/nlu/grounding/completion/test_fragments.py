@@ -81,7 +81,9 @@ def test_somebody_else_is_whoever_is_there_where_it_was_done_for_nobody(
 
 
 def test_somebody_else_may_be_the_cause_or_who_did_the_same() -> None:
-    found = asked(Elliptic(thing=SOMEBODY_ELSE), Why(SLOWED, suspect=HIM, rival=2, alone=True))
+    found = asked(
+        Elliptic(thing=SOMEBODY_ELSE), Why(SLOWED, suspect=HIM, rival=Vehicle(2), alone=True)
+    )
     assert found == Why(SLOWED, suspect=SOMEBODY_ELSE)
     which = Which(Wanted(), Happens(Event("brake", Wanted(), tense="past")))
     assert asked(Elliptic(thing=SOMEBODY_ELSE), which) == which

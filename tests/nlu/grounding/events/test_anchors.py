@@ -52,7 +52,7 @@ def test_before_a_place_is_yet_to_come_unless_it_is_told_as_past(
 ) -> None:
     for tense in ("present", "future"):
         g = grounder(*PASSED)
-        assert window(Relative(relation, anchor), tense, g) == COMING  # type: ignore[arg-type]
+        assert window(Relative(relation, anchor), tense, g) == COMING
         assert g.notes.cost == 0.0
     g = grounder(*PASSED)
     found = window(Relative(relation, anchor), "past", g)
