@@ -6,6 +6,7 @@ See planner/kernels for the compiled ones, and test_kernels.py for the compariso
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -336,52 +337,119 @@ def accelerate(
         Acceleration [m/s2], and the hindrance where there is one.
     """
     first = others if crossing is None else crossing
+    free = _free_speed(plan, lane, motion, step, first)
+    found = _behind(others, motion, step, length, Wish(free, plan.halting or FOLLOWING, None))
+    if plan.stops:
+        free = 0.0
+        found = Wish(0.0, EMERGENCY if found.hardest == EMERGENCY else plan.halting, None)
+    found = _behind_newcomers(everybody, motion, step, length, found)
+    found = _out_of_junctions(plan, others, motion, step, length, found)
+    found = _at_lines(plan, lane, first, motion, step, length, found)
+    acceleration = _towards(motion.speed, motion.acceleration, found.speed, found.hardest, dt)
+    if found.hindrance is None or found.speed > free - HINDERED:
+        return acceleration, None
+    other, how = found.hindrance
+    return acceleration, Hindrance(step, other.vehicle, how, other.speed(step))
+
+
+class Wish(NamedTuple):
+    """The speed that is wanted so far, and who is the reason."""
+
+    speed: float  # [m/s]
+    hardest: float  # [m/s2] braking that is allowed for it
+    hindrance: tuple[Occupancy, str] | None
+
+    def lowered(self, speed: float, other: Occupancy, how: str) -> "Wish":
+        """The same for a lower speed, of which another vehicle is the reason."""
+        return Wish(speed, self.hardest, (other, how)) if speed < self.speed else self
+
+
+def _free_speed(
+    plan: ActionPlan, lane: Lane, motion: Motion, step: int, first: Sequence[Occupancy]
+) -> float:
+    """The speed with nobody in the way: slower where somebody stands who goes first."""
     free = lane.speed(motion.arc + motion.speed * RELAXATION)
     for line in plan.give_ways:
         gap = line.stop - motion.arc
         stand = (other.speed(step) < JAM for other in first if other.goes_first(line.yields_to))
         if gap > 0.0 and any(stand):
             free = min(free, math.sqrt(READY**2 + 2.0 * COMFORT * gap))
-    wanted, hardest, hindrance = free, plan.halting or FOLLOWING, None
+    return free
+
+
+def _behind(
+    others: Sequence[Occupancy], motion: Motion, step: int, length: float, found: Wish
+) -> Wish:
+    """Keep behind those ahead on the path."""
     for other in others:
         gap = other.gap(motion.arc, step, length)
         if gap is None:
             continue
         speed = safe_speed(gap - MIN_GAP, other.speed_along(step), FOLLOWING)
-        if speed < wanted:
-            wanted, hindrance = speed, (other, other.manner(step))
-            hardest = EMERGENCY if gap < MIN_GAP or speed < motion.speed - 3.0 else FOLLOWING
-    if plan.stops:
-        free, wanted, hindrance = 0.0, 0.0, None
-        hardest = hardest if hardest == EMERGENCY else plan.halting
+        if speed < found.speed:
+            late = gap < MIN_GAP or speed < motion.speed - 3.0
+            hardest = EMERGENCY if late else FOLLOWING
+            found = Wish(speed, hardest, (other, other.manner(step)))
+    return found
+
+
+def _behind_newcomers(
+    everybody: Sequence[Occupancy], motion: Motion, step: int, length: float, found: Wish
+) -> Wish:
+    """Keep behind those who are about to come onto the path ahead."""
     for other in everybody:
         newcomer = other.newcomer(step)
         if newcomer is not None:
             low, high, pace = newcomer
             speed = safe_speed(low - motion.arc - MIN_GAP, pace, FOLLOWING)
-            if 0.5 * (low + high) > motion.arc - 0.5 * length and speed < wanted:
-                wanted, hindrance = speed, (other, "cut-in")
-    braking = motion.speed**2 / (2.0 * COMFORT) + motion.speed * REACTION + 3.0
+            if 0.5 * (low + high) > motion.arc - 0.5 * length:
+                found = found.lowered(speed, other, "cut-in")
+    return found
+
+
+def _stopping(motion: Motion) -> float:
+    """The distance [m] in which a comfortable stop is still to be planned."""
+    return motion.speed**2 / (2.0 * COMFORT) + motion.speed * REACTION + 3.0
+
+
+def _out_of_junctions(
+    plan: ActionPlan,
+    others: Sequence[Occupancy],
+    motion: Motion,
+    step: int,
+    length: float,
+    found: Wish,
+) -> Wish:
+    """Stay out of junctions beyond which there is no room."""
     for room in plan.keep_clears:
         gap = room.stop - motion.arc
-        speed = safe_speed(gap, 0.0, COMFORT)
         jam = _jam(others, step, room, length)
-        if 0.0 <= gap <= braking and jam is not None and speed < wanted:
-            wanted, hindrance = speed, (jam, "blocked")
+        if 0.0 <= gap <= _stopping(motion) and jam is not None:
+            found = found.lowered(safe_speed(gap, 0.0, COMFORT), jam, "blocked")
+    return found
+
+
+def _at_lines(
+    plan: ActionPlan,
+    lane: Lane,
+    first: Sequence[Occupancy],
+    motion: Motion,
+    step: int,
+    length: float,
+    found: Wish,
+) -> Wish:
+    """Wait at lines for those who go first."""
     for line in plan.lines:
         gap = line.stop - motion.arc
-        if gap <= braking and motion.arc < line.clear:
-            blocker = _blocker(lane, motion, step, line, first, length)
-            speed = safe_speed(gap, 0.0, COMFORT)
-            if blocker is not None and speed < wanted:
-                wanted, hindrance = speed, (blocker, "right-of-way")
-                if 2.0 * FOLLOWING * gap < motion.speed**2 < 2.0 * FIRM * gap:
-                    hardest = motion.speed**2 / (2.0 * gap)
-    acceleration = _towards(motion.speed, motion.acceleration, wanted, hardest, dt)
-    if hindrance is None or wanted > free - HINDERED:
-        return acceleration, None
-    other, how = hindrance
-    return acceleration, Hindrance(step, other.vehicle, how, other.speed(step))
+        if gap > _stopping(motion) or motion.arc >= line.clear:
+            continue
+        blocker = _blocker(lane, motion, step, line, first, length)
+        speed = safe_speed(gap, 0.0, COMFORT)
+        if blocker is not None and speed < found.speed:
+            firm = 2.0 * FOLLOWING * gap < motion.speed**2 < 2.0 * FIRM * gap
+            hardest = motion.speed**2 / (2.0 * gap) if firm else found.hardest
+            found = Wish(speed, hardest, (blocker, "right-of-way"))
+    return found
 
 
 def _jam(
