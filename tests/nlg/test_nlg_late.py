@@ -8,7 +8,7 @@ from msgspec.structs import replace
 from tests.nlg.causal_cases import CHANGED
 from tests.nlg.rare_cases import LONG, LONG_BOTH, QUICK
 from tests.nlg.scenery import CONTEXT
-from xavi_dialogue.domain.answers import ChoiceReason, Contrast, SupposedOfUs
+from xavi_dialogue.domain.answers import ChoiceReason, Closeness, Contrast, SupposedOfUs
 from xavi_dialogue.nlg.say import say
 
 FORMS = ("why", "why-not", "necessary", "worth-it")
@@ -53,3 +53,26 @@ def test_simple_words_have_no_seconds(against: Contrast) -> None:
     for text in texts(against, "simpler"):
         assert "second" not in text
         assert "that I looked ahead" in text
+
+
+@pytest.mark.parametrize(
+    ("chance", "told"),
+    [(0.99, "almost certainly"), (0.85, "very likely"), (0.7, "probably")],
+)
+def test_leaving_the_way_is_told_as_likely_as_it_is(chance: float, told: str) -> None:
+    share = replace(LONG.told[0], chance=chance)
+    outcome = replace(LONG.outcome, probability=chance)
+    against = replace(
+        LONG, foil=("exit-left",), way=True, outcome=outcome, terms=(share,), told=(share,)
+    )
+    text = say(SupposedOfUs(against, form="what-if"), CONTEXT).text
+    assert f"we would {told} have left our way to the destination" in text
+
+
+@pytest.mark.parametrize(
+    ("risk", "begins"), [(0.94, "No: "), (0.2, "It is tight: "), (0.03, "I put the risk")]
+)
+def test_nothing_is_called_safe_or_careful_at_a_risk(risk: float, begins: str) -> None:
+    text = say(Closeness(None, None, risk=risk, asked="safe", past=False), CONTEXT).text
+    assert text.startswith(begins)
+    assert "care" not in text

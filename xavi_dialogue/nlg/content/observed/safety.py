@@ -25,6 +25,7 @@ _COUNTS = {3: "three", 4: "four", 5: "five", 6: "six", 7: "seven", 8: "eight"}
 #: Rules by which the other has right of way, though it stands and lets us go first.
 STOOD = ("it-stands", "we-first-stood")
 FLAT = ("no", "yes, it was safe")  # replies that hard braking rules out
+EVEN = 0.5  # risk of a collision from which nothing is called safe
 RISKY = 0.05  # minimum risk of a collision that is called a risk
 FAR = 40.0  # [m] distance from which nobody counts as close
 
@@ -223,8 +224,10 @@ def _lead(answer: Closeness) -> str | None:
         return None  # how near somebody is does not tell whether there is room to go anywhere
     if answer.asked == "room" and not tight:
         return "yes, there was enough room" if answer.past else "yes, there is enough room"
+    if tight and risk >= EVEN:
+        return "no"
     if tight:
-        return "it was tight" if answer.past else "it is tight, and I am taking care"
+        return "it was tight" if answer.past else "it is tight"
     return "yes, it was safe" if answer.past else "yes, it is safe"
 
 
