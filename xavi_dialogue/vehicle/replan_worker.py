@@ -15,10 +15,12 @@ from pathlib import Path
 from typing import IO
 
 import msgspec
+import numpy as np
 
 from planner.counterfactuals.whatif import Inapplicable, NotInView, WhatIfError, replan
 from planner.driving.driver import Driver
 from planner.errors import TraceError
+from planner.kernels.elementary import power
 from planner.record import trace as plan_trace
 from planner.record import trace_reading
 from planner.record.trace import EgoGoal, Settings, WhatIf
@@ -70,6 +72,7 @@ def _reason(error: Exception) -> Reason:
 
 def warm_up(network: Network) -> None:
     """Decide once behind another car, and drive a step, so that all kernels are loaded."""
+    power(np.ones(1), 1.5)  # of ways beside the middle of a lane, which that decision has none of
     for lane in network.lanes.values():
         links = network.links_from(lane.id)
         if lane.internal or lane.length < ROOM or not links:
