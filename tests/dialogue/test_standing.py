@@ -163,7 +163,7 @@ def test_kinds_are_spelt_with_hyphens() -> None:
 )
 def test_a_failure_is_told_as_what_it_is(reason: Reason, refusal: Refusal) -> None:
     assert failed(reason) == refusal
-    # Only where the planner cannot be had, the lack of roads is why.
+    # The lack of roads is the reason only where the planner is not available.
     told = failed(reason, roadless=True)
     without = reason in ("busy", "timed-out", "planner-unavailable")
     assert told == (Unavailable(reason, True) if without else refusal)  # type: ignore[arg-type]

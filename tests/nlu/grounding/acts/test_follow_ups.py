@@ -56,7 +56,7 @@ def grounder(said: Discourse, *happened: Any) -> TermGrounder:
 
 
 def of(question: Question | None, **more: Any) -> Discourse:
-    """A discourse after a question about which nothing else was told."""
+    """A discourse after a question, of which the answer told nothing else."""
     return replace(Discourse(turn=2), question=question, **more)
 
 
@@ -142,7 +142,7 @@ def test_how_close_it_was_is_a_distance_where_no_decision_was_told_of(asked: Que
 def test_how_close_the_two_are_is_of_a_decision_after_a_reason_or_a_supposition() -> None:
     for asked in (Why(SLOWED), WhatIf(SLOWED)):
         assert followed(CLOSE_TWO, grounder(weighed(asked))) == MARGIN
-    # Else "them all" are whoever is near.
+    # Otherwise "them all" means those who are near.
     of_him = Why(Happens(Event("brake", HIM)))
     assert followed(CLOSE_TWO, grounder(weighed(of_him))) == CLOSE
     him = Whether(Is("close", Pronoun("he")))
@@ -156,7 +156,7 @@ def test_it_is_who_was_named_beside_what_we_did_not_do() -> None:
     assert followed(CLOSE, grounder(weighed(waited, mentions=named))) == CLOSE
     long_ago = (Mention(HIM, 0, True, 0.9),)
     assert followed(CLOSE, grounder(weighed(waited, mentions=long_ago))) == MARGIN
-    # A turn or a change of lanes is what is weighed, whoever was named.
+    # A turn or a lane change is weighed, no matter who was named.
     assert followed(CLOSE, grounder(weighed(Why(NOT_LEFT), mentions=named))) == MARGIN
     turn = Why(Not(Happens(Event("exit-left", tense="present"))))
     assert followed(CLOSE, grounder(weighed(turn, mentions=named))) == MARGIN

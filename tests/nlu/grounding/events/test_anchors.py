@@ -90,7 +90,7 @@ def test_at_the_light_is_when_it_held_us_and_else_when_we_passed_it(
 ) -> None:
     found = window(Relative("during", LIGHT), "past", grounder(*happened))
     assert (found.begin, found.end) == (begin, end)
-    # Leaving it is told of as it is.
+    # Leaving it stays as it was said.
     left = Relative("during", Event("leave", Ego(), LIGHT, tense="past"))
     found = window(left, "past", grounder(*happened))
     assert (found.begin, found.end) == (begin, end)
