@@ -35,10 +35,11 @@ def links_beside(network: Network, link: Link, indices: Iterable[int]) -> tuple[
 
 
 def _for(roads: Roads, classes: tuple[str, ...]) -> Roads:
-    network = roads.network
     for kind in classes:
-        if any(kind in lane.permits for lane in network.other_lanes.values()):
-            return Roads(_network(network, kind))
+        if any(kind in lane.permits for lane in roads.network.other_lanes.values()):
+            own = _network(roads.network, kind)
+            if own.lanes:
+                return Roads(own)
     return roads
 
 

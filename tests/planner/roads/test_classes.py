@@ -23,3 +23,10 @@ def test_a_lane_that_no_link_of_theirs_leads_along_stays_aside() -> None:
     assert set(theirs.lanes) == {"a_0", "c_0"}
     assert set(theirs.other_lanes) == {":j_0_0", "b_0"}
     assert [x.via for x in theirs.other_links] == [(":j_0_0",)]
+
+
+def test_lanes_inside_junctions_alone_make_no_roads_of_their_own() -> None:
+    street, stray = lane("a_0", 0.0, BOTH), lane(":j_0_0", 10.0, frozenset({"tram"}))
+    network = Network({street.id: street}, (), "x", other_lanes={stray.id: stray})
+    roads = Roads(network)
+    assert roads_of(roads, "tram") is roads
