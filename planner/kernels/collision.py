@@ -13,6 +13,8 @@ SAFE_CUT_IN = 1.5  # [s] to collision with a follower, below which a lane change
 BERTH = 1.0  # [m] kept free before and behind a lane change, as predictions are inexact
 ALIKE = 0.7  # least cosine of the angle between the headings of a vehicle and its follower
 
+Box = tuple[float, float, float, float]
+
 _jit = njit(cache=True, error_model="numpy")
 
 
@@ -62,9 +64,13 @@ def first_hit(
         The sample, and the index of the other vehicle.
     """
     found, whom, last = len(own), -1, len(own) - 1
+    box = _box(own)
     for m in range(len(states)):
         berth = BERTH if careless else 0.0
-        for k in range(min(len(own), states.shape[1] - first, found)):
+        until = min(len(own), states.shape[1] - first, found)
+        if _apart(box, _box(states[m, first : first + until]), _reach(size, sizes[m], berth)):
+            until = 0
+        for k in range(until):
             other = states[m, first + k]
             if k == 0 and berth > 0.0 and _meets(own[k], size, other, sizes[m], berth):
                 berth = 0.0
@@ -83,12 +89,41 @@ def first_hit(
 def _meets(own: Floats, size: Any, other: Floats, other_size: Any, berth: float) -> bool:
     """Check whether another body is within `berth` [m] before or behind ours, or touches it."""
     dx, dy = other[0] - own[0], other[1] - own[1]
-    near = size[0] + other_size[0] + size[1] + other_size[1] + 2.0 * berth
-    if dx * dx + dy * dy >= near * near:
+    near = _reach(size, other_size, berth)
+    if not dx * dx + dy * dy < near * near:  # also where it is not in the network
         return False
     x, y = own[0] + berth * math.cos(own[2]), own[1] + berth * math.sin(own[2])
     longer = (size[0] + 2.0 * berth, size[1])
     return overlap(x, y, own[2], longer, other[0], other[1], other[2], other_size)
+
+
+@_jit
+def _reach(size: Any, other_size: Any, berth: float) -> float:
+    """Return the distance [m] of two fronts from which on their bodies are apart."""
+    return float(size[0] + other_size[0] + size[1] + other_size[1] + 2.0 * berth)
+
+
+@_jit
+def _box(states: Floats) -> Box:
+    """Return the least x and y and the greatest x and y [m] of a front; NaN does not count."""
+    low_x, low_y, high_x, high_y = math.inf, math.inf, -math.inf, -math.inf
+    for k in range(len(states)):
+        x, y = states[k, 0], states[k, 1]
+        if x < low_x:
+            low_x = x
+        if x > high_x:
+            high_x = x
+        if y < low_y:
+            low_y = y
+        if y > high_y:
+            high_y = y
+    return low_x, low_y, high_x, high_y
+
+
+@_jit
+def _apart(a: Box, b: Box, reach: float) -> bool:
+    """Check whether two boxes are at least `reach` [m] apart along an axis."""
+    return bool(max(a[0] - b[2], b[0] - a[2], a[1] - b[3], b[1] - a[3]) >= reach)
 
 
 @_jit
