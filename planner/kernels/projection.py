@@ -17,10 +17,12 @@ BEFORE, AFTER = 4, 5  # steps that a stretch is blocked after, and before, a veh
 FOREVER = 1 << 30  # a step that never comes
 SLACK = 1e-3  # [m] greatest error of distances
 PATIENCE = 5  # steps between two measurements of how far a vehicle is from the path
+PIECE = 16  # points of a path that are looked at together
 
 Box = tuple[float, float, float, float]
 
 _jit = njit(cache=True, error_model="numpy")
+_inline = njit(cache=True, error_model="numpy", inline="always")  # avoids reference counting
 
 
 class Line(NamedTuple):
@@ -31,8 +33,9 @@ class Line(NamedTuple):
     heading: Floats  # [rad] [N]
     cos: Floats  # [N] of the heading
     sin: Floats  # [N]
-    spacing: float  # [m] largest distance between neighbouring points
-    box: tuple[float, float, float, float]  # [m] least x and y, greatest x and y
+    box: Box  # [m] least x and y, greatest x and y
+    middle: Floats  # [m] [P, 2] of each piece of PIECE points
+    reach: float  # [m] greatest distance of a point from the middle of its piece
 
 
 @_jit
@@ -133,15 +136,28 @@ def _reaches(size: Floats, corridor: float) -> tuple[float, float, float]:
 
 @_jit
 def _line(points: Floats, arc: Floats, heading: Floats) -> Line:
-    spacing = 1e-9
-    for k in range(len(arc) - 1):
-        spacing = max(spacing, arc[k + 1] - arc[k])
     low_x, low_y, high_x, high_y = points[0, 0], points[0, 1], points[0, 0], points[0, 1]
     for k in range(1, len(points)):
         low_x, high_x = min(low_x, points[k, 0]), max(high_x, points[k, 0])
         low_y, high_y = min(low_y, points[k, 1]), max(high_y, points[k, 1])
     box = (low_x, low_y, high_x, high_y)
-    return Line(points, arc, heading, np.cos(heading), np.sin(heading), spacing, box)
+    middle, reach = _pieces(points)
+    return Line(points, arc, heading, np.cos(heading), np.sin(heading), box, middle, reach)
+
+
+@_jit
+def _pieces(points: Floats) -> tuple[Floats, float]:
+    """Return the middle [m] [P, 2] of each piece of a path, and the greatest distance from it."""
+    count = (len(points) + PIECE - 1) // PIECE
+    middle, reach = np.empty((count, 2)), 0.0
+    for p in range(count):
+        begin, end = p * PIECE, min((p + 1) * PIECE, len(points))
+        x = 0.5 * (points[begin, 0] + points[end - 1, 0])
+        y = 0.5 * (points[begin, 1] + points[end - 1, 1])
+        middle[p, 0], middle[p, 1] = x, y
+        for k in range(begin, end):
+            reach = max(reach, _distance(points[k, 0], points[k, 1], x, y))
+    return middle, reach + 1e-9
 
 
 @_jit
@@ -180,7 +196,7 @@ def _occupied(
         aside = dy * line.cos[0] - dx * line.sin[0]
         if ahead >= behind or abs(aside) >= widest + behind:  # not in line behind the path
             if not room > 0.0 and t >= again:
-                room = _clearance(points, line.box, x, y, line.spacing, reach) - reach
+                room = _clearance(line, x, y, reach) - reach
                 again = t + PATIENCE
             if room > 0.0:
                 continue
@@ -188,19 +204,18 @@ def _occupied(
         along[t] = states[t, 3] * cosine[t]
 
 
-@_jit
-def _clearance(points: Floats, box: Box, x: float, y: float, spacing: float, reach: float) -> float:
+@_inline
+def _clearance(line: Line, x: float, y: float, reach: float) -> float:
     """Return a distance [m] that exceeds `reach` only if (x, y) is at least as far from a path."""
+    box = line.box
     off = max(box[0] - x, x - box[2], box[1] - y, y - box[3])
     if off > reach:
         return off
-    best = 2.0 * reach
-    k = 0
-    while k < len(points) and best > reach:
-        d = _distance(points[k, 0], points[k, 1], x, y)
-        best = min(best, d)
-        k += max(1, int((d - best) / spacing))
-    return best
+    least = math.inf
+    for p in range(len(line.middle)):
+        dx, dy = line.middle[p, 0] - x, line.middle[p, 1] - y
+        least = min(least, dx * dx + dy * dy)
+    return math.sqrt(least) - line.reach
 
 
 @_jit
@@ -210,7 +225,7 @@ def _alike(state: Floats, before: Floats) -> bool:
     return bool(same)
 
 
-@_jit
+@_inline
 def _stretch(
     line: Line, state: Floats, size: Floats, corridor: float, near: int
 ) -> tuple[int, float, float, float]:
@@ -226,7 +241,8 @@ def _stretch(
         The index of the nearest path point, the lowest and highest arc [m] of the body, and the
         cosine of its angle to the path; NaN and 0 if it is not on the path.
     """
-    points, arc, heading, line_cos, line_sin, spacing, box = line
+    points, arc, heading, box = line.points, line.arc, line.heading, line.box
+    line_cos, line_sin = line.cos, line.sin
     length, width = size[0], size[1]
     widest = corridor + 0.5 * (length + width)  # a body reaches no farther aside
     x = state[0] - 0.5 * length * math.cos(state[2])
@@ -236,7 +252,7 @@ def _stretch(
     follows = ahead < 0.0 and abs(aside) < widest  # in line behind the path, however far
     within = math.inf if follows else widest + length
     off = max(box[0] - x, x - box[2], box[1] - y, y - box[3])
-    k = _nearest(points, x, y, spacing, near, within) if follows or off < within else -1
+    k = _nearest(line, x, y, near, within) if follows or off < within else -1
     if k < 0:
         return near, math.nan, math.nan, 0.0
     dx, dy = x - points[k, 0], y - points[k, 1]
@@ -251,23 +267,28 @@ def _stretch(
     return k, arc[k] + ahead + least, arc[k] + ahead + most, cos
 
 
-@_jit
-def _nearest(points: Floats, x: float, y: float, spacing: float, hint: int, within: float) -> int:
+@_inline
+def _nearest(line: Line, x: float, y: float, hint: int, within: float) -> int:
     """Return the index of the path point nearest to (x, y), or -1 if none is within `within` [m].
 
-    Exact: neighbours lie at most `spacing` apart, so after a point at a distance d, as many points
-    can be skipped as the distance needs to shrink to the best one known.
+    Only pieces of the path that may have a nearer point than the best one known are looked at.
     """
-    best, found = within, -1
-    d = _distance(points[hint, 0], points[hint, 1], x, y)
-    if d < best:
-        best, found = d, hint
-    k = 0
-    while k < len(points):
-        d = _distance(points[k, 0], points[k, 1], x, y)
-        if d < best or (d == best and k < found):
-            best, found = d, k
-        k += max(1, int((d - best) / spacing))
+    points, middle, reach = line.points, line.middle, line.reach
+    dx, dy = points[hint, 0] - x, points[hint, 1] - y
+    best, found = within * within, -1
+    if dx * dx + dy * dy < best:
+        best, found = dx * dx + dy * dy, hint
+    far = (math.sqrt(best) + reach) ** 2
+    for p in range(len(middle)):
+        dx, dy = middle[p, 0] - x, middle[p, 1] - y
+        if dx * dx + dy * dy > far:
+            continue
+        for k in range(p * PIECE, min((p + 1) * PIECE, len(points))):
+            dx, dy = points[k, 0] - x, points[k, 1] - y
+            d = dx * dx + dy * dy
+            if d < best or (d == best and k < found):
+                best, found = d, k
+        far = (math.sqrt(best) + reach) ** 2
     return found
 
 
