@@ -36,6 +36,7 @@ MOVES = 0.2  # [m] minimum motion in two steps that defines the direction of a p
 CROSSING = 0.1  # [m/s] minimum lateral speed of a vehicle that is about to leave a path
 
 _jit = njit(cache=True, error_model="numpy")
+_inline = njit(cache=True, error_model="numpy", inline="always")  # avoids reference counting
 
 
 class Drivers(NamedTuple):
@@ -117,19 +118,19 @@ def _norm(x: float, y: float) -> float:
     return math.sqrt(x * x + y * y)
 
 
-@_jit
+@_inline
 def _ego(own: Floats, k: int, size: tuple[float, float]) -> Leader:
     return _leader(own[k], size, (own[k, 3] - own[max(k - 1, 0), 3]) / STEP)
 
 
-@_jit
+@_inline
 def _leader(state: Floats, size: tuple[float, float], gain: float) -> Leader:
     cos, sin = math.cos(state[2]), math.sin(state[2])
     x, y = state[0] - 0.5 * size[0] * cos, state[1] - 0.5 * size[0] * sin
     return Leader(x, y, cos, sin, state[3], gain, size[0], size[1])
 
 
-@_jit
+@_inline
 def _mind(them: Drivers, pushes: Floats, ego: Leader, moved: Floats, t: int) -> None:
     """Lower the highest acceleration [m/s2] of each driver, for the ego and those that brake.
 
@@ -164,7 +165,7 @@ def _mind(them: Drivers, pushes: Floats, ego: Leader, moved: Floats, t: int) -> 
                 pushes[m] = min(pushes[m], _push(them, m, moved, t, leader, level))
 
 
-@_jit
+@_inline
 def _brakes(them: Drivers, m: int, push: float) -> bool:
     """Check whether a driver has to brake noticeably harder than predicted."""
     k = int(them.at[m])
@@ -173,7 +174,7 @@ def _brakes(them: Drivers, m: int, push: float) -> bool:
     return bool(push < least and them.pace[m] > STANDING)
 
 
-@_jit
+@_inline
 def _drive_on(them: Drivers, m: int, t: int, push: float, state: Floats) -> None:
     """Move a late driver on by one step, into its state at the next one."""
     path, at, pace = them.paths[m], them.at[m], them.pace[m]
@@ -187,7 +188,7 @@ def _drive_on(them: Drivers, m: int, t: int, push: float, state: Floats) -> None
     _put(path, them.at[m], faster, state)
 
 
-@_jit
+@_inline
 def _near(x: float, y: float, pace: float, length: float, leader: Leader) -> bool:
     """Check whether a leader may concern a driver at (x, y), without computing a square root."""
     dx, dy = leader.x - x, leader.y - y
@@ -195,7 +196,7 @@ def _near(x: float, y: float, pace: float, length: float, leader: Leader) -> boo
     return bool(dx * dx + dy * dy <= reach * reach)
 
 
-@_jit
+@_inline
 def _concerns(
     paths: Floats, m: int, k: int, x: float, y: float, pace: float, length: float, leader: Leader
 ) -> bool:
@@ -211,7 +212,7 @@ def _concerns(
     return alike <= ALIGNED or away <= _wished(pace, pace - leader.speed * alike)
 
 
-@_jit
+@_inline
 def _push(them: Drivers, m: int, moved: Floats, t: int, leader: Leader, level: bool) -> float:
     """Return the acceleration [m/s2] that a leader, level with the ego or not, allows; or inf."""
     pace, length, width = them.pace[m], them.sizes[m, 0], them.sizes[m, 1]
@@ -230,7 +231,7 @@ def _push(them: Drivers, m: int, moved: Floats, t: int, leader: Leader, level: b
     return _follow(gap, pace, max(along, 0.0), leader.gain)
 
 
-@_jit
+@_inline
 def _elsewhere(them: Drivers, m: int, k: int) -> bool:
     """Check whether a driver is above or below the ego's way at a sample of its path."""
     return bool(len(them.elsewhere) > 0 and them.elsewhere[m, k])
@@ -259,7 +260,7 @@ def _follow(gap: float, speed: float, leader: float, gain: float) -> float:
     return (1.0 - COOLNESS) * idm + COOLNESS * soft
 
 
-@_jit
+@_inline
 def _along(them: Drivers, m: int, here: Floats, x: float, y: float) -> tuple[float, float, int]:
     """Return where a point (x, y) lies along a driver's path, from the driver on.
 
@@ -297,7 +298,7 @@ def _measure(path: Floats, arcs: Floats) -> None:
         arcs[k] = arcs[k - 1] + (0.0 if math.isnan(step) else step)
 
 
-@_jit
+@_inline
 def _direction(paths: Floats, m: int, k: int) -> tuple[float, float]:
     """Return the direction (cosine, sine) of a path at a sample; the heading at a standstill."""
     before, after = max(k - 1, 0), min(k + 1, paths.shape[1] - 1)
