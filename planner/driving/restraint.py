@@ -71,7 +71,7 @@ def restraint_of(
         motion.arc, plan.line_arcs, crossing.stretches, crossing.firsts(plan.lines), 0
     )
     if who >= 0 and ready <= motion.speed + HINDERED and ready < free:
-        return Restraint("stands-first", crossing.traffic.vehicles[who])
+        return Restraint("stands-first", crossing.vehicle(who))
     if motion.speed < free - HINDERED:
         return Restraint("nothing")
     return Restraint(_on_road(plan, lane, reach, roads))

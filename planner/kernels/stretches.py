@@ -48,19 +48,20 @@ def empty(count: int, total: int) -> Stretches:
 
 
 @_jit
-def select(found: Stretches, rows: Ints, states: Floats) -> Stretches:
+def select(found: Stretches, rows: Ints, states: Floats, which: Ints) -> Stretches:
     """Return some rows of the stretches found, in order.
 
     Args:
         found: the stretches of several vehicles.
         rows: [M] those to take; -1 for a vehicle that is never on the path.
-        states: [M, T, 4] of the vehicles wanted.
+        states: [V, T, 4] of all vehicles.
+        which: [M] indices of the vehicles wanted.
     """
-    count, total = states.shape[0], states.shape[1]
+    count, total = len(rows), states.shape[1]
     some = empty(count, total)
     for m in range(count):
         k = rows[m]
-        some.speed[m] = states[m, :, 3]
+        some.speed[m] = states[which[m], :, 3]
         if k < 0:
             some.entered[m] = np.arange(1.0, total + 1.0)
             some.last[m], some.top[m] = -1.0, -math.inf
@@ -71,6 +72,19 @@ def select(found: Stretches, rows: Ints, states: Floats) -> Stretches:
         some.entered[m] = found.entered[k]
         some.last[m], some.top[m] = found.last[k], found.top[k]
     return some
+
+
+def first_of(found: Stretches, count: int) -> Stretches:
+    """Return the first rows of stretches."""
+    return Stretches(*(column[:count] for column in found))
+
+
+def roomier(found: Stretches, count: int, room: int) -> Stretches:
+    """Return the first `count` rows of stretches, with room for `room` rows in all."""
+    columns = [np.empty((room, *column.shape[1:])) for column in found]
+    for column, old in zip(columns, found, strict=True):
+        column[:count] = old[:count]
+    return Stretches(*columns)
 
 
 @_jit

@@ -216,7 +216,7 @@ def accelerate(
     others = {driving.RIGHT_OF_WAY: crossing, driving.NEWCOMER: foreseen}.get(how, seen)
     speed = float(others.stretches.speed[who, 0])
     manner = others.manner(np.array([who]), np.array([0]), np.array([how]))
-    hindrance = Hindrance(others.traffic.vehicles[who], HOW[int(manner[0])], speed)
+    hindrance = Hindrance(others.vehicle(who), HOW[int(manner[0])], speed)
     return acceleration, Keeping(hindrance, signal)
 
 
@@ -241,7 +241,7 @@ def _hindrances(held: Ints, first: int, others: Occupancy) -> Hindrances:
     if len(at) == 0:
         return NO_HINDRANCES
     who, step = held[at, 0], first + at
-    names = np.array(others.traffic.vehicles, dtype=np.int64)
+    names = np.array(others.traffic.vehicles, dtype=np.int64)[others.which]
     speeds = others.stretches.speed
     speed = speeds[who, np.minimum(step, speeds.shape[1] - 1)]
     return Hindrances(step, names[who], others.manner(who, step, held[at, 1]), speed)

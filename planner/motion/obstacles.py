@@ -9,7 +9,7 @@ from planner.kernels.course import Bools
 from planner.kernels.driving import ALIGNED, OPEN, RIGHT_OF_WAY, SHUT
 from planner.kernels.projection import project
 from planner.kernels.reaction import Ints
-from planner.kernels.stretches import Stretches, select
+from planner.kernels.stretches import Stretches, first_of, select
 from planner.manoeuvres.plans import Foe, GiveWay, LetCross
 from planner.motion.traffic import NOBODY, Met, Motions, Obstacle, Pool, Traffic
 from planner.record.trace import HoldUp
@@ -37,7 +37,12 @@ class Occupancy:
     """The stretches of one path that traffic occupies at each step."""
 
     traffic: Traffic
+    which: Ints  # [M] indices of those in the traffic that count
     stretches: Stretches
+
+    def vehicle(self, who: int) -> int:
+        """Return the name of one of those that count."""
+        return self.traffic.vehicles[int(self.which[who])]
 
     def behind(self, front: float, length: float) -> Bools:
         """Return which others the vehicle cannot run into by driving on, at step 0 [M].
@@ -50,7 +55,7 @@ class Occupancy:
         """
         low, high = self.stretches.low[:, 0], self.stretches.high[:, 0]
         found: Bools = 0.5 * (low + high) < front - 0.5 * length
-        found |= self.traffic.on_foot & (high < front)
+        found |= self.traffic.on_foot[self.which] & (high < front)
         return found
 
     def manner(self, who: Ints, step: Ints, how: Ints) -> Ints:
@@ -62,13 +67,13 @@ class Occupancy:
         if not np.any(self.traffic.on_foot):
             return how
         t = np.minimum(step, self.stretches.cosine.shape[1] - 1)
-        crosses = self.traffic.on_foot[who] & (self.stretches.cosine[who, t] < ALIGNED)
+        crosses = self.traffic.on_foot[self.which[who]] & (self.stretches.cosine[who, t] < ALIGNED)
         found: Ints = np.where(crosses, RIGHT_OF_WAY, how)
         return found
 
     def firsts(self, lines: Sequence[GiveWay | LetCross]) -> Bools:
         """Return which others go first at each line [L, M, T], at each step if there are lights."""
-        links = self.traffic.links
+        links = [self.traffic.links[m] for m in self.which.tolist()]
         found = [[not own.isdisjoint(line.yields_to) for own in links] for line in lines]
         always = np.array(found, dtype=np.bool_).reshape(len(found), len(links), 1)
         if not any(line.foes for line in lines):
@@ -77,7 +82,7 @@ class Occupancy:
         changing = np.repeat(always, steps, axis=2)
         for k, line in enumerate(lines):
             if isinstance(line, GiveWay) and line.foes:
-                changing[k] = _by_light(self.traffic, line, steps)
+                changing[k] = _by_light(self.traffic, self.which, line, steps)
         return changing
 
 
@@ -93,7 +98,7 @@ def occupancy(path: Path, traffic: Traffic, width: float, first: int, last: int)
     """
     every = np.arange(len(traffic.vehicles))
     rows, found = _projected(path, traffic, width, first, last, every)
-    return Occupancy(traffic, select(found, rows, traffic.states))
+    return Occupancy(traffic, every, select(found, rows, traffic.states, every))
 
 
 def _projected(
@@ -128,18 +133,18 @@ def meeting(
     if met is None:
         met = traffic.pool.met[key] = Met()
     fresh = [m for m, tag in enumerate(traffic.tags) if tag not in met.rows]
-    if fresh or met.stretches is None:
+    if fresh:
         _add(met, path, traffic, fresh, width, first, last)
-    assert met.stretches is not None
     rows = [met.rows[tag] for tag in traffic.tags]
     there = [m for m, row in enumerate(rows) if row >= 0]
     if met_at_lines:
         links = enumerate(traffic.links)
         there = [m for m, own in links if rows[m] >= 0 or not met_at_lines.isdisjoint(own)]
-    some, chosen = traffic.only(there), [rows[m] for m in there]
-    if chosen == list(range(len(met.stretches.last))):
-        return Occupancy(some, met.stretches)
-    return Occupancy(some, select(met.stretches, np.array(chosen, np.int64), some.states))
+    which, chosen = np.array(there, np.int64), [rows[m] for m in there]
+    if chosen == list(range(met.count)):
+        return Occupancy(traffic, which, first_of(met.stretches, met.count))
+    found = select(met.stretches, np.array(chosen, np.int64), traffic.states, which)
+    return Occupancy(traffic, which, found)
 
 
 def _add(
@@ -156,16 +161,12 @@ def _add(
     if path.passings:
         traffic, which = traffic.only(fresh), np.arange(len(fresh))
     rows, found = _projected(path, traffic, width, first, last, which)
-    known = 0 if met.stretches is None else len(met.stretches.last)
     for m, row in zip(which.tolist(), rows.tolist(), strict=True):
-        met.rows[traffic.tags[m]] = known + row if row >= 0 else -1
-    if met.stretches is None:
-        met.stretches = found
-    elif len(found.last):
-        met.stretches = Stretches(*map(np.concatenate, zip(met.stretches, found, strict=True)))
+        met.rows[traffic.tags[m]] = met.count + row if row >= 0 else -1
+    met.add(found)
 
 
-def _by_light(traffic: Traffic, line: GiveWay, steps: int) -> Bools:
+def _by_light(traffic: Traffic, which: Ints, line: GiveWay, steps: int) -> Bools:
     """Return which others go first at a line with a light [M, T], which may show them red.
 
     Vehicles inside the junction may leave it, whatever the light. Others go first if the junction's
@@ -174,11 +175,13 @@ def _by_light(traffic: Traffic, line: GiveWay, steps: int) -> Bools:
     key = (line.link.junction, line.link.index, traffic.lights, steps)
     known = traffic.pool.firsts.setdefault(key, {})
     yields: Bools | None = None
-    for m, (tag, links) in enumerate(zip(traffic.tags, traffic.links, strict=True)):
+    rows = []
+    for m in which.tolist():
+        tag = traffic.tags[m]
         if tag not in known:
             yields = _not_first(traffic, line, steps) if yields is None else yields
-            known[tag] = _first_by_light(traffic, line, links, traffic.states[m], yields)
-    rows = [known[tag] for tag in traffic.tags]
+            known[tag] = _first_by_light(traffic, line, traffic.links[m], traffic.states[m], yields)
+        rows.append(known[tag])
     return np.array(rows, np.bool_).reshape(len(rows), steps)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from planner.kernels.course import Bools
 from planner.kernels.projection import SIDE_MARGIN
 from planner.kernels.reaction import Ints, react
-from planner.kernels.stretches import Stretches
+from planner.kernels.stretches import Stretches, empty, roomier
 from planner.roads.levels import NOBODY_ELSEWHERE, elsewhere
 from planner.roads.trajectory import Array, Path
 from planner.traffic_lights.signals import NO_LIGHTS, Lights
@@ -67,8 +67,21 @@ class Motions:
 class Met:
     """The stretches of one path that motions occupy, as far as these have been projected."""
 
-    stretches: Stretches | None = None
+    stretches: Stretches = field(default_factory=lambda: empty(0, 1))  # maybe with room for more
+    count: int = 0  # of the rows in use
     rows: dict[object, int] = field(default_factory=dict)  # by tag; -1: never on the path
+
+    def add(self, found: Stretches) -> None:
+        """Add stretches; the room doubles where it does not suffice."""
+        count = self.count + len(found.last)
+        if self.count == 0:
+            self.stretches, self.count = found, count
+            return
+        if count > len(self.stretches.last):
+            self.stretches = roomier(self.stretches, self.count, 2 * count)
+        for column, more in zip(self.stretches, found, strict=True):
+            column[self.count : count] = more
+        self.count = count
 
 
 @dataclass(slots=True, eq=False)
