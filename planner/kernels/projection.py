@@ -1,12 +1,12 @@
 """Projection of other vehicles on a path: the stretch that each occupies at every step."""
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from planner.kernels.lines import Line, clearance, distance, nearest, prepared
 from planner.kernels.stretches import Stretches, empty
 
 Floats = NDArray[np.float64]
@@ -17,25 +17,9 @@ BEFORE, AFTER = 4, 5  # steps that a stretch is blocked after, and before, a veh
 FOREVER = 1 << 30  # a step that never comes
 SLACK = 1e-3  # [m] greatest error of distances
 PATIENCE = 5  # steps between two measurements of how far a vehicle is from the path
-PIECE = 16  # points of a path that are looked at together
-
-Box = tuple[float, float, float, float]
 
 _jit = njit(cache=True, error_model="numpy")
 _inline = njit(cache=True, error_model="numpy", inline="always")  # avoids reference counting
-
-
-class Line(NamedTuple):
-    """A path, with values that are needed repeatedly."""
-
-    points: Floats  # [m] [N, 2]
-    arc: Floats  # [m] [N]
-    heading: Floats  # [rad] [N]
-    cos: Floats  # [N] of the heading
-    sin: Floats  # [N]
-    box: Box  # [m] least x and y, greatest x and y
-    middle: Floats  # [m] [P, 2] of each piece of PIECE points
-    reach: float  # [m] greatest distance of a point from the middle of its piece
 
 
 @_jit
@@ -64,7 +48,7 @@ def project(
         -1 for one that never comes onto it.
     """
     total, rows = states.shape[1], np.full(len(which), -1, np.int64)
-    line = _line(points, arc, heading)
+    line = prepared(points, arc, heading)
     start, stop = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
     corridor = 0.5 * width + SIDE_MARGIN
     near = np.empty(len(which), np.int64)
@@ -135,32 +119,6 @@ def _reaches(size: Floats, corridor: float) -> tuple[float, float, float]:
 
 
 @_jit
-def _line(points: Floats, arc: Floats, heading: Floats) -> Line:
-    low_x, low_y, high_x, high_y = points[0, 0], points[0, 1], points[0, 0], points[0, 1]
-    for k in range(1, len(points)):
-        low_x, high_x = min(low_x, points[k, 0]), max(high_x, points[k, 0])
-        low_y, high_y = min(low_y, points[k, 1]), max(high_y, points[k, 1])
-    box = (low_x, low_y, high_x, high_y)
-    middle, reach = _pieces(points)
-    return Line(points, arc, heading, np.cos(heading), np.sin(heading), box, middle, reach)
-
-
-@_jit
-def _pieces(points: Floats) -> tuple[Floats, float]:
-    """Return the middle [m] [P, 2] of each piece of a path, and the greatest distance from it."""
-    count = (len(points) + PIECE - 1) // PIECE
-    middle, reach = np.empty((count, 2)), 0.0
-    for p in range(count):
-        begin, end = p * PIECE, min((p + 1) * PIECE, len(points))
-        x = 0.5 * (points[begin, 0] + points[end - 1, 0])
-        y = 0.5 * (points[begin, 1] + points[end - 1, 1])
-        middle[p, 0], middle[p, 1] = x, y
-        for k in range(begin, end):
-            reach = max(reach, _distance(points[k, 0], points[k, 1], x, y))
-    return middle, reach + 1e-9
-
-
-@_jit
 def _occupied(
     line: Line,
     states: Floats,
@@ -190,32 +148,18 @@ def _occupied(
             room = 0.0
             continue
         if t > 0 and room > 0.0:
-            room -= _distance(x, y, states[t - 1, 0], states[t - 1, 1])
+            room -= distance(x, y, states[t - 1, 0], states[t - 1, 1])
         dx, dy = x - points[0, 0], y - points[0, 1]
         ahead = dx * line.cos[0] + dy * line.sin[0]
         aside = dy * line.cos[0] - dx * line.sin[0]
         if ahead >= behind or abs(aside) >= widest + behind:  # not in line behind the path
             if not room > 0.0 and t >= again:
-                room = _clearance(line, x, y, reach) - reach
+                room = clearance(line, x, y, reach) - reach
                 again = t + PATIENCE
             if room > 0.0:
                 continue
         near, low[t], high[t], cosine[t] = _stretch(line, states[t], size, corridor, near)
         along[t] = states[t, 3] * cosine[t]
-
-
-@_inline
-def _clearance(line: Line, x: float, y: float, reach: float) -> float:
-    """Return a distance [m] that exceeds `reach` only if (x, y) is at least as far from a path."""
-    box = line.box
-    off = max(box[0] - x, x - box[2], box[1] - y, y - box[3])
-    if off > reach:
-        return off
-    least = math.inf
-    for p in range(len(line.middle)):
-        dx, dy = line.middle[p, 0] - x, line.middle[p, 1] - y
-        least = min(least, dx * dx + dy * dy)
-    return math.sqrt(least) - line.reach
 
 
 @_jit
@@ -252,7 +196,7 @@ def _stretch(
     follows = ahead < 0.0 and abs(aside) < widest  # in line behind the path, however far
     within = math.inf if follows else widest + length
     off = max(box[0] - x, x - box[2], box[1] - y, y - box[3])
-    k = _nearest(line, x, y, near, within) if follows or off < within else -1
+    k = nearest(line, x, y, near, within) if follows or off < within else -1
     if k < 0:
         return near, math.nan, math.nan, 0.0
     dx, dy = x - points[k, 0], y - points[k, 1]
@@ -265,37 +209,6 @@ def _stretch(
         return k, math.nan, math.nan, 0.0
     least, most = _extent(length, width, aside, cos, sin, corridor)
     return k, arc[k] + ahead + least, arc[k] + ahead + most, cos
-
-
-@_inline
-def _nearest(line: Line, x: float, y: float, hint: int, within: float) -> int:
-    """Return the index of the path point nearest to (x, y), or -1 if none is within `within` [m].
-
-    Only pieces of the path that may have a nearer point than the best one known are looked at.
-    """
-    points, middle, reach = line.points, line.middle, line.reach
-    dx, dy = points[hint, 0] - x, points[hint, 1] - y
-    best, found = within * within, -1
-    if dx * dx + dy * dy < best:
-        best, found = dx * dx + dy * dy, hint
-    far = (math.sqrt(best) + reach) ** 2
-    for p in range(len(middle)):
-        dx, dy = middle[p, 0] - x, middle[p, 1] - y
-        if dx * dx + dy * dy > far:
-            continue
-        for k in range(p * PIECE, min((p + 1) * PIECE, len(points))):
-            dx, dy = points[k, 0] - x, points[k, 1] - y
-            d = dx * dx + dy * dy
-            if d < best or (d == best and k < found):
-                best, found = d, k
-        far = (math.sqrt(best) + reach) ** 2
-    return found
-
-
-@_jit
-def _distance(px: float, py: float, x: float, y: float) -> float:
-    dx, dy = px - x, py - y
-    return math.sqrt(dx * dx + dy * dy)
 
 
 @_jit
