@@ -56,6 +56,7 @@ WALKERS = Described(
     "pedestrian", doing=Event("cross", Wanted(), E, tense="present"), plural=True, definite=False
 )
 REAR = Described("car", such=Related("behind", Wanted("car")), plural=True, definite=False)
+BRAKED = Described(doing=Event("brake", Wanted(), tense="past"), plural=True, definite=False)
 TURN = Happens(Event("turn", V, side="right"))
 UNSURE = Belief(1, 4.0, (Expectation(("exit-right",), 0.45), Expectation(("continue",), 0.4)))
 EXPECTED = Belief(1, 8.0, (Expectation(("exit-right",), 0.78), Expectation(("continue",), 0.2)))
@@ -153,6 +154,7 @@ CASES: tuple[Answer, ...] = (
     Counted(Everyone(), 0, until=10.0, such=REAR),
     Counted(Everyone(), 1, (OTHER_BLUE,), such=REAR),
     Counted(Everyone(), 9, such=REAR),
+    Counted(Everyone(), 9, (LORRY, OTHER_BLUE), such=BRAKED),
     *(Counted(Everyone("pedestrian"), n, such=WALKERS) for n in range(3)),
     Counted(Everyone(), 9, until=10.0, such=REAR),
     Happenings("list", RIDE),

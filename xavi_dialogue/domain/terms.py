@@ -82,6 +82,7 @@ class Described(Value, frozen=True):
     bearing: Bearing | None = None  # where it is
     origin: Bearing | None = None  # where it comes or came from
     of: "Thing | None" = None  # the bearing is relative to this; None: to us
+    among: "Thing | None" = None  # these or some of them: "how many of them"
     doing: "Event | None" = None  # relative clause: "that cut in", "which we waited for"
     such: "Proposition | None" = None  # any other relative clause: "that you cannot see"
     plural: bool = False

@@ -84,12 +84,14 @@ class Questions(Options):
         return Wh(kind, "", (), None, key, besides)
 
     def _counted(self, node: Node) -> Sem:
-        inner = node_of(node, "np", "group")
+        inner = node_of(node, "np", "group", "accusative")
+        many = Described(plural=True, definite=False)  # "how many are coming?"
         if inner is not None:
-            return cast(Sem, self.phrases.nouns.read(inner))
+            named = cast(Sem, self.phrases.nouns.read(inner))
+            those = several_of(named) if isinstance(named, Pronoun) else None
+            return named if those is None else structs.replace(many, among=those)
         amount = leaf_of(node, "AMOUNT")
         alone = amount is not None and amount.key == "many"
-        many = Described(plural=True, definite=False)  # "how many are coming?"
         return self._asked_noun(node) or (many if alone else Pronoun("one"))
 
     def _asked_noun(self, node: Node) -> Sem | None:

@@ -26,6 +26,7 @@ from xavi_dialogue.domain.terms import (
     Nobody,
     Not,
     Passenger,
+    Pronoun,
     Related,
     Thing,
     Vehicle,
@@ -99,6 +100,14 @@ def test_a_description_finds_its_vehicle(described: Thing, vehicle: int) -> None
 def test_a_plural_names_all_that_fit() -> None:
     assert meant(Described(colour="blue", plural=True)) == Vehicles((3, 4))
     assert meant(Described(kind="car", plural=True, number=2, bearing="left")) == Vehicles((3, 4))
+
+
+def test_some_of_several_are_some_of_those_spoken_of() -> None:
+    spoken = talk(Vehicles((1, 3, 4, 5))).mentions
+    blue = Described(colour="blue", among=Pronoun("them-all"), plural=True, definite=False)
+    assert meant(blue, mentions=spoken) == Vehicles((3, 4))
+    red = Described(colour="red", among=Pronoun("them-all"), plural=True, definite=False)
+    assert isinstance(meant(red, mentions=spoken), Nobody)
 
 
 def test_the_other_one_is_not_the_one_spoken_of() -> None:

@@ -241,7 +241,8 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
         rows = tuple(Who(Vehicle(v), placed=len(seen) < FEW) for v in seen)
         did = relative_clause(msgspec.structs.replace(such.doing, tense="past"), context.now)
         doers = message("COUNTED_DOERS", none=answer.count == 0, one=answer.count == 1,
-                        unnamed=not rows, number=amount, did=did, rows=rows)  # fmt: skip
+                        unnamed=not rows, some=0 < len(rows) < answer.count, number=amount,
+                        did=did, rows=rows)  # fmt: skip
         return Plan((doers,))
     past = answer.until is not None and context.now - answer.until > PRESENT
     if such is not None and such.doing is not None and answer.count == 0:

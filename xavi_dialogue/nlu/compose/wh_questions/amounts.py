@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Unknown,
     Vehicle,
+    Wanted,
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
@@ -164,8 +165,18 @@ def _restricted(of: Thing | Event, value: Any) -> Thing | Event:
         return of
     if isinstance(value, Special):
         value = proposition_of(value)
-    if isinstance(value, Happens):
+    if of.among is not None and (kinds := _kinds(value)) is not None:
+        of = structs.replace(kinds, among=of.among)
+    elif isinstance(value, Happens):
         of = structs.replace(of, doing=value.event)
     elif value is not None and not isinstance(value, That):
         of = structs.replace(of, such=value)
     return structs.replace(of, plural=True, definite=False)
+
+
+def _kinds(value: Any) -> Described | None:
+    """Give what some of those are said to be: "how many of them are bicycles"."""
+    match value:
+        case Related(relation="same-as", thing=Wanted(), to=Described() as kinds):
+            return structs.replace(kinds, plural=True, definite=False)
+    return None

@@ -93,7 +93,9 @@ def recast(spoken: Question, g: Grounder) -> Question:
         case HowMany(of=Described() as of) if (lights := among(of, g)) is not None:
             g.notes.leaned = True
             return HowMany(lights)
-        case HowMany(of=Described() as of) if of == _SUCH and _about_lanes(g.context):
+        case HowMany(of=Described() as of) if replace(of, among=None) == _SUCH and _about_lanes(
+            g.context
+        ):
             g.notes.leaned = True
             return HowMuch(Measured("lane-count"))
         case HowMuch(of=Measured(attribute="count", thing=Ego(), to=None)) if (

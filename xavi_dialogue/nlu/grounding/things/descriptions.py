@@ -19,6 +19,7 @@ from xavi_dialogue.nlu.grounding.things import choosing, looks, scene
 from xavi_dialogue.nlu.grounding.things.match import Match
 from xavi_dialogue.nlu.grounding.things.passing import comes, goes_past, passing_cost, placed
 from xavi_dialogue.nlu.grounding.things.relative import Clause, clause_of
+from xavi_dialogue.nlu.grounding.things.seen_from import seen_from
 from xavi_dialogue.nlu.grounding.things.such import Condition, condition_of
 
 ACCEPT: Final = 0.55  # cost up to which a description fits
@@ -45,6 +46,7 @@ class Search:
     fits: Fits | None
     reference: Thing | None  # from which the bearing is seen; None: from us
     condition: Condition | None = None
+    among: tuple[int, ...] | None = None  # who are meant, or some of them; None: anybody
 
     @property
     def present_only(self) -> bool:
@@ -86,7 +88,8 @@ class Search:
         context = self.grounder.context
         restricted = self.described.colour is not None or self.described.kind not in _ANY
         if self.reference is not None:
-            return (0.5 if restricted else 1.0) * _seen_from(self, vehicle)
+            cost = seen_from(context, bearing, self.reference, vehicle, self.moment)
+            return (0.5 if restricted else 1.0) * cost
         found = [looks.bearing_cost(bearing, look)]
         if not look.in_view:
             found[0] = max(found[0], 0.4)
@@ -146,7 +149,13 @@ def _search(thing: Described, g: Grounder, window: Window, fits: Fits | None) ->
     if not isinstance(reference, Vehicle):
         reference = None
     such = None if thing.such is None else condition_of(thing.such, g, window, moment)
-    return Search(thing, g, moment, clause, fits, reference, such)
+    return Search(thing, g, moment, clause, fits, reference, such, _among(thing, g, window))
+
+
+def _among(thing: Described, g: Grounder, window: Window) -> tuple[int, ...] | None:
+    """Give those of whom some are meant: "how many of them"; None: not said."""
+    those = None if thing.among is None else g.thing(thing.among, window)
+    return those.numbers if isinstance(those, Vehicles) else None
 
 
 def _by_noun(search: Search) -> Vehicle | None:
@@ -190,6 +199,9 @@ def _every(search: Search) -> bool:
 
 def _pools(search: Search) -> Iterator[tuple[float, tuple[int, ...]]]:
     context, moment = search.grounder.context, search.moment
+    if search.among is not None:
+        yield STAGES[0], search.among
+        return
     met = scene.on_foot(context, moment) if choosing.walks(search.described) else ()
     yield STAGES[0], (*context.in_view(moment), *met)
     if moment < context.now - 0.5:
@@ -311,40 +323,3 @@ def _missing(search: Search, match: Match | None) -> Thing:
     )
     g.notes.cost += MISSING if match is None else MISDESCRIBED
     return search.described if match is None else Vehicle(match.vehicle)
-
-
-_FROM: Final[dict[str, str]] = {
-    "ahead": "ahead-of", "behind": "behind", "left": "left-of", "right": "right-of",
-    "beside": "beside", "beside-left": "left-of", "beside-right": "right-of", "here": "near",
-}  # fmt: skip
-
-
-_IN_LINE: Final = ("ahead", "behind")
-
-
-def _lanes_apart(search: Search, one: int, other: int) -> bool:
-    """Tell whether two vehicles are on the same road, but not in the same lane."""
-    road = search.grounder.context.world.road(search.moment)
-    here, there = (None if road is None else road.places.get(n) for n in (one, other))
-    if here is None or there is None or here.edge != there.edge:
-        return False
-    return here.lane is not None and there.lane is not None and here.lane != there.lane
-
-
-def _seen_from(search: Search, vehicle: int) -> float:
-    """Weigh where a vehicle is, seen from another one."""
-    context, of = search.grounder.context, search.reference
-    if not isinstance(of, Vehicle) or of.number == vehicle:
-        return 1.0
-    mine, theirs = (context.look(n, search.moment) for n in (vehicle, of.number))
-    if mine is None or theirs is None:
-        return 1.0
-    if search.described.bearing in _IN_LINE and _lanes_apart(search, vehicle, of.number):
-        return 1.0  # beside the lane of the lorry, nobody is in front of it
-    relation = _FROM.get(search.described.bearing or "", "near")
-    held = context.world.relation(relation, Vehicle(vehicle), of, search.moment)  # type: ignore[arg-type]
-    if held is not None:
-        return 0.0 if held else 1.0
-    moved = replace(mine, bearing="around", ahead=mine.ahead - theirs.ahead,
-                    left=mine.left - theirs.left, oncoming=False)  # fmt: skip
-    return looks.bearing_cost(search.described.bearing, moved)

@@ -157,7 +157,7 @@ def _one(thing: Thing, g: Grounder) -> Thing:
 
 def among(of: Described, g: Grounder) -> Feature | None:
     """Take "how many of them were red?" for lights, where these were spoken of last."""
-    plain = Described(colour=of.colour, plural=of.plural, definite=of.definite)
+    plain = Described(colour=of.colour, among=of.among, plural=of.plural, definite=of.definite)
     if of.colour not in LIT or of != plain or not _leads(g, unsaid=False):
         return None
     return Feature("light", colour=of.colour)
