@@ -34,6 +34,7 @@ from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, node_of
 from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
 from xavi_dialogue.nlu.compose.verbs.trends import believed
 from xavi_dialogue.nlu.compose.wh_questions.asking import Asking
+from xavi_dialogue.nlu.compose.wh_questions.behind import behind_what, by_whom
 from xavi_dialogue.nlu.compose.wh_questions.pointing import pointed
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, held_then
 from xavi_dialogue.nlu.compose.wh_questions.what import going_on, purpose
@@ -41,6 +42,7 @@ from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 _NOMINAL = ("np", "group", "accusative", "accusative_group")
+WHOLE = -0.1  # cost of a place that is read as of what is asked for
 EMPHATIC = 0.6  # cost of "who did stop"
 #: What may ask for a moment or a thing that stands out.
 
@@ -158,6 +160,9 @@ class Questions(Options):
         amiss = hindsight(clause) if wh.kind == "what" else None
         if amiss is not None:
             return [(amiss, 0.0)]
+        by_whom(clause)
+        if (held := behind_what(clause)) is not None:
+            return [(self.asking.ask(wh, *held), WHOLE)]
         return self.of(wh, clause)
 
     def of(self, wh: Wh, clause: Clause) -> list[tuple[Question, float]]:

@@ -93,9 +93,7 @@ def recast(spoken: Question, g: Grounder) -> Question:
         case HowMany(of=Described() as of) if (lights := among(of, g)) is not None:
             g.notes.leaned = True
             return HowMany(lights)
-        case HowMany(of=Described() as of) if replace(of, among=None) == _SUCH and _about_lanes(
-            g.context
-        ):
+        case HowMany(of=Described() as of) if _of_lanes(of, g):
             g.notes.leaned = True
             return HowMuch(Measured("lane-count"))
         case HowMuch(of=Measured(attribute="count", thing=Ego(), to=None)) if (
@@ -223,10 +221,14 @@ def _fresh(context: Context) -> Event | None:
     return event_of(begun[-1], context.now) if begun else None
 
 
-def _about_lanes(context: Context) -> bool:
-    """Tell whether it was a lane that was asked for just now."""
-    asked = context.discourse.question
-    return isinstance(asked, HowMuch) and asked.of.attribute in ("lane", "lane-count")
+def _of_lanes(of: Described, g: Grounder) -> bool:
+    """Tell whether lanes are counted: it was a lane that was asked for just now."""
+    asked = g.context.discourse.question
+    return (
+        replace(of, among=None) == _SUCH
+        and isinstance(asked, HowMuch)
+        and asked.of.attribute in ("lane", "lane-count")
+    )
 
 
 def _difference(context: Context) -> HowMuch | None:

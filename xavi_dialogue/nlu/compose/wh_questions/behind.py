@@ -1,0 +1,53 @@
+"""Behind what: who is ahead of somebody, or holds him up: "what are we stuck behind?"."""
+
+from dataclasses import replace
+from typing import Final
+
+from xavi_dialogue.domain.terms import Event, Happens, Proposition, Related, Wanted
+from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement
+from xavi_dialogue.nlu.compose.clauses.sem import as_thing
+from xavi_dialogue.nlu.compose.states.predicates import tense_of
+from xavi_dialogue.nlu.grammar.chart import Node
+
+#: What one does where one is held up.
+_HELD: Final = frozenset({"stand", "sit", "wait", "queue", "line-up", "park", "hold"})
+_HINDERED: Final = frozenset({"stuck", "occupied"})
+_STANDING: Final = frozenset({"stuck", "stationary"})
+_DRIVEN: Final = frozenset({"drive", "travel", "crawl", "go"})
+
+
+def by_whom(clause: Clause) -> None:
+    """Take "by" at the end for whoever did it: "who were we overtaken by?"."""
+    told = [leaf for leaf in clause.particles if leaf.words == ("by",)]
+    hindered = any(key in _HINDERED for key, _ in clause.adjectives)
+    if not told or not isinstance(clause.gap, Wanted) or not (clause.passive or hindered):
+        return
+    clause.particles = [leaf for leaf in clause.particles if leaf not in told]
+    doer = None if hindered else clause.gap
+    clause.gap = clause.gap if hindered else None
+    clause.complements.append(Complement("by", doer, Node("stranded", (), 0, 0, 0.0)))
+
+
+def behind_what(clause: Clause) -> tuple[Clause, Proposition] | None:
+    """Read a place without its thing as of what is asked for; None where no such place is named.
+
+    "What are we stuck behind" and "who are we waiting behind" ask what holds us up, "who are we
+    behind" and "who is the bus driving behind" who is ahead.
+    """
+    subject = as_thing(clause.subject)
+    if not isinstance(clause.gap, Wanted) or subject is None or clause.objects:
+        return None
+    verb = "" if clause.verb is None else clause.verb.key
+    stuck = any(key in _HINDERED for key, _ in clause.adjectives)
+    still = verb in _HELD or any(key in _STANDING for key, _ in clause.adjectives)
+    places = {bearing for bearing, _ in clause.bearings}
+    places |= {c.key.removeprefix("bearing-") for c in clause.complements if c.sem is None}
+    bare = replace(clause, gap=None, bearings=[])
+    time, tense = clause.time, tense_of(clause)
+    if (stuck and places) or (still and "behind" in places):
+        return bare, Happens(Event("block", clause.gap, subject, time=time, tense=tense))
+    open_ = not verb and not clause.adjectives and not clause.there
+    if "behind" in places and (open_ or verb in _DRIVEN):
+        ahead = Related("behind", subject, clause.gap, time, tense)
+        return bare, ahead
+    return None
