@@ -40,6 +40,7 @@ from xavi_dialogue.domain.terms import (
     Junction,
     Measured,
     Next,
+    Nobody,
     Not,
     Now,
     Pronoun,
@@ -53,7 +54,12 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.grounding.acts.follow_ups import followed
 from xavi_dialogue.nlu.grounding.acts.questions import question as ground_question
 from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
-from xavi_dialogue.nlu.grounding.completion.supposing import of_named, subordinate, through
+from xavi_dialogue.nlu.grounding.completion.supposing import (
+    of_named,
+    of_nobody,
+    subordinate,
+    through,
+)
 
 TURN = HowMuch(Measured("turn", to=Junction(rank=2), time=Next(), tense="future"))
 AFTER, BEFORE = Back("after"), Back("before")
@@ -328,3 +334,43 @@ def test_it_is_the_vehicle_of_the_main_clause(then: Whether) -> None:
 def test_elsewhere_a_pronoun_stays(actor: Any, then: Any) -> None:
     asked = WhatIf(goes_on(actor), then)
     assert of_named(asked) == asked
+
+
+CARS = Described("car", plural=True, definite=False)
+
+
+@pytest.mark.parametrize(
+    ("supposed", "those"),
+    [
+        (Happens(Event("cross", Nobody(), tense="past")), Described("pedestrian", plural=True)),
+        (
+            Happens(Event("come", Nobody(CARS), tense="past")),
+            replace(CARS, doing=Event("come", Wanted("car"), tense="past")),
+        ),
+        (
+            Happens(Event("cross", Nobody(CARS), tense="past")),
+            replace(CARS, doing=Event("cross", Wanted("car"), tense="past")),
+        ),
+        (
+            Related("behind", Nobody(), tense="past"),
+            Described(such=Related("behind", Wanted()), plural=True, definite=False),
+        ),
+    ],
+)
+def test_that_nobody_does_something_is_the_absence_of_those_who_do(
+    supposed: Any, those: Described
+) -> None:
+    assert of_nobody(supposed) == Not(Exists(those, tense="past"))
+
+
+@pytest.mark.parametrize(
+    "supposed",
+    [
+        Happens(Event("give-way", Nobody(), tense="past")),
+        Happens(Event("cross", Vehicle(1), tense="past")),
+        Related("in-the-way-of", Nobody(), tense="past"),
+        Exists(Nobody()),
+    ],
+)
+def test_other_suppositions_stay(supposed: Any) -> None:
+    assert of_nobody(supposed) == supposed

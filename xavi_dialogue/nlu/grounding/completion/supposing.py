@@ -33,6 +33,7 @@ from xavi_dialogue.domain.terms import (
     Junction,
     Lane,
     Measured,
+    Nobody,
     Not,
     Now,
     Pronoun,
@@ -104,6 +105,35 @@ def of_named(spoken: WhatIf) -> WhatIf:
     whole = replace(event, actor=named)
     of = rewrite(spoken.supposed, lambda part: whole if part == event else part)
     return replace(spoken, supposed=of)
+
+
+def of_nobody(spoken: Proposition) -> Proposition:
+    """Take that nobody crosses, comes or is behind us for the absence of those who do.
+
+    That nobody is ahead, or in our way, is that the road is free.
+    """
+    match spoken:
+        case Happens(event=Event(action=action, actor=Nobody(described=known)) as event) if (
+            action in _MET and event.modal is None
+        ):
+            those = known or Described(kind="pedestrian" if action == "cross" else "vehicle")
+            walking = action == "cross" and those.kind == "pedestrian"
+            doing = None if walking else replace(event, actor=Wanted(those.kind))
+            those = replace(those, doing=doing, plural=True, definite=walking)
+            tense = event.tense
+        case Related(relation=relation, thing=Nobody(described=known), tense=tense) if (
+            relation not in _IN_OUR_WAY
+        ):
+            those = known or Described()
+            such = replace(spoken, thing=Wanted(those.kind), tense="present")
+            those = replace(those, such=such, plural=True, definite=False)
+        case _:
+            return spoken
+    return Not(Exists(those, Unsaid(), tense))
+
+
+_MET: Final = frozenset(("cross", "come", "approach"))
+_IN_OUR_WAY: Final = frozenset(("ahead-of", "in-the-way-of"))
 
 
 def _named_in(then: Question | None) -> Described | None:
