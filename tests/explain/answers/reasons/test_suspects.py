@@ -24,6 +24,7 @@ from xavi_dialogue.domain.evidence import Causation, Share
 from xavi_dialogue.domain.terms import Event, Exit, Related
 from xavi_dialogue.explain.answers.reasons.choices import is_choice, is_kept_from
 from xavi_dialogue.explain.answers.reasons.suspects import (
+    meant_on_foot,
     or_light,
     with_suspect,
     with_suspects,
@@ -253,10 +254,21 @@ def test_some_of_a_group_stand_for_all_of_it() -> None:
     assert with_suspects(other, (1, 2)) == other
 
 
-@pytest.mark.parametrize(("suspect", "part"), [(1, "either"), (2, "either"), (3, "none")])
+@pytest.mark.parametrize(("suspect", "part"), [(1, "either"), (2, "either"), (3, "neither")])
 def test_whether_it_is_somebody_or_the_light_is_told_by_the_reason(suspect: int, part: str) -> None:
     told_: Any = or_light(with_suspect(of_motion(1, 2), suspect))
     assert told_.suspected == part
     unasked = of_motion(1)
     assert or_light(unasked) == unasked
     assert or_light(Measures(())) == Measures(())
+    lit: Any = replace(of_motion(1), causes=(MotionCause("light"),))
+    of_lit: Any = or_light(with_suspect(lit, suspect))
+    assert of_lit.suspected is None
+
+
+def test_people_on_foot_stand_for_those_who_were_the_reason() -> None:
+    found, walkers = of_motion(3, 5), {1, 2, 5}
+    assert meant_on_foot(found, (1, 2), walkers) == (5,)
+    assert meant_on_foot(found, (5, 1), walkers) == (5, 1)
+    assert meant_on_foot(of_motion(3), (1, 2), walkers) == (1, 2)
+    assert meant_on_foot(Measures(()), (1, 2), walkers) == (1, 2)

@@ -2,7 +2,6 @@
 
 from msgspec import structs
 
-from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import (
     Answer,
     ChoiceReason,
@@ -23,14 +22,12 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Exists,
-    Feature,
     Happens,
     Has,
     Is,
     Measured,
     Proposition,
     Related,
-    Vehicles,
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute, State
@@ -46,7 +43,7 @@ from xavi_dialogue.explain.answers.reasons import (
     refraining,
     signalling,
 )
-from xavi_dialogue.explain.answers.reasons.suspects import or_light, with_suspect, with_suspects
+from xavi_dialogue.explain.answers.reasons.suspected import of_suspects, road_last
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, window
 from xavi_dialogue.explain.answers.reference.reading import (
@@ -98,6 +95,7 @@ def why(question: Why, scene: Asked) -> Answer:
     """
     if question.suspect == SOMEBODY_ELSE:
         return nobody_else.mattered(scene, why(structs.replace(question, suspect=None), scene))
+    question = road_last(question)
     of, negated = unwrapped(question.of)
     blamed = check_seen(scene, question.suspect)
     of_causes = question.suspect is not None or isinstance(of, Caused)
@@ -107,14 +105,7 @@ def why(question: Why, scene: Asked) -> Answer:
     found = _why(of, scene, question, negated=negated)
     if of_causes and isinstance(found, ChoiceReason | MotionReason):
         found = structs.replace(found, of_causes=True)
-    if isinstance(question.suspect, Vehicles) and len(question.suspect.numbers) > 1:
-        looks = (scene.world.look(one, scene.moment) for one in question.suspect.numbers)
-        people = all(look is not None and look.kind in ON_FOOT for look in looks)
-        told = with_suspects(found, question.suspect.numbers, together=people)
-    else:
-        rival = check_seen(scene, question.rival)
-        told = with_suspect(found, blamed, rival, alone=question.alone)
-    return or_light(told) if isinstance(question.rival, Feature) else told
+    return of_suspects(found, question, blamed, scene)
 
 
 def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) -> Answer:

@@ -1,5 +1,7 @@
 """Suspects: whether the vehicle that a question takes for the cause is one, and the only one."""
 
+from collections.abc import Collection
+
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, ChoiceReason, MotionReason
@@ -7,7 +9,7 @@ from xavi_dialogue.domain.evidence import Causation
 from xavi_dialogue.domain.reasons import Suspected
 
 #: Parts of those that are no reason.
-CLEARED = frozenset[Suspected | None]((None, "none", "neither"))
+CLEARED = frozenset[Suspected](("none", "neither"))
 
 
 def with_suspect(
@@ -85,14 +87,33 @@ def with_suspects(
     return replace(told, suspected="which" if single else "some", besides=besides)
 
 
+def meant_on_foot(
+    found: Answer, named: tuple[int, ...], walkers: Collection[int]
+) -> tuple[int, ...]:
+    """Give the people whom a question suspects: a passenger does not know which of them it was.
+
+    Args:
+        found: the reason.
+        named: those whom the question names.
+        walkers: all who are on foot.
+    """
+    if not isinstance(found, ChoiceReason | MotionReason):
+        return named
+    guilty = tuple(vehicle for vehicle in blamed(found) if vehicle in walkers)
+    return named if set(guilty) & set(named) else guilty or named
+
+
 def or_light(found: Answer) -> Answer:
     """State the reason alone where the question is whether it is somebody or the traffic light.
 
-    It names them, or both; those who are no reason are cleared first.
+    It names them, or both; where it is neither, that comes first.
     """
-    if not isinstance(found, ChoiceReason | MotionReason) or found.suspected in CLEARED:
+    if not isinstance(found, ChoiceReason | MotionReason) or found.suspected is None:
         return found
-    return replace(found, suspected="either")
+    lit = isinstance(found, MotionReason) and any(cause.kind == "light" for cause in found.causes)
+    if found.suspected not in CLEARED:
+        return replace(found, suspected="either", besides=())
+    return replace(found, suspected=None if lit else "neither", besides=())
 
 
 def blamed(found: ChoiceReason | MotionReason) -> list[int]:

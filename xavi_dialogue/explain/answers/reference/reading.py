@@ -1,5 +1,6 @@
 """Reading: what a question is about, according to its propositions."""
 
+from planner.record.trace import ON_FOOT
 from sim.scene import EGO
 from xavi_dialogue.domain.answers import CannotSay, NoSuchVehicle
 from xavi_dialogue.domain.facts import Look, Somebody
@@ -90,6 +91,12 @@ def check_seen(scene: Asked, thing: Thing | Proposition | None) -> int | None:
     if vehicle is not None and vehicle not in scene.world.vehicles:
         raise Unanswered(NoSuchVehicle(Vehicle(vehicle), scene.moment, looks(scene)))
     return vehicle
+
+
+def walking(scene: Asked) -> frozenset[int]:
+    """Return all who have been seen on foot."""
+    found = ((v, scene.world.look(v, scene.moment)) for v in scene.world.vehicles)
+    return frozenset(v for v, look in found if look is not None and look.kind in ON_FOOT)
 
 
 def looks(scene: Asked) -> tuple[Look, ...]:

@@ -19,12 +19,13 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Proposition,
     Related,
+    That,
     Thing,
     Vehicle,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, wanted_pronoun
-from xavi_dialogue.nlu.compose.clauses.sem import Group, Sem, Specified, as_thing
+from xavi_dialogue.nlu.compose.clauses.sem import ALTERNATIVES, Group, Sem, Specified, as_thing
 
 _TURNS = frozenset({"turn", "exit-left", "exit-right", "take-turn"})
 _HINDERING = frozenset({"bend", "light", "crossing", "queue", "obstacle"})
@@ -65,6 +66,22 @@ def _cause(sem: Sem | None) -> Thing | None:
         case Pronoun(form="he" | "she" | "they" | "them-all"):
             return thing
     return None
+
+
+def either_cause(clause: Clause) -> Why | None:
+    """Read "was it the light or the bus" as for which of them it was; of two vehicles, None."""
+    it = isinstance(clause.subject, Pronoun) and clause.subject.form in ("it", "that", "this")
+    named = clause.objects[0][0] if len(clause.objects) == 1 else None
+    if not it or clause.verb is not None or clause.complements or clause.adjectives:
+        return None
+    if not isinstance(named, Group) or named.join != "or":
+        return None
+    things = [_cause(member) for member in named.members]
+    roadside = any(isinstance(thing, Feature) for thing in things)
+    cleft = any(isinstance(t, Described) and (t.doing or t.such) for t in things)
+    if len(things) != ALTERNATIVES or None in things or not roadside or cleft:
+        return None  # "the bus or the light that held us up?"
+    return Why(That(), suspect=things[0], rival=things[1])
 
 
 def cleft_cause(clause: Clause) -> tuple[Thing, Proposition | Clause] | None:

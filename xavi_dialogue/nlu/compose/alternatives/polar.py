@@ -43,7 +43,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     Wanted,
 )
-from xavi_dialogue.nlu.compose.alternatives.blames import blamed, cleft_cause, rival
+from xavi_dialogue.nlu.compose.alternatives.blames import blamed, cleft_cause, either_cause, rival
 from xavi_dialogue.nlu.compose.alternatives.choosing import asks_which, chosen
 from xavi_dialogue.nlu.compose.alternatives.comparing import Comparing
 from xavi_dialogue.nlu.compose.alternatives.nearness import nearly_even
@@ -153,6 +153,8 @@ class Polar(Comparing):
             return [(even, 0.0)]
         if (limited := permitted(clause)) is not None:
             return [(Whether(limited, tag), 0.0)]
+        if (either := either_cause(clause)) is not None:
+            return [(either, 0.0)]
         if found := chosen(clause, self.propositions):
             return [(self.framed(question, clause, None), cost) for question, cost in found]
         if (there := concealed(clause)) is not None:
