@@ -47,7 +47,12 @@ from xavi_dialogue.nlu.compose.alternatives.blames import blamed, cleft_cause, e
 from xavi_dialogue.nlu.compose.alternatives.choosing import asks_which, chosen
 from xavi_dialogue.nlu.compose.alternatives.comparing import Comparing
 from xavi_dialogue.nlu.compose.alternatives.nearness import nearly_even
-from xavi_dialogue.nlu.compose.alternatives.recast import about_whom, caused_by, judged_so
+from xavi_dialogue.nlu.compose.alternatives.recast import (
+    about_whom,
+    caused_by,
+    judged_so,
+    surely_valued,
+)
 from xavi_dialogue.nlu.compose.alternatives.swapped import swapped
 from xavi_dialogue.nlu.compose.clauses.adoption import as_of
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
@@ -70,6 +75,7 @@ _WAYS = frozenset(
 
 
 #: Nouns whose existence is a state, not a question for them.
+WHOLE = -0.25  # cost of what is read as a whole: "are you sure that was right?"
 _STATED = frozenset(("danger", "problem", "sight", "side", "truth"))
 _OTHERS = (Described, Pronoun, Vehicle)
 
@@ -157,6 +163,8 @@ class Polar(Comparing):
             return [(either, 0.0)]
         if found := chosen(clause, self.propositions):
             return [(self.framed(question, clause, None), cost) for question, cost in found]
+        if (sure := surely_valued(clause)) is not None:
+            return [(Whether(sure), WHOLE)]
         if (there := concealed(clause)) is not None:
             return [(Whether(there, tag), 0.0)]
         foreseen = _foreseen(clause)
@@ -238,6 +246,8 @@ class Polar(Comparing):
             return HowMany(passed)  # "did we go past any exits?"
         if isinstance(of, Is) and of.state == "sure" and _our_sureness(of.thing):
             content = self._sure_of(clause)
+            if isinstance(content, Is) and content.state in ("right", "wrong"):
+                return Whether(content)
             if content is None and clause.that is not None:  # "sure this is the right way"
                 return next((question for question, _ in self.whether(clause.that)), HowSure())
             return HowSure(content, clause.time)

@@ -1,6 +1,6 @@
 """Polar questions that ask something else: who is at fault, what a cause did, how safe it was."""
 
-from typing import cast
+from typing import Final, cast
 
 from msgspec import structs
 
@@ -22,7 +22,8 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, wanted_pronoun
-from xavi_dialogue.nlu.compose.clauses.sem import as_thing, is_thing
+from xavi_dialogue.nlu.compose.clauses.sem import SideOf, as_thing, is_thing
+from xavi_dialogue.nlu.compose.clauses.tree import words_of
 
 _ANYTHING = Described(definite=False)
 
@@ -32,6 +33,41 @@ def about_whom(clause: Clause) -> Thing | None:
     found = (as_thing(p.sem) for p in clause.complements if p.key in ("about", "with", "on"))
     vehicles = (Described, Vehicle, Pronoun)
     return next((thing for thing in found if isinstance(thing, vehicles)), None)
+
+
+#: How we do something well, or decide well.
+_WELL: Final = frozenset({"right", "worth-it", "good", "safely"})
+_RIGHT: Final = frozenset({"right", "correct", "good", "best", "proper"})
+_WRONG: Final = frozenset({"wrong", "bad", "incorrect"})
+_CHOOSING: Final = frozenset({"choose", "decide", "do", "act", "behave", "make", "take"})
+
+
+def valued(clause: Clause) -> Is | None:
+    """Read "you chose right", "that was right" as a judgement of what we did; None for the rest."""
+    ours = isinstance(clause.subject, Ego)
+    verb = None if clause.verb is None else clause.verb.key
+    bare = verb is None and wanted_pronoun(clause.subject) and not clause.objects
+    if not bare and not (ours and verb in _CHOOSING):
+        return None
+    keys = {key for key, _ in clause.adjectives} | set(clause.manner)
+    named = {word for _, node in clause.objects for word in words_of(node).split()}
+    apart = any(isinstance(sem, SideOf) for sem, _ in clause.objects)
+    sided = clause.side == "right" or (apart and "right" in named)
+    chosen = any(isinstance(sem, Event) for sem, _ in clause.objects)
+    wrong = "wrong" in keys or (chosen and bool(named & _WRONG))
+    right = sided or keys & (_WELL - {"safely"} if bare else _WELL) or (chosen and named & _RIGHT)
+    if clause.complements or not (wrong or right):
+        return None
+    done = Event("do", Ego(), Pronoun("that"), tense="past")
+    if wrong:
+        return Is("wrong", None, done, tense="past")
+    return Is("right", Pronoun("that"), done, tense="past")
+
+
+def surely_valued(clause: Clause) -> Is | None:
+    """Read "are you sure that was right" as whether it was."""
+    sure = isinstance(clause.subject, Ego) and any(key == "sure" for key, _ in clause.adjectives)
+    return valued(clause.that) if sure and clause.that is not None else None
 
 
 def judged_so(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
@@ -50,6 +86,10 @@ def judged_so(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
         case Happens(event=Event(action="do", actor=Ego(), modal="would", manner=("again",))):
             done = Event("do", Ego(), Pronoun("that"), tense="past")  # "would you do it again?"
             return Whether(Is("right", Pronoun("that"), done, tense="past"))
+        case Happens(
+            event=Event(action="do", actor=Ego(), modal=None, tense="past" | "perfect")
+        ) if judged := valued(clause):
+            return Whether(judged, tag)
         case Is(state="wrong", thing=Ego() | Described() as thing) if _of_any(clause, thing, about):
             return Listing("wrong-predictions", time=clause.time)
         case Exists(thing=Described(kind="vehicle", such=Is("wrong", Wanted()))) if clause.verb:

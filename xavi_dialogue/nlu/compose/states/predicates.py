@@ -52,6 +52,7 @@ from xavi_dialogue.nlu.grammar.chart import Part
 
 Found = tuple[Proposition, float]
 _PACES: dict[str | None, str] = {"fastest": "more", "slowest": "less"}
+_GOOD = frozenset({"right", "correct", "good", "best", "proper", "wise"})
 _AMISS = frozenset({"wrong", "bad", "poor"})
 _FACTS = frozenset({"it", "that", "this"})
 SLOWEST = 6  # [km/h] from which on a bare number said of a vehicle is its speed
@@ -125,7 +126,11 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
     if isinstance(sem, Event) and sem.action == "nearly-collide":
         return [(Is("close", subject, time=time, tense=tense), 0.1)]  # "it was a near miss"
     if isinstance(sem, Event):
-        return [(Is("right", subject, sem, time=time, tense=tense), 0.5)]
+        words = {*words_of(clause.objects[0][1]).split()}
+        if words & _AMISS:
+            return [(Is("wrong", None, sem, time=time, tense=tense), 0.1)]
+        cost = 0.1 if words & _GOOD else 0.5
+        return [(Is("right", subject, sem, time=time, tense=tense), cost)]
     return _same(clause, as_thing(sem), subject, time)
 
 
