@@ -47,6 +47,7 @@ HIM = Vehicle(1)
 NOT_LEFT = Not(Happens(replace(LEFT, modal=None)))
 TOLD = talk(option=replace(LEFT, modal="can"), decided=GO)
 CLOSE, CLOSE_TWO = Whether(Is("close", Pronoun("it"))), Whether(Is("close", Pronoun("them-all")))
+APART = HowMuch(Measured("distance", Pronoun("them-all"), to=Pronoun("them-all")))
 MARGIN = Compare((Happens(GO), Happens(LEFT)), "margin")
 DO = Event("do", tense="present")
 
@@ -119,7 +120,10 @@ OTHERS = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("spoken", [CLOSE, HowMuch(Measured("distance", Pronoun("it")))])
+@pytest.mark.parametrize(
+    "spoken",
+    [CLOSE, HowMuch(Measured("distance", Pronoun("it"))), Whether(Is("close", Pronoun("they")))],
+)
 @pytest.mark.parametrize("asked", DECISIONS)
 def test_how_close_it_was_is_by_how_much_the_decision_was_taken(
     asked: Question, spoken: Question
@@ -132,6 +136,15 @@ def test_how_close_it_was_is_by_how_much_the_decision_was_taken(
     assert followed(spoken, grounder(of(asked, decided=GO))) == Listing("rivals")
 
 
+@pytest.mark.parametrize("asked", DECISIONS)
+def test_what_it_costs_is_asked_of_what_a_decision_weighed(asked: Question) -> None:
+    for form in ("it", "that"):
+        spoken = HowMuch(Measured("delay", Pronoun(form)))  # type: ignore[arg-type]
+        assert followed(spoken, grounder(of(asked))) == Listing("rivals")
+    elsewhere = grounder(of(Listing("vehicles")))
+    assert followed(HowMuch(Measured("delay", Pronoun("it"))), elsewhere) != Listing("rivals")
+
+
 @pytest.mark.parametrize("asked", OTHERS)
 def test_how_close_it_was_is_a_distance_where_no_decision_was_told_of(asked: Question) -> None:
     g = grounder(weighed(asked))
@@ -142,6 +155,7 @@ def test_how_close_it_was_is_a_distance_where_no_decision_was_told_of(asked: Que
 def test_how_close_the_two_are_is_of_a_decision_after_a_reason_or_a_supposition() -> None:
     for asked in (Why(SLOWED), WhatIf(SLOWED)):
         assert followed(CLOSE_TWO, grounder(weighed(asked))) == MARGIN
+        assert followed(APART, grounder(weighed(asked))) == MARGIN
     # Otherwise "them all" means those who are near.
     of_him = Why(Happens(Event("brake", HIM)))
     assert followed(CLOSE_TWO, grounder(weighed(of_him))) == CLOSE

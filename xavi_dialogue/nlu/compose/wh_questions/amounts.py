@@ -44,6 +44,7 @@ from xavi_dialogue.nlu.compose.wh_questions.lasting import (
     long_lasting,
     measured,
     saving,
+    spent_by,
     until,
 )
 from xavi_dialogue.nlu.compose.wh_questions.towards import reference
@@ -128,8 +129,7 @@ def _stretch(clause: Clause, value: Any, actor: Thing | None, event: Event | Non
     if isinstance(clause.time, Relative) and clause.time.relation == "until":
         return until(clause.time.anchor)
     if isinstance(value, Special) and value.name in ("cost", "delay", *SAVING):
-        by = value.match.phrases.get("by")
-        deed = with_fields(by, tense=clause.tense) if isinstance(by, Event) else None
+        deed = spent_by(clause, value)
         if value.name in SAVING and deed is None:
             deed = saving(clause)
         return measured("delay", clause, actor, event=deed)

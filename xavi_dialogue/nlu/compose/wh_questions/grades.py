@@ -52,6 +52,7 @@ from xavi_dialogue.nlu.compose.wh_questions.lasting import (
     long_lasting,
     measured,
     pace,
+    spent_by,
 )
 from xavi_dialogue.nlu.compose.wh_questions.savings import UNREAL
 from xavi_dialogue.nlu.compose.wh_questions.towards import reference
@@ -336,8 +337,8 @@ def _much(clause: Clause, value: Any, actor: Thing | None) -> Question:
             far = clause.comparisons[0][0] == "far"
             return Compare((cast(Thing, actor), than), "distance", far)
         return measured(attribute, clause, actor, to=than)
-    if isinstance(value, Special) and value.name in ("cost", "delay", "save", "take-time"):
-        return measured("delay", clause, actor)
+    if isinstance(value, Special) and value.name in ("cost", "delay", "save", "gain", "take-time"):
+        return measured("delay", clause, actor, event=spent_by(clause, value))
     if any(key == "allowed" for key, _ in clause.adjectives):
         return measured("limit", clause, Ego())
     if isinstance(value, Happens) and value.event.action in _PASSING:

@@ -45,6 +45,12 @@ _TURNS = frozenset({"turn", "exit-left", "exit-right", "exit-straight"})
 _SEEING = frozenset({"see", "look", "watch", "know", "track", "notice"})
 
 
+def spent_by(clause: Clause, value: Special) -> Event | None:
+    """Give the deed by which time is saved or lost: "by overtaking"."""
+    by = value.match.phrases.get("by")
+    return cast(Event, with_fields(by, tense=clause.tense)) if isinstance(by, Event) else None
+
+
 def saving(clause: Clause) -> Event:
     """Name what may have saved time: what we chose, not what held us up."""
     named = clause.subject
@@ -173,9 +179,9 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
         if phrase.key == "until" and phrase.sem is not None:
             return until(as_thing(phrase.sem))
     if isinstance(value, Special) and value.name in SAVING:
-        return measured("delay", clause, actor, event=saving(clause))
+        return measured("delay", clause, actor, event=spent_by(clause, value) or saving(clause))
     if isinstance(value, Special) and value.name in ("cost", "delay"):
-        return measured("delay", clause, actor)
+        return measured("delay", clause, actor, event=spent_by(clause, value))
     if isinstance(value, Special) and value.name in ("take-time", "last", "take-care"):
         return _taking(clause, value, actor)
     if isinstance(value, Special) and value.name in _SEEING:

@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.nominal import event_in
 from xavi_dialogue.nlu.compose.clauses.sem import as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 
@@ -33,6 +34,8 @@ _TIME: Final = HowMuch(Measured("delay"))
 _TURNS: Final[dict[str, ActionName]] = {
     "left": "exit-left", "right": "exit-right", "straight": "exit-straight"
 }  # fmt: skip
+_HALTS: Final = frozenset[ActionName](("wait", "stop", "stand", "brake", "slow-down", "follow"))
+_SAVED: Final = frozenset[Attribute](("delay", "duration", "time-to-go", "speed"))
 #: What leads on by another way: how long it would take is when we would be there.
 _WAYS: Final = (*_TURNS.values(), "turn", "circle", "change-lane", "change-left", "change-right")
 
@@ -47,6 +50,8 @@ def of_option(question: Question, clause: Clause, deed: Proposition | None) -> Q
     """
     if (way := _way(question, clause)) is not None:
         return WhatIf(Happens(way), _TIME)
+    if (means := _means(question, clause)) is not None:
+        return WhatIf(Happens(means), _TIME)
     match question:
         case Which(such=Related("in-the-way-of" | "ahead-of" as how, Wanted() as who, Ego())) if (
             how == "in-the-way-of"
@@ -76,6 +81,21 @@ def of_option(question: Question, clause: Clause, deed: Proposition | None) -> Q
         return question
     asked: Attribute = "duration" if attribute == "duration" else "delay"
     return HowMuch(replace(question.of, attribute=asked, to=None, event=_UNREAL))
+
+
+def _means(question: Question, clause: Clause) -> Event | None:
+    """Name what would save time: "how much sooner would we be there by passing it?"."""
+    match question:
+        case HowMuch(of=Measured(attribute=attribute, tense="present" | "future")) if (
+            attribute in _SAVED and clause.tense not in ("past", "perfect")
+        ):
+            deeds = (event_in(phrase.sem) for phrase in clause.complements if phrase.key == "by")
+            deed = next((one for one in deeds if one is not None), None)
+            if deed is None or not isinstance(deed.actor, Ego):
+                return None
+            held = deed.action in _HALTS and clause.modal != "would"  # it is going on
+            return None if held else replace(deed, tense="present", modal=None)
+    return None
 
 
 def _elsewhere(clause: Clause) -> bool:

@@ -47,7 +47,7 @@ _CHANGING: Final = ("change-lane", "change-left", "change-right", "overtake")
 _MOVES: Final = (*TURNS, *_CHANGING)
 _STAYING: Final = ("wait", "keep-lane", "stand")
 _MISHAPS: Final = ("collide", "nearly-collide")
-_SPOKEN_OF: Final = ("it", "that", "them-all")
+_SPOKEN_OF: Final = ("it", "that", "they", "them-all")
 
 
 def followed(spoken: Question, g: Grounder) -> Question:
@@ -67,12 +67,17 @@ def followed(spoken: Question, g: Grounder) -> Question:
                 return replace(spoken, of=Not(Happens(replace(discourse.option, modal=None))))
         case (
             Whether(that=Is(state="close", thing=Pronoun(form=form), event=None))
-            | HowMuch(of=Measured(attribute="distance", thing=Pronoun(form=form), to=None))
+            | HowMuch(of=Measured("distance", Pronoun(form=form), to=None | Pronoun("them-all")))
         ) if form in _SPOKEN_OF and _weighs(g.context.discourse, pair=form == "them-all"):
             g.notes.leaned = True
             if discourse.option is None or discourse.decided is None:
                 return Listing("rivals")
             return Compare((Happens(discourse.decided), Happens(discourse.option)), "margin")
+        case HowMuch(of=Measured("delay", Pronoun(form="it" | "that"), event=None)) if _weighs(
+            discourse, pair=False
+        ):  # "what does it cost us?" of what was chosen
+            g.notes.leaned = True
+            return Listing("rivals")
         case WhatWouldChange(of=None | That(), most=True) if discourse.option is not None:
             g.notes.leaned = True
             return replace(spoken, of=Not(Happens(replace(discourse.option, modal=None))))
