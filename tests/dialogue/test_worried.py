@@ -41,3 +41,19 @@ def test_takes_people_about_to_cross_for_people_and_not_for_a_request() -> None:
 def test_names_the_people_in_front_of_us_where_it_is_asked_whether_it_is_safe() -> None:
     told = Talk("junction-0", 32.5).hear("is it really safe to go?")
     assert "the pedestrian ahead of us" in told
+
+
+@pytest.mark.parametrize(
+    ("at", "before", "reply"),
+    [
+        (9.0, "Who could hit us?", "Stopping carries a risk of 21 % of a collision with the"),
+        (9.0, "Where are we?", "The pedestrian (vehicle 8) will be in our way"),
+        (24.0, "Who could hit us?", "The green bicycle (vehicle 3) will be in our way"),
+    ],
+)
+def test_who_worries_us_is_who_was_a_risk_else_who_will_be_in_our_way(
+    at: float, before: str, reply: str
+) -> None:
+    talk = Talk("junction-0", at)
+    talk.hear(before)
+    assert talk.hear("Who worries you most?").startswith(reply)

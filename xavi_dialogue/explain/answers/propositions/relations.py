@@ -24,6 +24,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, is_past, window
 from xavi_dialogue.explain.answers.reference.naming import is_us, looks, number, somebodies
+from xavi_dialogue.explain.answers.ride.cycling import likely_let
 from xavi_dialogue.explain.answers.ride.priority import owed, right_of_way, where_rule_holds
 from xavi_dialogue.explain.answers.sight.sight import others_mind
 from xavi_dialogue.explain.causes.vehicles.actions import EXITS
@@ -109,6 +110,8 @@ def _between(of: Related, asked: Asked, thing: Thing, to: Thing, about: Window) 
     facts = _facts(of, asked, thing, to, at)
     if holds is False and of.relation == "with" and is_us(to):
         holds = _went_our_way(asked, thing)
+    if holds is False and is_us(to) and of.relation == "in-the-way-of" and of.tense == "future":
+        holds = likely_let(asked, number(thing))  # who is on foot or on a bicycle counts as well
     if holds is False and is_us(to) and of.relation in ("behind", "ahead-of"):
         side = "behind" if of.relation == "behind" else "ahead"
         holds = any(isinstance(f, Look) and f.bearing.startswith(side) for f in facts)

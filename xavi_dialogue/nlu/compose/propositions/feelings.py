@@ -10,7 +10,6 @@ from xavi_dialogue.domain.terms import (
     Passenger,
     Pronoun,
     Proposition,
-    Related,
     Vehicle,
     Wanted,
 )
@@ -27,7 +26,7 @@ def felt(name: str, special: Special) -> Proposition:
         return Is("dangerous", Ego(), time=time_of(special), tense=tense_of(special))  # "worry"?
     feared = next((x for x in (special.subject, special.object) if isinstance(x, Wanted)), None)
     if name in _FEARING and feared is not None:  # "who worries you most?"
-        return Related("in-the-way-of", feared, Ego(), Next(), "future")
+        return Is("dangerous", feared, time=Next(), tense="future")
     if name == "feel:surprised" and isinstance(as_thing(special.object), Ego):
         by = special.subject  # who surprises us does not do what we expected
         named = isinstance(by, Vehicle | Pronoun) or (isinstance(by, Described) and by.definite)

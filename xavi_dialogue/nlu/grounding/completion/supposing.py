@@ -1,9 +1,10 @@
 """Supposing: "and if he had not?", "what if without it?", completed by what was spoken of."""
 
-from typing import Final
+from typing import Final, TypeGuard
 
 from msgspec.structs import replace
 
+from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
@@ -33,6 +34,7 @@ from xavi_dialogue.domain.terms import (
     Junction,
     Lane,
     Measured,
+    Next,
     Nobody,
     Not,
     Now,
@@ -156,6 +158,8 @@ def subordinate(spoken: Question, g: Grounder) -> Question:
             g.notes.leaned = g.notes.leaned or then is not None
             return spoken if then is None else WhatIf(Not(replace(of, time=then)))
     earlier = _supposed_before(g)
+    if _asks_worry(spoken) and not _risk_told(g.context.discourse):
+        return replace(spoken, such=_IN_OUR_WAY_NEXT)
     if _asks_whom(spoken):
         g.notes.leaned = g.notes.leaned or earlier is not None
         return whom_struck(earlier)
@@ -185,10 +189,39 @@ def whom_struck(supposed: Proposition | None) -> Question:
     return whom if supposed is None else WhatIf(supposed, whom)
 
 
+_IN_OUR_WAY_NEXT: Final = Related("in-the-way-of", Wanted(), Ego(), Next(), "future")
+
+
+def _asks_worry(spoken: Question) -> TypeGuard[Which]:
+    """Tell whether it is asked who worries us."""
+    return isinstance(spoken, Which) and spoken.such == Is(
+        "dangerous", Wanted(), time=Next(), tense="future"
+    )
+
+
+def _risk_told(discourse: Discourse) -> bool:
+    """Tell whether the risk of an option of ours was told, which is of those we may strike."""
+    if discourse.option is None:
+        return False
+    match discourse.question:
+        case Whether(that=Is(state="dangerous" | "safe")):
+            return True
+        case WhatIf(supposed=supposed, then=then):
+            parts = [part for part in (then, supposed) if part is not None]
+        case HowSure() | Which() as asked:
+            parts = [asked]
+        case _:
+            return False
+    return any(event is not None and event.action == "collide"
+               for event in (first(part, Event) for part in parts))  # fmt: skip
+
+
 def _asks_whom(spoken: Question) -> bool:
     """Tell whether it is asked from whom the danger is: "which car is the danger?"."""
     match spoken:
-        case Which(such=Is(state="dangerous", thing=Wanted(), event=None, tense="present")):
+        case Which(
+            such=Is(state="dangerous", thing=Wanted(), event=None, tense="present" | "future")
+        ):
             return True
         case Which(such=Related(relation="with", thing=Pronoun(), to=Wanted())):
             return True
