@@ -47,3 +47,12 @@ def test_an_option_is_of_the_time_that_is_named() -> None:
         for t in (3, 8)
     )
     assert at != late
+
+
+def test_a_belief_is_asked_of_a_time_counted_from_the_one_before() -> None:
+    talk = Talk("s1-0", 8.0)
+    talk.hear("How likely is it that the blue car turns right?")
+    three = talk.hear("How likely was that at 3 seconds?")
+    assert three.startswith("About 5 seconds ago, I put the chance that the blue car would turn")
+    earlier = talk.hear("What probability did you give that two seconds earlier?")
+    assert earlier.startswith("About 7 seconds ago, I put the chance")

@@ -50,6 +50,7 @@ class Back(Value, frozen=True):
     """The time of the episode under discussion, or before or after it: "then", "before that"."""
 
     relation: Literal["during", "before", "after"] = "during"
+    seconds: float | None = None  # [s] that long before: "two seconds earlier"
 
 
 class Rank(Value, frozen=True):

@@ -27,6 +27,7 @@ from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, nodes_of, number_of
 from xavi_dialogue.nlu.grammar.chart import Node
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 UP_TO_NOW = 1e6  # [s] the end of a stretch that reaches up to now, or its decision
@@ -35,6 +36,7 @@ MOMENTARY = frozenset(
     ("go", "do", "brake", "slow-down", "speed-up", "stop", "change-lane", "change-left",
      "change-right", "pull-out", "cut-in", "merge", "enter", "leave", "appear", "signal", "see"),
 )  # fmt: skip
+EARLIER = frozenset({"earlier", "before", "previously"})
 FEW = 5.0  # [s] "a few seconds"
 _ADVERBS: dict[str, Time] = {
     "now": Now(),
@@ -128,10 +130,10 @@ def seconds_of(node: Node) -> float | None:
     numbers = nodes_of(node, "num")
     if numbers and number_before(node) is None:
         return number_of(numbers[0]) * scale
-    determiner = leaf_of(node, "DET")
-    if determiner is not None and determiner.key == "many":
+    determiners = [p for p in node.parts if isinstance(p, Leaf) and p.category == "DET"]
+    if any(one.key == "many" for one in determiners):
         return FEW * scale
-    return scale if determiner is not None and determiner.words[0] in ("a", "one") else None
+    return scale if any(one.words[0] in ("a", "one") for one in determiners) else None
 
 
 def number_before(node: Node) -> float | None:
@@ -163,6 +165,8 @@ def _amount(node: Node) -> Time:
     adverb = leaf_of(node, "TIMEADV")
     if node.name == "time_ago":
         later = adverb is not None and adverb.key in ("next", "after-that", "now")
+        if amount is not None and adverb is not None and EARLIER.intersection(adverb.words):
+            return Back("before", amount)
         return Within(amount) if later else Ago(amount)
     if node.name == "time_span":
         order = leaf_of(node, "ORD")

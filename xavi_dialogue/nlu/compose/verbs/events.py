@@ -41,6 +41,7 @@ _SIDED: dict[tuple[str, str], str] = {
 _PLACED = {"in": "on", "on": "on", "at": "near", "into": "on", "between": "between", "with": "with",
            "like": "same-as"}  # fmt: skip
 _LIGHTS = frozenset({"indicator", "brake-lights"})
+_ROOM = frozenset({"gap", "headway", "distance", "size"})
 _GETTING = frozenset({"get", "jump", "hop", "climb", "leap", "step"})
 _WALKING = frozenset({"walk", "step", "stroll"})
 
@@ -69,7 +70,7 @@ def _shown(action: str, clause: Clause, match: Match) -> str:
     if isinstance(clause.subject, Measure) and clause.subject.of.attribute == "brake-lights":
         return "brake"
     used = match.object
-    return "go" if isinstance(used, Measure) and used.of.attribute not in _LIGHTS else action
+    return "go" if isinstance(used, Measure) and used.of.attribute in _ROOM else action
 
 
 def _named(action: str, thing: Thing | None, clause: Clause) -> str:

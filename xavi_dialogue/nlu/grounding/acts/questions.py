@@ -68,7 +68,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 from xavi_dialogue.nlu.grounding.completion.supposing import of_named, of_nobody
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
 from xavi_dialogue.nlu.grounding.events.generic import across
-from xavi_dialogue.nlu.grounding.events.timing import believed_last, changed, foreseen, over
+from xavi_dialogue.nlu.grounding.events.timing import believed_last, changed, coming, foreseen, over
 from xavi_dialogue.nlu.grounding.events.windows import pointed
 
 _AWAY: Final = frozenset(("go", "move", "head", "disappear"))
@@ -265,7 +265,7 @@ def _how_sure(spoken: HowSure, g: Grounder) -> HowSure:
     if isinstance(spoken.time, Unsaid):
         return replace(spoken, of=of)
     window = at_moment(spoken.time, "past", g, None)
-    return replace(spoken, of=of, time=window.term)
+    return replace(spoken, of=coming(of, window, g), time=window.term)
 
 
 def _how_decide(spoken: HowDecide, g: Grounder) -> HowDecide:

@@ -20,6 +20,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    At,
     Back,
     Between,
     Ego,
@@ -96,6 +97,8 @@ def counted_from(time: Time, question: Question) -> Time:
     if not isinstance(time, Back) or when is None:
         return time
     match time.relation:
+        case "before" if time.seconds is not None:
+            return At(max(when[0] - time.seconds, 0.0))
         case "before":
             return Between(max(when[0] - 8.0, 0.0), max(when[0] - 0.05, 0.0))
         case "after":

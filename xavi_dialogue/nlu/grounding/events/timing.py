@@ -13,8 +13,10 @@ from xavi_dialogue.domain.terms import (
     Believed,
     Between,
     Ego,
+    Event,
     Happens,
     Next,
+    Now,
     Proposition,
     Rank,
     Relative,
@@ -49,6 +51,15 @@ def foreseen(spoken: HowSure) -> HowSure:
         return spoken
     to_come = replace(event, time=Unsaid(), tense="future")
     return replace(spoken, of=Happens(to_come), time=event.time)
+
+
+def coming(of: Proposition | None, window: Window, g: Grounder) -> Proposition | None:
+    """Take what is expected of somebody as it was to come at the time that is said."""
+    g.notes.span = window.span
+    match of:
+        case Happens(event=Event(modal="will", time=At()) as event) if event.actor != Ego():
+            return Happens(replace(event, time=Now(), tense="present", modal="would"))
+    return of
 
 
 def believed_then(spoken: Believed) -> Believed:

@@ -85,6 +85,9 @@ def window(time: Time, tense: Tense, g: Grounder) -> Window:
             return _relative(time, tense, g)
         case Back(relation="before") if tense == "future":
             return _coming(context, SOON, said=False)  # "will you stop before it?"
+        case Back(seconds=float() as back):
+            told = None if is_stale(context) else focus(context.discourse)
+            return _at(min((told or (now,))[0], now) - back, now)
         case Back(relation=relation):
             return _back(relation, g)
         case Rank(rank=rank):
@@ -147,8 +150,7 @@ def _at(at: float, now: float) -> Window:
 def _decided(number: int, last: int, context: Context) -> Window:
     """Take the time of a decision, or from one to another, by their numbers in the record."""
     first, end = (context.world.decided(n) for n in (number, last))
-    if end is None and last > number:
-        end = context.now
+    end = context.now if end is None and last > number else end
     if first is None or end is None:
         return unsaid("past", context)
     return _at(first, context.now) if first == end else _between(first, end, context.now)
