@@ -47,3 +47,17 @@ def test_people_who_go_first_are_allowed_to_walk() -> None:
 def test_as_many_are_counted_as_we_let_go_first(whom: str, told: str):
     talk = Talk("junction-0", 60.0)
     assert talk.hear(f"How many {whom} did you let go first on this ride?").startswith(told)
+
+
+@pytest.mark.parametrize("question", ["Who went first?", "Who went first there?"])
+def test_who_went_first_is_whom_we_let_go_last(question: str) -> None:
+    told = Talk("junction-0", 34.5).hear(question)
+    assert told.startswith("The green bicycle that was")
+    assert "had right of way, so I had to give way, which I did" in told
+
+
+def test_as_many_are_counted_as_are_expected_to_cross() -> None:
+    talk = Talk("junction-0", 9.0)
+    talk.hear("Are there any people?")
+    assert "will cross our way" in talk.hear("How many of them are going to cross?")
+    assert "will cross our way" in talk.hear("Which of them will cross?")

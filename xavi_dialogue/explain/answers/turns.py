@@ -37,7 +37,7 @@ from xavi_dialogue.explain.answers.owing import DUTIES, LETTING, grounds, reason
 from xavi_dialogue.explain.answers.propositions import measures
 from xavi_dialogue.explain.answers.propositions.reasons import why
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
-from xavi_dialogue.explain.answers.reference.moments import Window, is_past
+from xavi_dialogue.explain.answers.reference.moments import Window, is_past, window
 from xavi_dialogue.explain.answers.reference.naming import is_us, number, of_kind, somebodies
 from xavi_dialogue.explain.answers.ride.crossings import meets_ahead, passes_by
 from xavi_dialogue.explain.answers.ride.cycling import likely_let
@@ -46,6 +46,7 @@ from xavi_dialogue.explain.answers.ride.priority import priority_at
 from xavi_dialogue.explain.answers.ride.walking import walks_first
 
 GOING: Final = frozenset[ActionName](("go", "move", "enter", "cross", "turn", "continue", "pass"))
+GIVEN: Final[tuple[ActionName, ...]] = ("give-way",)
 WAITS: Final[tuple[ActionName, ...]] = ("give-way", "wait")
 BOTH: Final = 2  # minimum of vehicles whose order is stated
 
@@ -73,12 +74,35 @@ def who(question: Which, asked: Asked) -> Answer:
             return told
         if _asks_whom(such) and (told := order(asked, ())) is not None:
             return replace(told, after=()) if told.rule == "give-way" else told
+    elif isinstance(such, Happens) and _asks_order(such) and (met := _met(asked, such.event)):
+        return met
     found = queues.who(question, asked)
     if not isinstance(found, Priority):
         return found
     if such is not None and found.rule == "none" and _asks_whom(such) and _is_now(asked, such):
         return unblocking(asked) or why(Why(Not(Happens(Event("go", tense="present")))), asked)
     return reason(asked, found)
+
+
+def _met(asked: Asked, of: Event) -> Priority | None:
+    """Return who went first where we let somebody go, else where somebody let us; None: nowhere.
+
+    Of several times it is the one that is nearest to that asked about.
+    """
+    about = window(asked, of.time, of.tense)
+
+    def apart(episode: Episode) -> tuple[float, float]:
+        end = asked.now if episode.end is None else episode.end
+        return max(episode.begin - about.end, about.begin - end, 0.0), -episode.begin
+
+    ours = asked.world.episodes(Ego(), GIVEN)
+    theirs = asked.world.episodes(None, GIVEN, object=Ego())
+    for episode in (*sorted(ours, key=apart), *sorted(theirs, key=apart)):
+        vehicle = number(episode.object) or number(episode.actor)
+        near = Window(episode.begin, asked.now if episode.end is None else episode.end)
+        if vehicle is not None and (told := priority_at(asked, vehicle, near)).rule != "none":
+            return told
+    return None
 
 
 def how_much(question: HowMuch, asked: Asked) -> Answer:
@@ -276,7 +300,7 @@ def _asks_next(such: Proposition) -> bool:
     """Check whether the question is who goes next."""
     match such:
         case Happens(event=Event(actor=Wanted(), object=None, time=Next(), modal=None) as event):
-            return event.action in GOING
+            return event.action in GOING - {"cross", "turn", "pass"}
     return False
 
 

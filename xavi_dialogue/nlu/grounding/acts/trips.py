@@ -80,6 +80,9 @@ def of_trip(spoken: Question) -> Question | None:
             whom, of
         ):
             return Which(Wanted(whom.kind), Happens(replace(of, time=WholeRide())))
+        case HowMany(of=Described(doing=Event(actor=Wanted(), tense="future") as to_come) as whom):
+            among = () if whom.among is None else (whom.among,)  # whom we expect to do so
+            return Which(Wanted(whom.kind), Happens(to_come), among)
         case HowMany(of=Described(doing=Event() as met, such=None) as whom) if _met(
             whom, Happens(met)
         ):
