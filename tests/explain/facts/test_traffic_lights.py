@@ -23,6 +23,8 @@ def test_the_light_is_the_one_ahead_then_the_one_passed():
     assert meant(ride, LIGHT, 1.0) is None
     assert meant(ride, Feature("light", rank=2), 20.0) is None
     assert meant(ride, Feature("light", rank=-1), 40.0) == SIGNAL
+    assert meant(ride, Feature("light", rank=-2), 40.0) is None
+    assert meant(ride, Feature("light", rank=-2), 20.0) is None
 
 
 def test_the_light_of_another_is_not_ours():

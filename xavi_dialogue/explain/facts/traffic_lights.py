@@ -62,9 +62,9 @@ def meant(ride: Ride, light: Feature, time: float) -> Signal | None:
     near = [Signal(one.controller, one.place) for one in ahead(ride, time)]
     if light.rank is not None and light.rank > 0:
         return near[light.rank - 1] if len(near) >= light.rank else None
+    if light.rank is not None and light.rank < 0:  # "the last", "the last but one"
+        return done[light.rank].signal if len(done) >= -light.rank else None
     back = [one for one in done if time - one.time <= BEHIND]
-    if light.rank == -1:
-        return done[-1].signal if done else None
     if done and abs(time - done[-1].time) <= AROUND:
         return done[-1].signal
     wanted = colour_of(light)
