@@ -48,6 +48,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Related,
     Vehicle,
+    Vehicles,
     Wanted,
 )
 
@@ -56,6 +57,7 @@ WALKERS = Described(
     "pedestrian", doing=Event("cross", Wanted(), E, tense="present"), plural=True, definite=False
 )
 REAR = Described("car", such=Related("behind", Wanted("car")), plural=True, definite=False)
+THOSE = Described(among=Vehicles((1, 3)), plural=True, definite=False)
 BRAKED = Described(doing=Event("brake", Wanted(), tense="past"), plural=True, definite=False)
 TURN = Happens(Event("turn", V, side="right"))
 UNSURE = Belief(1, 4.0, (Expectation(("exit-right",), 0.45), Expectation(("continue",), 0.4)))
@@ -155,6 +157,7 @@ CASES: tuple[Answer, ...] = (
     Counted(Everyone(), 1, (OTHER_BLUE,), such=REAR),
     Counted(Everyone(), 9, such=REAR),
     Counted(Everyone(), 9, (LORRY, OTHER_BLUE), such=BRAKED),
+    Counted(Vehicles((3,)), 2, (OTHER_BLUE,), such=THOSE),
     *(Counted(Everyone("pedestrian"), n, such=WALKERS) for n in range(3)),
     Counted(Everyone(), 9, until=10.0, such=REAR),
     Happenings("list", RIDE),
