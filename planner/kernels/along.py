@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+LONG = 7.0  # [m] from this length on, a body in a bend lies clearly aside of the path's direction
+
 _jit = njit(cache=True, error_model="numpy")
 
 
@@ -36,8 +38,7 @@ def place(
     Args:
         points, arc, heading, curvature: of the path.
         motion: [S, 3] arc [m], speed [m/s] and acceleration.
-        length: [m] of the vehicle; it points as the path does at its middle, because its
-            rear follows its front.
+        length: [m] of the vehicle; its rear follows its front.
 
     Returns:
         States [S, 4], and the curvature [1/m] [S] at the front.
@@ -46,9 +47,36 @@ def place(
     states = np.empty((len(motion), 4))
     states[:, 0] = np.interp(arcs, arc, points[:, 0])
     states[:, 1] = np.interp(arcs, arc, points[:, 1])
-    states[:, 2] = np.interp(np.maximum(arcs - 0.5 * length, 0.0), arc, heading)
+    if length <= LONG:
+        states[:, 2] = np.interp(np.maximum(arcs - 0.5 * length, 0.0), arc, heading)
+    else:
+        states[:, 2] = chords(points, arc, heading, arcs, length)
     states[:, 3] = motion[:, 1]
     return states, np.interp(arcs, arc, curvature)
+
+
+@_jit
+def chords(points: Floats, arc: Floats, heading: Floats, arcs: Floats, length: float) -> Floats:
+    """Return the headings [rad] [S] of a body whose front and rear are both on a path.
+
+    Before its first point, the path leads straight on.
+
+    Args:
+        points, arc, heading: of the path.
+        arcs: [m] [S] of the front.
+        length: [m] of the body.
+    """
+    found = np.interp(np.maximum(arcs - 0.5 * length, 0.0), arc, heading)
+    x, y = np.interp(arcs, arc, points[:, 0]), np.interp(arcs, arc, points[:, 1])
+    rear = arcs - length
+    rear_x, rear_y = np.interp(rear, arc, points[:, 0]), np.interp(rear, arc, points[:, 1])
+    cos, sin = math.cos(heading[0]), math.sin(heading[0])
+    for k in range(len(arcs)):
+        before = min(rear[k], 0.0)
+        dx, dy = x[k] - rear_x[k] - before * cos, y[k] - rear_y[k] - before * sin
+        turned = math.atan2(dy, dx) - found[k]
+        found[k] += math.atan2(math.sin(turned), math.cos(turned))
+    return found
 
 
 @_jit

@@ -16,6 +16,7 @@ SIDE_MARGIN = 0.3  # [m] kept free beside the body
 BEFORE, AFTER = 4, 5  # steps that a stretch is blocked after, and before, a vehicle with priority
 FOREVER = 1 << 30  # a step that never comes
 SLACK = 1e-3  # [m] greatest error of distances
+PART = 7.0  # [m] longer bodies are projected in parts, since a path may bend beside them
 PATIENCE = 5  # steps between two measurements of how far a vehicle is from the path
 
 _jit = njit(cache=True, error_model="numpy")
@@ -137,7 +138,7 @@ def _occupied(
     along, cosine = found.along[m, start:], found.cosine[m, start:]
     points = line.points
     widest, behind, reach = _reaches(size, corridor)
-    near, room, again = 0, 0.0, 0
+    near, room, again, long = 0, 0.0, 0, size[0] > PART
     for t in range(len(states)):
         x, y = states[t, 0], states[t, 1]
         if t > 0 and _alike(states[t], states[t - 1]):
@@ -158,7 +159,12 @@ def _occupied(
                 again = t + PATIENCE
             if room > 0.0:
                 continue
-        near, low[t], high[t], cosine[t] = _stretch(line, states[t], size, corridor, near)
+        if long:
+            near, low[t], high[t], cosine[t] = _in_parts(line, states[t], size, corridor, near)
+        else:
+            near, low[t], high[t], cosine[t] = _stretch(
+                line, x, y, states[t, 2], size[0], size[1], corridor, near
+            )
         along[t] = states[t, 3] * cosine[t]
 
 
@@ -169,15 +175,55 @@ def _alike(state: Floats, before: Floats) -> bool:
     return bool(same)
 
 
+@_jit
+def _in_parts(
+    line: Line, state: Floats, size: Floats, corridor: float, near: int
+) -> tuple[int, float, float, float]:
+    """Return the stretch of a path on which a long body lies, as `_stretch` does for a short one.
+
+    The cosine is that of its foremost part on the path.
+    """
+    count = math.ceil(size[0] / PART)
+    length, along, across = size[0] / count, math.cos(state[2]), math.sin(state[2])
+    low, high, cosine, hint = math.nan, math.nan, 0.0, near
+    for part in range(count):
+        back = part * length
+        x, y = state[0] - back * along, state[1] - back * across
+        hint, least, most, cos = _stretch(line, x, y, state[2], length, size[1], corridor, hint)
+        near = hint if part == 0 else near
+        if not math.isnan(least):
+            cosine = cos if math.isnan(low) else cosine
+            low, high = _least(low, least), _most(high, most)
+    return near, low, high, cosine
+
+
+@_jit
+def _least(known: float, other: float) -> float:
+    return other if math.isnan(known) else min(known, other)
+
+
+@_jit
+def _most(known: float, other: float) -> float:
+    return other if math.isnan(known) else max(known, other)
+
+
 @_inline
 def _stretch(
-    line: Line, state: Floats, size: Floats, corridor: float, near: int
+    line: Line,
+    x: float,
+    y: float,
+    direction: float,
+    length: float,
+    width: float,
+    corridor: float,
+    near: int,
 ) -> tuple[int, float, float, float]:
     """Return the stretch of a path on which a body lies.
 
     Args:
         line: the path.
-        state, size: of the vehicle.
+        x, y, direction: [m], [rad] of its front.
+        length, width: [m]
         corridor: [m] to either side of the path.
         near: index of a path point that may be near.
 
@@ -187,10 +233,8 @@ def _stretch(
     """
     points, arc, heading, box = line.points, line.arc, line.heading, line.box
     line_cos, line_sin = line.cos, line.sin
-    length, width = size[0], size[1]
     widest = corridor + 0.5 * (length + width)  # a body reaches no farther aside
-    x = state[0] - 0.5 * length * math.cos(state[2])
-    y = state[1] - 0.5 * length * math.sin(state[2])
+    x, y = x - 0.5 * length * math.cos(direction), y - 0.5 * length * math.sin(direction)
     dx, dy = x - points[0, 0], y - points[0, 1]
     ahead, aside = dx * line_cos[0] + dy * line_sin[0], dy * line_cos[0] - dx * line_sin[0]
     follows = ahead < 0.0 and abs(aside) < widest  # in line behind the path, however far
@@ -203,7 +247,7 @@ def _stretch(
     ahead, aside = dx * line_cos[k] + dy * line_sin[k], dy * line_cos[k] - dx * line_sin[k]
     if abs(aside) >= widest or (k == len(arc) - 1 and ahead > length):
         return k, math.nan, math.nan, 0.0
-    turned = state[2] - heading[k]
+    turned = direction - heading[k]
     cos, sin = math.cos(turned), math.sin(turned)
     if abs(aside) >= 0.5 * (length * abs(sin) + width * abs(cos)) + corridor:
         return k, math.nan, math.nan, 0.0

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.kernels.along import LONG, chords
 from planner.kernels.elementary import arctan2, power
 from planner.kernels.resampling import nearest, resampled
 from planner.roads.levels import Levels, Passing
@@ -64,8 +65,11 @@ class Path:
     def headings(self, arcs: Array, length: float) -> Array:
         """Return headings [rad] [N] of a vehicle of a length [m] with its front at arcs [m].
 
-        Its rear follows its front: it points as the path does at its middle.
+        Its rear follows its front: it points as the path does at its middle, and a long one from
+        where its rear is on the path to its front.
         """
+        if length > LONG:
+            return chords(self.points, self.arc, self.heading, arcs, length)
         return np.interp(np.maximum(arcs - 0.5 * length, 0.0), self.arc, self.heading)
 
     def lane_at(self, arc: float) -> tuple[str, float]:

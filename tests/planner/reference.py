@@ -5,13 +5,13 @@ See planner/kernels for the compiled ones, and test_kernels.py for the compariso
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from planner.kernels.collision import ALIKE, BERTH, SAFE_CUT_IN
-from planner.kernels.driving import (
+from planner.kernels.limits import (
     ACCELERATION,
     ALIGNED,
     COMFORT,
@@ -32,7 +32,8 @@ from planner.kernels.driving import (
     RELAXATION,
     STANDING_TIME,
 )
-from planner.kernels.projection import AFTER, BEFORE, FOREVER, SIDE_MARGIN
+from planner.kernels.limits import BEFORE as SHORT_OF
+from planner.kernels.projection import AFTER, BEFORE, FOREVER, PART, SIDE_MARGIN
 from planner.manoeuvres.plans import ActionPlan, GiveWay, KeepClear, LetCross
 from planner.motion.forward import DT, Motion, advance
 from planner.motion.obstacles import Obstacle
@@ -117,6 +118,12 @@ class Occupancy:
                 return self._low[k] - back, self._high[k] - back, pace
         return None
 
+    def lowest(self, step: int) -> float:
+        """The lowest arc [m] that it takes from a step on; infinite without any."""
+        return min(
+            (low for low in self._low[self._at(step) :] if not math.isnan(low)), default=math.inf
+        )
+
     def between(self, begin: float, end: float, step: int) -> bool:
         """Whether it drives along the path, its rear between two arcs [m]."""
         k = self._at(step)
@@ -146,8 +153,33 @@ def occupancy(
     along, aligned = np.zeros(total), np.zeros(total)
     start, stop = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
     window = slice(start, stop)
+    count = max(math.ceil(obstacle.length / PART), 1)
+    for k in range(count - 1, -1, -1):  # the foremost part last
+        part = replace(
+            obstacle, length=obstacle.length / count, position=_moved(obstacle, k, count)
+        )
+        part_low, part_high, cos = _part(path, part, size, window)
+        low[window], high[window] = np.fmin(low[window], part_low), np.fmax(high[window], part_high)
+        there = ~np.isnan(part_low)
+        aligned[window] = np.where(there, cos, aligned[window])
+    along = obstacle.speed * aligned
+    return Occupancy(obstacle, low, high, along, aligned)
+
+
+def _moved(obstacle: Obstacle, k: int, count: int) -> Array:
+    """The front of a body's part number k of `count` [m] [T, 2]."""
+    back = k * obstacle.length / count
+    way = np.column_stack((np.cos(obstacle.heading), np.sin(obstacle.heading)))
+    return obstacle.position - back * way
+
+
+def _part(
+    path: Path, obstacle: Obstacle, size: tuple[float, float], window: slice
+) -> tuple[Array, Array, Array]:
+    """From where to where [m] a short body lies on a path, and the cosine of its angle to it."""
     x = obstacle.position[window, 0] - 0.5 * obstacle.length * np.cos(obstacle.heading[window])
     y = obstacle.position[window, 1] - 0.5 * obstacle.length * np.sin(obstacle.heading[window])
+    low, high = np.full(len(x), np.nan), np.full(len(x), np.nan)
     # Nearest path point: |p - q|^2 without the term that does not depend on the point.
     squared = np.einsum("ij,ij->i", path.points, path.points)
     nearest = np.argmin(squared[None, :] - 2.0 * (np.column_stack((x, y)) @ path.points.T), axis=1)
@@ -161,9 +193,8 @@ def occupancy(
     if len(inside):
         ends = _extent(obstacle, aside[inside], cos[inside], sin[inside], corridor)
         arc = path.arc[nearest[inside]] + centre[inside]
-        low[start + inside], high[start + inside] = arc + ends[0], arc + ends[1]
-    along[window], aligned[window] = obstacle.speed[window] * cos, cos
-    return Occupancy(obstacle, low, high, along, aligned)
+        low[inside], high[inside] = arc + ends[0], arc + ends[1]
+    return low, high, cos
 
 
 def _extent(
@@ -385,7 +416,9 @@ def _behind(
         gap = other.gap(motion.arc, step, length)
         if gap is None:
             continue
-        speed = safe_speed(gap - MIN_GAP, other.speed_along(step), FOLLOWING)
+        pace = other.speed_along(step)
+        beside = gap <= 0.0 and pace < JAM
+        speed = safe_speed(gap - MIN_GAP, 0.0 if beside else pace, FOLLOWING)
         if speed < found.speed:
             late = gap < MIN_GAP or speed < motion.speed - 3.0
             hardest = EMERGENCY if late else FOLLOWING
@@ -446,8 +479,11 @@ def _at_lines(
         blocker = _blocker(lane, motion, step, line, first, length)
         speed = safe_speed(gap, 0.0, COMFORT)
         if blocker is not None and speed < found.speed:
-            firm = 2.0 * FOLLOWING * gap < motion.speed**2 < 2.0 * FIRM * gap
-            hardest = motion.speed**2 / (2.0 * gap) if firm else found.hardest
+            at_line = motion.speed**2 < 2.0 * FIRM * gap
+            room = gap if at_line else blocker.lowest(step) - SHORT_OF - motion.arc
+            hardest = found.hardest
+            if 0.0 < 2.0 * FOLLOWING * room < motion.speed**2:
+                hardest = min(motion.speed**2 / (2.0 * room), EMERGENCY)
             found = Wish(speed, hardest, (blocker, "right-of-way"))
     return found
 

@@ -135,3 +135,17 @@ def test_how_somebody_is_in_the_way() -> None:
     assert found.manner(40) == "leader"
     standing = Obstacle(1, LENGTH, WIDTH, where, np.zeros(count), np.zeros(count), frozenset())
     assert occupancy(path(), standing, SIZE, 0, count).manner(40) == "blocked"
+
+
+@pytest.mark.parametrize("beyond", [4.0, 6.0, 9.0, 12.0, 15.0])
+def test_a_long_body_in_a_bend_takes_its_front_and_its_rear(beyond: float) -> None:
+    lanes = row("s1", "from_s_0", "right")
+    way, length = roads("s1").line(lanes), 12.0
+    front = dict(way.lanes)[lanes[1]] + beyond
+    place, heading = way.pose(front, length)
+    once = np.array([place, place])
+    body = Obstacle(1, length, 2.5, once, np.full(2, heading), np.zeros(2), frozenset())
+    found = occupancy(way, body, SIZE, 0, 0)
+    assert found.meets(front - 1.0, front + 5.0, 0) is not None
+    assert found.meets(front + 1.0, front + 5.0, 0) is None
+    assert found.gap(front - length - 20.0, 0, LENGTH) == pytest.approx(19.0, abs=1.2)

@@ -244,12 +244,13 @@ def test_of_rival_ways_through_a_junction_the_nearest_was_driven() -> None:
 
 
 def test_a_long_vehicle_turns_later() -> None:
-    # In a bend of 8 m; it points as the path does at its middle.
+    # In a bend of 8 m; its rear is still on the straight road before it.
     (short, long) = (
         drive_on(corner(), on_lane(corner(), ":R_0", 0.0, 5.0), 0, NOBODY, (length, 2.0), 5)[1]
         for length in (2.0, 12.0)
     )
-    assert long.tolist() == pytest.approx([-0.1] * 5, abs=0.01)
+    assert np.all(np.diff(long) < 0.0)
+    assert np.all(long[2:] > short[2:] + 0.1)
     assert np.all(np.diff(short) < -0.03)
 
 

@@ -155,6 +155,17 @@ def test_the_rear_follows_the_front_through_a_bend() -> None:
     assert turned < -0.1  # the front points further into the right turn than the body
 
 
+def test_both_ends_of_a_long_body_are_on_the_line() -> None:
+    lanes = row("s1", *BEND)
+    line, length = roads("s1").line(lanes), 12.0
+    begin = dict(line.lanes)[lanes[1]]
+    for at in np.arange(begin, begin + 20.0, 0.5):
+        (x, y), heading = line.pose(float(at), length)
+        behind, _ = line.pose(float(at) - length)
+        along, aside = behind[0] - x, behind[1] - y
+        assert along * math.sin(heading) - aside * math.cos(heading) == pytest.approx(0.0, abs=1e-6)
+
+
 @pytest.mark.parametrize("radius", [8.0, 12.0, 20.0, 40.0, 150.0])
 @pytest.mark.parametrize("step", [0.6, 2.0, 5.0])
 def test_a_bend_is_driven_as_fast_as_its_radius_allows(radius: float, step: float) -> None:
