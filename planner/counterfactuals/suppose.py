@@ -16,8 +16,9 @@ from planner.motion.surroundings import Others, Surroundings
 from planner.motion.tracks import Observed
 from planner.prediction.astar import GRIP
 from planner.prediction.goals import PLACES, Goal, goals_in_view
+from planner.prediction.onward import motion_along, trajectories_to
 from planner.prediction.people import ways_of
-from planner.prediction.recognise import Belief, Trajectory, motion_along, trajectories_to
+from planner.prediction.recognise import Belief, Trajectory
 from planner.record.trace import ON_FOOT, Action, EgoGoal
 from planner.roads.routes import Refusal
 from planner.rollouts.rollout import Leg, Task, held_by_lights, held_up, take

@@ -11,7 +11,7 @@ from planner.driving.restraint import Controlled, Restraint, restraint_of
 from planner.driving.walkers import AROUND, passing_speed, with_walkers
 from planner.hidden_areas.caution import allowed_speed
 from planner.hidden_areas.phantoms import View
-from planner.kernels.driving import (
+from planner.kernels.limits import (
     COMFORT,
     CRAWL,
     EMERGENCY,

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from planner.kernels.driving import GAP_HORIZON, OPEN
+from planner.kernels.limits import GAP_HORIZON, OPEN
 from planner.manoeuvres.plans import ActionPlan
 from planner.motion.obstacles import Obstacle
 from planner.record.light_record import LightPrediction

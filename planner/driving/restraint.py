@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.kernels.driving import COMFORT, HINDERED, RELAXATION, stands_first
+from planner.kernels.giving_way import stands_first
+from planner.kernels.limits import COMFORT, HINDERED, RELAXATION
 from planner.manoeuvres.plans import ActionPlan
 from planner.motion.forward import Keeping, Lane, Motion
 from planner.motion.obstacles import Occupancy

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from planner.kernels.driving import COMFORT
+from planner.kernels.limits import COMFORT
 from planner.manoeuvres.plans import ActionPlan, LetCross
 from planner.motion.forward import Motion
 from planner.motion.kerbs import on_crossing

@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 
 from planner.hidden_areas.phantoms import View, imagined, reach_of
-from planner.kernels.driving import COMFORT, READY
+from planner.kernels.limits import COMFORT, READY
 from planner.manoeuvres.layout import BEFORE_LINE
 from planner.manoeuvres.plans import ActionPlan, GiveWay, LaneFollow
 from planner.motion.forward import DT, Drive, Motion, drive, lane_of

@@ -15,7 +15,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from planner.kernels.driving import (
+from planner.kernels.limits import (
     ACCELERATION,
     COMFORT,
     FIRST,

@@ -6,61 +6,43 @@ import numpy as np
 from numba import njit
 
 from planner.kernels.course import Bools, Course, Floats, Ints, Motion
+from planner.kernels.giving_way import awaited, braking, stands_first
+from planner.kernels.limits import (
+    ALIGNED,
+    AMBER,
+    AT_LINE,
+    BEYOND,
+    BLOCKED,
+    COMFORT,
+    CRAWL,
+    CUT_IN,
+    CUT_IN_MEMORY,
+    EMERGENCY,
+    FIRM,
+    FOLLOWING,
+    FORESIGHT,
+    HALT,
+    HINDERED,
+    JAM,
+    LEADER,
+    LEAST,
+    MIN_GAP,
+    NEWCOMER,
+    OPEN,
+    REACTION,
+    RELAXATION,
+    RIGHT_OF_WAY,
+    STANDING,
+    STANDING_TIME,
+    STEP,
+    cap,
+    safe_speed,
+    towards,
+)
 from planner.kernels.stretches import Stretches, stay_behind
 
-STEP = 0.2  # [s] of the common time base
-COMFORT = 2.0  # [m/s2] braking for bends, waiting lines and stops
-ACCELERATION = 2.0  # [m/s2] the greatest when speeding up
-FOLLOWING = 3.0  # [m/s2] braking assumed of leaders and applied behind them
-FIRM = 4.4  # [m/s2] the hardest braking for a waiting line
-EMERGENCY = 7.0  # [m/s2] the hardest braking
-JERK_UP, JERK_DOWN = 3.0, 12.0  # [m/s3] change of acceleration upwards and downwards
-REACTION = 0.9  # [s] of Krauss' model
-RELAXATION = 0.5  # [s] in which a wanted speed is approached
-MIN_GAP = 2.0  # [m] to a standing leader
-GAP_HORIZON = 40  # steps that a gap at a waiting line must stay clear
-INTRUSION = 1.0  # [m] that a vehicle may stand inside another's stretch: boxes are generous
-HINDERED = 0.5  # [m/s] below its free speed, from which on a vehicle counts as held up
-STANDING_TIME = 3.0  # [s] that a vehicle stands at the end of a stop
-ALIGNED = 0.9  # least cosine of the angle to the path of a vehicle that drives along it
-CUT_IN_MEMORY = 15  # steps after entering the path during which a leader counts as cutting in
-READY = 4.0  # [m/s] at a waiting line while somebody with priority stands there
-JAM = 2.0  # [m/s] below which a vehicle beyond a junction is assumed to block its exit
-FORESIGHT = 10  # steps ahead in which to look for vehicles that move in
-CRAWL = 0.5  # [m/s] up to which a leader blocks the way rather than leads
-LEAST = 0.2  # [m] the smallest gap in calculations
-BEYOND = 0.5  # [m] past the stopping place of a light, up to which the light still counts
-AT_LINE = 1.0  # [m] before a line within which a full stop counts
-STANDING = 0.1  # [m/s] below which a vehicle stands
-# What a light shows: go first; go by the rules; stop if that is comfortable; stop; stop, then go.
-FIRST, OPEN, AMBER, SHUT, HALT = -1, 0, 1, 2, 3
-# How a vehicle is held up, by index.
-LEADER, RIGHT_OF_WAY, CUT_IN, BLOCKED, NEWCOMER = 0, 1, 2, 3, 4
 _jit = njit(cache=True, error_model="numpy")
 _inline = njit(cache=True, error_model="numpy", inline="always")  # avoids reference counting
-
-
-@_jit
-def safe_speed(gap: float, leader: float, braking: float) -> float:
-    """Return Krauss' safe speed [m/s] at a gap [m] behind a leader that drives at a speed [m/s]."""
-    reach = braking * REACTION
-    squared = reach * reach + leader * leader + 2.0 * braking * max(gap, 0.0)
-    return max(0.0, -reach + math.sqrt(squared))
-
-
-@_jit
-def towards(speed: float, acceleration: float, wanted: float, hardest: float, dt: float) -> float:
-    """Return the acceleration [m/s2] towards a wanted speed [m/s], within all limits."""
-    wished = min(max((wanted - speed) / RELAXATION, -hardest), ACCELERATION)
-    if wished < acceleration:
-        return max(wished, acceleration - JERK_DOWN * dt)
-    return min(wished, max(acceleration + JERK_UP * dt, min(0.0, acceleration + JERK_DOWN * dt)))
-
-
-@_jit
-def _cap(caps: Floats, arc: float) -> float:
-    """Return the highest speed [m/s] at an arc [m]; caps are given for every metre."""
-    return float(caps[min(int(arc), len(caps) - 1)])
 
 
 @_inline
@@ -91,7 +73,7 @@ def accelerate(
     """
     caps, lines = course.caps, course.lines
     arc, speed, acceleration = motion
-    free = _cap(caps, arc + speed * RELAXATION)
+    free = cap(caps, arc + speed * RELAXATION)
     free = min(free, stands_first(arc, lines, crossing, firsts, step)[0])
     wanted, hardest, who = _follow(motion, step, others, ignored, length, free)
     if course.halting > 0.0:
@@ -109,11 +91,10 @@ def accelerate(
         gap = lines[line, 0] - arc
         safe = safe_speed(gap, 0.0, COMFORT)
         if gap <= _near(speed) and arc < lines[line, 1] and safe < wanted:
-            blocker = _blocker(caps, motion, step, arc + gap, crossing, firsts[line, :, t], length)
+            blocker = awaited(caps, motion, step, arc + gap, crossing, firsts[line, :, t], length)
             if blocker >= 0:
                 wanted, who, how = safe, blocker, RIGHT_OF_WAY
-                if 2.0 * FOLLOWING * gap < speed * speed < 2.0 * FIRM * gap:
-                    hardest = speed * speed / (2.0 * gap)
+                hardest = braking(motion, gap, crossing, blocker, step, hardest)
     light, gap = _shut(course, motion, step)
     safe = safe_speed(gap, 0.0, COMFORT)
     if light >= 0 and safe < wanted:
@@ -165,7 +146,10 @@ def _follow(
         if ignored[m] or math.isnan(low) or 0.5 * (low + high) < arc - 0.5 * length:
             continue
         gap = low - arc
-        safe = safe_speed(gap - MIN_GAP, max(others.along[m, t], 0.0), FOLLOWING)
+        leader = max(others.along[m, t], 0.0)
+        if gap <= 0.0 and leader < JAM:
+            leader = 0.0  # it crawls beside this one
+        safe = safe_speed(gap - MIN_GAP, leader, FOLLOWING)
         if safe < wanted:
             wanted, who = safe, m
             hardest = EMERGENCY if gap < MIN_GAP or safe < speed - 3.0 else FOLLOWING
@@ -229,23 +213,6 @@ def _jam(others: Stretches, ignored: Bools, step: int, enter: float, room: float
 
 
 @_jit
-def stands_first(
-    arc: float, lines: Floats, crossing: Stretches, firsts: Bools, step: int
-) -> tuple[float, int]:
-    """Return the speed [m/s] towards a line where one with priority stands, and who (-1: none)."""
-    found, who = math.inf, -1
-    now, t = min(step, crossing.speed.shape[1] - 1), min(step, firsts.shape[2] - 1)
-    for line in range(len(lines)):
-        gap = lines[line, 0] - arc
-        ready = math.sqrt(READY * READY + 2.0 * COMFORT * max(gap, 0.0))
-        if gap > 0.0 and lines[line, 2] > 0.0 and ready < found:
-            for m in range(firsts.shape[1]):
-                if firsts[line, m, t] and crossing.speed[m, now] < JAM:
-                    found, who = ready, m
-    return found, who
-
-
-@_jit
 def _manner(others: Stretches, m: int, step: int) -> int:
     """Return the kind of hold-up of a vehicle ahead."""
     t = min(step, others.low.shape[1] - 1)
@@ -253,49 +220,6 @@ def _manner(others: Stretches, m: int, step: int) -> int:
     if entered > 0 and t - entered <= CUT_IN_MEMORY and speed > CRAWL:
         return CUT_IN
     return BLOCKED if speed <= CRAWL else LEADER
-
-
-@_jit
-def _blocker(
-    caps: Floats,
-    motion: Motion,
-    step: int,
-    line: float,
-    others: Stretches,
-    firsts: Bools,
-    length: float,
-) -> int:
-    """Return the vehicle to wait for: one with priority, in the way of driving on; else -1.
-
-    Beyond the line, a vehicle counts only if it is still possible to stop before it.
-    """
-    arc, speed, acceleration = motion
-    last = others.low.shape[1] - 1
-    concerned = firsts.copy()
-    passed, until = -math.inf, -1.0
-    t = min(step, last)
-    for m in range(len(firsts)):
-        leads = others.low[m, t] > arc and others.cosine[m, t] > ALIGNED
-        concerned[m] = firsts[m] and others.last[m] >= step and not leads
-        if concerned[m]:
-            passed, until = max(passed, others.top[m]), max(until, others.last[m])
-    passed += length + 1.0
-    here, pace, push = arc, speed, acceleration
-    for ahead in range(step + 1, int(min(step + GAP_HORIZON, until + 1.0))):
-        push = towards(pace, push, _cap(caps, here + pace * RELAXATION), FOLLOWING, STEP)
-        before, pace = pace, max(pace + push * STEP, 0.0)
-        here += 0.5 * (before + pace) * STEP
-        if here > passed:
-            return -1
-        t = min(ahead, last)
-        for m in range(len(firsts)):
-            low, high = others.wide_low[m, t], others.wide_high[m, t]
-            if concerned[m] and low < here + 1.0 and high > here - length - 1.0:
-                stopping = speed * speed / (2.0 * FOLLOWING)
-                if not (arc > line and low - arc < stopping - INTRUSION):
-                    return m
-                concerned[m] = False
-    return -1
 
 
 @_jit

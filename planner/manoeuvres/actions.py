@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from planner.kernels.driving import COMFORT, STANDING_TIME
+from planner.kernels.limits import COMFORT, STANDING_TIME
 from planner.manoeuvres.following import follow_on, stop
 from planner.manoeuvres.layout import CLEAR, FAR, Layout, finish, lookahead, waits_along
 from planner.manoeuvres.plans import (

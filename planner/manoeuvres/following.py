@@ -2,7 +2,7 @@
 
 import math
 
-from planner.kernels.driving import COMFORT, EMERGENCY, FOLLOWING
+from planner.kernels.limits import COMFORT, EMERGENCY, FOLLOWING
 from planner.manoeuvres.layout import (
     BEFORE_LINE,
     CLEAR,

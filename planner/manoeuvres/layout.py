@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from planner.kernels.driving import COMFORT
+from planner.kernels.limits import COMFORT
 from planner.manoeuvres.footways import lines_over
 from planner.manoeuvres.plans import (
     ActionPlan,

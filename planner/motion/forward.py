@@ -12,7 +12,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from planner.kernels import driving
+from planner.kernels import driving, limits
 from planner.kernels.along import braking_caps
 from planner.kernels.course import Course, Ints
 from planner.manoeuvres.actions import ActionPlan
@@ -23,7 +23,7 @@ from planner.traffic_lights.signals import Lights
 from sim.scene import Signal
 
 DT = SAMPLE_PERIOD  # [s] step of the simulation
-assert DT == driving.STEP
+assert DT == limits.STEP
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,10 +108,10 @@ class Lane:
     def __init__(self, path: Path, end: float = math.inf) -> None:
         """Prepare a path; where the road ends, a vehicle stops before `end` [m]."""
         self.end = end  # [m]
-        self.caps = braking_caps(path.cap, path.arc, driving.COMFORT)  # [m/s] at every metre
+        self.caps = braking_caps(path.cap, path.arc, limits.COMFORT)  # [m/s] at every metre
         if math.isfinite(end):
             room = np.maximum(end - np.arange(len(self.caps)), 0.0)
-            self.caps = np.minimum(self.caps, np.sqrt(2.0 * driving.COMFORT * room))
+            self.caps = np.minimum(self.caps, np.sqrt(2.0 * limits.COMFORT * room))
 
     def speed(self, arc: float) -> float:
         """Return the highest speed [m/s] at an arc [m]."""
@@ -144,7 +144,7 @@ def drive(
         horizon: the last step.
         pace: [m/s] the highest speed that the vehicle wants; [N]: at every metre of the path.
     """
-    last = horizon + driving.GAP_HORIZON
+    last = horizon + limits.GAP_HORIZON
     others = meeting(plan.path, plan.met, traffic, size[1], first, last)
     motion, held, finished, goal_time = driving.drive(
         _course(plan, np.minimum(lane_of(plan.path).caps, pace), traffic.lights, size[0]),
@@ -213,7 +213,7 @@ def accelerate(
     signal = None if light < 0 else plan.obey_lights[light].signal
     if who < 0:
         return acceleration, Keeping(None, signal)
-    others = {driving.RIGHT_OF_WAY: crossing, driving.NEWCOMER: foreseen}.get(how, seen)
+    others = {limits.RIGHT_OF_WAY: crossing, limits.NEWCOMER: foreseen}.get(how, seen)
     speed = float(others.stretches.speed[who, 0])
     manner = others.manner(np.array([who]), np.array([0]), np.array([how]))
     hindrance = Hindrance(others.vehicle(who), HOW[int(manner[0])], speed)

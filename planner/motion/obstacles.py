@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.kernels.course import Bools
-from planner.kernels.driving import ALIGNED, OPEN, RIGHT_OF_WAY, SHUT
+from planner.kernels.limits import ALIGNED, OPEN, RIGHT_OF_WAY, SHUT
 from planner.kernels.projection import project
 from planner.kernels.reaction import Ints
 from planner.kernels.stretches import Stretches, first_of, select

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 
-from planner.kernels.driving import GAP_HORIZON
+from planner.kernels.limits import GAP_HORIZON
 from planner.motion.obstacles import Motions, Obstacle, Pool, Traffic
 from planner.motion.tracks import Observed, coast
 from planner.roads.classes import roads_of

@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from planner.kernels.driving import FOLLOWING, OPEN
+from planner.kernels.limits import FOLLOWING, OPEN
 from planner.kernels.projection import SIDE_MARGIN
 from planner.manoeuvres.actions import ActionPlan, LaneFollow, Situation
 from planner.manoeuvres.layout import waits_along

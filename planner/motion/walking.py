@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.kernels.course import Bools
-from planner.kernels.driving import OPEN
 from planner.kernels.elementary import arctan2
+from planner.kernels.limits import OPEN
 from planner.motion.obstacles import Obstacle
 from planner.motion.tracks import Observed
 from planner.roads.trajectory import Array

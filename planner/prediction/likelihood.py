@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from planner.kernels.driving import ACCELERATION
+from planner.kernels.limits import ACCELERATION
 from planner.manoeuvres.actions import COMFORT
 from planner.motion.forward import DT
 from planner.motion.obstacles import NOBODY, Traffic

@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 
 from planner.kernels.course import Bools
-from planner.kernels.driving import GAP_HORIZON, OPEN
+from planner.kernels.limits import GAP_HORIZON, OPEN
 from planner.motion.forward import DT
 from planner.motion.kerbs import (
     came_over,

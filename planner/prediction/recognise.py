@@ -4,48 +4,28 @@ For every goal in view, the best ways there are planned. `planner.prediction.lik
 how well a goal explains the track.
 """
 
-import math
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
 
-import numpy as np
-
-from planner.manoeuvres.actions import COMFORT, Situation
+from planner.manoeuvres.actions import Situation
 from planner.motion.forward import DT
-from planner.motion.obstacles import NOBODY, Motions, Obstacle, Traffic
+from planner.motion.obstacles import Motions, Obstacle, Traffic
 from planner.motion.surroundings import Others, Surroundings
-from planner.motion.tracks import Observed, berth_of, coast, drive_on, links_of, queued
-from planner.prediction.astar import GRIP, SOLUTIONS, Solution, held, ways
+from planner.motion.tracks import Observed, coast, queued
 from planner.prediction.beliefs import NEGLIGIBLE, Belief, Trajectory, likeliest
 from planner.prediction.goals import PLACES, Goal, goals_in_view
 from planner.prediction.indication import indicated
+from planner.prediction.insisting import insists
 from planner.prediction.likelihood import likelihoods
+from planner.prediction.onward import Way, trajectories, ways_on, ways_to
 from planner.prediction.people import past_of, recognise_people
 from planner.prediction.relevance import gives_way
-from planner.prediction.stopping import stopping
-from planner.record.trace import ON_FOOT, Action, EgoGoal, Settings
+from planner.record.trace import ON_FOOT, EgoGoal, Settings
 from planner.roads.trajectory import Roads
-from planner.rollouts.rollout import Leg, Task, held_by_lights, held_up
+from planner.rollouts.rollout import Task
 from planner.traffic_lights.signals import DARK, Outlook
 
-__all__ = ["Belief", "Trajectory", "motion_along", "recognise", "trajectories_to"]
-
-
-@dataclass(frozen=True, eq=False)
-class _Way:
-    """One way on from now; its motion beyond the goal is computed when it is needed."""
-
-    cost: float  # [s]
-    waiting: float  # [s] part of the cost: waiting for others and at lights
-    actions: tuple[Action, ...]
-    legs: tuple[Leg, ...]
-    drive_on: Callable[[], Motions]
-
-    @cached_property
-    def motions(self) -> Motions:
-        """Return the motions that others expect."""
-        return self.drive_on()
+__all__ = ["Belief", "Trajectory", "recognise"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -110,7 +90,7 @@ def recognise(
         waits = observed.standing or one in held
         if one == ego and bound is not None:
             driving = _bound_for(own, observed, coasting, settings, time, bound)
-            us = None if driving is None else (coasting[ego], driving)
+            us = coasting[ego], driving or coasting[ego]
         elif one != ego and one not in apart:
             found[one] = _beliefs(own, observed, coasting, settings, time, us)
             if waits:
@@ -137,7 +117,7 @@ def _bound_for(
     others = [other.now for vehicle, other in coasting.items() if vehicle != observed.vehicle]
     starts = observed.situation(surroundings.roads, -1, time)
     goal, frame = Goal("continue", "", bound, 1.0), _frame(surroundings, observed, settings, time)
-    found = _ways_on(frame, starts, goal, observed, Others(surroundings, tuple(others)))
+    found = ways_on(frame, starts, goal, observed, Others(surroundings, tuple(others)))
     return replace(coasting[observed.vehicle], now=found[0].motions) if found else None
 
 
@@ -157,17 +137,9 @@ def _beliefs(
     goals = goals_in_view(roads, starts, settings.view_radius)
     frame = _frame(surroundings, observed, settings, time)
     now = Others(surroundings, tuple(other.now for other in others))
-    onwards = _ways_to(frame, starts, goals, observed, now)
+    onwards = ways_to(frame, starts, goals, observed, now)
     if us is not None:
-        links = us[0].now.usual.links | us[1].now.usual.links
-        reckoned = [us[1].now if other is us[0] else other.now for other in others]
-        with_us = Others(surroundings, tuple(reckoned), now.pool)
-        onwards = [
-            _ways_on(frame, starts, goal, observed, with_us) or ways
-            if ways and gives_way(roads.network, ways[0].motions.usual.links, links)
-            else ways
-            for goal, ways in zip(goals, onwards, strict=True)
-        ]
+        onwards = _regarding_us(frame, starts, goals, observed, onwards, now, others, us)
     left = [ways[0].cost - ways[0].waiting if ways else None for ways in onwards]
     likelihood = (
         likelihoods(frame, observed, goals, left, _before(surroundings, observed, others), settings)
@@ -183,12 +155,50 @@ def _beliefs(
         return _unknown(surroundings, observed)
     weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
     return tuple(
-        Belief(goal, like, weight / sum(weights), _trajectories(onward, settings, time), share)
+        Belief(goal, like, weight / sum(weights), trajectories(onward, settings, time), share)
         for goal, like, weight, onward, share in zip(
             goals, likelihood, weights, onwards, shown, strict=True
         )
         if weight > 0.0
     )
+
+
+def _regarding_us(
+    frame: Task,
+    starts: tuple[Situation, ...],
+    goals: Sequence[Goal],
+    observed: Observed,
+    onwards: Sequence[list[Way]],
+    now: Others,
+    others: Sequence[_Coasting],
+    us: tuple[_Coasting, _Coasting],
+) -> list[list[Way]]:
+    """Return the ways on, where the vehicle has to give way to the ego, as the ego would drive.
+
+    Who has set off across the ego's way regardless is expected to go on.
+
+    Args:
+        frame, starts, goals, observed: of the vehicle.
+        onwards: its ways on to each goal if the ego coasts.
+        now: the others, with the ego as it coasts.
+        others: the same.
+        us: the ego as it coasts, and as it would drive.
+    """
+    surroundings, network = now.surroundings, now.surroundings.roads.network
+    links = us[0].now.usual.links | us[1].now.usual.links
+    reckoned = tuple(us[1].now if other is us[0] else other.now for other in others)
+    with_us = Others(surroundings, reckoned, now.pool)
+    without_us = Others(
+        surroundings, tuple(other.now for other in others if other is not us[0]), now.pool
+    )
+    found = []
+    for goal, ways in zip(goals, onwards, strict=True):
+        if ways and gives_way(network, ways[0].motions.usual.links, links):
+            ways = ways_on(frame, starts, goal, observed, with_us) or ways
+            if insists(network, starts, observed, ways[0].legs):
+                ways = ways_on(frame, starts, goal, observed, without_us) or ways
+        found.append(ways)
+    return found
 
 
 def _before(surroundings: Surroundings, observed: Observed, others: Sequence[_Coasting]) -> Traffic:
@@ -206,144 +216,3 @@ def _unknown(surroundings: Surroundings, observed: Observed) -> tuple[Belief, ..
     return (
         Belief(goal, 1.0, 1.0, (Trajectory(1.0, ("continue",), surroundings.coast(observed)),)),
     )
-
-
-def _ways_to(
-    frame: Task,
-    starts: tuple[Situation, ...],
-    goals: Sequence[Goal],
-    observed: Observed,
-    others: Others,
-) -> list[list[_Way]]:
-    """Return the ways on to each goal.
-
-    If only stopping is possible within GRIP, the bends of the map are too sharp, and GRIP is
-    ignored.
-    """
-    found = [_ways_on(frame, starts, goal, observed, others) for goal in goals]
-    if any(ways for goal, ways in zip(goals, found, strict=True) if goal.target is not None):
-        return found
-    return [_ways_on(frame, starts, goal, observed, others, math.inf) for goal in goals]
-
-
-def _ways_on(
-    frame: Task,
-    starts: tuple[Situation, ...],
-    goal: Goal,
-    observed: Observed,
-    others: Others,
-    grip: float = GRIP,
-) -> list[_Way]:
-    if goal.target is None:
-        motion = stopping(frame, starts[0], observed, others.usual)
-        cost = starts[0].speed / COMFORT
-        return [] if motion is None else [_Way(cost, 0.0, ("stop",), (), lambda: Motions(motion))]
-    task = replace(frame, goal=goal.target)
-    solutions = ways(task, starts, others.usual, SOLUTIONS, grip)
-    if not solutions:
-        return _held_up(task, starts, observed, others, grip)
-    return [
-        _Way(
-            solution.cost,
-            len(solution.waits) * DT,
-            solution.actions,
-            solution.legs,
-            partial(_motions, task, starts, solution, observed, others),
-        )
-        for solution in solutions
-    ]
-
-
-def _held_up(
-    task: Task, starts: tuple[Situation, ...], observed: Observed, others: Others, grip: float
-) -> list[_Way]:
-    """Return the best way to a goal that others or lights block, as far as they allow.
-
-    Who stands, and cannot even move out without a collision, is expected to wait.
-    """
-    found = []
-    for free in ways(task, starts, NOBODY, 1, grip):
-        legs = held(task, starts, free.actions, others.usual)
-        waits = None
-        if observed.standing and not legs:
-            waits = stopping(task, starts[0], observed, others.usual)
-        far = Solution(free.cost, legs or free.legs)
-        go = partial(_motions, task, starts, far, observed, others)
-        drive_on = go if waits is None else partial(Motions, waits)
-        found.append(_Way(free.cost, 0.0, free.actions, far.legs, drive_on))
-    return found
-
-
-def _motions(
-    task: Task,
-    starts: tuple[Situation, ...],
-    solution: Solution,
-    observed: Observed,
-    others: Others,
-) -> Motions:
-    """Return the motions of a solution under all courses of the lights."""
-
-    def under(courses: tuple[int, ...]) -> Obstacle:
-        traffic = others.under(courses)
-        if courses == others.surroundings.outlook.usual:
-            return _motion(task, solution, observed, traffic)
-        legs = held(task, starts, solution.actions, traffic) or solution.legs
-        return _motion(task, Solution(solution.cost, legs), observed, traffic)
-
-    return others.surroundings.motions(under)
-
-
-def _motion(task: Task, solution: Solution, observed: Observed, others: Traffic) -> Obstacle:
-    """Return the motion of a solution, which goes on beyond its goal."""
-    legs = solution.legs
-    first = legs[-1].first + len(legs[-1].speed) - 1
-    position, heading, speed, lanes = drive_on(
-        task.roads, legs[-1].end, first, others, task.size, task.horizon, task.pace
-    )
-    driven = [leg.position[1:] for leg in legs]
-    return Obstacle(
-        observed.vehicle,
-        observed.length,
-        observed.width,
-        np.vstack((legs[0].position[:1], *driven, position)),
-        np.concatenate((legs[0].heading[:1], *(leg.heading[1:] for leg in legs), heading)),
-        np.concatenate((legs[0].speed[:1], *(leg.speed[1:] for leg in legs), speed)),
-        links_of(task.roads, [lane for leg in legs for lane in leg.lanes] + list(lanes)),
-        berth_of(task.roads, observed),
-    )
-
-
-def _trajectories(onwards: list[_Way], settings: Settings, time: float) -> tuple[Trajectory, ...]:
-    """Return the ways on with p(way | goal) by softmax over their costs."""
-    best = onwards[0].cost
-    weights = [math.exp(-settings.rationality * (way.cost - best)) for way in onwards]
-    weights = [w if w >= NEGLIGIBLE * sum(weights) else 0.0 for w in weights]
-    return tuple(
-        Trajectory(
-            weight / sum(weights),
-            way.actions,
-            way.motions,
-            held_up(way.legs, time),
-            held_by_lights(way.legs, time),
-        )
-        for way, weight in zip(onwards, weights, strict=True)
-        if weight > 0.0
-    )
-
-
-def trajectories_to(
-    frame: Task,
-    starts: tuple[Situation, ...],
-    goal: Goal,
-    observed: Observed,
-    others: Others,
-    settings: Settings,
-) -> tuple[Trajectory, ...]:
-    """Return the ways on to a goal, however improbable it is; () if no way leads there."""
-    onwards = _ways_on(frame, starts, goal, observed, others)
-    return _trajectories(onwards, settings, frame.start) if onwards else ()
-
-
-def motion_along(frame: Task, legs: Sequence[Leg], observed: Observed, others: Traffic) -> Obstacle:
-    """Return the motion along legs from now, and along the road from their end."""
-    return _motion(frame, Solution(0.0, tuple(legs)), observed, others)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from planner.hidden_areas.caution import coming, held_by_hidden, name_of
-from planner.kernels.driving import GAP_HORIZON
+from planner.kernels.limits import GAP_HORIZON
 from planner.manoeuvres.actions import ActionPlan, Situation, expand
 from planner.motion.forward import Motion
 from planner.motion.obstacles import Obstacle, Pool, Traffic

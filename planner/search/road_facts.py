@@ -6,7 +6,7 @@ link that they may take from where they are counts.
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from planner.kernels.driving import OPEN, SHUT
+from planner.kernels.limits import OPEN, SHUT
 from planner.manoeuvres.actions import expand
 from planner.manoeuvres.plans import ActionPlan
 from planner.motion.tracks import lanes_at

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from planner.kernels.course import Codes
-from planner.kernels.driving import AMBER, FIRST, HALT, OPEN, SHUT
+from planner.kernels.limits import AMBER, FIRST, HALT, OPEN, SHUT
 from planner.record.light_record import LightPrediction, LightSample, Showing
 from sim.scene import LightState, Signal
 

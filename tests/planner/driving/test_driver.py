@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 import pytest
 
 from planner.driving.driver import Driver, DriverError, DriveStep
-from planner.kernels.driving import ACCELERATION, EMERGENCY
+from planner.kernels.limits import ACCELERATION, EMERGENCY
 from planner.record.events import Event
 from planner.record.trace import EgoGoal, PlanTrace, Settings, encode
 from planner.roads.trajectory import Path

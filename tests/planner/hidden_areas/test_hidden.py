@@ -21,7 +21,7 @@ from planner.hidden_areas.phantoms import (
     time_across,
     ways_ahead,
 )
-from planner.kernels.driving import READY
+from planner.kernels.limits import READY
 from planner.manoeuvres.actions import Situation
 from planner.record.hidden_record import HeldByHidden, Phantom, PhantomSample
 from planner.record.trace import EgoGoal, PlanTrace, Settings, Track, encode

@@ -9,7 +9,7 @@ import pytest
 from planner.kernels import driving
 from planner.kernels.along import place
 from planner.kernels.collision import first_hit
-from planner.kernels.driving import GAP_HORIZON
+from planner.kernels.limits import GAP_HORIZON
 from planner.manoeuvres.actions import ActionPlan, Situation, expand
 from planner.motion import forward
 from planner.motion.forward import DT, Motion

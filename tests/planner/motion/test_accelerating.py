@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from planner.kernels.driving import ACCELERATION, GAP_HORIZON
+from planner.kernels.limits import ACCELERATION, GAP_HORIZON
 from planner.manoeuvres.actions import ActionPlan
 from planner.motion.forward import DT, Hindrance, Keeping, Motion, accelerate, lane_of
 from planner.motion.obstacles import Obstacle, Occupancy, Traffic, occupancy
@@ -78,6 +78,16 @@ def test_who_stands_in_the_way_blocks_it() -> None:
     gained, keeping = step(OPEN_ROAD, SLOW, [moving(116.0, 0.0)])
     assert gained < 0.0
     assert keeping.hindrance == Hindrance(3, "blocked", 0.0)
+
+
+def test_nobody_creeps_on_beside_one_that_crawls() -> None:
+    halting = Motion(0.0, 0.2, -0.4)
+    beside = moving(102.0, 1.0, y=1.9)  # 0.1 m beside the body, its rear behind our front
+    gained, keeping = step(OPEN_ROAD, halting, [beside])
+    assert gained == pytest.approx(-0.4, abs=0.01)
+    assert keeping.hindrance is not None
+    ahead, _ = step(OPEN_ROAD, halting, [moving(100.0 + LENGTH + 2.5, 1.0)])
+    assert ahead > gained
 
 
 def test_who_is_foreseen_to_come_in_is_made_room_for() -> None:

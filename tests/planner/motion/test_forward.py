@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from planner.kernels.along import place
 from planner.kernels.collision import first_hit
-from planner.kernels.driving import (
+from planner.kernels.limits import (
     ACCELERATION,
     COMFORT,
     EMERGENCY,
@@ -338,6 +338,16 @@ def test_a_late_conflict_stops_the_ego_inside_the_junction_if_it_still_can() -> 
     start = Motion(line + 8.0, 4.0, 0.0)  # in the way of the other: it had better clear it
     driven = drive(plan, start, 0, Traffic.of((other,)), SIZE, HORIZON)
     assert np.min(speeds(driven)) > 3.0
+
+
+def test_who_cannot_stop_at_the_line_brakes_harder_before_who_crosses() -> None:
+    plan = crossroads.plan(crossroads.before(4.0, 10.0), "continue")
+    across = crossroads.driving("north", "left", [154.0 + 0.8 * k for k in range(STEPS)], 1)
+    path, traffic = plan.path, Traffic.of((across,))
+    driven = drive(plan, Motion(0.0, 10.0, 0.0), 0, traffic, SIZE, HORIZON)
+    assert FOLLOWING + 0.1 < -np.min(accelerations(driven)) <= EMERGENCY
+    own, _ = place(path.points, path.arc, path.heading, path.curvature, driven.motion, SIZE[0])
+    assert first_hit(own, SIZE, 0, traffic.states, traffic.sizes, False, 0.0) == (-1, -1)
 
 
 def test_being_in_the_way_of_one_does_not_excuse_from_waiting_for_another() -> None:

@@ -13,7 +13,8 @@ from planner.motion.forward import DT
 from planner.motion.surroundings import Others, Surroundings
 from planner.motion.tracks import Observed, Side
 from planner.prediction.goals import Goal
-from planner.prediction.recognise import Belief, recognise, trajectories_to
+from planner.prediction.onward import trajectories_to
+from planner.prediction.recognise import Belief, recognise
 from planner.record.trace import EgoGoal, Settings
 from planner.roads.trajectory import Roads
 from planner.rollouts.rollout import Task

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from planner.kernels.driving import (
+from planner.kernels.limits import (
     AMBER,
     BEYOND,
     EMERGENCY,

@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from planner.kernels.driving import EMERGENCY, FIRM
+from planner.kernels.limits import EMERGENCY, FIRM
 from sim.boxes import overlap
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.explain.facts.bodies import at_least, distance

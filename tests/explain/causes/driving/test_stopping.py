@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from planner.kernels.driving import EMERGENCY, REACTION
+from planner.kernels.limits import EMERGENCY, REACTION
 from tests.explain.facts.scenes import Actor, Path_, made, straight
 from xavi_dialogue.explain.causes.driving.stopping import (
     HALF_LANE,

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from typing import TypeAlias
 
-from planner.kernels.driving import ACCELERATION
+from planner.kernels.limits import ACCELERATION
 from planner.record.trace import SAMPLE_PERIOD, PlanTrace
 from sim.scene import EGO, Point
 from xavi_dialogue.explain.causes.vehicles.course import lines

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from planner.kernels.driving import EMERGENCY, REACTION
+from planner.kernels.limits import EMERGENCY, REACTION
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.explain.facts.approach import following
 from xavi_dialogue.explain.facts.bearings import Offset
