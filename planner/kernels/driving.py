@@ -94,7 +94,7 @@ def accelerate(
             blocker = awaited(caps, motion, step, arc + gap, crossing, firsts[line, :, t], length)
             if blocker >= 0:
                 wanted, who, how = safe, blocker, RIGHT_OF_WAY
-                hardest = braking(motion, gap, crossing, blocker, step, hardest)
+                hardest = braking(caps, motion, step, gap, crossing, blocker, length, hardest)
     light, gap = _shut(course, motion, step)
     safe = safe_speed(gap, 0.0, COMFORT)
     if light >= 0 and safe < wanted:

@@ -28,23 +28,50 @@ _jit = njit(cache=True, error_model="numpy")
 
 @_jit
 def braking(
-    motion: Motion, gap: float, others: Stretches, m: int, step: int, hardest: float
+    caps: Floats,
+    motion: Motion,
+    step: int,
+    gap: float,
+    others: Stretches,
+    m: int,
+    length: float,
+    hardest: float,
 ) -> float:
     """Return the hardest braking [m/s2] to let a vehicle pass: to stop at the line, or before it.
 
+    Beyond a line that cannot be kept, harder braking than usual is for collisions alone.
+
     Args:
-        motion: of the one who brakes.
+        caps, motion, length [m]: of the one who brakes.
+        step: now.
         gap: [m] to the line.
-        others, m, step: the vehicle, and now.
+        others, m: the vehicle.
         hardest: [m/s2] where that suffices, or nothing does.
     """
     arc, speed, _ = motion
     room = gap
     if speed * speed >= 2.0 * FIRM * gap:
+        if not _hits(caps, motion, step, others, m, length):
+            return hardest
         room = _lowest(others, m, step) - BEFORE - arc
     if not 0.0 < 2.0 * FOLLOWING * room < speed * speed:
         return hardest
     return min(speed * speed / (2.0 * room), EMERGENCY)
+
+
+@_jit
+def _hits(
+    caps: Floats, motion: Motion, step: int, others: Stretches, m: int, length: float
+) -> bool:
+    """Check whether driving on freely ends in a collision with a vehicle on the path."""
+    here, pace, push = motion
+    for ahead in range(step + 1, min(step + GAP_HORIZON, others.low.shape[1])):
+        push = towards(pace, push, cap(caps, here + pace * RELAXATION), FOLLOWING, STEP)
+        before, pace = pace, max(pace + push * STEP, 0.0)
+        here += 0.5 * (before + pace) * STEP
+        if others.low[m, ahead] < here and others.high[m, ahead] > here - length:
+            return True
+    return False
 
 
 @_jit

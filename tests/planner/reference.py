@@ -118,6 +118,15 @@ class Occupancy:
                 return self._low[k] - back, self._high[k] - back, pace
         return None
 
+    @property
+    def total(self) -> int:
+        """The number of steps that are known."""
+        return len(self._low)
+
+    def touches(self, low: float, high: float, step: int) -> bool:
+        """Whether it takes a part of a stretch at a step."""
+        return self._low[step] < high and self._high[step] > low
+
     def lowest(self, step: int) -> float:
         """The lowest arc [m] that it takes from a step on; infinite without any."""
         return min(
@@ -481,11 +490,24 @@ def _at_lines(
         if blocker is not None and speed < found.speed:
             at_line = motion.speed**2 < 2.0 * FIRM * gap
             room = gap if at_line else blocker.lowest(step) - SHORT_OF - motion.arc
-            hardest = found.hardest
-            if 0.0 < 2.0 * FOLLOWING * room < motion.speed**2:
+            hardest, needed = found.hardest, at_line or _hits(lane, motion, step, blocker, length)
+            if needed and 0.0 < 2.0 * FOLLOWING * room < motion.speed**2:
                 hardest = min(motion.speed**2 / (2.0 * room), EMERGENCY)
             found = Wish(speed, hardest, (blocker, "right-of-way"))
     return found
+
+
+def _hits(lane: Lane, motion: Motion, step: int, other: Occupancy, length: float) -> bool:
+    """Whether driving on freely ends in a collision with somebody on the path."""
+    arc, speed, acceleration = motion.arc, motion.speed, motion.acceleration
+    for ahead in range(step + 1, min(step + GAP_HORIZON, other.total)):
+        wanted = lane.speed(arc + speed * RELAXATION)
+        acceleration = _towards(speed, acceleration, wanted, FOLLOWING, DT)
+        before, speed = speed, max(speed + acceleration * DT, 0.0)
+        arc += 0.5 * (before + speed) * DT
+        if other.touches(arc - length, arc, ahead):
+            return True
+    return False
 
 
 def _jam(
