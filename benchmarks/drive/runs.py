@@ -34,7 +34,7 @@ Result = TypeVar("Result")
 class Decided(msgspec.Struct, frozen=True):
     """The time of one decision, and the number of others."""
 
-    ms: float  # [ms] of wall time
+    ms: float  # [ms] of processor time: of one core, whatever else runs
     others: int  # in view
 
 
@@ -46,7 +46,7 @@ class Run(msgspec.Struct, frozen=True):
     ours: Drive | None = None
     sumo: Drive | None = None
     error: str | None = None  # of a run that failed
-    decisions: tuple[float, ...] = ()  # [ms] wall time of each decision
+    decisions: tuple[float, ...] = ()  # [ms] processor time of each decision
 
     @property
     def reproduce(self) -> str:
@@ -98,10 +98,10 @@ def by_planner(
     decisions: list[Decided] = []
 
     def command(scene: Scene) -> Command:
-        began = time.perf_counter()
+        began = time.process_time()
         driven = driver.step(scene, scenario.step)
         if driven.trace is not None:
-            taken = round(1000.0 * (time.perf_counter() - began), 2)
+            taken = round(1000.0 * (time.process_time() - began), 2)
             decisions.append(Decided(taken, len(scene.vehicles) + len(scene.people) - 1))
         return driven.command
 
