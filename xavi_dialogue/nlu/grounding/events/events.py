@@ -81,8 +81,8 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
         spoken = replace(spoken, time=Unsaid())
     window = _window(spoken, mode, g, outer)
     real = mode != "supposed" and not window.ahead and spoken.modal in (None, "must", "want")
-    # "Is it braking?" is of whom was spoken of, whether he brakes or not.
-    open_ = mode == "asked" and spoken.tense == "present" and isinstance(spoken.actor, Pronoun)
+    # "Is it braking?" is of whom was spoken of, and "is the one ahead braking?" of the next one.
+    open_ = mode == "asked" and spoken.tense == "present" and _pointed_at(spoken.actor)
     open_ |= spoken.action == "go" and not spoken.manner and isinstance(spoken.actor, Pronoun)
     order = "first" in spoken.manner and spoken.tense == "present"  # whether they do is open
     lately = is_open(spoken.actor, mode, window)
@@ -110,6 +110,14 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
             g.notes.spans(window.span)
         return replace(found, time=window.term)
     return _placed(found, mode, g, window, outer is not None and not outer.said)
+
+
+def _pointed_at(thing: Thing) -> bool:
+    """Tell whether somebody is known by a pronoun, or by being next before or behind us."""
+    if isinstance(thing, Described):
+        plain = Described(kind=thing.kind, definite=thing.definite, bearing=thing.bearing)
+        return thing == plain and thing.definite and thing.bearing in ("ahead", "behind")
+    return isinstance(thing, Pronoun)
 
 
 def _by_us(spoken: Event, g: Grounder) -> Event:
