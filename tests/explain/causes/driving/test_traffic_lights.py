@@ -1,14 +1,19 @@
 """A traffic light is a cause where planning again with it green would save time."""
 
 import pytest
+from msgspec.structs import replace
 
 from planner.record.events import Event as RideEvent
-from tests.explain.lit import LINE, OBEYS, STANDS, answer, driven, record
-from xavi_dialogue.domain.answers import MotionReason, NeedRollout
+from planner.record.trace import Track
+from sim.scene import VehicleState
+from tests.explain.lit import GREEN, LINE, OBEYS, STANDS, answer, driven, record
+from xavi_dialogue.domain.answers import Evidence, MotionCause, MotionReason, NeedRollout
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.meaning import Ask, Why
 from xavi_dialogue.domain.terms import Ego, Event, Feature, Happens, Not
 from xavi_dialogue.explain.answers.engine import explain
+from xavi_dialogue.explain.causes.driving.slowness import with_nearest
+from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.record import Record
 from xavi_dialogue.explain.history.ride import Ride
@@ -77,3 +82,25 @@ def test_who_goes_while_a_light_holds_us_is_not_given_way_to():
     found = World(Ride(Record(25.0, known.traces, gave)))
     assert found.episodes(Ego(), "give-way") == found.episodes(Ego(), "wait")
     assert all(e.object == Feature("light") for e in found.episodes(Ego(), "wait"))
+
+
+def behind_one_at(place: float, now: float) -> MotionCause:
+    """The reason that somebody stands ahead of us, whose front is at a place [m]."""
+    known = record(now)
+    state = VehicleState((place, 0.0), 0.0, 0.0, 0.0, 4.5, 1.8)
+    track = Track(0.0, ((place, 0.0),) * 2, (0.0, 0.0), (0.0, 0.0))
+    traces = [
+        replace(t, scene={**t.scene, 5: state}, history={**t.history, 5: track})
+        for t in known.traces
+    ]
+    ride = Ride(Record(now, tuple(traces)))
+    reasons = Reasons((MotionCause("blocked", 5),), None, Evidence(), ride.traces[-1])
+    (found,) = with_nearest(ride, World(ride), reasons, now)
+    return found
+
+
+def test_who_stands_before_us_at_a_red_light_is_told_with_it():
+    led = behind_one_at(LINE - 1.0, 12.0)
+    assert (led.vehicle, led.shown and led.shown.colour) == (5, "red")
+    assert behind_one_at(LINE + 10.0, 12.0).shown is None  # beyond the light
+    assert behind_one_at(LINE - 1.0, GREEN + 1.0).shown is None

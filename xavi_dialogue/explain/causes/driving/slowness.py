@@ -10,11 +10,11 @@ from dataclasses import dataclass, replace
 from msgspec.structs import replace as changed
 
 from planner.record.trace import PlanTrace
-from sim.scene import EGO
+from sim.scene import EGO, Signal
 from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.domain.answers import Cause, Evidence, Mechanism, MotionCause, NotRecorded
 from xavi_dialogue.domain.facts import Episode, Look
-from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.domain.terms import Ego, Feature, Vehicle
 from xavi_dialogue.explain.causes.driving.driving import beside, of_road
 from xavi_dialogue.explain.causes.driving.restrained import as_driven
 from xavi_dialogue.explain.causes.driving.roadside import limit_at, road_causes, setting_off
@@ -29,15 +29,18 @@ from xavi_dialogue.explain.causes.driving.yielding import kept
 from xavi_dialogue.explain.causes.plans.contrast import evidence, factual
 from xavi_dialogue.explain.causes.vehicles.involved import expected_actions, holding_up
 from xavi_dialogue.explain.causes.vehicles.necessity import proven
+from xavi_dialogue.explain.facts.traffic_lights import told
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.nearing import speed_at
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
+from xavi_dialogue.explain.history.traffic_lights import ahead, shown
 
 SLOW = 0.85  # share of the limit below which driving is slow
 AT_LIMIT = 0.93  # share of the limit from which the ego drives at it
 HEADWAY = 5.0  # [s] within which somebody in front sets the pace
 NEAR = 12.0  # [m] minimum of that distance, however slow we are
 ASIDE = 2.0  # [m] maximum offset sideways of somebody in front of us
+TO_LIGHT, UP_TO_LIGHT = 80.0, 10.0  # [m] to a light, and [m/s], up to which one drives up to it
 AROUND = 3.0  # [s] of the plan that count as now
 
 
@@ -92,10 +95,17 @@ def leader(ride: Ride, world: World, time: float) -> Look | None:
 def with_nearest(
     ride: Ride, world: World, reasons: Reasons, time: float
 ) -> tuple[MotionCause, ...]:
-    """Add to a leader that is the reason the vehicle that drives between it and us at a time [s].
+    """Add to a leader that is the reason who drives between it and us, and the light before both.
 
     Passengers see the nearer vehicle first. If the reason is the nearest vehicle itself, and the
-    one right before it counts as well, the latter holds up both, and becomes the reason.
+    one right before it counts as well, the latter holds up both, and becomes the reason. Whoever
+    drives up to a red light brakes for it.
+
+    Args:
+        ride: the record.
+        world: its facts.
+        reasons: as found.
+        time: [s] the moment.
     """
     causes = [_farther(ride, world, cause, time, reasons.counted) for cause in reasons.causes]
     named = {cause.vehicle for cause in causes}
@@ -110,7 +120,24 @@ def with_nearest(
                 found.append(changed(cause, kind="leader", between=near.vehicle))
                 continue
         found.append(cause)
-    return tuple(found)
+    if any(cause.kind == "light" for cause in found):
+        return tuple(found)
+    return tuple(_up_to_light(ride, world, cause, time) for cause in found)
+
+
+def _up_to_light(ride: Ride, world: World, cause: MotionCause, time: float) -> MotionCause:
+    """Add to somebody who holds us up the next light on our way, if it is red beyond both."""
+    leads = cause.kind in ("leader", "blocked") and cause.vehicle is not None
+    look = world.look(cause.vehicle, time) if leads and cause.vehicle is not None else None
+    near = next(iter(ahead(ride, time)), None)
+    if look is None or near is None or look.speed > UP_TO_LIGHT:
+        return cause
+    if not look.ahead < near.distance <= TO_LIGHT:
+        return cause
+    signal = Signal(near.controller, near.place)
+    one = shown(ride, signal, time)
+    seen = None if one is None else told(ride, signal, one, Feature("light"))
+    return cause if seen is None or seen.colour != "red" else changed(cause, shown=seen)
 
 
 def _farther(
