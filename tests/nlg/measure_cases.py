@@ -132,4 +132,8 @@ CASES: tuple[tuple[Measure, ...], ...] = (
     (Measure("speed-change", E, NOW - 5.0, -4.0, until=NOW, low=13.9, high=9.9),),
     (Measure("time-to-go", E, NOW, 4.0, to=V),),
     (Measure("speed", E, NOW - 8.0, 12.0, until=NOW - 2.0, low=10.0, high=13.9, extreme="mean"),),
+    (
+        Measure("speed", V, NOW, gap="out-of-view"),
+        Measure("speed", V, NOW - 0.8, 13.0, reference=13.9),
+    ),
 )

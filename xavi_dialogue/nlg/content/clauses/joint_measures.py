@@ -83,7 +83,7 @@ def measure_messages(measures: tuple[Measure, ...], context: SpeechContext) -> l
         if _seen_last(one, measures):
             continue
         if _seen_last_of(one, measures):
-            part = measure_message(one, context)
+            part = measure_message(one, context, gone=True)
             parts.append(message("LAST_VALUE", who=Who(one.thing, placed=False), part=part))
             continue
         bare = (limits and one.attribute in ("speed", "limit")) or (

@@ -48,8 +48,9 @@ _EITHER = frozenset(("lane", "route", *WORLDLY))
 
 
 def measure_message(
-    one: Measure, context: SpeechContext, *, bare: bool = False, when: bool = True
-) -> Message:
+    one: Measure, context: SpeechContext, *, bare: bool = False, when: bool = True,
+    gone: bool = False,
+) -> Message:  # fmt: skip
     """Make the message for one measure.
 
     Args:
@@ -57,8 +58,9 @@ def measure_message(
         context: the situation.
         bare: leave out the value that it is compared with.
         when: state the time, unless it is now.
+        gone: it is the last value that was seen, however short a while ago.
     """
-    slots = _common(one, context, when)
+    slots = _common(one, context, when, gone=gone)
     if one.gap is not None or not _has_value(one):
         slots |= {"gap": one.gap or "not-recorded", "between": one.attribute in BETWEEN}
         return Message("NO_VALUE", slots)
@@ -85,9 +87,11 @@ def _has_value(one: Measure) -> bool:
     return one.value is not None or (one.attribute in _EITHER and one.word is not None)
 
 
-def _common(one: Measure, context: SpeechContext, when: bool) -> dict[str, Any]:
+def _common(
+    one: Measure, context: SpeechContext, when: bool, *, gone: bool = False
+) -> dict[str, Any]:
     """Return the slots that all attributes have: who, when, and verbs that agree with them."""
-    past = context.now - one.time > since(context) and one.extreme is None
+    past = (gone or context.now - one.time > since(context)) and one.extreme is None
     past = past and one.attribute != "visibility"
     ego = isinstance(one.thing, Ego)
     plain = one.attribute not in _UNPLACED
