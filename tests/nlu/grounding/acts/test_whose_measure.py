@@ -253,3 +253,11 @@ def test_whom_the_same_breath_named() -> None:
 )
 def test_what_is_far_or_fast_where_nobody_was_named(spoken: Is, thing: Thing) -> None:
     assert of_ride(spoken).thing == thing
+
+
+def test_how_fast_this_is_is_asked_of_our_car_unless_somebody_in_view_was_spoken_of() -> None:
+    this = Measured("speed", Pronoun("this"))
+    gone = of((Vehicle(7), 0.9))
+    assert ground(this, gone).thing == Ego()
+    assert ground(this, of((HIM, 0.9))).thing == HIM
+    assert ground(Measured("speed", Pronoun("this"), tense="past"), gone).thing != Ego()

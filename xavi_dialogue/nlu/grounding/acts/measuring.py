@@ -153,7 +153,9 @@ def _corefer(spoken: Measured, g: Grounder) -> Measured:
     if spoken.attribute == "distance" and alone:
         return spoken if spoken_of(g) else replace(spoken, attribute="distance-to-go", thing=Ego())
     unsaid = spoken.thing == Pronoun("one") and not _speaks_of_others(g)
-    if unsaid or (_is_vague(spoken.thing) and spoken.attribute in OURS and _speaks_of_us(g)):
+    ours = spoken.attribute == "speed" and spoken.tense == "present" and _is_here(spoken.thing, g)
+    ours |= _is_vague(spoken.thing) and spoken.attribute in OURS and _speaks_of_us(g)
+    if unsaid or ours:
         return replace(spoken, thing=Ego())
     return spoken
 
@@ -202,6 +204,12 @@ def _speaks_of_us(g: Grounder) -> bool:
     if spoken_of(g):
         return False
     return first((discourse.question, discourse.propositions[:1]), Ego) is not None
+
+
+def _is_here(thing: Thing | None, g: Grounder) -> bool:
+    """Tell whether "this" is our car: nobody in view was just spoken of."""
+    spoken = (v for v, s in vehicles_of(g.context.discourse.mentions) if s >= PRESENT)
+    return thing == Pronoun("this") and not set(spoken) & set(g.context.in_view(g.context.now))
 
 
 def _is_vague(thing: Thing | None) -> bool:

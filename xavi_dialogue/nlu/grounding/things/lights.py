@@ -78,6 +78,8 @@ def _meant(part: Any, g: Grounder) -> Any:
             return replace(part, of=_spoken(thing, g))
         case Identify(thing=thing) | Exists(thing=thing):
             return replace(part, thing=_spoken(thing, g))
+        case Measured(attribute="duration", thing=Described() as thing):
+            return replace(part, thing=_phase(thing, g))
         case Measured(attribute=attribute) if attribute in _MEASURED:
             beside = None if part.to is None else _spoken(part.to, g)
             return replace(part, thing=_spoken(part.thing, g), to=beside)
@@ -152,6 +154,13 @@ def _one(thing: Thing, g: Grounder) -> Thing:
     looks = (g.context.look(v, now) for v in g.context.in_view(now))
     if any(look is not None and look.colour == thing.colour for look in looks):
         return thing
+    return Feature("light", colour=thing.colour)
+
+
+def _phase(thing: Described, g: Grounder) -> Thing:
+    """Take "the red" that lasts for a light, where one has been seen: no vehicle lasts."""
+    if thing != Described(colour=thing.colour) or thing.colour not in LIT or not _known(g):
+        return _one(thing, g)
     return Feature("light", colour=thing.colour)
 
 
