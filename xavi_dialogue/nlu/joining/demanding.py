@@ -39,6 +39,7 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Nobody,
     Not,
+    Now,
     Pronoun,
     Proposition,
     Related,
@@ -54,6 +55,10 @@ BLAMING: Final = 0.2  # cost of a thing that is named as what something was for,
 THAT: Final = Ask(Why(That()))
 #: Why we drive as we do: what a bare demand comes to where nothing else is stated.
 DOING: Final = Ask(Why(Happens(Event("do", object=Pronoun("that"), tense="present"))))
+#: The same, of now and no time that is stated: "what is it now? We had green".
+DOING_NOW: Final = Ask(
+    Why(Happens(Event("do", object=Pronoun("that"), time=Now(), tense="present")))
+)
 #: What happens to us, or is only a stage of the ride, and what is too vague to have a reason.
 _IDLE: Final = frozenset(("arrive", "see", "do", "happen", "have", "get", "come", "appear", "know"))
 _MOVING: Final = frozenset(("slow", "stationary", "stuck", "fast", "late"))
@@ -61,8 +66,9 @@ _MOVING: Final = frozenset(("slow", "stationary", "stuck", "fast", "late"))
 
 def demanding(sentence: Typed) -> Reading:
     """Read a sentence that does nothing but demand a reason."""
-    words = (token.text for token in sentence.tokens)
-    return Reading((DOING,), tuple(TokenShare(w, w, "meaning", "demand", 0) for w in words), COST)
+    words = [token.text for token in sentence.tokens]
+    act = DOING_NOW if "now" in words else DOING
+    return Reading((act,), tuple(TokenShare(w, w, "meaning", "demand", 0) for w in words), COST)
 
 
 def blaming(reading: Reading) -> Reading:
@@ -129,6 +135,8 @@ def _ours(that: Proposition) -> Proposition | None:
 
 def _of_conduct(act: Act, acts: Sequence[Act], at: int, lost: bool) -> Act:
     """Ask for the reason of what was stated last, else of what is stated next."""
+    now = act == DOING_NOW
+    act = DOING if now else act
     question = act.question if isinstance(act, Ask) else None
     vague = act == Repair("why") or _wonders(question)
     if not (vague or act == DOING or (isinstance(question, Why) and _is_bare(question))):
@@ -157,7 +165,7 @@ def _of_conduct(act: Act, acts: Sequence[Act], at: int, lost: bool) -> Act:
         return Elliptic(form="why") if act == DOING else act
     if of is None and (any(isinstance(one, Ask) for one in behind) or (claims and lost)):
         return Elliptic(form="why") if act == DOING else act
-    return _why(question, of or _as_we_do(claims))
+    return _why(question, of or _as_we_do(() if now else claims))
 
 
 def _is_bare(question: Why) -> bool:

@@ -67,7 +67,9 @@ def existing(clause: Clause) -> list[Found]:
         return [(Exists(Described(definite=False), clause.time, tense_of(clause)), 0.8)]
     if isinstance(sem, Measure) and sem.of.attribute == "weather":  # "suppose there was ice"
         return [(Has("weather", "bad", time=clause.time, tense=tense_of(clause)), 0.0)]
-    if isinstance(sem, Measure) and sem.of.attribute in ("gap", "distance"):
+    if isinstance(sem, Measure) and (
+        sem.of.attribute in ("gap", "distance") or words_of(clause.objects[0][1]) == "place"
+    ):
         return [(roomy(clause, clause.time), 0.0)]
     if isinstance(thing, Feature) and thing.kind == "space":
         return [(roomy(clause, clause.time), 0.0)]

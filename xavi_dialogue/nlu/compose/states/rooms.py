@@ -1,6 +1,7 @@
 """Rooms: "is there enough room to get past him", "had we space between us and the bus"."""
 
-from typing import Any, cast
+from collections.abc import Mapping
+from typing import Any, Final, Literal, TypeGuard, cast
 
 from xavi_dialogue.domain.terms import (
     Described,
@@ -17,10 +18,15 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
 )
+from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Sem, as_thing
 
 _OTHERS = (Vehicle, Described, Pronoun, Lane)
+#: Lane changes, with the side that they tell by themselves.
+_CHANGES: Final[Mapping[ActionName, Literal["left", "right"] | None]] = {
+    "change-lane": None, "change-left": "left", "change-right": "right",
+}  # fmt: skip
 
 
 def roomy(clause: Clause, time: Time) -> Proposition:
@@ -38,11 +44,24 @@ def roomy(clause: Clause, time: Time) -> Proposition:
         else:
             named.append(anchor.actor if isinstance(anchor, Event) else anchor)
         time = Unsaid()
+    moved = [sem for sem in (inner, *(c.sem for c in clause.complements)) if _changes_lane(sem)]
+    named = [_lane_of(sem) for sem in moved] or named
     sides = [b for b, _ in clause.bearings if b in ("left", "right")]
     named += [Lane(cast(Any, side)) for side in sides]
     others = (t for t in named if isinstance(t, _OTHERS) and not isinstance(t, (Ego, Passenger)))
     thing: Thing | None = next(others, None)
     return Is("roomy", thing, event=deed, time=time, tense=cast(Any, clause.tense))
+
+
+def _changes_lane(sem: object) -> TypeGuard[Event]:
+    """Tell whether the room is wanted for a lane change of ours."""
+    return isinstance(sem, Event) and sem.action in _CHANGES and isinstance(sem.actor, Ego)
+
+
+def _lane_of(change: Event) -> Lane:
+    """Give the lane that a lane change leads to: of no side, the one beside ours."""
+    side = change.side if change.side in ("left", "right") else None
+    return Lane(_CHANGES[change.action] or side or "other")
 
 
 def _members(sem: Sem | None) -> tuple[Sem | None, ...]:
