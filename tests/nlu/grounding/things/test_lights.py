@@ -128,7 +128,9 @@ def test_what_a_light_cost_us_is_how_long_we_waited_at_it(text):
     assert found.question.of.object == LIGHT
 
 
-@pytest.mark.parametrize("text", ["How long does the red last?", "How long is the green going to last?"])
+@pytest.mark.parametrize(
+    "text", ["How long does the red last?", "How long is the green going to last?"]
+)
 def test_the_red_that_lasts_is_a_light_whoever_was_spoken_of(text):
     found, _ = grounded(text, 20.0, of(Vehicle(1)))
     assert first(found, Feature).kind == "light"
