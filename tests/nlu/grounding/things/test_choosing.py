@@ -9,7 +9,7 @@ from tests.nlu.grounding.fakes import Car, FakeWorld, did, talk
 from tests.nlu.grounding.things.test_looks import PLAIN
 from xavi_dialogue.domain.discourse import Discourse
 from xavi_dialogue.domain.facts import Episode
-from xavi_dialogue.domain.terms import Described, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import Described, Event, Vehicle, Vehicles, Wanted
 from xavi_dialogue.nlu.grounding.context import Context
 from xavi_dialogue.nlu.grounding.things.choosing import bare, choose, several
 from xavi_dialogue.nlu.grounding.things.match import Match
@@ -216,3 +216,12 @@ def test_of_more_than_were_counted_those_spoken_of_are_meant() -> None:
     assert listed(*three, discourse=together) == (1, 2, 3)
     assert listed(*three[:2], number=2, discourse=together) == (1, 2)
     assert listed(*three, number=1, discourse=together) == (1,)
+
+
+def test_of_those_who_do_it_now_on_one_side_the_nearest_is_meant() -> None:
+    near, far = match(3, distance=3.0, done=8.0), match(5, distance=7.0, done=14.0)
+    now = Described("car", bearing="left", doing=Event("stand", Wanted(), tense="present"))
+    past = replace(now, doing=Event("stop", Wanted(), tense="past"))
+    assert choose(context(), now, (far, near), NOW, None) == (3,)
+    assert choose(context(), past, (far, near), NOW, None) == (5,)
+    assert choose(context(), replace(now, bearing=None), (far, near), NOW, None) == (5,)

@@ -5,7 +5,7 @@ from typing import Final
 
 from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.facts import Look
-from xavi_dialogue.domain.terms import Described, Thing, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import Described, Now, Thing, Unsaid, Vehicle, Vehicles
 from xavi_dialogue.nlu.grounding.context import Context
 from xavi_dialogue.nlu.grounding.salience import group, vehicles_of
 from xavi_dialogue.nlu.grounding.things.match import Match
@@ -57,7 +57,8 @@ def choose(
         known = [m for m in tied if m.vehicle in salient]
         if known:
             return (max(known, key=lambda m: (salient[m.vehicle], -m.vehicle)).vehicle,)
-    last = _last_done(tied)
+    beside = wanted.bearing is not None and _is_now(wanted)
+    last = None if beside else _last_done(tied)
     if last is not None:
         return (last,)
     if wanted.bearing is not None:
@@ -65,6 +66,12 @@ def choose(
     if all(m.deed is not None for m in tied):  # it is true of each of them
         return (max(tied, key=lambda m: (m.deed.begin if m.deed else 0.0, -m.vehicle)).vehicle,)
     return _prominent(context, wanted, tied, moment)
+
+
+def _is_now(wanted: Described) -> bool:
+    """Tell whether it is said what somebody does now: "the car that is standing on our left"."""
+    doing = wanted.doing
+    return doing is not None and doing.tense == "present" and isinstance(doing.time, Unsaid | Now)
 
 
 def walks(thing: Described) -> bool:
