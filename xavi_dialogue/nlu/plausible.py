@@ -176,6 +176,8 @@ def _own(value: Any) -> float:
             return ODD
         case Exists(thing=Feature(kind="way")) | Identify(thing=Feature(kind="way")):
             return ODD
+        case Is(state="sure", thing=Described(number=int())):
+            return ODD  # "pretty sure its 50 here"
         case Is(state="right", thing=Ego() | Described(), event=event) if event is not None:
             return DOUBTFUL
     return PLAIN

@@ -306,8 +306,8 @@ def _of_claim(before: Act, later: Act) -> Act | None:
         ):
             return Ask(Whether(that, tag=True))
         case Claim(that=that), Ask(
-            question=Which(thing=Wanted(), such=Is(thing=Wanted(), event=None))
-        ):
+            question=Which(thing=Wanted(), such=Is(thing=Wanted(), event=None, state=state))
+        ) if state != "visible":
             return Ask(Whether(that, tag=True))  # "..., which is fine, isn't it?"
         case Ask(question=HowMuch()) as named, Ask(question=Identify(thing=Pronoun(form="it"))):
             return named  # "the limit, what is it"

@@ -87,7 +87,7 @@ def test_whether_anything_was_dangerous_is_of_nobody() -> None:
 
 
 @pytest.mark.parametrize("words", ["ride", "trip", "journey", "drive"])
-@pytest.mark.parametrize("state", ["dangerous", "safe"])
+@pytest.mark.parametrize("state", ["dangerous", "safe", "comfortable", "uncomfortable"])
 def test_a_dangerous_ride_is_asked_of_the_whole_of_it(words: str, state: Any) -> None:
     spoken = Is(state, Unknown(words), tense="past")
     assert threatened(spoken, grounder()) == Is(state, tense="past", time=WholeRide())

@@ -51,6 +51,10 @@ from xavi_dialogue.nlu.compose.verbs.lights import faced_by
 from xavi_dialogue.nlu.grammar.chart import Part
 
 Found = tuple[Proposition, float]
+#: What a ride can be said to be; "a good ride" is a comfortable one.
+_QUALITIES = {"better": "comfortable"} | {
+    state: state for state in ("safe", "dangerous", "comfortable", "uncomfortable")
+}
 _PACES: dict[str | None, str] = {"fastest": "more", "slowest": "less"}
 _GOOD = frozenset({"right", "correct", "good", "best", "proper", "wise"})
 _AMISS = frozenset({"wrong", "bad", "poor"})
@@ -246,6 +250,9 @@ def _mistake(clause: Clause, deed: Event) -> Proposition:
 
 
 def _noun_state(clause: Clause, sem: Noun, subject: Thing, time: Time) -> Proposition:
+    quality = _quality(clause) if sem.key == "ride" else None
+    if quality is not None:  # "was this a safe ride?"
+        return Is(cast(Any, quality), Unknown(sem.word), time=time, tense=tense_of(clause))
     if sem.key == "fault":
         event = sem.clause.event if isinstance(sem.clause, Happens) else None
         thing = as_thing(sem.owner) or as_thing(sem.of) or subject
@@ -267,6 +274,12 @@ def _noun_state(clause: Clause, sem: Noun, subject: Thing, time: Time) -> Propos
         deed = next((one for one in (sem.about, sem.of) if isinstance(one, Event)), None)
         return Caused(subject, sem.clause if deed is None else Happens(deed))
     return Related("same-as", subject, Unknown(sem.word), time, tense_of(clause))
+
+
+def _quality(clause: Clause) -> str | None:
+    """Give what is said of a ride before its noun: "safe" of "a safe ride"."""
+    leaves = leaves_of(clause.objects[0][1])
+    return next((_QUALITIES[leaf.key] for leaf in leaves if leaf.key in _QUALITIES), None)
 
 
 def against(clause: Clause, thing: Thing, phrase: Complement) -> Proposition:

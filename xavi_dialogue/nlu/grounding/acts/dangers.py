@@ -26,6 +26,7 @@ from xavi_dialogue.nlu.grounding.context import Grounder, Mode
 from xavi_dialogue.nlu.grounding.salience import FRESH, vehicles_of
 
 STATES: Final = frozenset(("dangerous", "safe"))
+COMFORT: Final = frozenset(("comfortable", "uncomfortable"))
 PERILS: Final = STATES | {"close"}
 RIDES: Final = ("ride", "trip", "journey", "drive")
 SPOKEN: Final = 0.85  # salience from which a vehicle is the one that the turn before was about
@@ -39,6 +40,9 @@ def threatened(spoken: Is, g: Grounder) -> Is:
 
     "Were we in danger when he came past?", "It shot across. Were we in danger just then?"
     """
+    if isinstance(spoken.thing, Unknown) and spoken.thing.words in RIDES:
+        whole = spoken.state in STATES | COMFORT
+        return replace(spoken, thing=None, time=WholeRide()) if whole else spoken
     if spoken.state not in STATES | {"worth-it", "wrong"} or spoken.event is not None:
         return spoken
     option = g.context.discourse.option
@@ -50,8 +54,6 @@ def threatened(spoken: Is, g: Grounder) -> Is:
         return spoken
     if spoken.thing == Described(definite=False):
         return replace(spoken, thing=None)  # "was anything dangerous?"
-    if isinstance(spoken.thing, Unknown) and spoken.thing.words in RIDES:
-        return replace(spoken, thing=None, time=WholeRide())
     if not _of_us(spoken):
         return spoken
     match spoken.time:
