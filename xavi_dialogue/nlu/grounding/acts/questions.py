@@ -65,7 +65,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     questioned,
     spoken_of,
 )
-from xavi_dialogue.nlu.grounding.completion.supposing import of_named, of_nobody
+from xavi_dialogue.nlu.grounding.completion.halting import of_whom
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
 from xavi_dialogue.nlu.grounding.events.generic import across
 from xavi_dialogue.nlu.grounding.events.timing import believed_last, changed, coming, foreseen, over
@@ -104,7 +104,7 @@ def _during(event: Event | None, g: Grounder) -> Window:
 
 
 def _what_if(spoken: WhatIf, g: Grounder) -> WhatIf:
-    supposed = g.proposition(of_nobody(of_named(spoken).supposed), "supposed")
+    supposed = g.proposition(of_whom(spoken, g), "supposed")
     then = None if spoken.then is None else _supposed_question(spoken.then, g)
     focus = focus_of(supposed, g.context)
     if g.notes.span is None and focus is not None:
