@@ -7,6 +7,7 @@ from xavi_dialogue.domain.meaning import (
     Ask,
     AskHelp,
     Beyond,
+    Claim,
     Elliptic,
     Feel,
     HowSure,
@@ -164,6 +165,8 @@ def _special_feeling(clause: Clause, value: Special) -> Act | None:
     everything = isinstance(clause.subject, Everyone | Noun | Event)
     if name == "feel-adj" and (everything or isinstance(clause.subject, (Passenger, Pronoun))):
         state = clause.adjectives[0][0] if clause.adjectives else ""
+        if state == "slow" and not (clause.negated or isinstance(clause.subject, Passenger)):
+            return Claim(Is("slow", Ego(), tense=cast(Any, clause.tense)))  # "it feels slow"
         feeling = {"safe": "relieved", "dangerous": "afraid", "comfortable": "happy",
                    "uncomfortable": "nervous", "fast": "nervous"}.get(state, "nervous")  # fmt: skip
         if clause.negated:
