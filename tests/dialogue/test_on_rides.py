@@ -64,8 +64,3 @@ def test_had_the_light_been_green_people_would_still_have_crossed() -> None:
     reply = ride.ask("what if the light had been green?", at=22.0).text
     assert "would have let" in reply
     assert "without stopping" not in reply
-
-
-def test_who_holds_us_up_ahead_is_who_drives_before_us() -> None:
-    reply = Talk("junction-0", 50.0).say("is something holding us up ahead?").reply.text
-    assert "the blue bicycle ahead of us" in reply

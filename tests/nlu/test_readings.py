@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from xavi_dialogue.domain.rewriting import first
+from xavi_dialogue.domain.terms import Measured
 from xavi_dialogue.nlu.notation import acts_line
 from xavi_dialogue.nlu.parse import Parser
 
@@ -31,3 +33,12 @@ def test_readings_come_best_first_and_are_few() -> None:
         costs = [reading.cost for reading in PARSER.read(case["text"])]
         assert costs == sorted(costs)
         assert 1 <= len(costs) <= 6
+
+
+@pytest.mark.parametrize("text", ["is something holding us up ahead", "what holds us here"])
+def test_who_holds_us_up_may_only_delay_us(text: str) -> None:
+    """Who drives slowly ahead of us holds us up, and does not block our way."""
+    best, other = PARSER.read(text)[:2]
+    assert other.cost == best.cost
+    measures = [first(reading.acts, Measured) for reading in (best, other)]
+    assert "delay" in [measure.attribute for measure in measures if measure is not None]
