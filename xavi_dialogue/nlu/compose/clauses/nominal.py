@@ -94,7 +94,7 @@ def deed_of(sem: Sem | None) -> Event | None:
 
 def done_by(event: Event, *named: Sem | None) -> Event:
     """Make a named vehicle the actor: "vehicle 1 at 90 percent for turning"."""
-    things = (as_thing(sem) for sem in named)
+    things = (as_thing(sem) for sem in named if not isinstance(sem, Event))
     whom = next((t for t in things if isinstance(t, Vehicle | Described | Pronoun)), None)
     if whom is None or not isinstance(event.actor, Ego):
         return event

@@ -56,7 +56,7 @@ from xavi_dialogue.nlu.compose.wh_questions.lasting import (
 )
 from xavi_dialogue.nlu.compose.wh_questions.savings import UNREAL
 from xavi_dialogue.nlu.compose.wh_questions.towards import reference
-from xavi_dialogue.nlu.compose.wh_questions.wh import held_then
+from xavi_dialogue.nlu.compose.wh_questions.wh import content_of, held_then
 
 _PACES = frozenset({"faster", "slower", "quicker"})
 _PASSING = frozenset({"avoid", "nearly-collide", "pass", "overtake"})
@@ -205,8 +205,8 @@ def _weighed(clause: Clause, actor: Thing | None) -> Event | None:
 def sure_of(clause: Clause, value: Any) -> Question:
     """Ask how sure we are of what a clause says."""
     content: Proposition | None = None
-    if isinstance(value, Special):
-        content = value.content
+    if isinstance(value, Special):  # "how likely did you think a collision was?"
+        content = content_of(clause, value)
     elif isinstance(value, Happens) and not isinstance(value.event.object, Wanted):
         content = value
     elif isinstance(clause.subject, Event):
