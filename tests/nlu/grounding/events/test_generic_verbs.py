@@ -115,6 +115,10 @@ def test_coming_out_is_leaving_the_ring_or_moving_left() -> None:
     assert meant(before, LANES) == replace(
         out, action="change-left", where=Related("ahead-of", Ego(), Vehicle(1))
     )
+    where = replace(out, where=Related("ahead-of", Ego(), Vehicle(1)))
+    crossing = facts(place(0, 1, inside=True))
+    assert meant(where, LANES) == meant(before, LANES)
+    assert meant(where, crossing) == replace(before, action="go", manner=("first",))
     assert meant(out, PLAIN) == out
     for tense in ("present", "future"):
         soon = Event("pull-out", tense=tense)

@@ -126,6 +126,7 @@ def _outwards(event: Event, moment: float, g: Grounder) -> Event:
         return replace(event, action="leave", object=_RING)
     if not isinstance(event.actor, Ego):
         return replace(event, action="exit-right") if _turns_off(event, moment, g) else event
+    event = _before_whom(event)
     before = event.object
     site = _site(moment, g)
     coming = before is None and event.tense in ("present", "future")
@@ -135,6 +136,14 @@ def _outwards(event: Event, moment: float, g: Grounder) -> Event:
         return replace(event, action="leave") if coming else event
     where = event.where if before is None else Related("ahead-of", event.actor, before)
     return replace(event, action="change-left", object=None, where=where)
+
+
+def _before_whom(event: Event) -> Event:
+    """Read "pull out in front of it" as "pull out before it"."""
+    match event.where:
+        case Related(relation="ahead-of", to=Vehicle() as whom) if event.object is None:
+            return replace(event, object=whom, where=None)
+    return event
 
 
 def _turns_off(event: Event, moment: float, g: Grounder) -> bool:
