@@ -5,7 +5,8 @@ from typing import Any
 import pytest
 
 from planner.record.places import RoadFacts, RoadPlace
-from tests.nlu.grounding.fakes import Car, did
+from sim.scene import EGO
+from tests.nlu.grounding.fakes import Car, did, road
 from tests.nlu.grounding.things.test_things import BLUE, BUS, RED, Meant
 from xavi_dialogue.domain.terms import (
     At,
@@ -18,6 +19,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
+    Junction,
     Measured,
     Nobody,
     Not,
@@ -209,3 +211,15 @@ def test_who_did_it_at_a_time_is_who_did_it_then() -> None:
         cut = Event("cut-in", GAP, Ego(), time=time, tense="past")
         found = Meant(Described(colour="red", doing=cut), cars, *cuts)
         assert found.thing == Vehicle(vehicle)
+
+
+def test_people_at_the_corner_are_near_the_junction_and_not_on_it() -> None:
+    there = Related("on", GAP, Junction())
+    cars = {
+        1: Car(60.0, -8.0, kind="pedestrian"), 2: Car(20.0, 4.0, kind="pedestrian"),
+        3: Car(50.0), 4: Car(12.0, kind="pedestrian", seen=(0.0, 5.0)),
+    }  # fmt: skip
+    inside = RoadFacts(places={EGO: RoadPlace("e", None, 1, 13.9, True, False)}, route=())
+    assert such(there, cars=cars, facts=road("junction")) == [1]  # its entry is 50 m ahead
+    assert such(there, cars=cars, facts=inside) == [2]
+    assert such(there, cars=cars, facts=road()) == []

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Final
 
+from planner.record.trace import ON_FOOT
+from sim.scene import EGO
 from xavi_dialogue.domain.rewriting import rewrite, substitute
 from xavi_dialogue.domain.terms import (
     Both,
@@ -13,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
+    Junction,
     Not,
     Pronoun,
     Proposition,
@@ -27,6 +30,7 @@ from xavi_dialogue.nlu.grounding.things import looks
 STANDING: Final = 0.5  # [m/s]
 LATELY: Final = 3.0  # [s] in which something counts as being done
 UNTOLD: Final = 0.4  # cost where it cannot be known
+CORNER: Final = 25.0  # [m] from the entry to a junction, up to which somebody is at its corner
 GAP: Final = Vehicle(-1)
 
 
@@ -55,6 +59,10 @@ class Condition:
                 if decided in each:
                     return decided
                 return None if None in each else not decided
+            case Related(relation="on", thing=Vehicle(number=number), to=Junction()) if self._walks(
+                number
+            ):
+                return self._at_corner(number)
             case Related(relation=relation, thing=thing, to=to):
                 return context.world.relation(relation, thing, to, at)
             case Happens(event=event):
@@ -70,6 +78,21 @@ class Condition:
             case Compares(left=left, comparator="more" | "less" as comparator, right=right):
                 return self._faster(left, right, comparator)
         return None
+
+    def _walks(self, number: int) -> bool:
+        look = self.grounder.context.look(number, self.moment)
+        return look is not None and look.kind in ON_FOOT
+
+    def _at_corner(self, number: int) -> bool | None:
+        """Tell whether somebody on foot is near the junction where we are, or the next one."""
+        context, at = self.grounder.context, self.moment
+        look, road = context.look(number, at), context.world.road(at)
+        if look is None or road is None or EGO not in road.places:
+            return None
+        if road.places[EGO].in_junction:
+            return look.in_view and look.distance <= CORNER
+        entry = next((step.distance for step in road.route), None)
+        return look.in_view and entry is not None and abs(look.ahead - entry) <= CORNER
 
     def _interval(self, event: Event) -> tuple[float, float]:
         if event.tense == "present":
