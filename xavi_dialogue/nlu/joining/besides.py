@@ -257,8 +257,15 @@ def _at_limit(before: Act, act: Act) -> Act:
 
 
 def _of_exits(before: Act, act: Act) -> Act:
-    """Count exits where exits were asked for: "which is ours, and how many have we passed?"."""
+    """Count exits where exits were asked for: "which is ours, and how many have we passed?".
+
+    What we take where an exit was spoken of is that exit: "where is it, and are we taking it?".
+    """
     match before, act:
+        case Ask(question=Where() | Whether() as asked), Ask(
+            question=Whether(that=Happens(event=Event(action="move", actor=Ego()) as event))
+        ) if (place := first(asked, Exit)) is not None and event == _taking(event):
+            return Ask(Whether(Happens(structs.replace(event, action="leave", object=place))))
         case Ask(question=HowMuch(of=Measured(attribute="exit-number"))), Ask(
             question=HowMany(
                 of=Described(doing=Event(action="overtake" | "pass", actor=Ego(), tense=tense))
@@ -266,6 +273,11 @@ def _of_exits(before: Act, act: Act) -> Act:
         ):
             return Ask(HowMany(Event("pass", object=Exit(), tense=tense)))
     return act
+
+
+def _taking(event: Event) -> Event:
+    """Give the bare move that "take it" is read as."""
+    return Event("move", time=event.time, tense=event.tense)
 
 
 def _of_ours(before: Act, act: Act) -> Act:
