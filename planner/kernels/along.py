@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-LONG = 7.0  # [m] from this length on, a body in a bend lies clearly aside of the path's direction
+LONG = 7.0  # [m] a longer body does not lie along the path's direction at its middle in a bend
 
 _jit = njit(cache=True, error_model="numpy")
 

@@ -7,13 +7,13 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from planner.kernels.lines import Box, box_of
+
 Floats = NDArray[np.float64]
 
 SAFE_CUT_IN = 1.5  # [s] to collision with a follower, below which a lane change hits it
 BERTH = 1.0  # [m] kept free before and behind a lane change, as predictions are inexact
 ALIKE = 0.7  # least cosine of the angle between the headings of a vehicle and its follower
-
-Box = tuple[float, float, float, float]
 
 _jit = njit(cache=True, error_model="numpy")
 
@@ -64,11 +64,11 @@ def first_hit(
         The sample, and the index of the other vehicle.
     """
     found, whom, last = len(own), -1, len(own) - 1
-    box = _box(own)
+    box = box_of(own)
     for m in range(len(states)):
         berth = BERTH if careless else 0.0
         until = min(len(own), states.shape[1] - first, found)
-        if _apart(box, _box(states[m, first : first + until]), _reach(size, sizes[m], berth)):
+        if _apart(box, box_of(states[m, first : first + until]), _reach(size, sizes[m], berth)):
             until = 0
         for k in range(until):
             other = states[m, first + k]
@@ -101,23 +101,6 @@ def _meets(own: Floats, size: Any, other: Floats, other_size: Any, berth: float)
 def _reach(size: Any, other_size: Any, berth: float) -> float:
     """Return the distance [m] of two fronts from which on their bodies are apart."""
     return float(size[0] + other_size[0] + size[1] + other_size[1] + 2.0 * berth)
-
-
-@_jit
-def _box(states: Floats) -> Box:
-    """Return the least x and y and the greatest x and y [m] of a front; NaN does not count."""
-    low_x, low_y, high_x, high_y = math.inf, math.inf, -math.inf, -math.inf
-    for k in range(len(states)):
-        x, y = states[k, 0], states[k, 1]
-        if x < low_x:
-            low_x = x
-        if x > high_x:
-            high_x = x
-        if y < low_y:
-            low_y = y
-        if y > high_y:
-            high_y = y
-    return low_x, low_y, high_x, high_y
 
 
 @_jit

@@ -32,13 +32,29 @@ class Line(NamedTuple):
 @_jit
 def prepared(points: Floats, arc: Floats, heading: Floats) -> Line:
     """Return a path [N, 2] [m], with its arc [m] [N] and heading [rad] [N], for kernels."""
-    low_x, low_y, high_x, high_y = points[0, 0], points[0, 1], points[0, 0], points[0, 1]
-    for k in range(1, len(points)):
-        low_x, high_x = min(low_x, points[k, 0]), max(high_x, points[k, 0])
-        low_y, high_y = min(low_y, points[k, 1]), max(high_y, points[k, 1])
-    box = (low_x, low_y, high_x, high_y)
     middle, reach = _pieces(points)
-    return Line(points, arc, heading, np.cos(heading), np.sin(heading), box, middle, reach)
+    cos, sin = np.cos(heading), np.sin(heading)
+    return Line(points, arc, heading, cos, sin, box_of(points), middle, reach)
+
+
+@_jit
+def box_of(points: Floats) -> Box:
+    """Return the least x and y, and the greatest x and y [m], of points [N, 2 or more].
+
+    NaN does not count; without any point, the least are infinite.
+    """
+    low_x, low_y, high_x, high_y = math.inf, math.inf, -math.inf, -math.inf
+    for k in range(len(points)):
+        x, y = points[k, 0], points[k, 1]
+        if x < low_x:
+            low_x = x
+        if x > high_x:
+            high_x = x
+        if y < low_y:
+            low_y = y
+        if y > high_y:
+            high_y = y
+    return low_x, low_y, high_x, high_y
 
 
 @_jit

@@ -6,7 +6,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from planner.kernels.lines import Line, clearance, distance, nearest, prepared
+from planner.kernels.along import LONG
+from planner.kernels.lines import Line, box_of, clearance, distance, nearest, prepared
 from planner.kernels.stretches import Stretches, empty
 
 Floats = NDArray[np.float64]
@@ -16,7 +17,6 @@ SIDE_MARGIN = 0.3  # [m] kept free beside the body
 BEFORE, AFTER = 4, 5  # steps that a stretch is blocked after, and before, a vehicle with priority
 FOREVER = 1 << 30  # a step that never comes
 SLACK = 1e-3  # [m] greatest error of distances
-PART = 7.0  # [m] longer bodies are projected in parts, since a path may bend beside them
 PATIENCE = 5  # steps between two measurements of how far a vehicle is from the path
 
 _jit = njit(cache=True, error_model="numpy")
@@ -77,17 +77,7 @@ def project(
 @_jit
 def _may_come(line: Line, states: Floats, size: Floats, corridor: float) -> bool:
     """Check whether a vehicle may come onto a path, by the box that contains its front."""
-    low_x, low_y, high_x, high_y = math.inf, math.inf, -math.inf, -math.inf
-    for t in range(len(states)):
-        x, y = states[t, 0], states[t, 1]
-        if x < low_x:
-            low_x = x
-        if x > high_x:
-            high_x = x
-        if y < low_y:
-            low_y = y
-        if y > high_y:
-            high_y = y
+    low_x, low_y, high_x, high_y = box_of(states)
     if not low_x <= high_x:
         return False  # it is never in the network
     widest, behind, reach = _reaches(size, corridor)
@@ -138,7 +128,7 @@ def _occupied(
     along, cosine = found.along[m, start:], found.cosine[m, start:]
     points = line.points
     widest, behind, reach = _reaches(size, corridor)
-    near, room, again, long = 0, 0.0, 0, size[0] > PART
+    near, room, again, long = 0, 0.0, 0, size[0] > LONG
     for t in range(len(states)):
         x, y = states[t, 0], states[t, 1]
         if t > 0 and _alike(states[t], states[t - 1]):
@@ -183,7 +173,7 @@ def _in_parts(
 
     The cosine is that of its foremost part on the path.
     """
-    count = math.ceil(size[0] / PART)
+    count = math.ceil(size[0] / LONG)
     length, along, across = size[0] / count, math.cos(state[2]), math.sin(state[2])
     low, high, cosine, hint = math.nan, math.nan, 0.0, near
     for part in range(count):

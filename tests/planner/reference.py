@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from planner.kernels.along import LONG
 from planner.kernels.collision import ALIKE, BERTH, SAFE_CUT_IN
 from planner.kernels.limits import (
     ACCELERATION,
@@ -33,7 +34,7 @@ from planner.kernels.limits import (
     STANDING_TIME,
 )
 from planner.kernels.limits import BEFORE as SHORT_OF
-from planner.kernels.projection import AFTER, BEFORE, FOREVER, PART, SIDE_MARGIN
+from planner.kernels.projection import AFTER, BEFORE, FOREVER, SIDE_MARGIN
 from planner.manoeuvres.plans import ActionPlan, GiveWay, KeepClear, LetCross
 from planner.motion.forward import DT, Motion, advance
 from planner.motion.obstacles import Obstacle
@@ -162,7 +163,7 @@ def occupancy(
     along, aligned = np.zeros(total), np.zeros(total)
     start, stop = min(max(first - 1, 0), total - 1), min(last + AFTER, total)
     window = slice(start, stop)
-    count = max(math.ceil(obstacle.length / PART), 1)
+    count = max(math.ceil(obstacle.length / LONG), 1)
     for k in range(count - 1, -1, -1):  # the foremost part last
         part = replace(
             obstacle, length=obstacle.length / count, position=_moved(obstacle, k, count)
