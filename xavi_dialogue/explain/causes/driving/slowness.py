@@ -40,7 +40,8 @@ AT_LIMIT = 0.93  # share of the limit from which the ego drives at it
 HEADWAY = 5.0  # [s] within which somebody in front sets the pace
 NEAR = 12.0  # [m] minimum of that distance, however slow we are
 ASIDE = 2.0  # [m] maximum offset sideways of somebody in front of us
-TO_LIGHT, UP_TO_LIGHT = 80.0, 10.0  # [m] to a light, and [m/s], up to which one drives up to it
+LIGHT_NEAR = 80.0  # [m] maximum distance of a red light for which those ahead brake
+BRAKED = 10.0  # [m/s] maximum speed of a driver who has begun to
 AROUND = 3.0  # [s] of the plan that count as now
 
 
@@ -98,8 +99,8 @@ def with_nearest(
     """Add to a leader that is the reason who drives between it and us, and the light before both.
 
     Passengers see the nearer vehicle first. If the reason is the nearest vehicle itself, and the
-    one right before it counts as well, the latter holds up both, and becomes the reason. Whoever
-    drives up to a red light brakes for it.
+    one right before it counts as well, the latter holds up both, and becomes the reason. A driver
+    who comes to a red light brakes for it.
 
     Args:
         ride: the record.
@@ -122,17 +123,17 @@ def with_nearest(
         found.append(cause)
     if any(cause.kind == "light" for cause in found):
         return tuple(found)
-    return tuple(_up_to_light(ride, world, cause, time) for cause in found)
+    return tuple(_before_red(ride, world, cause, time) for cause in found)
 
 
-def _up_to_light(ride: Ride, world: World, cause: MotionCause, time: float) -> MotionCause:
+def _before_red(ride: Ride, world: World, cause: MotionCause, time: float) -> MotionCause:
     """Add to somebody who holds us up the next light on our way, if it is red beyond both."""
     leads = cause.kind in ("leader", "blocked") and cause.vehicle is not None
     look = world.look(cause.vehicle, time) if leads and cause.vehicle is not None else None
     near = next(iter(ahead(ride, time)), None)
-    if look is None or near is None or look.speed > UP_TO_LIGHT:
+    if look is None or near is None or look.speed > BRAKED:
         return cause
-    if not look.ahead < near.distance <= TO_LIGHT:
+    if not look.ahead < near.distance <= LIGHT_NEAR:
         return cause
     signal = Signal(near.controller, near.place)
     one = shown(ride, signal, time)
