@@ -44,7 +44,6 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf
 _NOMINAL = ("np", "group", "accusative", "accusative_group")
 WHOLE = -0.1  # cost of a place that is read as of what is asked for
 EMPHATIC = 0.6  # cost of "who did stop"
-#: What may ask for a moment or a thing that stands out.
 
 
 class Questions(Options):

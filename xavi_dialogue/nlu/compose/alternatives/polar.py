@@ -74,8 +74,8 @@ _WAYS = frozenset(
 )  # fmt: skip
 
 
-#: Nouns whose existence is a state, not a question for them.
 WHOLE = -0.25  # cost of what is read as a whole: "are you sure that was right?"
+#: Nouns whose existence is a state, not a question for them.
 _STATED = frozenset(("danger", "problem", "sight", "side", "truth"))
 _OTHERS = (Described, Pronoun, Vehicle)
 

@@ -60,7 +60,7 @@ def _may(event: Event, traits: Traits) -> bool:
     return able or any((leaf.category, leaf.key) == ("SEMI", "allowed") for leaf in inner)
 
 
-def outstanding(clause: Clause) -> str | None:
+def extreme_of(clause: Clause) -> str | None:
     """Return by what one of several stands out: "who is closest?"."""
     for sem, _ in clause.objects:
         extreme = getattr(sem, "extreme", None)

@@ -16,7 +16,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.extents import outstanding
+from xavi_dialogue.nlu.compose.clauses.extents import extreme_of
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Sem, as_thing
 from xavi_dialogue.nlu.compose.clauses.traits import Traits
 from xavi_dialogue.nlu.compose.clauses.tree import is_negated, leaves_of
@@ -108,7 +108,7 @@ class Followers:
         if part.name != "relative" or not any(x.key == "superlative" for x in leaves_of(part)):
             return None
         clause = self.clauses.relative_clause(part)
-        return outstanding(clause) if clause.verb is None and not clause.objects else None
+        return extreme_of(clause) if clause.verb is None and not clause.objects else None
 
     def _placed(self, event: Event, traits: Traits) -> Event:
         """Turn "standing on the right" into the bearing of the road user."""

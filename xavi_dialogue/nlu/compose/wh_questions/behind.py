@@ -17,7 +17,7 @@ _DRIVEN: Final = frozenset({"drive", "travel", "crawl", "go"})
 
 
 def by_whom(clause: Clause) -> None:
-    """Take "by" at the end for whoever did it: "who were we overtaken by?"."""
+    """Take what is asked for as the doer of a "by" at the end: "who were we overtaken by?"."""
     told = [leaf for leaf in clause.particles if leaf.words == ("by",)]
     hindered = any(key in _HINDERED for key, _ in clause.adjectives)
     if not told or not isinstance(clause.gap, Wanted) or not (clause.passive or hindered):

@@ -33,7 +33,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.extents import outstanding
+from xavi_dialogue.nlu.compose.clauses.extents import extreme_of
 from xavi_dialogue.nlu.compose.clauses.nominal import done_by, event_in, propose
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, as_thing
 from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
@@ -148,7 +148,7 @@ def deed_of(event: Event) -> Sem | None:
 
 def pointed_at(clause: Clause) -> Thing:
     """Return what "who is that?" and "who is closest now?" ask for."""
-    most = outstanding(clause)
+    most = extreme_of(clause)
     if most is None:
         return Pronoun("that")
     return Described(extreme=cast(Any, most), definite=True)

@@ -41,7 +41,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.extents import outstanding
+from xavi_dialogue.nlu.compose.clauses.extents import extreme_of
 from xavi_dialogue.nlu.compose.clauses.nominal import asked_of
 from xavi_dialogue.nlu.compose.clauses.peaks import most_of, of_choice
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, SideOf, as_thing
@@ -126,7 +126,7 @@ class WhichOne:
         taken = clause.verb is not None and clause.verb.key == "take"
         if taken and isinstance(clause.subject, Ego) and thing in _BARE:
             return way_at(Ego(), time_of(clause, value), clause.tense)
-        extreme = outstanding(clause)
+        extreme = extreme_of(clause)
         if isinstance(thing, Described | Wanted):
             thing = thing if isinstance(thing, Described) or extreme is None else Described()
         if isinstance(thing, Described):

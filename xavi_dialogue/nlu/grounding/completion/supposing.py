@@ -200,7 +200,7 @@ def _asks_worry(spoken: Question) -> TypeGuard[Which]:
 
 
 def _risk_told(discourse: Discourse) -> bool:
-    """Tell whether the risk of an option of ours was told, which is of those we may strike."""
+    """Tell whether the turn before gave the risk of one of our options: of whom we might hit."""
     if discourse.option is None:
         return False
     match discourse.question:
