@@ -16,6 +16,7 @@ from xavi_dialogue.chat.client import Client
 from xavi_dialogue.chat.controller import ChatController
 from xavi_dialogue.chat.history import SessionHistory
 from xavi_dialogue.nlg.narration import RideNarrator
+from xavi_dialogue.process.termination import let_asyncio_interrupt
 
 if TYPE_CHECKING:  # importing takes a quarter of a second, and only a terminal needs it
     from xavi_dialogue.storage.input_history import InputHistory, UnsavedInputHistory
@@ -83,6 +84,7 @@ def talk(
     Raises:
         ChildFailed: a process ended.
     """
+    let_asyncio_interrupt()
     asyncio.run(_talk(backend, client, session_history, typed, notices, begin))
 
 
