@@ -65,10 +65,11 @@ class Orders(Telling):
         value = self._best(clause)
         if isinstance(value, Special) and value.name == "quiz" and isinstance(clause.subject, Ego):
             return (Quizzing(),)
-        if isinstance(value, Special) and value.name in _TELLING:
+        sees = isinstance(value, Special) and value.name == "see" and not clause.objects
+        if isinstance(value, Special) and (value.name in _TELLING or sees):
             if clause.question is not None:
                 return self.embedded(clause) or None
-            if value.name == "know" and clause.condition is not None and not clause.led:
+            if (value.name == "know" or sees) and clause.condition is not None and not clause.led:
                 asked = self.asked_if(clause)  # "do you know if it is turning"
                 return None if asked is None else (Ask(asked),)
             modal = clause.modal in ("can", "could", "would") or clause.has("modal-will")

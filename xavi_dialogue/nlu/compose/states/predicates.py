@@ -47,7 +47,7 @@ from xavi_dialogue.nlu.compose.clauses.sem import (
 )
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of, words_of
 from xavi_dialogue.nlu.compose.verbs.events import when
-from xavi_dialogue.nlu.compose.verbs.lights import faced_by
+from xavi_dialogue.nlu.compose.verbs.lights import faced_by, is_colour
 from xavi_dialogue.nlu.grammar.chart import Part
 
 Found = tuple[Proposition, float]
@@ -93,8 +93,7 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
         others = Measured("speed", Everyone(), time=time, tense=tense)
         return [(Compares(speed, cast(Any, _PACES[sem.extreme]), others), 0.0)]
     if isinstance(sem, Described):
-        plain = Described(colour=sem.colour, definite=sem.definite)
-        if sem.colour and sem == plain and not isinstance(subject, Wanted):
+        if sem.colour and not isinstance(subject, Wanted) and is_colour(clause.objects[0]):
             faced = faced_by(sem.colour, subject, clause.complements)
             return [(Has("colour", sem.colour, faced, time, tense), 0.0)]
         return _described(clause, sem, subject, time)

@@ -24,13 +24,16 @@ from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Complement
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, Specified, as_thing
 from xavi_dialogue.nlu.compose.clauses.traits import Traits
+from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.compose.verbs.deeds import event_of, tense_of, time_of
+from xavi_dialogue.nlu.grammar.chart import Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 #: What a traffic light may show, as it is said.
 LIT: Final = frozenset({"red", "green", "amber", "yellow", "orange"})
 #: By what a light is passed or waited at: "through red", "at red", "on amber".
 BY: Final = frozenset({"on", "at", "over", "for", "in", "during", "past"})
+_THERE: Final = frozenset({"there", "ahead", "here"})
 _OURS: Final = (Ego, Passenger, Wanted)
 
 
@@ -41,6 +44,17 @@ def colour_of(sem: object) -> str | None:
     here: Bearing | None = "here" if sem.bearing == "here" else None
     plain = Described(colour=sem.colour, definite=sem.definite, bearing=here)
     return sem.colour if sem == plain else None
+
+
+def is_colour(said: tuple[Sem, Part]) -> bool:
+    """Tell whether a noun phrase names a colour alone, or where it shows: "red up there"."""
+    sem, part = said
+    if not isinstance(sem, Described):
+        return False
+    plain = Described(colour=sem.colour, definite=sem.definite)
+    there = sem.colour in LIT and sem.bearing in _THERE
+    noun = any(leaf.category == "KIND" for leaf in leaves_of(part))
+    return sem == plain or (there and not noun and sem == replace(plain, bearing=sem.bearing))
 
 
 def on_light(key: str, sem: Sem | None, leaves: Iterable[Leaf]) -> Sem | None:

@@ -9,7 +9,7 @@ from typing import Any, Final
 from msgspec.structs import replace
 
 from planner.record.trace import ON_FOOT
-from xavi_dialogue.domain.meaning import Act, Doing, HowLong, Identify, When, Where
+from xavi_dialogue.domain.meaning import Act, Doing, HowKnow, HowLong, Identify, When, Where
 from xavi_dialogue.domain.rewriting import rewrite
 from xavi_dialogue.domain.terms import (
     Described,
@@ -42,6 +42,7 @@ AT: Final = frozenset(("near", "on", "ahead-of", "to", "with"))
 _OPEN: Final = frozenset(("it", "that", "this", "one"))
 _MEASURED: Final = frozenset(("distance", "place", "colour", "kind", "duration"))
 NONE_SEEN: Final = 0.5  # cost of speaking of a light where none has been seen
+RATHER_IT: Final = 0.1  # cost of asking for evidence where a light was spoken of
 NOBODY: Final = 0.2  # salience below which no vehicle is spoken of
 
 
@@ -74,6 +75,10 @@ def _meant(part: Any, g: Grounder) -> Any:
             | When(of=Has("colour", "red" | "green" | "amber", Pronoun()) as of)
         ):  # a vehicle has its colour for good
             return replace(part, of=_lit_then(replace(of, thing=LIGHT), g))
+        case Doing(actor=Pronoun() as thing):
+            return replace(part, actor=_spoken(thing, g))
+        case HowKnow(of=None) if _leads(g, unsaid=False):
+            g.notes.cost += RATHER_IT  # "what does it show?"
         case Where(of=Pronoun() as thing):
             return replace(part, of=_spoken(thing, g))
         case Identify(thing=thing) | Exists(thing=thing):
