@@ -46,6 +46,7 @@ from xavi_dialogue.nlu.grounding.acts.acts import act as ground_act
 from xavi_dialogue.nlu.grounding.acts.acts import completed
 from xavi_dialogue.nlu.grounding.completion.discussion import proposition_of
 from xavi_dialogue.nlu.grounding.context import Context, Notes
+from xavi_dialogue.nlu.grounding.events.holding import holder
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 from xavi_dialogue.nlu.grounding.result import Failure, Grounding
 from xavi_dialogue.nlu.grounding.salience import after, named_time, naming
@@ -148,6 +149,8 @@ def _anchored(discourse: Discourse, spoken: Act, context: Context) -> Discourse:
         return naming(discourse, g.thing(those, g.window(Unsaid(), "present")))
     if isinstance(spoken, Ask) and (near := _neighbour(spoken.question, context)) is not None:
         return naming(discourse, near)  # "who is behind us, and is he too close?"
+    if isinstance(spoken, Ask) and (holds := holder(spoken.question, context)) is not None:
+        return naming(discourse, holds)  # "is something holding us up, and how far off is it?"
     sought = first(spoken, Exists)
     thing = None if sought is None else sought.thing
     thing = thing.described if isinstance(thing, Nobody) else thing

@@ -62,6 +62,14 @@ def of_trip(spoken: Question) -> Question | None:
             | HowSure(of=Related(thing=Ego(), to=Road(which="right")))
         ):
             return Whither()
+        case Whether(
+            that=Compares(
+                left=Measured(attribute="delay", thing=Described() as who, tense="present") as loss,
+                comparator="more",
+                right=None,
+            )
+        ) if who in _ANYBODY:  # "is something holding us up?": whatever it is
+            return Which(Wanted(), Compares(replace(loss, thing=Wanted()), "more"))
         case Whether(that=that):
             meant = _whether(that)
             return meant if not isinstance(meant, Happens) else replace(spoken, that=meant)
