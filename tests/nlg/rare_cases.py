@@ -80,6 +80,9 @@ MANY = tuple(
     look(number, NOW, "car", "grey", "behind", 20.0 + number, alone=False)
     for number in range(10, 20)
 )
+WALKERS = tuple(look(v, NOW, "pedestrian", None, "ahead", 4.0 + v, alone=False) for v in (20, 21))
+BY_SIDE = look(22, NOW, "pedestrian", None, "ahead-right", 9.0, alone=False)
+WALKING = tuple(Episode(Vehicle(v), "cross", NOW - 1.0, object=E) for v in (20, 21))
 BLINKED = Episode(V, "signal", 8.0, 10.0, side="right")
 TURNED_OFF = Episode(V, "exit-right", 10.0, 12.0)
 TURNERS = Described("vehicle", doing=Event("turn", Wanted(), side="right", tense="past"))
@@ -432,5 +435,15 @@ CASES: tuple[Answer, ...] = (
     *(
         ChoiceReason("why-not", None, replace(LONG, foil=("exit-left",), way=True), past=past)
         for past in (True, False)
+    ),
+    Identified((*WALKERS, BY_SIDE), facts=WALKING),
+    Identified((*WALKERS, BY_SIDE), facts=WALKING[:1]),
+    Identified(WALKERS, facts=WALKING),
+    Located(Vehicle(20), (*WALKERS, BY_SIDE, LORRY)),
+    Measures(
+        tuple(
+            Measure("distance", E, NOW, value=far, to=Vehicle(v))
+            for v, far in ((1, 12.0), (2, 9.0), (3, 30.0), (20, 24.0))
+        )
     ),
 )

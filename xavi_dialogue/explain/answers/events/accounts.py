@@ -23,6 +23,7 @@ from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.events.beliefs import history_of
 from xavi_dialogue.explain.answers.events.decisions import decided_at
 from xavi_dialogue.explain.answers.expectations.forecast import forecast
+from xavi_dialogue.explain.answers.propositions.identify import identified
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import known as valued
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, window
@@ -252,7 +253,7 @@ def _listed(asked: Asked, of: str, actor: Thing | None, about: Window) -> tuple[
     return tuple(sorted(told, key=lambda e: e.begin))[:LISTED]
 
 
-def _vehicles(asked: Asked, about: Window, whom: Thing | None) -> Identified:
+def _vehicles(asked: Asked, about: Window, whom: Thing | None) -> Answer:
     """Return the vehicles in view; for a stretch of the ride, all that were seen in it."""
     world = asked.world
     if about.end - about.begin <= SHORT or asked.past is None:
@@ -263,7 +264,7 @@ def _vehicles(asked: Asked, about: Window, whom: Thing | None) -> Identified:
         numbers = tuple(sorted({v for t in times for v in world.in_view(t)}))
     match whom:
         case Vehicle() | Vehicles():
-            numbers = tuple(v.number for v in somebodies(asked, whom, at) if isinstance(v, Vehicle))
+            return identified(asked, whom, at)
         case Everyone(kind=kind):
             numbers = of_kind(asked, numbers, kind, at)
     found = (first_look(asked, v, at) for v in numbers)

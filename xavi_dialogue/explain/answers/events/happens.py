@@ -9,6 +9,7 @@ from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
 from xavi_dialogue.explain.answers.events.arriving import arrived
 from xavi_dialogue.explain.answers.events.moving import moved
 from xavi_dialogue.explain.answers.events.picking import likeliest
+from xavi_dialogue.explain.answers.events.together import nearest_of, together
 from xavi_dialogue.explain.answers.expectations.foreseen import (
     HALTS,
     YIELDS,
@@ -71,7 +72,7 @@ def happens(of: Happens, asked: Asked) -> Finding:
     here = event.action == "come" and event.tense == "present"
     if here and (coming := comes(asked, event)) is not None:
         return coming
-    for told_by in (_moves, closes, trails, keeps, _left_room):
+    for told_by in (together, _moves, closes, trails, keeps, _left_room):
         if (moves := told_by(asked, event)) is not None:
             return moves
     if is_ahead(asked, event.time, event.tense) or _all_the_way(event) or _intended(asked, event):
@@ -234,9 +235,9 @@ def _collides(asked: Asked, event: Event) -> Finding:
     one, other = naming.number(event.actor), naming.number(event.object)
     if one is not None and other is not None:
         return apart(asked, event)
-    vehicle = one or other
     about = window(asked, event.time, event.tense)
     ahead = is_ahead(asked, event.time, event.tense) or event.tense == "present"
+    vehicle = one or other or nearest_of(asked, event, about.widened())
     crash = occasion(asked, Event("collide", Ego(), event.object, time=event.time))
     if crash is not None and event.action == "collide":
         return Finding(True, (crash,))

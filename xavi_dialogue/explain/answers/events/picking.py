@@ -16,6 +16,7 @@ from xavi_dialogue.domain.terms import (
     Related,
     Thing,
     Vehicle,
+    Vehicles,
     Wanted,
 )
 from xavi_dialogue.explain.answers.expectations.forecast import forecast
@@ -65,11 +66,17 @@ def owed_by_other(such: Proposition) -> Happens | None:
 
 
 def likeliest(asked: Asked, event: Event) -> Finding:
-    """Check whether any of several vehicles will do something; the likeliest of them counts."""
+    """Check whether any of several vehicles will do something; the likeliest of them counts.
+
+    Of those that were named together it is told what each is going to do.
+    """
     actor = event.actor
     if isinstance(actor, Nobody):  # "will anybody let us in?"
         of = actor.described
         actor = Everyone("vehicle" if of is None or of.kind in ANY else of.kind)
+    each = forecast(asked, map(Vehicle, actor.numbers)) if isinstance(actor, Vehicles) else None
+    if each is not None:
+        return Finding(None, answer=each)
     found = [
         (share, v)
         for v in somebodies(asked, actor, asked.now)

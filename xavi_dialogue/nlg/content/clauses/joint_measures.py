@@ -4,7 +4,7 @@ import dataclasses
 
 from xavi_dialogue.domain.answers import Lasted, Measures, Staying
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.terms import Junction, Vehicle
+from xavi_dialogue.domain.terms import Ego, Junction, Vehicle
 from xavi_dialogue.nlg.content.clauses.manoeuvres import own_verbs
 from xavi_dialogue.nlg.content.clauses.measures import measure_message
 from xavi_dialogue.nlg.content.clauses.plan import Plan
@@ -22,6 +22,9 @@ def plan_measures(answer: Measures, context: SpeechContext) -> Plan:
     speeds = [m for m in answer.measures if m.attribute == "speed" and m.value is not None]
     if len({str(m.thing) for m in speeds}) > _FEW:
         return Plan((_range(speeds),))
+    apart = [m for m in answer.measures if m.attribute == "distance" and m.value is not None]
+    if len({str((m.thing, m.to)) for m in apart}) > _FEW and len({m.time for m in apart}) == 1:
+        return Plan((_nearest(apart),))
     way = any(m.attribute == "turn" for m in answer.measures) and len(answer.measures) > 1
     told = way_messages(answer.measures, context) if way else None
     parts = tuple(told or measure_messages(answer.measures, context))
@@ -69,6 +72,17 @@ def _range(speeds: list[Measure]) -> Message:
     return message(
         "ALL_SPEEDS", low=Quantity(slow.value or 0.0, "m/s"),
         high=Quantity(fast.value or 0.0, "m/s"), slowest=Who(slow.thing), fastest=Who(fast.thing),
+    )  # fmt: skip
+
+
+def _nearest(apart: list[Measure]) -> Message:
+    """Return how far the nearest and the farthest of many vehicles are."""
+    us = isinstance(apart[0].thing, Ego)
+    near, far = (pick(apart, key=lambda m: m.value or 0.0) for pick in (min, max))
+    who = near.to if near.to is not None and us else near.thing
+    return message(
+        "ALL_DISTANCES", nearest=Who(who), low=Quantity(near.value or 0.0, "m"),
+        high=Quantity(far.value or 0.0, "m"),
     )  # fmt: skip
 
 

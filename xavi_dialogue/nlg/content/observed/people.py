@@ -1,6 +1,5 @@
 """People: who somebody is, how many there are, and where they are, in words."""
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -36,7 +35,8 @@ from xavi_dialogue.nlg.content.clauses.measures import STANDING
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.propositions import clause_of, eventful
 from xavi_dialogue.nlg.content.clauses.routes import exits_passed
-from xavi_dialogue.nlg.content.clauses.tenses import PRESENT, since
+from xavi_dialogue.nlg.content.clauses.tenses import PRESENT
+from xavi_dialogue.nlg.content.observed.surroundings import is_past, plan_by_kind, telling
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.quantities import clock, number
@@ -64,7 +64,7 @@ def plan_identified(answer: Identified, context: SpeechContext) -> Plan:
         them = Vehicles(tuple(look.vehicle for look in answer.looks))
         clause = clause_of(with_wanted(answer.such, them), context.now)
         known = all(isinstance(f, Measure | Episode) for f in answer.facts)
-        named = any(map(_telling_one, answer.looks)) or len(answer.facts) > 2 * MANY
+        named = any(map(telling, answer.looks)) or len(answer.facts) > 2 * MANY
         event = eventful(answer.such)
         named = named or event is None or event.tense not in ("past", "perfect")
         told = () if known and named else _listed(_of_each(answer.facts, facts)) if known else facts
@@ -72,25 +72,12 @@ def plan_identified(answer: Identified, context: SpeechContext) -> Plan:
     if len(answer.looks) == 1:
         return _one(answer, answer.looks[0], facts, context)
     past = any(not look.in_view for look in answer.looks)
-    if past or len(answer.looks) > MANY or not any(map(_telling_one, answer.looks)):
-        return _by_kind(answer.looks, context)
+    if past or len(answer.looks) > MANY or not any(map(telling, answer.looks)):
+        return plan_by_kind(answer.looks, answer.facts, context)
     whos = tuple(_who(look, context) for look in answer.looks)
     amount = Number(len(answer.looks), "vehicle")
-    can = "could" if _past(answer.looks[0], context) else "can"
+    can = "could" if is_past(answer.looks[0], context) else "can"
     return Plan((message("IDENTIFIED_MANY", can=can, number=amount, looks=whos),), facts)
-
-
-def _by_kind(looks: tuple[Look, ...], context: SpeechContext) -> Plan:
-    """Plan many vehicles by colour and kind, with the number of each."""
-    heads = Counter(
-        " ".join(part for part in (look.colour, word("vehicles", "kind", look.kind)) if part)
-        if _telling_one(look) else word("vehicles", "kind", look.kind)
-        for look in looks
-    )  # fmt: skip
-    rows = [number(Number(count, head)) for head, count in heads.items()]
-    past = _past(looks[0], context) or any(not look.in_view for look in looks)
-    many = number(Number(len(looks), "other")) if len(rows) > 1 else None
-    return Plan((message("IDENTIFIED_KINDS", past=past, many=many, rows=listed(rows)),))
 
 
 def _telling(facts: tuple[Fact, ...]) -> tuple[Fact, ...]:
@@ -107,7 +94,7 @@ def _one(
     answer: Identified, look: Look, facts: tuple[Message, ...], context: SpeechContext
 ) -> Plan:
     who = _who(look, context)
-    past = _past(look, context)
+    past = is_past(look, context)
     did = _did(answer.such, look, context)
     if did is not None:
         event = eventful(answer.such) if answer.such is not None else None
@@ -176,11 +163,7 @@ def _of(fact: Fact, vehicle: int) -> bool:
 
 
 def _who(look: Look, context: SpeechContext) -> Who:
-    return Who(Vehicle(look.vehicle), look.time if _past(look, context) else None)
-
-
-def _past(look: Look, context: SpeechContext) -> bool:
-    return context.now - look.time > since(context)
+    return Who(Vehicle(look.vehicle), look.time if is_past(look, context) else None)
 
 
 def _did(such: Proposition | None, look: Look, context: SpeechContext) -> Clause | None:
@@ -221,7 +204,7 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
         return replace(plan, core=(message(rule, it=plan.core[0]), *plan.core[1:]))
     if isinstance(answer.of, Event) and isinstance(answer.of.object, Exit):
         return Plan((exits_passed(answer),))
-    apart = (f for f in answer.facts if not isinstance(f, Look) or _telling_one(f))
+    apart = (f for f in answer.facts if not isinstance(f, Look) or telling(f))
     facts = tuple(fact_message(f, context) for f in apart)
     span = _span(answer, context)
     if isinstance(answer.of, Event):
@@ -239,7 +222,7 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
     alike = such is not None and such.among is not None and len(kinds) == 1  # of six people: six
     amount = Number(answer.count, _noun(Everyone(*kinds) if alike else such or answer.of))
     if such is not None and such.doing is not None and such.doing.tense in ("past", "perfect"):
-        seen = [f.vehicle for f in answer.facts[:MANY] if isinstance(f, Look) and _telling_one(f)]
+        seen = [f.vehicle for f in answer.facts[:MANY] if isinstance(f, Look) and telling(f)]
         rows = tuple(Who(Vehicle(v), placed=len(seen) < FEW) for v in seen)
         did = relative_clause(msgspec.structs.replace(such.doing, tense="past"), context.now)
         doers = message("COUNTED_DOERS", none=answer.count == 0, one=answer.count == 1,
@@ -263,11 +246,6 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
     if len(facts) > FEW:
         return Plan((first,), (), _listed(facts))
     return Plan((first,), _listed(facts))
-
-
-def _telling_one(look: Look) -> bool:
-    """Check whether a look tells a vehicle apart from others; people on foot have none such."""
-    return look.kind != "pedestrian"
 
 
 def _only_there(that: Proposition) -> bool:

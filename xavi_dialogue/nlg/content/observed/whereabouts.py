@@ -6,10 +6,13 @@ from xavi_dialogue.domain.terms import Ego, Exit, Vehicle
 from xavi_dialogue.nlg.content.clauses.measures import AT_HAND, measure_message
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.tenses import since, tense_at
+from xavi_dialogue.nlg.content.observed.surroundings import is_past, plan_by_kind
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.tables import word
 from xavi_dialogue.nlg.surface.values import Clause, Moment, Quantity, Who
+
+FEW = 3  # maximum of road users whose places are told one by one
 
 
 def plan_located(answer: Located, context: SpeechContext) -> Plan:
@@ -24,6 +27,9 @@ def plan_located(answer: Located, context: SpeechContext) -> Plan:
         who = Who(answer.thing, ride=isinstance(answer.thing, Ego), placed=False)
         gap = answer.gap or "not-recorded"
         return Plan((message("NOT_LOCATED", who=who, gap=gap, past=False),), details)
+    here = all(look.in_view and not is_past(look, context) for look in answer.looks)
+    if len(answer.looks) > FEW and here and not details:
+        return plan_by_kind(answer.looks, (), context)
     parts = tuple(_located(look, context) for look in answer.looks)
     return Plan(parts[:1], (*parts[1:], *details))
 

@@ -2,7 +2,7 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.terms import Described, Event, Proposition, Thing, Wanted
+from xavi_dialogue.domain.terms import Described, Event, Pronoun, Proposition, Thing, Wanted
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem
 from xavi_dialogue.nlu.grammar.chart import Node
@@ -49,6 +49,8 @@ def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
         fields["extreme"] = traits.extreme
     elif traits.extreme == "smallest":
         fields["size"] = "small"
+    if isinstance(traits.of, Pronoun) and (traits.extreme or traits.ordinal is not None):
+        fields["among"] = traits.of  # "the nearest of them"
     for key, value in (("far", ("bearing", "far")), ("big", ("size", "big"))):
         if key in traits.adjectives:
             fields.setdefault(*value)

@@ -235,8 +235,6 @@ class What:
 def _person(wh: Wh, found: Question) -> Question:
     """Give a question for somebody; who is asked for is no place."""
     those = found.thing if isinstance(found, Identify) else None
-    if isinstance(those, Described) and those.plural and not those.number:
-        return Listing("vehicles", those)  # "who are those people on the right?"
     place = those if wh.kind == "who" else None
     if not isinstance(place, Junction):
         return found

@@ -60,7 +60,7 @@ def measured(
     extreme: bool = False,
 ) -> Measured:  # fmt: skip
     """Ground a measure; `extreme`: over all of the time that is said."""
-    spoken = _corefer(spoken, g)
+    spoken = _one_of(_corefer(spoken, g))
     both = (spoken.thing, spoken.to)
     if extreme and spoken.attribute == "distance" and spoken.to is None:
         both = (spoken.thing, Ego())  # "how close did the cyclist get?"
@@ -89,6 +89,16 @@ def measured(
     if isinstance(time, At) and isinstance(spoken.time, Relative | Back | Ago):
         g.notes.span = Span(time.at, time.at, said=True)
     return replace(spoken, thing=thing, to=to, event=event, about=about, time=time)
+
+
+def _one_of(spoken: Measured) -> Measured:
+    """Take those of whom one is named for the ones it is chosen from: "the nearest of them"."""
+    one = spoken.thing
+    if not isinstance(one, Described) or spoken.to not in (Pronoun("they"), Pronoun("them-all")):
+        return spoken
+    if one.extreme is None and one.rank is None:
+        return spoken
+    return replace(spoken, thing=replace(one, among=spoken.to), to=None)
 
 
 def _any_kind(things: tuple[Thing | None, ...], *, extreme: bool) -> Kind | None:

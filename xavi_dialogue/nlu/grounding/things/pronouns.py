@@ -27,7 +27,7 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
     together = group(mentions)
     moment = g.context.now if window.ahead else min(window.end, g.context.now)
     if thing.form == "them-all":
-        spoken = together or _spoken(g) or on_foot(g.context, moment)
+        spoken = together or _with_others(_spoken(g), g, moment) or on_foot(g.context, moment)
         seen = g.context.world.in_view(min(window.end, g.context.now))
         if len(spoken) < PAIR <= len(seen) <= PAIR:  # "have you seen both?"
             spoken = seen
@@ -35,6 +35,10 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
     if thing.form == "they" and together and _group_leads(g):
         return Vehicles(together)
     weighed = _weighed(thing, g, fits, moment)
+    if thing.form == "they" and weighed and _by_car(weighed[0][1], g):
+        crowd = _with_others((weighed[0][1],), g, moment)
+        if len(crowd) > 1:
+            return Vehicles(crowd)
     if weighed:
         return _salient(thing, g, weighed, moment)
     if thing.form == "they" and len(met := on_foot(g.context, moment)) > 1:
@@ -76,6 +80,18 @@ def _spoken(g: Grounder) -> tuple[int, ...]:
     known = set(g.context.world.vehicles)
     lately = [v for v, s in vehicles_of(g.context.discourse.mentions) if s >= CLEAR and v in known]
     return tuple(reversed(lately[:2]))
+
+
+def _with_others(spoken: tuple[int, ...], g: Grounder, moment: float) -> tuple[int, ...]:
+    """Add to one on foot who was spoken of those who cross our way with them."""
+    met = on_foot(g.context, moment) if len(spoken) == 1 else ()
+    return met if len(met) > 1 and spoken[0] in met else spoken
+
+
+def _by_car(vehicle: int, g: Grounder) -> bool:
+    """Tell whether it was the car alone who named a vehicle, one of several it may have named."""
+    known = [m for m in g.context.discourse.mentions if m.thing == Vehicle(vehicle)]
+    return all(m.by_car for m in known)
 
 
 def _group_leads(g: Grounder) -> bool:

@@ -1,0 +1,57 @@
+"""Several people on foot together, those around us, and who or what holds us up."""
+
+import pytest
+
+from tests.dialogue.talking import Talk
+
+
+@pytest.mark.parametrize(
+    ("texts", "told"),
+    [
+        (["Who are those people right in front of the car?"], "pedestrians"),
+        (["What is around us?"], "The nearest are"),
+        (["I can't see. Describe what is around us."], "metres away"),
+        (["Who are these people?", "Are they all going to cross?"], "crossing our way"),
+        (["Why are we braking?", "Are they all crossing?"], "9) is crossing our way"),
+        (["Why are we braking?", "You nearly ran them over!"], "No: the pedestrian"),
+    ],
+)
+def test_people_are_told_of_together(texts: list[str], told: str) -> None:
+    assert told in Talk("junction-0", 14.0).hear(*texts)
+
+
+def test_the_nearest_of_them_is_as_far_from_us() -> None:
+    told = Talk("junction-0", 14.0).hear("Who are these people?", "How far is the nearest of them?")
+    assert "We are about" in told
+    assert "away from the pedestrian" in told
+
+
+def test_those_who_are_behind_us_are_passed() -> None:
+    talk = Talk("junction-0", 14.0)
+    talk.hear("Who are these people?")
+    assert talk.say("Have they all crossed?", 14.5).reply.text.startswith("No, ")
+    assert talk.say("Are we past them?", 33.0).reply.text.startswith("Yes, ")
+
+
+@pytest.mark.parametrize(
+    ("at", "text", "told"),
+    [
+        (20.0, "Is something holding us up, and how far off is it?", "the traffic light is red"),
+        (20.0, "Is anything slowing us down?", "the traffic light is red"),
+        (54.0, "Is something holding us up, and how far off is it?", "away from the blue bicycle"),
+        (54.0, "What holds us up and how fast is it?", "The blue bicycle"),
+    ],
+)
+def test_what_holds_us_up_is_it(at: float, text: str, told: str) -> None:
+    assert told in Talk("junction-0", at).hear(text)
+
+
+@pytest.mark.parametrize("text", ["What does it show?", "Can you see what colour it shows now?"])
+def test_a_light_that_was_told_is_it(text: str) -> None:
+    told = Talk("junction-0", 20.0).hear("Why are we standing?", text)
+    assert "traffic light is red" in told
+
+
+def test_the_light_up_there_is_no_vehicle() -> None:
+    told = Talk("junction-0", 12.0).hear("Is it red up there?")
+    assert told.startswith("Yes, the traffic light is red")
