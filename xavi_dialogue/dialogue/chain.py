@@ -95,12 +95,14 @@ def recast(reading: Reading, turns: Sequence[Turn]) -> Reading:
     last, acts = _last(turns), reading.acts
     own = [k > 0 and isinstance(acts[k - 1], Ask) and _is_bare_why(a) for k, a in enumerate(acts)]
     return replace(reading, acts=tuple(
-        Elliptic(form="why") if mine else act if last is None else _recast(act, last)
+        Elliptic(form="why") if mine else _recast(act, last)
         for act, mine in zip(acts, own, strict=True)
     ))  # fmt: skip
 
 
-def _recast(act: Act, last: Turn) -> Act:
+def _recast(act: Act, last: Turn | None) -> Act:
+    if last is None:  # "why though?" before anything was said is of what we do
+        return Elliptic(form="why") if act == Repair(kind="why") else act
     if _is_bare_why(act):
         found = deeper(last)
         return act if found == "leave" else Repair(kind="why") if found == "bottom" else found

@@ -9,17 +9,14 @@ from xavi_dialogue.domain.meaning import (
     AskHelp,
     Claim,
     Elliptic,
-    HowKnow,
     HowSure,
     Identify,
-    Question,
     Repair,
     Request,
     Social,
     Summarise,
     WhatIf,
     Whether,
-    Why,
 )
 from xavi_dialogue.domain.terms import (
     Described,
@@ -57,7 +54,7 @@ from xavi_dialogue.nlu.compose.statements import Acts, Found, Statements, disput
 from xavi_dialogue.nlu.compose.states.existence import if_alone
 from xavi_dialogue.nlu.compose.suppositions import goes_on, supposes
 from xavi_dialogue.nlu.compose.talk import called, says, stirred, talk_act
-from xavi_dialogue.nlu.compose.verbs.expecting import as_expected, dreaded_hit, feared
+from xavi_dialogue.nlu.compose.verbs.expecting import as_expected, dreaded_hit, feared, of_belief
 from xavi_dialogue.nlu.compose.wh_questions.frames import is_short
 from xavi_dialogue.nlu.compose.wh_questions.whys import (
     RUN_ON,
@@ -155,8 +152,8 @@ class Composer(Statements):
             return [((Ask(Summarise(time=clause.time)),), 0.0)]
         if wh.kind == "why" and unit.name == "ask_lacking" and clause.verb is None:
             return [((lacking(clause),), 0.0)]
-        if wh.kind == "why" and leaf_of(unit, "THINKQ"):
-            found = [(_grounds(question), cost) for question, cost in found]
+        if (held := leaf_of(unit, "THINKQ")) is not None:
+            found = [(of_belief(question, wh.kind, held.key), cost) for question, cost in found]
         named = next((sem for sem, _ in clause.objects), clause.subject)
         each = asked_each(named, clause, clause.tense) if wh.kind == "what" else ()
         if each and clause.verb is None:
@@ -327,11 +324,6 @@ def _lead_act(part: Part) -> Act | None:
 def _missed(clause: Clause) -> bool:
     """Check whether a clause asks what the passenger missed."""
     return clause.verb is not None and clause.verb.key == "miss" and clause.subject == Passenger()
-
-
-def _grounds(question: Question) -> Question:
-    """Turn "why do you think he stops" into the question what shows it."""
-    return HowKnow(question.of) if isinstance(question, Why) else question
 
 
 def _refrains(unit: Node) -> bool:

@@ -70,6 +70,7 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
         and (question := plain(intent, thing)) is not None
         and (incomplete or not question.vague)
         and not _is_less(best.acts, question.acts)
+        and (incomplete or not _is_vaguer(best.acts, question.acts))
         and _counts(best.acts) <= _counts(question.acts)
     ]
     found = [_reading(best, [pair]) for pair in (*offered, *_defaults(best, unmet))]
@@ -194,6 +195,21 @@ def _is_less(acts: Sequence[Act], plain: Sequence[Act]) -> bool:
     open_ = {type(a.question) for a in plain if isinstance(a, Ask) and _of(a) is None}
     told = {type(a.question) for a in asked if isinstance(a, Ask) and _of(a) is not None}
     return len(asked) > len(plain) or not open_.isdisjoint(told)
+
+
+def _is_vaguer(acts: Sequence[Act], plain: Sequence[Act]) -> bool:
+    """Tell whether a plain question names no deed where the same is asked of one that is named."""
+    vague = {kind for kind, action in _deeds(plain) if action == "do"}
+    named = {kind for kind, action in _deeds(acts) if action != "do"}
+    return not vague.isdisjoint(named)
+
+
+def _deeds(acts: Sequence[Act]) -> Iterator[tuple[type, str]]:
+    """Give what sort of question is asked of which deed."""
+    for act in acts:
+        event = first(act, Event) if isinstance(act, Ask) else None
+        if isinstance(act, Ask) and event is not None:
+            yield type(act.question), event.action
 
 
 def _of(act: Ask) -> object:

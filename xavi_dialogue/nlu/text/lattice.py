@@ -30,7 +30,7 @@ _SUFFIXES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("'ll", ("will",)),
     ("'m", ("am",)),
     ("'s", ("is", "'s", "has")),
-    ("'d", ("had", "would", "did")),
+    ("'d", ("had", "would")),
 )
 _DID_HEADS = frozenset({"why", "how", "where", "what", "when"})
 

@@ -135,6 +135,8 @@ def _otherwise(event: Event) -> tuple[ActionName, ...]:
         return ("exit-right", "exit-straight", "exit-left")
     if event.action == "leave" and event.object is None and not is_us(event.actor):
         return ("turn", "disappear")
+    if event == Event("go", Ego(), time=event.time):
+        return ("enter", "turn", "exit-straight")  # "when did you go?" at a junction
     if event.action == "pass" and event.object is None:
         return ("cross", "exit-straight", "exit-left", "exit-right")  # "has he got through"
     return OTHERWISE.get(event.action, ())

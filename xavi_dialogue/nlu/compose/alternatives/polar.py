@@ -65,7 +65,7 @@ from xavi_dialogue.nlu.compose.propositions.tally import counts, exits_passed, h
 from xavi_dialogue.nlu.compose.states.pacing import kept_to, not_rather, permitted
 from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
 from xavi_dialogue.nlu.compose.verbs.sheltering import concealed
-from xavi_dialogue.nlu.compose.wh_questions.wh import fact
+from xavi_dialogue.nlu.compose.wh_questions.wh import fact, sureness
 from xavi_dialogue.nlu.compose.wh_questions.which import way_at
 
 _WAYS = frozenset(
@@ -250,7 +250,7 @@ class Polar(Comparing):
                 return Whether(content)
             if content is None and clause.that is not None:  # "sure this is the right way"
                 return next((question for question, _ in self.whether(clause.that)), HowSure())
-            return HowSure(content, clause.time)
+            return sureness(clause, content)
         if (meant := judged_so(clause, of, tag=tag) or caused_by(clause, of, tag=tag)) is not None:
             return meant
         if clause.because is not None:

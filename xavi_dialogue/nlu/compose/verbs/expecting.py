@@ -2,8 +2,18 @@
 
 from typing import Final
 
-from xavi_dialogue.domain.meaning import Question, Whether
+from xavi_dialogue.domain.meaning import (
+    Doing,
+    HowKnow,
+    Listing,
+    Question,
+    Where,
+    Whether,
+    Whither,
+    Why,
+)
 from xavi_dialogue.domain.terms import (
+    Back,
     Described,
     Ego,
     Event,
@@ -12,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Not,
     Proposition,
     Thing,
+    Unsaid,
     WholeRide,
 )
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -24,6 +35,24 @@ _BELIEVING: Final = frozenset(
     {"expect", "predict", "think", "forecast", "anticipate", "foresee", "believe", "reckon",
      "assume", "guess", "suppose", "figure"}
 )  # fmt: skip
+
+
+def of_belief(question: Question, asks: str, held: str) -> Question:
+    """Ask for the belief within a question: "why do you think he stops", "what did you think ...".
+
+    A past belief of which no time is said is that of the deed under discussion.
+    """
+    match question:
+        case Why(of=of) if asks == "why":
+            return HowKnow(of)
+        case (
+            Doing(actor=actor, time=time)
+            | Whither(actor=actor, time=time)
+            | Where(of=Event(action="go", actor=actor, time=time))
+        ) if held == "thought":
+            if actor is not None and not isinstance(actor, Ego):
+                return Listing("beliefs", actor, Back() if time == Unsaid() else time)
+    return question
 
 
 def feared(of: Proposition) -> Proposition:

@@ -56,7 +56,7 @@ from xavi_dialogue.nlu.compose.wh_questions.lasting import (
 )
 from xavi_dialogue.nlu.compose.wh_questions.savings import UNREAL
 from xavi_dialogue.nlu.compose.wh_questions.towards import reference
-from xavi_dialogue.nlu.compose.wh_questions.wh import content_of, held_then
+from xavi_dialogue.nlu.compose.wh_questions.wh import content_of, held_then, sureness
 
 _PACES = frozenset({"faster", "slower", "quicker"})
 _PASSING = frozenset({"avoid", "nearly-collide", "pass", "overtake"})
@@ -215,7 +215,7 @@ def sure_of(clause: Clause, value: Any) -> Question:
         met = _met(clause, clause.subject)
         unreal = clause.modal == "would" and met.action == "collide"
         content = Happens(replace(met, modal="would") if unreal else met)
-    return HowSure(held_then(clause, content), clause.time)
+    return sureness(clause, held_then(clause, content))
 
 
 def _met(clause: Clause, deed: Event) -> Event:

@@ -10,6 +10,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Back,
     Ego,
     Event,
     Feature,
@@ -42,6 +43,8 @@ def reasoned(clause: Clause, value: Special) -> Question | None:
             thing = about.actor if about is not None else expected_of(value)
             if about is not None and isinstance(time, Unsaid):
                 time = about.time  # "what did you expect it to do then"
+            if isinstance(time, Unsaid) and thing is not None and clause.tense == "past":
+                time = Back()  # what was expected when that was done of which was spoken
             return Listing("beliefs", None if isinstance(thing, Ego) else thing, time)
         case "matter" | "influence" | "depend":
             return WhatWouldChange(None, most=True)

@@ -6,6 +6,7 @@ from typing import Any, cast
 from xavi_dialogue.domain.meaning import (
     Doing,
     HowLong,
+    HowSure,
     Question,
     When,
     Where,
@@ -13,6 +14,7 @@ from xavi_dialogue.domain.meaning import (
     Whither,
 )
 from xavi_dialogue.domain.terms import (
+    Back,
     Believed,
     Described,
     Ego,
@@ -110,6 +112,17 @@ def held_then(clause: Clause, content: Proposition | None) -> Proposition | None
         return content
     open_ = event.tense == "present" and event.modal is None and event.time == Unsaid()
     return Happens(with_fields(event, modal="would")) if open_ else content
+
+
+def sureness(clause: Clause, content: Proposition | None) -> HowSure:
+    """Ask how sure we are; in the past, and undated, at the time of the deed spoken of."""
+    undated = isinstance(clause.time, Unsaid) and clause.tense == "past"
+    event = content.event if isinstance(content, Happens) else None
+    if event is not None:
+        to_come = event.modal == "would" and not isinstance(event.actor, Ego)
+        undated &= to_come and isinstance(event.time, Unsaid) and event.action != "do"
+    open_ = undated and (event is not None or content is None)
+    return HowSure(content, Back() if open_ else clause.time)
 
 
 def _of_whom(content: Proposition, value: Special) -> Proposition:

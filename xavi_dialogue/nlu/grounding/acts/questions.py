@@ -67,6 +67,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 )
 from xavi_dialogue.nlu.grounding.completion.halting import of_whom
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
+from xavi_dialogue.nlu.grounding.events import timing
 from xavi_dialogue.nlu.grounding.events.generic import across
 from xavi_dialogue.nlu.grounding.events.timing import believed_last, changed, coming, foreseen, over
 from xavi_dialogue.nlu.grounding.events.windows import pointed
@@ -230,7 +231,7 @@ def _compare(spoken: Compare, g: Grounder) -> Compare:
 
 
 def _listing(spoken: Listing, g: Grounder) -> Listing:
-    window = over(spoken.time, g)
+    window = over((spoken := timing.seen_then(spoken, g)).time, g)
     if spoken.of in _OF_MOMENTS:
         window = pointed(spoken.time, window)
         g.notes.span = window.span
@@ -269,8 +270,7 @@ def _how_sure(spoken: HowSure, g: Grounder) -> HowSure:
 
 
 def _how_decide(spoken: HowDecide, g: Grounder) -> HowDecide:
-    of = None if spoken.of is None else g.proposition(spoken.of, "presupposed")
-    return replace(spoken, of=of)
+    return replace(spoken, of=spoken.of and g.proposition(spoken.of, "presupposed"))
 
 
 def _deed(spoken: Any, g: Grounder) -> Any:

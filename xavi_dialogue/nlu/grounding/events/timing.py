@@ -4,7 +4,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.meaning import Changed, Doing, HowSure, Question, Why
+from xavi_dialogue.domain.meaning import Changed, Doing, HowSure, Listing, Question, Why
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     At,
@@ -26,7 +26,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import last_deed
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
-from xavi_dialogue.nlu.grounding.events.windows import notable, startling
+from xavi_dialogue.nlu.grounding.events.windows import notable, pointed, startling
 
 
 def over(time: Any, g: Grounder) -> Window:
@@ -84,6 +84,17 @@ def believed_last(g: Grounder) -> Proposition | None:
         return None
     g.notes.leaned = True
     return found.content
+
+
+def seen_then(spoken: Listing, g: Grounder) -> Listing:
+    """Ask for what is believed as of now of somebody who was not in view when that was done."""
+    if spoken.of != "beliefs" or spoken.about is None or spoken.time != Back():
+        return spoken
+    then = pointed(spoken.time, g.window(spoken.time, "past"))
+    known = g.thing(spoken.about, then)
+    if isinstance(known, Vehicle) and known.number not in g.context.world.in_view(then.end):
+        return replace(spoken, about=known, time=Unsaid())
+    return spoken
 
 
 def changed(spoken: Changed, g: Grounder) -> Changed:
