@@ -31,3 +31,31 @@ def test_what_is_believed_now_is_told_of_now() -> None:
 @pytest.mark.parametrize("text", ["why tho", "but why", "why?", "how come?"])
 def test_why_before_anything_was_said_is_of_what_we_do(text: str) -> None:
     assert "because" in Talk("s1-0", 5.0).say(text).reply.text
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "was that legal?",
+        "You turned right in front of the blue lorry.",
+        "you pulled out in front of the lorry!",
+        "the lorry had priority and you just went",
+        "you went before the lorry",
+        "were you allowed to turn before the lorry?",
+    ],
+)
+@pytest.mark.parametrize("at", [17.0, 24.0])
+def test_going_before_one_that_stood_is_owned_up_to_with_the_rule(text: str, at: float) -> None:
+    """The lorry has right of way and stands; we come into the junction at 15 s."""
+    talk = Talk("s4-0", at)
+    talk.say("why did you turn in front of the lorry?")
+    reply = talk.say(text).reply.text
+    assert "had right of way" in reply
+    assert "standing" in reply
+    assert not reply.startswith(("No", "Actually"))
+
+
+def test_whether_a_deed_was_lawful_is_answered_without_a_verdict() -> None:
+    reply = Talk("bend-0", 12.0).say("was it legal to turn there?").reply.text
+    assert "had right of way" in reply
+    assert not reply.startswith("No")

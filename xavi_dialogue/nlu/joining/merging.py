@@ -3,6 +3,8 @@
 "Suppose he pulls out. What then?" is one question, and so is "we are going faster, why is that?".
 """
 
+from typing import Final
+
 from msgspec import structs
 
 from xavi_dialogue.domain.meaning import (
@@ -38,6 +40,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Everyone,
     Exists,
     Happens,
     Is,
@@ -290,6 +293,12 @@ def _of_world(before: Act, later: Act) -> Act | None:
     return None
 
 
+_GOING: Final = frozenset(
+    ("go", "move", "enter", "turn", "exit-left", "exit-right", "exit-straight", "pull-out", "pass",
+     "cross")
+)  # fmt: skip
+
+
 def _of_claim(before: Act, later: Act) -> Act | None:
     """Ask whether that is so which was stated, or do what it makes room for."""
     match before, later:
@@ -301,6 +310,12 @@ def _of_claim(before: Act, later: Act) -> Act | None:
         ):  # "there is a gap on the left, take it"
             lane = thing if isinstance(thing, Lane) and thing.which != "own" else None
             return Request(Event("change-lane", object=lane, tense="present"))
+        case Claim(
+            that=Related(relation="has-priority-over", thing=other, to=Ego() | Everyone())
+        ), (Claim(that=Happens(event=Event(action=action, actor=Ego(), object=None)))) if (
+            action in _GOING and not isinstance(other, Ego)
+        ):  # "he had priority and you just went"
+            return Claim(Happens(Event("go", Ego(), other, manner=("first",))))
         case Claim(that=that), Ask(
             question=Whether(that=Is(state="right", thing=None | Pronoun(), event=None))
         ):

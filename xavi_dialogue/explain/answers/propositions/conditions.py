@@ -165,6 +165,8 @@ def _allowed(of: Is, asked: Asked) -> Finding:
         past = is_past(asked, of.time, of.tense)
         about = where_rule_holds(asked, about) if past else about
         found = right_of_way(asked, event.object, event.actor, about)
+        if of.tense == "past" and is_us(event.actor) and found.rule != "priority":
+            return Finding(None, answer=found)  # who had to yield, and who went: no verdict
         if found.rule != "none" or "first" in event.manner:
             return owed(found, ours_yield=not is_us(event.actor))
     limited = within_limit(asked, actor(of), instant(asked, of.time, of.tense), allowed=True)

@@ -40,13 +40,8 @@ Rule: TypeAlias = Literal[
     "priority", "give-way", "equal", "depends", "none", "we-change", "it-changes"
 ]
 CROSSINGS: tuple[ActionName, ...] = (
-    "exit-left",
-    "exit-right",
-    "exit-straight",
-    "continue-next-exit",
-    "enter",
-    "turn",
-)
+    "exit-left", "exit-right", "exit-straight", "continue-next-exit", "enter", "turn",
+)  # fmt: skip
 MINOR: tuple[ActionName, ...] = ("speed-up", "change-plan", "leave")
 #: By rule: whether we must let the other one go first.
 YIELDS: dict[str, bool] = {
@@ -150,6 +145,8 @@ def priority_at(
         raise Unanswered(NotRecorded("not-recorded", about="right-of-way", since=time))
     crossing = rule in ("priority", "give-way", "equal", "depends")
     first = went_first(asked, vehicle, near, waited) if crossing and not ahead else None
+    if crossing and not ahead and vehicle is not None and not about.instant and first is None:
+        first = Ego() if stood(asked, vehicle, near) else None  # we are still in the junction
     return Priority(
         time, rule or "none", vehicle, first, waited, blame,
         conflict=_conflict(asked, vehicle, near) if blame else None,

@@ -44,7 +44,7 @@ from xavi_dialogue.nlu.grounding.events.fitting import (
     searched,
     undergoing,
 )
-from xavi_dialogue.nlu.grounding.events.generic import specified
+from xavi_dialogue.nlu.grounding.events.generic import ahead_of, specified
 from xavi_dialogue.nlu.grounding.events.hiding import out_of
 from xavi_dialogue.nlu.grounding.events.present import (
     HALTS,
@@ -75,7 +75,8 @@ FRESH: Final = 10.0  # [s] that "why didn't you" reaches back
 
 def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -> Event:
     """Ground an event: its actor, its object and its time."""
-    spoken = afoot(out_of(_at_junction(completed(_by_anybody(spoken), g, mode)), g), g)
+    spoken = ahead_of(completed(_by_anybody(spoken), g, mode))
+    spoken = afoot(out_of(_at_junction(spoken), g), g)
     spoken = _by_us(spoken, g)
     if spoken.tense == "future" and _meanwhile(spoken.time):
         spoken = replace(spoken, time=Unsaid())

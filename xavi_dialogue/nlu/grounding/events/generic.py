@@ -23,8 +23,10 @@ from xavi_dialogue.domain.terms import (
     Nobody,
     Not,
     Now,
+    Pronoun,
     Proposition,
     Related,
+    Relative,
     Tense,
     Thing,
     Unsaid,
@@ -45,6 +47,7 @@ ROLLING: Final = 1.0  # [m/s] from which somebody drives along
 GAVE: Final = 6.0  # [s] since when who let somebody go first comes after him
 _MOTION: Final = frozenset(("go", "come", "move", "head"))
 _BEFORE_US: Final = frozenset(("come", "turn", "swerve"))
+_TURNS: Final = frozenset(("turn", "exit-left", "exit-right", "exit-straight"))
 _RING: Final = Junction("roundabout")
 
 
@@ -61,6 +64,9 @@ def specified(event: Event, window: Window, g: Grounder) -> Event:
         return _inwards(event, moment, g)
     if event.action == "pull-out" and event.side is None:
         return _outwards(event, moment, g)
+    if event.action in _TURNS and isinstance(event.actor, Ego) and event.where is None:
+        before = isinstance(event.object, Vehicle)  # "you turned in front of the lorry"
+        return replace(event, action="go", side=None, manner=("first",)) if before else event
     if event.action == "let-go" and event.modal is None:
         return _let_go(event, moment, g)
     if event.action == "continue-next-exit":
@@ -136,6 +142,18 @@ def _outwards(event: Event, moment: float, g: Grounder) -> Event:
         return replace(event, action="leave") if coming else event
     where = event.where if before is None else Related("ahead-of", event.actor, before)
     return replace(event, action="change-left", object=None, where=where)
+
+
+def ahead_of(event: Event) -> Event:
+    """Read "you turned before the lorry" as that we went first, and not as a time."""
+    match event.time:
+        case Relative(relation="before", anchor=Described() | Pronoun() | Vehicle() as whom):
+            ours = isinstance(event.actor, Ego) and event.action in (*_TURNS, "go", "enter")
+            if ours and event.object is None and event.tense in ("past", "perfect"):
+                return replace(
+                    event, action="go", object=whom, side=None, manner=("first",), time=Unsaid()
+                )
+    return event
 
 
 def _before_whom(event: Event) -> Event:
