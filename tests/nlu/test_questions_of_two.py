@@ -2,7 +2,7 @@
 
 import pytest
 
-from xavi_dialogue.domain.meaning import Ask, Request, WhatIf, Whether, Which, Why
+from xavi_dialogue.domain.meaning import Ask, HowMuch, Request, WhatIf, Whether, Which, Why
 from xavi_dialogue.domain.terms import (
     Both,
     Compares,
@@ -235,3 +235,22 @@ def test_another_time_of_the_same_is_no_other_question(parser: Parser, text: str
 def test_or_luck_asks_nothing(parser: Parser) -> None:
     act = parser.read("Did you see him or was that luck?")[0].acts[0]
     assert act == Ask(Whether(Related("can-see", Ego(), HE, tense="past")))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "When we arrive, and how many kilometres is it still?",
+        "When, and how many km?",
+        "When are we there, and how far is it still?",
+        "Distance and time to destination.",
+        "Time and distance to the destination?",
+        "How far is it and how long will it take?",
+        "How many metres and how many minutes to go?",
+    ],
+)
+def test_both_are_asked_of_the_way_that_is_left(text: str) -> None:
+    acts = interpret(text)[0].acts
+    questions = [act.question for act in acts if isinstance(act, Ask)]
+    asked = {one.of.attribute for one in questions if isinstance(one, HowMuch)}
+    assert asked == {"time-to-go", "distance-to-go"}

@@ -44,6 +44,7 @@ from xavi_dialogue.nlu.joining.sentences import (
     unlike,
 )
 from xavi_dialogue.nlu.joining.topics import fold
+from xavi_dialogue.nlu.joining.trips import of_the_way
 from xavi_dialogue.nlu.screen import on_screen
 from xavi_dialogue.nlu.segments import CLAUSES, RARE, Path, segment
 from xavi_dialogue.nlu.shares import shares_of, unknown_shares, unread_of, words_in
@@ -335,7 +336,7 @@ def _along(path: Path, units: Units) -> list[_Draft]:
         idle_ = tuple(leaf for *_, leaves, _ in combination for leaf in leaves)
         passed = tuple(clause for *_, clauses in combination for clause in clauses)
         rows = at_same_time(path.units, chosen_between(path.units, pairs))
-        for row in in_its_world(path.units, rows):
+        for row in of_the_way(path.units, in_its_world(path.units, rows)):
             owners.append(len(acts) - (row is None) if row or row is None else None)
             acts.extend(row or ())
         named = sum(unit.name == "topic" for unit in path.units)

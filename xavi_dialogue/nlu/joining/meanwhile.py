@@ -16,7 +16,7 @@ from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 Row = tuple[Act, ...] | None
 _SUPPOSING = ("IF", "WHATIF", "WHETHER")
-_LEADING = ("lead_time", "lead_clause")
+LEADING = ("lead_time", "lead_clause")
 
 
 def at_same_time(units: Sequence[Node], rows: Sequence[Row]) -> list[Row]:
@@ -25,7 +25,7 @@ def at_same_time(units: Sequence[Node], rows: Sequence[Row]) -> list[Row]:
     found: list[Row] = []
     for unit, row in zip(units, rows, strict=True):
         lead = unit.parts[0] if unit.parts else None
-        if isinstance(lead, Node) and lead.name in _LEADING and row:
+        if isinstance(lead, Node) and lead.name in LEADING and row:
             said = _dated(row[0])
             time = Unsaid() if said is None else said.time
         elif not (isinstance(lead, Leaf) and lead.category == "AND"):
