@@ -54,6 +54,19 @@ def slowing(asked: Asked, event: Event) -> Slowing | None:
     )  # fmt: skip
 
 
+def speed_ahead(asked: Asked) -> Slowing | None:
+    """Return how fast we are going to be where we are slowest next; None: about as fast as now."""
+    if not asked.ride.traces or asked.past is not None:
+        return None
+    stop, slow = foreseen(asked, Event("stop")), slowest_ahead(asked)
+    speed = asked.world.measure("speed", Ego(), asked.now).value
+    if slow is None or speed is None or speed - slow < SLOWER:
+        return None
+    if stop is None or stop.share < EXPECTED:
+        return Slowing((), False, 0.0, slows=True, slow=slow)
+    return Slowing((), True, 0.0, slow=slow, time=stop.moment, share=stop.share)
+
+
 def _yields(asked: Asked) -> bool:
     """Check whether we have to give way to somebody at the next junction, or where roads merge."""
     road = asked.world.road(asked.now)

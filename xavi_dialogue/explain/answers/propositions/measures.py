@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName, Attribute
 from xavi_dialogue.explain.answers.expectations.approaching import foreseen_closeness
+from xavi_dialogue.explain.answers.expectations.slowing import speed_ahead
 from xavi_dialogue.explain.answers.measuring.closeness import approaches
 from xavi_dialogue.explain.answers.measuring.peak_moments import peak
 from xavi_dialogue.explain.answers.measuring.rivals import rivals
@@ -37,6 +38,7 @@ from xavi_dialogue.explain.answers.reference.moments import (
 )
 from xavi_dialogue.explain.answers.reference.naming import (
     check_sense,
+    is_us,
     look_of,
     looks,
     nobody,
@@ -82,6 +84,9 @@ def how_much(question: HowMuch, asked: Asked) -> Answer:
         raise did_not_happen(asked, of.time.anchor)
     if of.attribute == "speed" and of.to is not None:
         return rivals(Compare((of.thing, of.to), "speed"), asked, by=True)
+    ahead = of.attribute == "speed" and of.tense == "future" and is_us(of.thing)
+    if ahead and of.event is None and (slows := speed_ahead(asked)) is not None:
+        return slows  # "how fast will we take the turn?"
     if of.tense == "future" and question.extreme == "lowest" and of.attribute in MUTUAL:
         other = next((t.number for t in (of.to, of.thing) if isinstance(t, Vehicle)), None)
         coming = None if other is None else foreseen_closeness(asked, other)

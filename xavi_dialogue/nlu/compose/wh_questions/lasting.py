@@ -42,6 +42,7 @@ SAVING = ("save", "gain")  # what a manoeuvre does with time
 #: What lasts beside events.
 _STATES = (Related, Is, Has, Exists, Compares, Not)
 _TURNS = frozenset({"turn", "exit-left", "exit-right", "exit-straight"})
+_TURNS = frozenset({"turn", "exit-left", "exit-right"})
 _SEEING = frozenset({"see", "look", "watch", "know", "track", "notice"})
 
 
@@ -109,7 +110,12 @@ def pace(
     """Ask how fast somebody is or was; "how slow did we get" for the slowest."""
     time = _during_deed(clause) or meanwhile(clause, event)
     least = "slow" in words and clause.tense == "past" and clause.verb is not None
-    return measured("speed", clause, actor, time=time, extreme="lowest" if least else None)
+    found = measured("speed", clause, actor, time=time, extreme="lowest" if least else None)
+    deeds = (event, *(phrase.sem for phrase in clause.complements))
+    turns = any(isinstance(deed, Event) and deed.action in _TURNS for deed in deeds)
+    if turns and "do-present" in clause.aux:  # "how fast do you take the turn?"
+        return HowMuch(cast(Measured, with_fields(found.of, tense="future")), found.extreme)
+    return found
 
 
 def _during_deed(clause: Clause) -> Relative | None:

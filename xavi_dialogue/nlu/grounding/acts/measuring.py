@@ -48,6 +48,7 @@ MOMENTARY: Final = frozenset(
 ANYBODY: Final[tuple[Kind, ...]] = ("vehicle", "car")
 #: What may be asked of "it" where it is our car.
 OURS: Final = frozenset(("speed", "acceleration", "deceleration"))
+TURNING: Final = frozenset(("turn", "exit-left", "exit-right"))
 MOMENT: Final = 1.0  # [s] ago that a value was "just now", "a second ago"
 PRESENT: Final = 0.5  # salience from which a vehicle is the one spoken of
 _SPOKEN: Final = ("it", "he", "she", "that", "this", "one")
@@ -71,6 +72,8 @@ def measured(
     if nearest and kind is not None:  # "the closest anyone came to us"
         everyone = extreme and kind in ANYBODY
         spoken = replace(spoken, thing=Ego(), to=None if everyone else Everyone(kind))
+    if _is_to_come(spoken, g):
+        spoken = replace(spoken, event=None, tense="future")  # "our speed for the turn"
     event = spoken.event
     if event is not None:
         event = g.event(event, "presupposed" if event.tense == "past" else "asked", outer)
@@ -99,6 +102,16 @@ def _one_of(spoken: Measured) -> Measured:
     if one.extreme is None and one.rank is None:
         return spoken
     return replace(spoken, thing=replace(one, among=spoken.to), to=None)
+
+
+def _is_to_come(spoken: Measured, g: Grounder) -> bool:
+    """Tell whether our speed in a turn is asked that we have not come to yet."""
+    event = spoken.event
+    if event is None or event.action not in TURNING or spoken.attribute != "speed":
+        return False
+    ours = isinstance(event.actor, Ego) and spoken.tense != "past" and event.time == Unsaid()
+    now = g.context.now
+    return ours and not g.context.holds(replace(event, tense="present"), now, now)
 
 
 def _any_kind(things: tuple[Thing | None, ...], *, extreme: bool) -> Kind | None:
