@@ -20,6 +20,7 @@ from xavi_dialogue.explain.answers.suppositions.reacting import for_anybody
 from xavi_dialogue.explain.causes.driving.stopping import stopping_distance
 from xavi_dialogue.explain.facts.approach import following
 from xavi_dialogue.explain.facts.measures.between import leader
+from xavi_dialogue.explain.history.restraints import restraint_at
 from xavi_dialogue.explain.history.thresholds import STANDING
 
 HALTS: frozenset[ActionName] = frozenset(("stop", "brake", "stand"))
@@ -120,17 +121,22 @@ def _halts_soon(asked: Asked, found: PullingUp) -> bool:
 
 
 def _we_stop(asked: Asked, event: Event) -> Finding | None:
-    """Judge whether we can stop behind the vehicle ahead of us."""
+    """Judge whether we can stop behind the vehicle ahead of us, or before whom we let go first."""
     named = number(event.object) or (None if event.where is None else number(event.where.to))
-    ahead = named if named is not None else leader(asked.world.states, EGO, asked.now)
-    if ahead is None or not _comes_up(asked, EGO, ahead):
+    held = restraint_at(asked.ride, asked.now)
+    first = None if held is None or held.by != "right-of-way" else held.vehicle
+    ahead = named if named is not None else first or leader(asked.world.states, EGO, asked.now)
+    if ahead is None or (ahead != first and not _comes_up(asked, EGO, ahead)):
         told = for_anybody(event, asked) if "early" in event.manner else None
         return None if told is None else Finding(None, answer=told)
     speed = asked.world.measure("speed", Ego(), asked.now)
     if speed.value is None or speed.value < STANDING:
         return None
-    gap = asked.world.measure("gap", Ego(), asked.now, Vehicle(ahead))
+    gap = asked.world.measure(
+        "distance" if ahead == first else "gap", Ego(), asked.now, Vehicle(ahead)
+    )
     theirs = asked.world.measure("speed", Vehicle(ahead), asked.now).value or 0.0
+    theirs = 0.0 if ahead == first else theirs  # it goes across our way
     needed = stopping_distance(speed.value)
     enough = gap.value is None or stopping_distance(max(speed.value - theirs, 0.0)) <= gap.value
     try:
