@@ -55,3 +55,53 @@ def test_a_light_that_was_told_is_it(text: str) -> None:
 def test_the_light_up_there_is_no_vehicle() -> None:
     told = Talk("junction-0", 12.0).hear("Is it red up there?")
     assert told.startswith("Yes, the traffic light is red")
+
+
+def test_what_is_counted_behind_people_are_they() -> None:
+    talk = Talk("junction-0", 14.0)
+    assert "two pedestrians" in talk.hear("Why are we braking?", "How many are there?")
+    assert "pedestrian" in talk.hear("How far is the nearest one?")
+    assert talk.hear("Is the last one across yet?").startswith("No, the pedestrian")
+    assert "crossing our way" in talk.hear("Is everybody across?")
+
+
+def test_one_of_several_people_is_the_nearest() -> None:
+    told = Talk("junction-0", 12.0).hear("You didn't see the pedestrian, did you?")
+    assert told.startswith("Actually, I could see the pedestrian")
+
+
+def test_whom_we_spoke_of_long_ago_is_not_meant_where_others_cross() -> None:
+    talk = Talk("junction-0", 12.0)
+    talk.hear("You didn't see the pedestrian, did you?")
+    assert "(vehicle 13)" in talk.say("Will you let him cross?", 40.0).reply.text
+    assert "bicycle" in talk.say("Overtake him.", 58.0).reply.text
+
+
+def test_we_stop_in_time_before_those_whom_we_let_go_first() -> None:
+    told = Talk("junction-0", 12.0).hear("Are you going to stop in time?")
+    assert told.startswith("Yes: ")
+    assert "pedestrian" in told
+
+
+@pytest.mark.parametrize(
+    ("at", "text", "told"),
+    [
+        (19.0, "red?", "Yes, the traffic light is red"),
+        (27.0, "green?", "Yes, the traffic light is green"),
+        (19.0, "the light?", "The traffic light is red"),
+    ],
+)
+def test_a_colour_alone_is_of_the_light(at: float, text: str, told: str) -> None:
+    assert Talk("junction-0", at).hear("How fast are we?", text).startswith(told)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "How fast will we take the turn?",
+        "How slow do we get in the turn?",
+        "What is our target speed for the turn?",
+    ],
+)
+def test_our_speed_in_a_turn_to_come_is_the_planned_one(text: str) -> None:
+    assert "slow down to about 15 km/h" in Talk("town-0", 20.0).hear(text)

@@ -68,9 +68,9 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 from xavi_dialogue.nlu.grounding.completion.halting import of_whom
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
 from xavi_dialogue.nlu.grounding.events import timing
-from xavi_dialogue.nlu.grounding.events.generic import across
 from xavi_dialogue.nlu.grounding.events.timing import believed_last, changed, coming, foreseen, over
 from xavi_dialogue.nlu.grounding.events.windows import pointed
+from xavi_dialogue.nlu.grounding.things.crowd import counted
 
 _AWAY: Final = frozenset(("go", "move", "head", "disappear"))
 UNASKED: Final = 0.2  # cost of taking somebody for the cause where no cause was spoken of
@@ -160,9 +160,8 @@ def _how_many(spoken: HowMany, g: Grounder) -> HowMany:
         if isinstance(of.time, Unsaid) and of.tense in ("past", "perfect"):
             of = replace(of, time=WholeRide())
         return replace(spoken, of=g.event(of, "asked"))
-    such = replace(across(of), plural=True, definite=False) if isinstance(of, Described) else None
-    doing = None if such is None else such.doing
-    done = doing is not None and doing.tense in ("past", "perfect")
+    such = counted(of, g.context) if isinstance(of, Described) else None
+    done = such is not None and getattr(such.doing, "tense", "present") in ("past", "perfect")
     window = g.window(Unsaid(), "perfect" if done else "present")
     return replace(spoken, of=g.thing(such or of, window), such=such)
 

@@ -62,6 +62,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 )
 from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
 from xavi_dialogue.nlu.grounding.completion.replacing import with_event, with_thing, with_time
+from xavi_dialogue.nlu.grounding.completion.showing import showing
 from xavi_dialogue.nlu.grounding.completion.supposing import PLACES, through, what_if, whom_struck
 from xavi_dialogue.nlu.grounding.context import Grounder
 
@@ -78,7 +79,7 @@ def complete(spoken: Elliptic, g: Grounder) -> Act | None:
         case "what-if":
             return what_if(spoken, question, g)
         case "same":
-            return _same(spoken, question, g)
+            return showing(spoken, question, g) or _same(spoken, question, g)
     return _asked(spoken, question, g)
 
 

@@ -26,6 +26,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlu.grounding.context import Grounder
+from xavi_dialogue.nlu.grounding.things import scene
 
 #: What leads a vehicle onto or across a road leads people over it.
 ACROSS: Final = frozenset[ActionName](
@@ -90,6 +91,9 @@ def on_foot(thing: Thing | None, g: Grounder) -> bool:
 
 def walked(of: Is | Related, g: Grounder) -> Is | Happens | Related:
     """Read "they are over", "he is on the crossing" of people on foot as crossing our way."""
+    met = scene.on_foot(g.context, g.context.now) if isinstance(of.thing, Everyone) else ()
+    if len(met) > 1 and isinstance(of, Is):  # "is everybody across?"
+        of = replace(of, thing=Vehicles(met))
     if not on_foot(of.thing, g):
         return of
     tense: Tense = "present" if of.tense == "future" else of.tense

@@ -111,7 +111,7 @@ def _prominent(
     if spoken:  # "that poor man"
         return (max(spoken, key=lambda n: (salient[n], -n)),)
     order, clear = most_prominent(context, [m.vehicle for m in tied], moment)
-    if clear or not wanted.definite:
+    if clear or not wanted.definite or walks(wanted):
         return order[:1]
     if bare(wanted):
         met = interacting(context, moment)

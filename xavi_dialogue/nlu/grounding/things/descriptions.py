@@ -16,6 +16,7 @@ from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.terms import Described, Ego, Nobody, Thing, Vehicle, Vehicles
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Unclear, Window
 from xavi_dialogue.nlu.grounding.things import choosing, looks, scene
+from xavi_dialogue.nlu.grounding.things.crowd import of_them
 from xavi_dialogue.nlu.grounding.things.match import Match
 from xavi_dialogue.nlu.grounding.things.passing import comes, goes_past, passing_cost, placed
 from xavi_dialogue.nlu.grounding.things.relative import Clause, clause_of
@@ -124,7 +125,7 @@ def described(thing: Described, g: Grounder, window: Window, fits: Fits | None) 
     """Resolve a description."""
     if thing == Described():
         g.notes.cost += BLANK
-    thing = placed(thing)
+    thing = of_them(placed(thing), g.context)
     search = _search(thing, g, window, fits)
     found = _candidates(search)
     good = [m for m in found if m.cost < ACCEPT]

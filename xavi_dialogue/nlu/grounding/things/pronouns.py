@@ -10,12 +10,13 @@ from xavi_dialogue.domain.terms import Ego, Everyone, Pronoun, Thing, Vehicle, V
 from xavi_dialogue.nlu.grounding.context import Fits, Grounder, Unclear, Window
 from xavi_dialogue.nlu.grounding.salience import FRESH, group, vehicles_of
 from xavi_dialogue.nlu.grounding.things.descriptions import MISSING
-from xavi_dialogue.nlu.grounding.things.scene import interacting, most_prominent, on_foot
+from xavi_dialogue.nlu.grounding.things.scene import interacting, most_prominent, nearest, on_foot
 
 CLEAR: Final = 0.3  # salience from which a vehicle may be one of "both"
 PAIR: Final = 2
 LOST: Final = 0.1  # salience below which a pronoun does not reach back
 GONE: Final = 0.5  # the same for one that is not in view then
+FORGOTTEN: Final = 10.0  # [s] since the last question after which who is gone is not meant now
 MISFIT: Final = 0.62  # share of its salience that is left to who did not do what is said
 LEVEL: Final = 0.98  # ratio of two saliences that do not differ
 FROM_SCENE: Final = 0.1  # cost of a pronoun for which only the scene has a vehicle
@@ -39,10 +40,14 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
         crowd = _with_others((weighed[0][1],), g, moment)
         if len(crowd) > 1:
             return Vehicles(crowd)
-    if weighed:
+    met = () if thing.form == "it" else on_foot(g.context, moment)
+    anew = met and _is_long_ago(g) and moment >= g.context.now
+    if weighed and not (anew and weighed[0][1] not in met and walks(weighed[0][1], g)):
         return _salient(thing, g, weighed, moment)
-    if thing.form == "they" and len(met := on_foot(g.context, moment)) > 1:
+    if thing.form == "they" and len(met) > 1:
         return Vehicles(met)
+    if thing.form in ("he", "she", "they") and met:
+        return Vehicle(nearest(g.context, met, moment)[0].vehicle)
     found = interacting(g.context, moment, fits)
     if found is None:
         found = interacting(g.context, g.context.now, fits)
@@ -110,14 +115,23 @@ def _group_leads(g: Grounder) -> bool:
     return False
 
 
+def _is_long_ago(g: Grounder) -> bool:
+    """Tell whether the last question is so long ago that the scene counts for more."""
+    asked = g.context.discourse.asked_at
+    return asked is not None and g.context.now - asked > FORGOTTEN
+
+
 def _weighed(
     thing: Pronoun, g: Grounder, fits: Fits | None, moment: float
 ) -> list[tuple[float, int]]:
     known = set(g.context.world.vehicles)
     seen = g.context.world.in_view(moment)
+    long_ago = _is_long_ago(g)
     found = []
     for vehicle, salience in vehicles_of(g.context.discourse.mentions):
         if vehicle not in known or salience < (LOST if vehicle in seen else GONE):
+            continue
+        if vehicle not in seen and long_ago and moment >= g.context.now:
             continue
         share = MISFIT if fits is not None and fits(vehicle) is None else 1.0
         found.append((salience * share, vehicle))
