@@ -7,6 +7,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.kernels.along import LONG
+from planner.kernels.corridor import SHALLOW, beside, extent
 from planner.kernels.lines import Line, box_of, clearance, distance, nearest, prepared
 from planner.kernels.stretches import Stretches, empty
 
@@ -239,47 +240,13 @@ def _stretch(
         return k, math.nan, math.nan, 0.0
     turned = direction - heading[k]
     cos, sin = math.cos(turned), math.sin(turned)
-    if abs(aside) >= 0.5 * (length * abs(sin) + width * abs(cos)) + corridor:
+    into = 0.5 * (length * abs(sin) + width * abs(cos)) + corridor - abs(aside)
+    if 0.0 < into < SHALLOW and beside(line, k, x, y, direction, length, width, corridor):
+        into = 0.0
+    if into <= 0.0:
         return k, math.nan, math.nan, 0.0
-    least, most = _extent(length, width, aside, cos, sin, corridor)
+    least, most = extent(length, width, aside, cos, sin, corridor)
     return k, arc[k] + ahead + least, arc[k] + ahead + most, cos
-
-
-@_jit
-def _extent(
-    length: float, width: float, aside: float, cos: float, sin: float, corridor: float
-) -> tuple[float, float]:
-    """Return the least and greatest arc [m], from a body's centre, of its part in a corridor.
-
-    Args:
-        length, width: [m] of the body.
-        aside: [m] of its centre to the left of the path.
-        cos, sin: of its heading against that of the path.
-        corridor: [m] to either side of the path; the body must reach into it.
-    """
-    low, high = math.inf, -math.inf
-    for corner in range(4):
-        x, y = _corner(corner, length, width, cos, sin, aside)
-        to_x, to_y = _corner((corner + 1) % 4, length, width, cos, sin, aside)
-        if min(y, to_y) > corridor or max(y, to_y) < -corridor:
-            continue
-        slope = 0.0 if abs(to_y - y) < 1e-9 else (to_x - x) / (to_y - y)
-        if slope == 0.0:
-            begin, end = x, to_x
-        else:  # cut off where the edge leaves the corridor
-            begin = x + (min(max(y, -corridor), corridor) - y) * slope
-            end = to_x + (min(max(to_y, -corridor), corridor) - to_y) * slope
-        low, high = min(low, begin, end), max(high, begin, end)
-    return low, high
-
-
-@_jit
-def _corner(
-    corner: int, length: float, width: float, cos: float, sin: float, aside: float
-) -> tuple[float, float]:
-    ahead = 0.5 * length if corner < 2 else -0.5 * length
-    left = 0.5 * width if corner in (0, 3) else -0.5 * width
-    return ahead * cos - left * sin, aside + ahead * sin + left * cos
 
 
 @_jit

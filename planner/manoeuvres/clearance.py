@@ -18,7 +18,7 @@ from sim.boxes import overlap
 from sim.scene import VehicleState
 
 SPACING = 0.5  # [m] at which places along the path are tried
-MARGIN = 0.2  # [m] kept free at each side
+MARGIN = 0.1  # [m] kept free at each side
 
 
 def first_touch(

@@ -12,6 +12,7 @@ import numpy as np
 
 from planner.kernels.along import LONG
 from planner.kernels.collision import ALIKE, BERTH, SAFE_CUT_IN
+from planner.kernels.corridor import APART, BENT, SHALLOW
 from planner.kernels.limits import (
     ACCELERATION,
     ALIGNED,
@@ -199,12 +200,42 @@ def _part(
     corridor = 0.5 * size[1] + SIDE_MARGIN
     half = 0.5 * (obstacle.length * np.abs(sin) + obstacle.width * np.abs(cos))
     beyond = (nearest == len(path.arc) - 1) & (centre > obstacle.length)
-    inside = np.flatnonzero((np.abs(aside) < half + corridor) & ~beyond)
+    into = half + corridor - np.abs(aside)
+    on = [
+        into[t] > 0.0
+        and not beyond[t]
+        and (into[t] >= SHALLOW or not _beside(path, obstacle, window.start + t, corridor))
+        for t in range(len(x))
+    ]
+    inside = np.flatnonzero(on)
     if len(inside):
         ends = _extent(obstacle, aside[inside], cos[inside], sin[inside], corridor)
         arc = path.arc[nearest[inside]] + centre[inside]
         low[inside], high[inside] = arc + ends[0], arc + ends[1]
     return low, high, cos
+
+
+def _beside(path: Path, obstacle: Obstacle, step: int, corridor: float) -> bool:
+    """Whether a body is outside the corridor of a bent path, measured along its sides."""
+    way = np.array([np.cos(obstacle.heading[step]), np.sin(obstacle.heading[step])])
+    front = obstacle.position[step]
+    k = _nearest(path, front - 0.5 * obstacle.length * way)
+    ends = np.searchsorted(path.arc, path.arc[k] + obstacle.length * np.array([-1.0, 1.0]))
+    turned = path.heading[np.minimum(ends, len(path.arc) - 1)] - path.heading[k]
+    if np.abs(turned).max() < BENT:
+        return False
+    back = np.linspace(0.0, obstacle.length, math.ceil(obstacle.length / APART) + 1)
+    for left in (-0.5, 0.5):
+        side = front + left * obstacle.width * np.array([-way[1], way[0]])
+        for place in side - back[:, None] * way:
+            near = _nearest(path, place)
+            if abs(relative(path, near, *place)[1]) < corridor:
+                return False
+    return True
+
+
+def _nearest(path: Path, place: Array) -> int:
+    return int(np.argmin(((path.points - place) ** 2).sum(axis=1)))
 
 
 def _extent(

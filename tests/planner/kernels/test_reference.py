@@ -13,7 +13,7 @@ from planner.roads.trajectory import Path
 from sim.boxes import overlap
 from sim.scene import VehicleState
 from tests.planner.reference import Occupancy, occupancy
-from tests.planner.worlds import LENGTH, SIZE, WIDTH, obstacle, roads, row, situation
+from tests.planner.worlds import LENGTH, SIZE, WIDTH, obstacle, plan_of, roads, row, situation
 
 LANES = row("s1", "main_in_0", "straight")
 REACH = 100.0  # [m]
@@ -83,6 +83,21 @@ def test_a_stretch_is_no_longer_than_the_body(arc: float, aside: float, turned: 
     if gap is not None:
         diagonal = math.hypot(LENGTH, WIDTH)
         assert arc - diagonal / 2.0 - 1e-6 <= gap <= arc + diagonal / 2.0 + 1e-6
+
+
+@pytest.mark.parametrize("room", [0.05, -0.1])
+def test_a_body_beside_a_bend_is_on_the_path_if_a_side_is_in_the_corridor(room: float) -> None:
+    """An oncoming body stands outside a left turn; the path leaves it from its front on."""
+    turn = plan_of("s2", situation("s2", "south_in_0", 30.0), "exit-left").path
+    arcs = [0.5 * k for k in range(round(2.0 * turn.length))]
+    arc = next(a for a in arcs if turn.pose(a)[1] - turn.pose(0.0)[1] > 0.1)
+    (x, y), heading = turn.pose(arc)
+    aside = 0.5 * WIDTH + SIDE_MARGIN + 0.5 * WIDTH + room
+    front = np.array([(x + aside * math.sin(heading), y - aside * math.cos(heading))])
+    once, away = (np.array([value]) for value in (heading + math.pi, 0.0))
+    body = Obstacle(1, LENGTH, WIDTH, front, once, away, frozenset())
+    gap = occupancy(turn, body, SIZE, 0, 0).gap(arc - 5.0, 0, LENGTH)
+    assert (gap is None) == (room > 0.0)
 
 
 def test_who_is_far_aside_or_gone_takes_nothing() -> None:
