@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.kernels.elementary import arctan2
+from planner.kernels.bridges import Sides, mark_along, sides_of
 from sim.roads.lines import ON_LANE, crossings
 from sim.roads.network import Lane, Link, Network, angle_between
 from sim.scene import Point
@@ -39,7 +39,7 @@ class Passing:
     on_foot: bool  # whether it is for people on foot, and not for cars
     place: Point  # [m] where they cross
     reach: float  # [m] around it within which a body may be above or below the other lane
-    line: Array  # [m] [N, 2] its middle there, and on from there
+    line: Sides  # its middle there, and on from there
     before: float  # [m] along the line up to where a front is not there yet
     after: float  # [m] along the line from where a body is out of the way, without its length
     turn: float  # [rad] from its heading up to which one drives along it
@@ -58,32 +58,12 @@ def elsewhere(
     """
     found: Bools = np.zeros(states.shape[:2], np.bool_)
     walks = np.zeros(len(states), np.bool_) if on_foot is None else on_foot
-    x, y = states[:, :, 0], states[:, :, 1]
     for one in passings:
-        near = (x - one.place[0]) ** 2 + (y - one.place[1]) ** 2 <= one.reach**2
-        near &= (walks == one.on_foot)[:, None]
-        who, step = np.nonzero(near)
-        if len(who):
-            found[who, step] |= _along(one, states[who, step], sizes[who, 0])
-    return found
-
-
-def _along(one: Passing, states: Array, lengths: Array) -> Bools:
-    """Return whether bodies [K] are on a lane, where it is above or below the other one."""
-    sides = np.diff(one.line, axis=0)
-    long = np.hypot(sides[:, 0], sides[:, 1])
-    offset = states[:, None, :2] - one.line[None, :-1]
-    share = np.clip(np.sum(offset * sides, axis=2) / long**2, 0.0, 1.0)
-    away = np.hypot(*np.moveaxis(offset - share[:, :, None] * sides, 2, 0))
-    best = np.argmin(away, axis=1)
-    rows = np.arange(len(states))
-    arc = np.concatenate(([0.0], np.cumsum(long)))[best] + share[rows, best] * long[best]
-    turned = states[:, 2] - arctan2(sides[:, 1], sides[:, 0])[best]
-    if one.on_foot:
-        turned = 2.0 * turned  # people walk both ways
-    turned = np.abs(arctan2(np.sin(turned), np.cos(turned)))
-    found: Bools = (away[rows, best] <= ON_LANE) & (turned <= one.turn * (1.0 + one.on_foot))
-    found &= (arc >= one.before) & (arc <= one.after + lengths)
+        which = np.flatnonzero(walks == one.on_foot)
+        if len(which):
+            lane = (one.line, one.place, one.reach, one.before, one.after)
+            # People walk both ways.
+            mark_along(found, states, sizes, which, *lane, ON_LANE, one.turn, one.on_foot)
     return found
 
 
@@ -223,7 +203,7 @@ class Levels:
             begin = at + (wide if at < wide else 0.0)
             reach = wide + BODY + ON_LANE
             half = 0.5 * min(turn, math.pi - turn)
-            row = np.array(points, np.float64)
+            row = sides_of(np.array(points, np.float64))
             yield Passing(lane.edge, on_foot, place, reach, row, begin - wide, begin + wide, half)
 
     def _onward(self, lane: Lane, left: float) -> Iterator[tuple[Point, ...]]:
