@@ -20,6 +20,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import Manner
+from xavi_dialogue.nlu.compose.clauses.contracted import with_would
 from xavi_dialogue.nlu.compose.clauses.sem import Sem, as_thing
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
@@ -171,7 +172,6 @@ _KEEP = {"again": "again", "already": "already", "still": "still", "ever": "", "
 
 #: Verbs with the same form in the past, for what happens in a moment: "you cut in".
 _UNCHANGED = frozenset({"hit", "cut", "let", "let go", "let cross", "set"})
-_AS_PARTICIPLES = frozenset({"hit", "cut", "let", "set", "put", "shut", "come", "become", "run"})
 #: Verbs whose participle after "be" describes a state: "we are stuck, headed, stopped".
 _RESULTING = frozenset(
     ("allow", "permit", "stick", "sit", "stand", "hold one's ground", "head", "park", "stop", "go",
@@ -231,15 +231,6 @@ def _deed_placed(clause: Clause) -> None:
     clause.side = clause.side or inner.side
 
 
-def _would(clause: Clause) -> None:
-    """Read "he'd wait", of which "'d" was taken for "had", as "he would wait"."""
-    verb = clause.verb
-    if verb is None or verb.form != "base" or verb.words[0] in _AS_PARTICIPLES:
-        return
-    if clause.aux and clause.aux[-1] == "have-past" and not clause.negated:
-        clause.aux[-1] = "modal-would"
-
-
 class Slots:
     """Fills the slots of a clause from the parts of a parse."""
 
@@ -255,7 +246,7 @@ class Slots:
             else:
                 self._phrase(part, clause)
         _be_back(clause)
-        _would(clause)
+        with_would(clause.aux, clause.verb, negated=clause.negated)
         _deed_made(clause)
         _deed_placed(clause)
         if clause.verb is None:
