@@ -59,3 +59,17 @@ def test_whether_a_deed_was_lawful_is_answered_without_a_verdict() -> None:
     reply = Talk("bend-0", 12.0).say("was it legal to turn there?").reply.text
     assert "had right of way" in reply
     assert not reply.startswith("No")
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("You slowed from 27 to 10 before the junction, why so much?", "the blue lorry"),
+        ("You slowed from 27 to 10. Was all of that needed?", "the blue lorry"),
+        ("when did we go from 40 down to 23?", "0:10"),
+        ("why did you slow from 20 to 0?", "the black car"),
+    ],
+)
+def test_speeds_that_are_said_tell_which_braking_is_meant(text: str, told: str) -> None:
+    """We braked for the junction at 10 s and at 14 s, and behind the queue at 19 s."""
+    assert told in Talk("s4-0", 30.0).say(text).reply.text

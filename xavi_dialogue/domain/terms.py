@@ -235,6 +235,7 @@ class Event(Value, frozen=True):
     modal: Literal["will", "would", "can", "could", "should", "must", "might", "want"] | None = None
     then: "Event | None" = None  # done next: "change left and then turn right"
     where: "Related | None" = None  # the place where it is done: "wait behind the lorry"
+    speeds: "tuple[Quantity, Quantity] | None" = None  # "you slowed from 50 to 15"
 
 
 class Measured(Value, frozen=True):

@@ -22,7 +22,16 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.rewriting import first
-from xavi_dialogue.domain.terms import Both, Ego, Event, Feature, Happens, Proposition, Thing
+from xavi_dialogue.domain.terms import (
+    Both,
+    Ego,
+    Event,
+    Feature,
+    Happens,
+    Proposition,
+    Quantity,
+    Thing,
+)
 from xavi_dialogue.nlu.demands import default, demanded, is_met
 from xavi_dialogue.nlu.grounding.doubts import SMALL
 from xavi_dialogue.nlu.intents.classifier import Intent, judge
@@ -198,7 +207,9 @@ def _is_less(acts: Sequence[Act], plain: Sequence[Act]) -> bool:
 
 
 def _is_vaguer(acts: Sequence[Act], plain: Sequence[Act]) -> bool:
-    """Tell whether a plain question names no deed where the same is asked of one that is named."""
+    """Tell whether a plain question leaves out an amount that is named, or the deed."""
+    if first(acts, Quantity) is not None and first(plain, Quantity) is None:
+        return True
     vague = {kind for kind, action in _deeds(plain) if action == "do"}
     named = {kind for kind, action in _deeds(acts) if action != "do"}
     return not vague.isdisjoint(named)

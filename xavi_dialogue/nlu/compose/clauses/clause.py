@@ -92,6 +92,7 @@ class Clause:
     topic: Sem | None = None  # named first: "as for the bus"
     comma: int = -1  # index of the first word after the last comma
     pairs: list[Sem] = field(default_factory=list)  # things after "between"
+    speeds: tuple[Quantity, Quantity] | None = None  # "from 50 to 15"
 
     def has(self, kind: str) -> bool:
         """Check whether the clause has an auxiliary of a kind: "be", "modal-would"."""

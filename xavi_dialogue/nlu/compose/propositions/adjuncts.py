@@ -16,6 +16,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     WholeRide,
 )
+from xavi_dialogue.nlu.compose.clauses.amounts import speeds_of
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement, Slots, is_named
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, SideOf, as_thing
 from xavi_dialogue.nlu.compose.clauses.times import left_behind, number_before, relative, time_of
@@ -135,6 +136,13 @@ class Adjuncts:
             clause.time = WholeRide()  # "since we set off"
         elif anchor is not None and isinstance(clause.time, Unsaid):
             clause.time = relative(_relation(leaf.key, bool(ended)), anchor)
+
+    def _on_speeds(self, node: Node, clause: Clause) -> None:
+        """Read "from 50 to 15" as speeds, which nobody says the unit of."""
+        if (found := speeds_of(node)) is None:
+            self.notes.inner[id(node)] = SECOND
+        else:
+            clause.speeds = found
 
     def _on_time_from_place(self, node: Node, clause: Clause) -> None:
         """Read "between the side road and here" as all since that place."""

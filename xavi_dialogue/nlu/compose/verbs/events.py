@@ -145,7 +145,7 @@ def event_of(clause: Clause, match: Match) -> Event:
     return Event(
         cast(ActionName, action), actor, thing, cast(Any, side),
         _manners(action, manner), time, cast(Any, clause.tense),
-        cast(Any, modal), None, place,
+        cast(Any, modal), None, place, clause.speeds,
     )  # fmt: skip
 
 
@@ -253,7 +253,10 @@ _MANNERS: dict[str, Manner] = {
 
 
 def _paced(action: str, clause: Clause, kept: Sem | None) -> str:
-    """Read "go slower" as slowing down, and "kept his speed" as going on."""
+    """Read "go slower", "go from 50 to 15" as slowing down, and "kept his speed" as going on."""
+    if clause.speeds is not None and action not in ("brake", "stop"):
+        first, last = clause.speeds
+        return "slow-down" if first.value > last.value else "speed-up"
     if action == "keep-distance" and isinstance(kept, Measure) and kept.of.attribute == "speed":
         return "continue"
     if action not in ("go", "move", "continue", "approach") or not clause.comparisons:

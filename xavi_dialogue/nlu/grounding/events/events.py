@@ -289,6 +289,7 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
 
 def _at(found: Event, episode: Episode, g: Grounder, window: Window, inner: bool) -> Event:
     end = g.context.now if episode.end is None else episode.end
+    found = replace(found, speeds=None)
     if not inner:
         g.notes.spans(Span(begin=episode.begin, end=end, said=window.said))
     if window.whole and window.rank is None:

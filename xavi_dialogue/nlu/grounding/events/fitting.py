@@ -22,6 +22,7 @@ ONGOING: Final = frozenset(("speed-up", "slow-down", "brake", "cross"))
 LASTING: Final = frozenset(("move", "stand", "wait"))
 LATELY: Final = 12.0  # [s] within which what is over is still asked about in the present tense
 HARD: Final = 3.0  # [m/s2] from which braking is called hard
+NEAR: Final = 2.5  # [m/s] by which a speed that is said may be off
 JUST: Final = 0.5  # [s] since when what ended still goes on
 
 
@@ -91,8 +92,18 @@ def searched(g: Grounder, window: Window) -> tuple[float, float]:
     return begin, end
 
 
+def of_speeds(held: tuple[Episode, ...], event: Event) -> tuple[Episode, ...]:
+    """Keep those from and to about the speeds that are said, where there are any."""
+    if event.speeds is None:
+        return held
+    first, last = (speed.value for speed in event.speeds)
+    near = [max(abs((e.speed_from or 0.0) - first), abs((e.speed_to or 0.0) - last)) for e in held]
+    return tuple(e for e, off in zip(held, near, strict=True) if off <= NEAR) or held
+
+
 def hard_ones(held: tuple[Episode, ...], event: Event, window: Window) -> tuple[Episode, ...]:
     """Keep the hard braking where hard braking is spoken of, else the hardest."""
+    held = of_speeds(held, event)
     peaks = [episode.peak or 0.0 for episode in held]
     if "hard" not in event.manner or window.said or not any(peaks):
         return held
