@@ -122,12 +122,20 @@ def _sees(states: States, thing: int, to: int, at: float) -> Told:
 
 def _in_the_way(states: States, thing: int, to: int, at: float) -> Told:
     """Check whether the first holds the second up, or has to be let go first by us."""
-    if to == EGO and held_by(states.ride, thing, at, at):
+    if to == EGO and (held_by(states.ride, thing, at, at) or _walks_before_us(states, thing, at)):
         return True
     trace = states.trace(at)
     if trace is None:
         return None
     return any(who == thing for who, _ in top_holders(states, trace, to))
+
+
+def _walks_before_us(states: States, thing: int, at: float) -> bool:
+    """Check whether somebody on foot is crossing our way in front of us."""
+    shape, seen = states.shape(thing), states.offset(EGO, thing, at)
+    if shape is None or shape.kind not in ON_FOOT or seen is None or seen.ahead <= 0.0:
+        return False
+    return any(e.begin <= at <= _end(states, e.end) for e in crossings(states, thing))
 
 
 def _speeds(sign: float) -> Callable[[States, int, int, float], Told]:

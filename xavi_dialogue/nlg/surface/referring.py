@@ -69,10 +69,10 @@ class ReferringContext:
             return self._vehicle(thing.number, who, form)
         if isinstance(thing, Feature) and thing.kind == "light":
             self.lit = True  # "it" may mean the light from here on
-        if isinstance(thing, Vehicles) and len(thing.numbers) > MANY:
-            return {"object": "them", "possessive": "their"}.get(form, "they")
         if isinstance(thing, Vehicles) and (people := self._people(thing, who)):
             return _owned(people, form)
+        if isinstance(thing, Vehicles) and len(thing.numbers) > MANY:
+            return {"object": "them", "possessive": "their"}.get(form, "they")
         if isinstance(thing, Vehicles):
             parts = [self._vehicle(v, who, "full") for v in thing.numbers]
             return _owned(listed(parts), form)

@@ -19,19 +19,17 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
+from xavi_dialogue.explain.answers.reference.letting import let_across
 from xavi_dialogue.explain.answers.reference.moments import Window, was_said, window
 from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, known, number
 from xavi_dialogue.explain.causes.vehicles.when import LEEWAY
-from xavi_dialogue.explain.facts.episodes.waiting import went_before
-from xavi_dialogue.explain.facts.states import states_of
-from xavi_dialogue.explain.history.restraints import Restrained, held_by, slowed_for
+from xavi_dialogue.explain.history.restraints import slowed_for
 from xavi_dialogue.explain.history.ride import Ride
 
 PAUSE = 0.5  # [s] between two episodes of one kind, from which they are different ones
 CHANGED: frozenset[ActionName] = frozenset(("change-left", "change-right"))
 INSIDE = 1.0  # [s] of overlap from which an episode belongs to a stretch of the ride
 GOING = 0.5  # [s] after its end in which something still counts as going on
-SHORTEST = 0.6  # [s] of letting somebody go first
 TOLD = 2  # episodes that are stated in place of what did not happen
 #: Actions that go on most of the time, and are stated only if there is nothing else.
 PLAIN: frozenset[ActionName] = frozenset(
@@ -89,24 +87,7 @@ def _let_first(asked: Asked, event: Event) -> tuple[Episode, ...]:
     if event.action not in ("give-way", "let-go") or not is_us(event.actor):
         return ()
     others = [] if event.object is None else _each(asked, event.object)
-    return let_first(asked, [v.number for v in others if isinstance(v, Vehicle)])
-
-
-def let_first(asked: Asked, vehicles: Iterable[int]) -> tuple[Episode, ...]:
-    """Return when road users whom we had to let go first restrained our driving, oldest first."""
-    found = [
-        Episode(Ego(), "give-way", one.begin, None if one.end > asked.now else one.end, who)
-        for who in map(Vehicle, vehicles)
-        for one in held_by(asked.ride, who.number, asked.world.begin, asked.now)
-        if min(one.end, asked.now) - one.begin >= SHORTEST and _went(asked, who.number, one)
-    ]
-    return tuple(sorted(found, key=lambda e: e.begin))
-
-
-def _went(asked: Asked, vehicle: int, one: Restrained) -> bool:
-    """Check whether somebody who restrained our driving went before us, or still may."""
-    states = states_of(asked.ride)
-    return went_before(states, vehicle, one.begin, min(one.end, asked.now))
+    return let_across(asked, [v.number for v in others if isinstance(v, Vehicle)])
 
 
 def _while_let_go(asked: Asked, event: Event) -> tuple[Episode, ...]:

@@ -7,9 +7,10 @@ from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.terms import Ego, Event, Feature, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.letting import let_across
 from xavi_dialogue.explain.answers.reference.moments import Window, window
 from xavi_dialogue.explain.answers.reference.naming import first_look, looks, number
-from xavi_dialogue.explain.answers.reference.occasions import duration, let_first, overlaps
+from xavi_dialogue.explain.answers.reference.occasions import duration, overlaps
 
 YIELDS = frozenset[ActionName](("give-way", "wait", "let-go"))
 SLOWING = frozenset[ActionName](("brake", "slow-down", "stop"))
@@ -53,7 +54,7 @@ def let_past(event: Event, asked: Asked) -> tuple[Look, ...]:
     about = window(asked, event.time, event.tense)
     near = about.widened() if about.instant else about
     known = asked.world.episodes(Ego(), YIELDS, near.begin, near.end)
-    driven = () if event.action == "wait" else let_first(asked, asked.world.vehicles)
+    driven = () if event.action == "wait" else let_across(asked, asked.world.vehicles)
     found = [
         e for e in (*known, *driven)
         if isinstance(e.object, Vehicle) and overlaps(asked, e, near)

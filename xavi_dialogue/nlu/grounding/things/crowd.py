@@ -4,12 +4,14 @@ from typing import Final
 
 from msgspec.structs import replace
 
-from xavi_dialogue.domain.terms import Described, Is, Vehicle, Vehicles, Wanted
+from xavi_dialogue.domain.terms import Described, Is, Pronoun, Related, Vehicle, Vehicles, Wanted
 from xavi_dialogue.nlu.grounding.context import Context
 from xavi_dialogue.nlu.grounding.events.generic import across
 from xavi_dialogue.nlu.grounding.things.scene import on_foot
 
 _COUNTED: Final = Described(plural=True, definite=False)  # "how many?"
+
+_THOSE: Final = (Pronoun("this"), Pronoun("that"), Pronoun("they"), Pronoun("it"))
 
 
 def spoken_of(context: Context) -> tuple[int, ...]:
@@ -42,6 +44,10 @@ def counted(of: Described, context: Context) -> Described:
     such = of.such
     there = such is None or (isinstance(such, Is) and such.state == "present")
     there = there and (such is None or getattr(such, "thing", None) == Wanted())
+    those = isinstance(such, Related) and such.relation == "same-as" and such.to in _THOSE
+    if those and replace(of, such=None, kind="vehicle") == _COUNTED:  # "how many people is this?"
+        met = spoken_of(context) or on_foot(context, context.now)
+        return replace(of, such=None, among=Vehicles(met)) if met else of
     if replace(of, such=None) != _COUNTED or not there:
         return of
     numbers = spoken_of(context)
