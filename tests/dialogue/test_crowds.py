@@ -105,3 +105,28 @@ def test_a_colour_alone_is_of_the_light(at: float, text: str, told: str) -> None
 )
 def test_our_speed_in_a_turn_to_come_is_the_planned_one(text: str) -> None:
     assert "slow down to about 15 km/h" in Talk("town-0", 20.0).hear(text)
+
+
+def test_who_crossed_with_others_was_let_go_as_well() -> None:
+    told = Talk("junction-0", 55.0).hear("How many people did you let go first?")
+    assert "four pedestrians" in told
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("Is it far to the light?", "The traffic light is about"),
+        ("How far is the stop line?", "The traffic light is about"),
+        ("Which light applies to us?", "The traffic light is about"),
+        ("Rate of deceleration?", "We are braking with"),
+        ("people?", "Yes, there is the pedestrian"),
+        ("How many people are in our way?", "pedestrian"),
+    ],
+)
+def test_what_is_before_us_is_told(text: str, told: str) -> None:
+    assert told in Talk("junction-0", 10.0).hear(text)
+
+
+def test_a_request_to_stop_is_told_for_whom_we_brake() -> None:
+    told = Talk("junction-0", 40.0).hear("There's somebody stepping out, please stop!")
+    assert "let the pedestrian" in told

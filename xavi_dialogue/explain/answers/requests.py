@@ -76,7 +76,8 @@ def request(act: Request, asked: Asked) -> Answer:
         if staying is not None:
             return staying
     hurried = sided(event) in STARTS | {"speed-up", "continue"}
-    cause = _cause(asked) if able and hurried and soon is None else None
+    halting = event.action in ("stop", "wait")  # it is told for whom we brake anyway
+    cause = _cause(asked) if able and (hurried or halting) and soon is None else None
     facts = _instead(asked, event) if cause is None else ()
     already = already and cause is None
     decided = soon is not None or cannot is not None or cause is not None

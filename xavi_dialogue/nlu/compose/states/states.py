@@ -297,6 +297,8 @@ def _near_what(clause: Clause, thing: Thing) -> Thing:
         other = as_thing(phrase.sem)
         if phrase.key in _APART and isinstance(other, (Described, Vehicle)):
             return other
+        if phrase.key == "into" and isinstance(other, (Described, Vehicle, Pronoun, Feature)):
+            return other  # "is it far to the light?"
     return Destination() if clause.still and not clause.bearings else thing
 
 

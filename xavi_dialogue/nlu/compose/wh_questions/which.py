@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Exists,
     Exit,
     Feature,
     Happens,
@@ -66,6 +67,16 @@ def _moment(clause: Clause, value: Any) -> Any:
     return time_of(clause, value)
 
 
+def _is_for_us(of: Any) -> bool:
+    """Tell whether it is asked which light is the one for us: "which light applies to us?"."""
+    match of:
+        case Happens(event=Event(actor=Feature(kind="light"), action=action)):
+            return action not in ("show", "turn-colour")
+        case Exists(thing=Feature(kind="light")) | Related(thing=Feature(kind="light"), to=Ego()):
+            return True
+    return False
+
+
 class WhichOne:
     """Builds questions that "which" asks."""
 
@@ -76,6 +87,8 @@ class WhichOne:
         if isinstance(actor, (Wanted, Passenger)):
             actor = None
         ours = actor is None or isinstance(actor_of(value, actor), Ego)
+        if sem is None and value is not None and _is_for_us(fact(value)):
+            return Identify(Feature("light"))
         match sem:
             case Measure(of=Measured(attribute="heading")) if ours:
                 return self._way(clause, value, actor)

@@ -29,6 +29,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Exists,
+    Feature,
     Happens,
     Has,
     Is,
@@ -70,6 +71,8 @@ def of_trip(spoken: Question) -> Question | None:
             )
         ) if who in _ANYBODY:  # "is something holding us up?": whatever it is
             return Which(Wanted(), Compares(replace(loss, thing=Wanted()), "more"))
+        case Whether(that=Is(state="far" | "close", thing=Feature(kind="light") as light)):
+            return HowMuch(Measured("distance", light))  # "is it far to the light?"
         case Whether(that=that):
             meant = _whether(that)
             return meant if not isinstance(meant, Happens) else replace(spoken, that=meant)

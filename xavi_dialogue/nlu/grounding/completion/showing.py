@@ -1,4 +1,4 @@
-"""Showing: "red?", "the light?" as asked of the traffic light that is before us."""
+"""Showing: "red?", "the light?" as asked of the light before us; "cars?" of who is there."""
 
 from typing import Final
 
@@ -8,16 +8,19 @@ from xavi_dialogue.domain.meaning import (
     Doing,
     Elliptic,
     HowLong,
+    HowMany,
     HowMuch,
+    Listing,
     Question,
     WhatIf,
     When,
     Where,
     Whether,
+    Which,
     Why,
 )
 from xavi_dialogue.domain.rewriting import first
-from xavi_dialogue.domain.terms import Described, Event, Feature, Has, Vehicle
+from xavi_dialogue.domain.terms import Described, Event, Exists, Feature, Has, Vehicle
 from xavi_dialogue.nlu.grounding.context import Grounder
 from xavi_dialogue.nlu.grounding.things.lights import LIGHT, LIT
 
@@ -26,6 +29,7 @@ _ALIKE: Final = (Where, When, HowLong, Why, WhatIf)
 
 #: Questions that "the red one?" does not carry over to a vehicle, where they are of ours.
 _OURS: Final = (HowMuch, HowLong, When, Whether)
+_COUNTS: Final = (HowMany, Listing, Which)  # questions that are asked of others likewise
 
 
 def showing(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
@@ -36,7 +40,11 @@ def showing(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | N
     if thing == LIGHT and _in_view(g):
         far = isinstance(question, HowMuch) and question.of.attribute == "distance"
         return None if far or isinstance(question, _ALIKE) else Ask(Doing(LIGHT))
-    if not isinstance(thing, Described) or thing.colour not in LIT:
+    if not isinstance(thing, Described):
+        return None
+    if thing == Described(kind=thing.kind, plural=True, definite=False):  # "cars?", "any bikes?"
+        return None if isinstance(question, _COUNTS) else Ask(Whether(Exists(thing)))
+    if thing.colour not in LIT:
         return None
     ours = question is None or (isinstance(question, _OURS) and first(question, Vehicle) is None)
     if thing != Described(colour=thing.colour) or not ours or _is_named(thing.colour, g):

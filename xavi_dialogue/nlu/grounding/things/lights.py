@@ -85,6 +85,10 @@ def _meant(part: Any, g: Grounder) -> Any:
             return replace(part, thing=_spoken(thing, g))
         case Measured(attribute="duration", thing=Described() as thing):
             return replace(part, thing=_phase(thing, g))
+        case Measured(attribute="distance", to=Feature(kind="line")) if _known(g):
+            return replace(part, to=LIGHT)
+        case Measured(attribute="distance", thing=Feature(kind="line")) if _known(g):
+            return replace(part, thing=LIGHT)
         case Measured(attribute=attribute) if attribute in _MEASURED:
             beside = None if part.to is None else _spoken(part.to, g)
             return replace(part, thing=_spoken(part.thing, g), to=beside)
