@@ -73,3 +73,9 @@ def test_whether_a_deed_was_lawful_is_answered_without_a_verdict() -> None:
 def test_speeds_that_are_said_tell_which_braking_is_meant(text: str, told: str) -> None:
     """We braked for the junction at 10 s and at 14 s, and behind the queue at 19 s."""
     assert told in Talk("s4-0", 30.0).say(text).reply.text
+
+
+def test_from_which_speed_is_asked_of_the_braking_just_told() -> None:
+    talk = Talk("s4-0", 24.0)
+    talk.say("why did you brake?")
+    assert "19 km/h" in talk.say("from what speed?").reply.text

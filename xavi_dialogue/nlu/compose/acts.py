@@ -33,7 +33,7 @@ from xavi_dialogue.nlu.compose.alternatives.choosing import options_of
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.hedged import as_when, supposing
 from xavi_dialogue.nlu.compose.clauses.peaks import extreme_told
-from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, as_thing
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Notes, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import (
     is_not,
     is_possessed,
@@ -137,6 +137,9 @@ class Composer(Statements):
         wh = self.questions.wh_of(wh_node)
         clause = Clause()
         found = self.questions.asked(wh, parts, clause)
+        bare = clause.verb is None and not clause.aux and isinstance(clause.subject, Measure)
+        if wh.kind == "what" and wh.preposition and bare:
+            return []  # "from what speed" asks for a speed, and not what "speed" is
         if wh.kind in ("how", "what", "where") and says(clause):
             return [((AskHelp(),), 0.0)]
         if (

@@ -1,6 +1,6 @@
 """Lasting: how long something lasts or has lasted, and how long it is until something happens."""
 
-from typing import Any, cast
+from typing import Any, Final, cast
 
 from xavi_dialogue.domain.meaning import HowLong, HowMany, HowMuch, Listing, Peak, Question, When
 from xavi_dialogue.domain.terms import (
@@ -81,10 +81,20 @@ def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -
     if actor == more.get("to") == Ego():  # "how much room was there between us"
         actor = _postponed(clause) or Pronoun("it")
     actor = _placed(actor, clause)
+    tense = "future" if attribute == "speed" and is_aimed(clause, actor) else clause.tense
     return HowMuch(
-        Measured(cast(Any, attribute), actor, time=time, tense=cast(Any, clause.tense),
-                 **more), extreme,
+        Measured(cast(Any, attribute), actor, time=time, tense=cast(Any, tense), **more), extreme,
     )  # fmt: skip
+
+
+_AIMING: Final = frozenset({"aim", "target", "plan", "slow", "slow down", "brake", "go for"})
+
+
+def is_aimed(clause: Clause, actor: Thing | None) -> bool:
+    """Say whether the speed is asked for to which we mean to come: "what speed do you aim for"."""
+    ours = isinstance(actor, Ego) and clause.tense == "present" and clause.modal in (None, "want")
+    aims = clause.verb is not None and clause.verb.key in _AIMING
+    return ours and (aims or "semi-want" in clause.aux)
 
 
 def _postponed(clause: Clause) -> Thing | None:

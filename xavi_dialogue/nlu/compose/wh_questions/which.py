@@ -39,6 +39,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Wanted,
 )
+from xavi_dialogue.domain.vocabulary import Extreme
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -48,7 +49,7 @@ from xavi_dialogue.nlu.compose.clauses.peaks import most_of, of_choice
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, SideOf, as_thing
 from xavi_dialogue.nlu.compose.propositions.severally import MUTUAL
 from xavi_dialogue.nlu.compose.verbs.others import nearest, placed
-from xavi_dialogue.nlu.compose.wh_questions.lasting import meanwhile, measured
+from xavi_dialogue.nlu.compose.wh_questions.lasting import is_aimed, meanwhile, measured
 from xavi_dialogue.nlu.compose.wh_questions.towards import reference
 from xavi_dialogue.nlu.compose.wh_questions.wh import (
     Wh,
@@ -92,12 +93,14 @@ class WhichOne:
         match sem:
             case Measure(of=Measured(attribute="heading")) if ours:
                 return self._way(clause, value, actor)
-            case Measure() if wh.preposition == "at" and value is None:
+            case Measure() if wh.preposition == "at" and _is_bare(value):
                 of = sem.of  # "and at what speed?": of what was just spoken of
                 return HowMuch(with_fields(of, time=Back("during"), tense="past"), sem.extreme)
-            case Measure() if down_to(wh, value):
-                end = structs.replace(sem.of, thing=actor or Ego(), event=value.event, tense="past")
-                return HowMuch(end, "lowest")
+            case Measure() if (end := end_of(wh, value)) is not None:
+                of = structs.replace(sem.of, thing=actor or Ego(), tense="past")
+                if _is_bare(value):  # "and from what speed?": of what was just spoken of
+                    return HowMuch(structs.replace(of, time=Back("during")), end)
+                return HowMuch(structs.replace(of, event=value.event), end)
             case Measure():
                 return self._attribute(sem, clause, value, actor)
             case Noun(key="prediction") if any(key == "wrong" for key, _ in clause.adjectives):
@@ -179,9 +182,11 @@ class WhichOne:
         to = measure.to
         if to is None and measure.attribute in MUTUAL:
             to = reference(clause)  # "what gap do you leave to the bus"
+        aimed = measure.attribute == "speed" and is_aimed(clause, thing)
+        tense: Any = "future" if aimed else clause.tense
         return HowMuch(
             Measured(measure.attribute, thing or measure.thing, to, measure.event, None,
-                     _moment(clause, value), cast(Any, clause.tense)), sem.extreme,
+                     _moment(clause, value), tense), sem.extreme,
         )  # fmt: skip
 
     def _abstract(self, sem: Noun, clause: Clause, value: Any) -> Question:
@@ -209,10 +214,18 @@ class WhichOne:
         return found or Which(Wanted(), fact(value) if value is not None else None)
 
 
-def down_to(wh: Wh, value: Any) -> bool:
-    """Say whether the speed is asked for that a braking ended with: "down to what speed"."""
+def end_of(wh: Wh, value: Any) -> Extreme | None:
+    """Say which end of a braking the speed is asked for of: "down to what speed", "from which"."""
     slows = isinstance(value, Happens) and value.event.action in ("brake", "slow-down")
-    return slows and wh.preposition in ("to", "into") and wh.words[-1:] == ("speed",)
+    if wh.words[-1:] != ("speed",) or not (slows or _is_bare(value)):
+        return None
+    ends: dict[str, Extreme] = {"to": "lowest", "into": "lowest", "from": "highest"}
+    return ends.get(wh.preposition)
+
+
+def _is_bare(value: Any) -> bool:
+    """Say whether nothing stands with what is asked for: "at what speed?"."""
+    return value in (None, Related("same-as", Pronoun("it"), Wanted()))
 
 
 def actor_is_open(clause: Clause) -> bool:
