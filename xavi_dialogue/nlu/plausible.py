@@ -31,6 +31,7 @@ from xavi_dialogue.domain.terms import (
     Exit,
     Feature,
     Happens,
+    Has,
     Is,
     Junction,
     Lane,
@@ -110,6 +111,8 @@ def _top(act: Act) -> float:
             return ODD  # "how many turns until we are there" counts events, not things
         case Claim(that=Related(thing=Pronoun("who")) | Happens(event=Event(actor=Pronoun("who")))):
             return 2.0 * ODD  # "who" asks, and states nothing
+        case Ask(question=Which(thing=Feature() | Junction(), such=Has(attribute="occupant"))):
+            return ODD  # places carry nobody
         case Ask(question=Which(such=Related(relation="same-as", to=Junction()))):
             return ODD  # who is a place?
         case Ask(question=Which(thing=Wanted(), such=such, among=())) if (

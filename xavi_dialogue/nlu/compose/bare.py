@@ -139,6 +139,9 @@ class BareQuestions(Suppositions):
             clause = clause.bare or clause.gerund or clause
         if wh.key == "long" and _empty(clause) and _still(wh, clause):
             return [((Ask(HowMuch(Measured("time-to-go"))),), 0.05)]
+        if wh.key == "long" and _empty(clause) and not {"longer", "more"}.isdisjoint(wh.words):
+            going_on = Measured("duration", Pronoun("this"), tense="future")
+            return [((Ask(HowMuch(going_on)),), 0.05)]
         if wh.key == "long" and _empty(clause):
             return [((Ask(HowLong(That())),), 0.05)]
         onward = not {"further", "farther"}.isdisjoint(wh.words)
