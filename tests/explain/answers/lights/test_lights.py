@@ -2,7 +2,8 @@
 
 import pytest
 
-from tests.explain.lit import GREEN, PASSED, STANDS, Story, answer
+from planner.kernels.limits import FOLLOWING
+from tests.explain.lit import DT, GREEN, LINE, PASSED, STANDS, Story, answer, driven
 from xavi_dialogue.domain.answers import Verdict
 from xavi_dialogue.domain.meaning import (
     Ask,
@@ -17,6 +18,7 @@ from xavi_dialogue.domain.meaning import (
     When,
     Where,
     Whether,
+    Which,
     Why,
 )
 from xavi_dialogue.domain.terms import (
@@ -33,6 +35,7 @@ from xavi_dialogue.domain.terms import (
     Related,
     Relative,
     Vehicle,
+    Wanted,
 )
 from xavi_dialogue.domain.traffic_lights import (
     Crossed,
@@ -192,6 +195,24 @@ def test_had_it_been_green_we_had_not_stopped():
     assert found.decided == pytest.approx(4.0, abs=1.0)
     assert found.passing == pytest.approx(10.0, abs=1.0)
     assert found.passed == pytest.approx(PASSED, abs=0.15)
+
+
+def test_had_it_been_red_we_had_stopped_while_that_was_possible():
+    """The last decision before the line comes too late for that."""
+    green = Story(obeys=False, first="G")
+    found = answer(Ask(WhatIf(is_lit("red", "past"))), 14.0, green)
+    assert isinstance(found, SupposedOfLight)
+    speeds, places = driven(green)
+    step = round(found.decided / DT)
+    assert 2.0 * FOLLOWING * (LINE - places[step]) >= speeds[step] ** 2
+    assert found.waits
+
+
+def test_the_lights_that_we_passed_are_listed():
+    passed = Happens(Event("pass", Ego(), Wanted(), tense="past"))
+    found = answer(Ask(Which(LIGHT, passed)), 40.0)
+    assert (found.asked, found.count) == ("count", 1)
+    assert answer(Ask(Which(LIGHT, passed)), 20.0).count == 0
 
 
 def test_had_it_stayed_red_we_had_waited():

@@ -43,7 +43,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import window
 from xavi_dialogue.explain.answers.reference.occasions import did_not_happen
 from xavi_dialogue.explain.answers.reference.reading import is_own, unwrapped
-from xavi_dialogue.explain.facts.episodes.light_events import HELD
+from xavi_dialogue.explain.facts.episodes.light_events import HELD, PASSING
 from xavi_dialogue.explain.facts.traffic_lights import (
     colour_of,
     crossed,
@@ -54,6 +54,8 @@ from xavi_dialogue.explain.facts.traffic_lights import (
 )
 from xavi_dialogue.explain.history.ride import ROUNDING
 from xavi_dialogue.explain.history.traffic_lights import Passing, passings, stretches
+
+GONE_BY = PASSING | {"overtake", "go", "move"}
 
 
 def unseen(question: Whether, scene: Asked) -> Answer:
@@ -156,10 +158,14 @@ def _others(scene: Asked, light: Feature, time: float, *, past: bool) -> LightTo
 
 
 def seen_any(question: Which, scene: Asked) -> Answer:
-    """Return the light that was seen: the one on our way, or the one that held us."""
+    """Return the light that was seen: on our way; or those that held us, or that we passed."""
     such, _ = unwrapped(question.such)
-    if isinstance(such, Happens) and is_own(such.event.actor) and such.event.action in HELD:
-        return _held_by(such.event, scene)
+    if isinstance(such, Happens) and is_own(such.event.actor):
+        event = such.event
+        if event.action in HELD:
+            return _held_by(event, scene)
+        if event.action in GONE_BY and event.tense in ("past", "perfect"):
+            return count(HowMany(question.thing), scene)
     return _seen(Exists(Feature("light")), scene, negated=False)
 
 

@@ -6,6 +6,7 @@ it is supposed to show.
 
 from typing import Any, Literal
 
+from planner.kernels.limits import FOLLOWING
 from planner.record.light_record import GREENS
 from planner.record.trace import ON_FOOT, PlanTrace
 from sim.scene import EGO, LightState, Signal
@@ -118,7 +119,7 @@ def _decision(
     """Return the decision at which the supposition would have mattered, and the light.
 
     For a light that is supposed green, it is the first at which the light held us; else the last
-    before we passed it.
+    before we passed it, and early enough to stop at its line.
     """
     ride = scene.ride
     time = scene.moment if past else scene.now
@@ -130,7 +131,8 @@ def _decision(
             return first[0], held[-1].signal
     if past:
         done = [p for p in passings(ride) if p.time <= scene.now]
-        known = [t for p in done[-1:] for t in known if t.sim_time < p.time] or known
+        before = [t for p in done[-1:] for t in known if t.sim_time < p.time]
+        known = [t for t in before if _can_stop(t, done[-1].signal)] or before or known
     known = [t for t in known if t.sim_time <= scene.now]
     free = [t for t in known if t.under_way is None] or known
     if not free:
@@ -139,6 +141,13 @@ def _decision(
     first_ahead = trace.road.lights[0] if trace.road is not None else None
     here = None if first_ahead is None else Signal(first_ahead.controller, first_ahead.place)
     return trace, meant(ride, light, trace.sim_time) or here
+
+
+def _can_stop(trace: PlanTrace, signal: Signal) -> bool:
+    """Check whether a light is so far ahead that we could stop at its line without hard braking."""
+    stopping = trace.scene[EGO].speed ** 2 / (2.0 * FOLLOWING)
+    lights = () if trace.road is None else trace.road.lights
+    return any(one.distance >= stopping for one in lights if _signal(one) == signal)
 
 
 def _held(again: PlanTrace, signal: Signal) -> bool:
