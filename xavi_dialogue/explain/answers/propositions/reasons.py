@@ -173,6 +173,7 @@ def own(event: Event, scene: Asked, question: Why | None = None) -> Answer:
         Unanswered: we did not; or the record lacks it; or rollouts are needed.
     """
     check_able(event)
+    going.check_moving(event, scene)
     if event.action in ("collide", "nearly-collide"):
         return deciding.how_avoid(HowAvoid(Happens(event)), scene)  # nobody decides to collide
     if (lane := motions.along_lane(event, scene)) is not None:

@@ -4,10 +4,11 @@ from msgspec import structs
 
 from xavi_dialogue.domain.answers import Answer, Contrast, GoReason
 from xavi_dialogue.domain.evidence import Evidence
-from xavi_dialogue.domain.terms import Event, Exit, Junction
+from xavi_dialogue.domain.terms import Ego, Event, Exit, Junction, Now
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reasons import choices
 from xavi_dialogue.explain.answers.reference.asked import LEEWAY, Asked
+from xavi_dialogue.explain.answers.reference.occasions import did_not_happen
 from xavi_dialogue.explain.answers.reference.reading import is_past, vehicle_in
 from xavi_dialogue.explain.causes.driving.freed import freed
 from xavi_dialogue.explain.causes.driving.going import bystanders
@@ -18,6 +19,7 @@ from xavi_dialogue.explain.history.deeds import Deed
 from xavi_dialogue.explain.history.ride import ROUNDING, planned
 
 CROSSING = frozenset[ActionName](("exit-left", "exit-right", "exit-straight", "continue-next-exit"))
+MOVING = frozenset[ActionName](("go", "move", "continue"))
 AS_CHANGE: dict[ActionName, ActionName] = {
     "exit-left": "change-left",
     "exit-right": "change-right",
@@ -25,7 +27,21 @@ AS_CHANGE: dict[ActionName, ActionName] = {
 BEGUN = 0.5  # [s] after which what has begun is stated in the past tense
 LATELY = 10.0  # [s] after a junction in which it may be meant
 JUST = 4.0  # [s] after a change of lanes in which "going" means it
+STANDING = 0.1  # [m/s]
 SOON = 4.0  # [s] before we went in which waiting was the other choice
+
+
+def check_moving(event: Event, scene: Asked) -> None:
+    """Check that we move, if the question is why we do.
+
+    Raises:
+        Unanswered: we stand.
+    """
+    if event.action not in MOVING or event.manner or event.side or event.tense != "present":
+        return
+    speed = scene.world.measure("speed", Ego(), scene.now).value
+    if event.where is None and speed is not None and speed < STANDING:
+        raise did_not_happen(scene, structs.replace(event, time=Now()))
 
 
 def went(event: Event, scene: Asked) -> Answer:
