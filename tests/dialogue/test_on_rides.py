@@ -64,3 +64,24 @@ def test_had_the_light_been_green_people_would_still_have_crossed() -> None:
     reply = ride.ask("what if the light had been green?", at=22.0).text
     assert "would have let" in reply
     assert "without stopping" not in reply
+
+
+@pytest.mark.parametrize(
+    "text", ["why are we going?", "why are we moving?", "why do you drive on?"]
+)
+def test_why_we_move_is_no_question_while_we_stand(text: str) -> None:
+    reply = Talk("junction-0", 18.0).say(text).reply.text
+    assert "I am standing still" in reply
+    assert "because" not in reply
+
+
+def test_how_much_longer_it_takes_is_until_we_go_on() -> None:
+    assert "turn green" in Talk("junction-0", 18.0).say("how much longer?").reply.text
+
+
+def test_whom_we_have_to_give_way_to_in_a_turn_to_come_is_who_comes_now() -> None:
+    plain = "do we have to give way to oncoming cars?"
+    turning = "do we have to give way to oncoming cars when turning left?"
+    first, second = (Talk("town-0", 38.0, planner=False).say(text) for text in (plain, turning))
+    assert "vehicle 39" in first.reply.text
+    assert second.reply.text == first.reply.text

@@ -48,7 +48,13 @@ def test_all_who_go_before_us_are_told_the_nearest_first_and_who_waits_for_us() 
 
 
 def test_who_all_has_to_wait_for_us_is_told_where_nobody_goes_before_us() -> None:
-    assert told(at_junction({1: "ego", 2: "ego"})) == Priority(NOW, "priority", 1, others=(2,))
+    found = told(at_junction({1: "ego", 2: "ego"}, rule="priority"))
+    assert found == Priority(NOW, "priority", 1, others=(2,))
+
+
+def test_where_others_may_come_who_go_first_we_give_way_by_the_rule() -> None:
+    found = told(at_junction({1: "ego", 2: "ego"}, rule="give-way"))
+    assert found == Priority(NOW, "give-way", after=(1, 2))
 
 
 @pytest.mark.parametrize(

@@ -42,7 +42,7 @@ from xavi_dialogue.explain.answers.reference.naming import is_us, number, of_kin
 from xavi_dialogue.explain.answers.ride.crossings import meets_ahead, passes_by
 from xavi_dialogue.explain.answers.ride.cycling import likely_let
 from xavi_dialogue.explain.answers.ride.delays import let_past
-from xavi_dialogue.explain.answers.ride.priority import priority_at
+from xavi_dialogue.explain.answers.ride.priority import priority_at, rule_for
 from xavi_dialogue.explain.answers.ride.walking import walks_first
 
 GOING: Final = frozenset[ActionName](("go", "move", "enter", "cross", "turn", "continue", "pass"))
@@ -185,6 +185,8 @@ def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
     apart = () if not only else tuple(n for n in only if n not in _numbers((*before, *after)))
     if len(before) + len(after) < (1 if apart else BOTH):
         return None
+    if not before and not only and rule_for(road, None, gave_way=False) == "give-way":
+        return Priority(asked.now, "give-way", after=_numbers(after))  # others may come
     if not before:
         others = _numbers(after[1:])
         return Priority(asked.now, "priority", after[0].vehicle, others=others, apart=apart)

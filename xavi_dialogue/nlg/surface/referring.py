@@ -72,7 +72,9 @@ class ReferringContext:
         if isinstance(thing, Vehicles) and (people := self._people(thing, who)):
             return _owned(people, form)
         if isinstance(thing, Vehicles) and len(thing.numbers) > MANY:
-            return {"object": "them", "possessive": "their"}.get(form, "they")
+            if {*thing.numbers} <= {*self.mentioned, *self.context.named}:
+                return {"object": "them", "possessive": "their"}.get(form, "they")
+            return _owned(self._counted(thing, who), form)
         if isinstance(thing, Vehicles):
             parts = [self._vehicle(v, who, "full") for v in thing.numbers]
             return _owned(listed(parts), form)
@@ -101,6 +103,13 @@ class ReferringContext:
             return ""
         self.mentioned += [v for v in several.numbers if v not in self.mentioned]
         return f"the {number(Number(len(looks), word('vehicles', 'kind', kinds.pop())))}"
+
+    def _counted(self, several: Vehicles, who: Who) -> str:
+        """Return how many vehicles there are, by their kind if it is the same."""
+        looks = [self.context.look(v, who.time) for v in several.numbers]
+        kinds = {"vehicle" if look is None else look.kind for look in looks}
+        kind = kinds.pop() if len(kinds) == 1 else "vehicle"
+        return number(Number(len(looks), word("vehicles", "kind", kind)))
 
     def _named(self, vehicle: int, who: Who) -> str:
         look = self.context.look(vehicle, who.time) or self.context.look(vehicle)

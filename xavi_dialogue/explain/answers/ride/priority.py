@@ -1,7 +1,6 @@
 """Priority: who has or had right of way, who went first, and facts for questions of fault.
 
-The rule follows from the road (`RoadFacts`), and from whom way was actually given to. The answer
-states who had to yield and who did, but not whose fault something is.
+The answer states who had to yield by the road's rule and who did, but not whose fault something is.
 """
 
 from typing import Any, Literal, TypeAlias, cast
@@ -128,16 +127,21 @@ def priority_at(
     near = Window(time - NEAR, max(about.end, time) + NEAR)
     waited = _waited(asked, vehicle, near)
     if general and present and (ringed or (waited is not None and waited.end is not None)):
-        waited = None  # the question is about now
+        waited = None
     if vehicle is None and waited is not None:
         vehicle = number(waited.object)
-    rule = met[1] if met else rule_for(asked.world.road(time), vehicle, waited is not None)
+    road = asked.world.road(time)
+    whole = rule_for(road, None, gave_way=False)
+    rule = met[1] if met else rule_for(road, vehicle, waited is not None)
     if rule == "none" and vehicle is not None:
         rule = _changing(asked, vehicle, about) or rule
     ahead = about.end >= asked.now - SHORT and meets_ahead(asked, vehicle)
     if ahead and rule in ("priority", "give-way") and passes_by(asked, vehicle):
-        rule = rule_for(asked.world.road(time), None, gave_way=False) if general else "none"
+        rule = whole if general else "none"
         vehicle = None if general else vehicle
+    comes = general and present and whole == "give-way" and rule == "priority"
+    after = (vehicle,) if comes and vehicle is not None else ()  # others may come who go first
+    vehicle, rule = (None, whole) if after else (vehicle, rule)
     owed = walks_first(asked, vehicle, about, waited) or rides_first(asked, vehicle, about)
     owed = owed or (present and rule in (None, "none") and likely_let(asked, vehicle))
     rule = "give-way" if owed else rule
@@ -152,8 +156,7 @@ def priority_at(
         conflict=_conflict(asked, vehicle, near) if blame else None,
         deeds=_deeds(asked, vehicle, about) if blame else (),
         stood=vehicle is not None and _let_by(asked, vehicle, first, near, about),
-        ring=general and at_ring(asked.world.road(time)),
-        light=general and present and red_ahead(asked.world.road(time)),
+        ring=general and at_ring(road), after=after, light=general and present and red_ahead(road),
     )  # fmt: skip
 
 

@@ -78,7 +78,7 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     spoken = ahead_of(completed(_by_anybody(spoken), g, mode))
     spoken = afoot(out_of(_at_junction(spoken), g), g)
     spoken = _by_us(spoken, g)
-    if spoken.tense == "future" and _meanwhile(spoken.time):
+    if (spoken.tense == "future" or spoken.modal == "must") and _meanwhile(spoken.time):
         spoken = replace(spoken, time=Unsaid())
     window = _window(spoken, mode, g, outer)
     real = mode != "supposed" and not window.ahead and spoken.modal in (None, "must", "want")
