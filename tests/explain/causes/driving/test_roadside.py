@@ -15,6 +15,7 @@ from xavi_dialogue.domain.answers import MotionCause
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import Ego
 from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.explain.causes.driving import roadside
 from xavi_dialogue.explain.causes.driving.roadside import (
     is_turning,
     limit_at,
@@ -272,3 +273,30 @@ def test_who_sets_off(time: float, told: bool) -> None:
     whole = made({0: Actor(straight(0.0, 0.0, 5.0)), 1: Actor(path)}, 12.0)
     assert setting_off(whole, time, 1) is told
     assert not setting_off(whole, time)
+
+
+class Line:
+    """A planned line that turns by an angle [rad] after 20 m, where it is driven at a speed."""
+
+    def __init__(self, angle: float, slow: float, length: int = 60) -> None:
+        bent = [k >= 20 for k in range(length)]
+        self.heading = [angle if after else 0.0 for after in bent]
+        self.speed = [slow if after else 10.0 for after in bent]
+        self.position = [(float(k), 0.0) for k in range(length)]
+
+
+@pytest.mark.parametrize(
+    ("angle", "slow", "far", "first"),
+    [
+        (0.5, 5.0, 50.0, True),
+        (0.5, 5.0, 30.0, False),  # that is the turn at the junction
+        (0.1, 5.0, 50.0, False),  # hardly a bend
+        (0.5, 9.5, 50.0, False),  # hardly slower
+    ],
+)
+def test_a_bend_before_the_junction_comes_first(
+    monkeypatch: pytest.MonkeyPatch, angle: float, slow: float, far: float, first: bool
+) -> None:
+    monkeypatch.setattr(roadside, "lines", lambda _: {0: Line(angle, slow)})
+    whole = with_road(ahead(step(far, "exit-right")))
+    assert roadside.bends_first(whole, 4.0) is first

@@ -19,7 +19,12 @@ from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.causes.driving.hidden_areas import hidden_causes
 from xavi_dialogue.explain.causes.driving.passed import has_passed
-from xavi_dialogue.explain.causes.driving.roadside import TURNS, limit_at, road_causes
+from xavi_dialogue.explain.causes.driving.roadside import (
+    TURNS,
+    bends_first,
+    limit_at,
+    road_causes,
+)
 from xavi_dialogue.explain.causes.driving.stated_reasons import Reasons, motion_cause
 from xavi_dialogue.explain.causes.driving.traffic_lights import light_causes
 from xavi_dialogue.explain.causes.driving.yielding import kept
@@ -238,6 +243,10 @@ def _of_road(
     ride: Ride, trace: PlanTrace, deed: Episode, by: RestraintKind
 ) -> tuple[MotionCause, ...]:
     """Return what the road demands: a turn or bend, the limit, or the end of the lane."""
+    end = ride.now if deed.end is None else deed.end
+    bends = [r for r in restraints(ride) if r.restraint.by == "bend" and r.begin <= end]
+    if by == "bend" and bends and bends_first(ride, bends[-1].begin):
+        return (MotionCause("bend"),)
     told = [cause for cause in road_causes(ride, trace, deed) if cause.kind in ON_ROAD[by]]
     turn = _turn(ride, deed) if by == "bend" else None
     if turn is not None and turn.kind == "given-up":

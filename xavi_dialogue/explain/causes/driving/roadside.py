@@ -23,6 +23,7 @@ SLACK = 0.5  # [m/s] by which a speed may exceed the limit
 
 PICKED_UP = 2.0  # [m/s] above the lowest speed, from which a motion is faster again
 BENDING = 2.5  # [s] after slowing down in which a bend explains it
+SLOWER = 1.0  # [m/s] minimum by which a bend is driven through more slowly
 BEND = math.radians(10.0)  # [rad] minimum turn of our heading in a bend
 
 #: Actions that end in a standstill: reasons for a lower speed (`PACES`) do not explain them.
@@ -108,6 +109,26 @@ def _beyond_slowest(ride: Ride, trace: PlanTrace, deed: Episode) -> bool:
     distance = found[0].road.route[0].distance
     low = _slowest(found[1], distance)
     return low is not None and low < distance - MARGIN
+
+
+def bends_first(ride: Ride, since: float) -> bool:
+    """Check whether the line that was planned at a time [s] slows into a bend before a junction."""
+    known = [t for t in ride.traces if since - 1.0 <= t.sim_time <= since + 1.0]
+    drawn = ((t, next(iter(lines(t).values()), None)) for t in known)
+    trace, motion = next(((t, m) for t, m in drawn if m is not None), (None, None))
+    if trace is None or motion is None or trace.road is None or not trace.road.route:
+        return False
+    place = trace.road.places.get(EGO)
+    if place is not None and place.in_junction:
+        return False
+    way = 0.0
+    for k, heading in enumerate(motion.heading):
+        way += math.dist(motion.position[max(k - 1, 0)], motion.position[k])
+        if way > trace.road.route[0].distance - MARGIN:
+            return False
+        if abs(angle_between(heading, motion.heading[0])) >= BEND:
+            return motion.speed[k] < motion.speed[0] - SLOWER
+    return False
 
 
 def _slowest(motion: Motion, distance: float) -> float | None:
