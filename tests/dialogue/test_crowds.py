@@ -130,3 +130,8 @@ def test_what_is_before_us_is_told(text: str, told: str) -> None:
 def test_a_request_to_stop_is_told_for_whom_we_brake() -> None:
     told = Talk("junction-0", 40.0).hear("There's somebody stepping out, please stop!")
     assert "let the pedestrian" in told
+
+
+def test_how_long_until_green_is_of_the_light() -> None:
+    assert "turn green" in Talk("junction-0", 20.0).hear("How long until green?")
+    assert "traffic light is red" in Talk("junction-0", 20.0).hear("State of the signal?")

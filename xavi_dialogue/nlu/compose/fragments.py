@@ -36,7 +36,7 @@ from xavi_dialogue.nlu.compose.alternatives.blames import whom_of
 from xavi_dialogue.nlu.compose.bare import BareQuestions, Found
 from xavi_dialogue.nlu.compose.clauses.adoption import adopted
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.nominal import asked_of
+from xavi_dialogue.nlu.compose.clauses.nominal import asked_of, propose
 from xavi_dialogue.nlu.compose.clauses.sem import (
     Group,
     Measure,
@@ -194,6 +194,9 @@ class Fragments(BareQuestions):
         supposed = self.composer.questions.supposition(clause)
         if supposed is not None and thing is None and event is None:
             return [((suppose(supposed),), 0.0)]
+        deed = None if isinstance(clause.because, Clause) else propose(clause.because)
+        if isinstance(deed, Happens) and words_of(unit).startswith("cause of"):
+            return [((Ask(Why(deed)),), 0.0)]  # "cause of deceleration?"
         if clause.because is not None and thing is None:
             thing = self._cause(clause.because)
             if thing is None or thing == Pronoun("who"):

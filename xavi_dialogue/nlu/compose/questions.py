@@ -77,6 +77,8 @@ class Questions(Options):
         if kind == "which":
             asked = self._asked_noun(node)
             words = tuple(w for p in leaves_of(node) for w in p.words)
+            if words[1:3] == ("one", "of") and words[3:] in (("them",), ("these",), ("those",)):
+                return Wh("which", "", words, None, key, besides, Pronoun("they"))
             spoken = isinstance(asked, Pronoun)
             return Wh("which", "", words, None if spoken else asked, key, besides,
                       asked if spoken else None)  # fmt: skip

@@ -35,6 +35,7 @@ from xavi_dialogue.nlu.compose.clauses.clause import Clause, timed_by
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
+from xavi_dialogue.nlu.compose.verbs.lights import colour_of
 
 #: What is driving as such, and no moment of the ride.
 DRIVING = frozenset({"move", "go", "do", "continue", "happen", "speed-up", "slow-down"})
@@ -312,6 +313,10 @@ def until(anchor: Any) -> Question:
     if isinstance(anchor, Event):
         ahead = anchor.tense in ("present", "perfect")
         return When(Happens(with_fields(anchor, tense="future") if ahead else anchor))
+    if (colour := colour_of(anchor)) is not None:  # "how long until green?"
+        light = Feature("light")
+        shown = Feature("light", colour=colour)
+        return When(Happens(Event("turn-colour", light, shown, tense="future")))
     if isinstance(anchor, Vehicle | Described):  # until we meet
         return When(Happens(Event("pass", Ego(), anchor, tense="future")))
     if anchor is not None and not isinstance(anchor, Ego | Pronoun):
