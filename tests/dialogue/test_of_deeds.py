@@ -79,3 +79,21 @@ def test_from_which_speed_is_asked_of_the_braking_just_told() -> None:
     talk = Talk("s4-0", 24.0)
     talk.say("why did you brake?")
     assert "19 km/h" in talk.say("from what speed?").reply.text
+
+
+@pytest.mark.parametrize(
+    "between", ["how much time did we win by that?", "was it worth it?", "when was that?"]
+)
+def test_without_somebody_is_asked_of_the_deed_spoken_of(between: str) -> None:
+    talk = Talk("s1-0", 12.0)
+    talk.say("why did you change lanes?")
+    talk.say(between)
+    reply = talk.say("what if he hadn't been there?").reply.text
+    assert "would have stayed in my lane" in reply
+
+
+@pytest.mark.parametrize("text", ["what if you'd gone ahead of the black car?",
+                                  "what if we had gone in front of the black car?"])  # fmt: skip
+def test_going_ahead_of_one_in_another_lane_is_changing_to_it(text: str) -> None:
+    reply = Talk("motorway-0", 20.0).say(text).reply.text
+    assert "moved to the left lane" in reply

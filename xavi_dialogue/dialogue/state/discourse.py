@@ -39,6 +39,7 @@ from xavi_dialogue.domain.meaning import (
     Claim,
     Compare,
     Feel,
+    HowMuch,
     Question,
     Request,
     WhatIf,
@@ -48,10 +49,12 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.domain.rewriting import parts
 from xavi_dialogue.domain.terms import (
     At,
+    Between,
     Ego,
     Event,
     Happens,
     Is,
+    Measured,
     Not,
     Now,
     Proposition,
@@ -257,9 +260,18 @@ def _episode(turn: Turn) -> tuple[float, float] | None:
     """Return the part of the ride [s] that was discussed last, for "that" and "then"."""
     now = turn.reply.sim_time
     for part in reversed(turn.parts):
-        found = _told(part.result, now) or _asked(part)
+        found = _of_deed(part) or _told(part.result, now) or _asked(part)
         if found is not None and found[1] - found[0] <= LONG:
             return found
+    return None
+
+
+def _of_deed(part: Part) -> tuple[float, float] | None:
+    """Return when a deed was of which a measure was asked: what it cost reaches on until now."""
+    act = None if part.act is None else part.act.act
+    match act:
+        case Ask(question=HowMuch(of=Measured(event=Event(time=Between())))):
+            return _asked(part)
     return None
 
 

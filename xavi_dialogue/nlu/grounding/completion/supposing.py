@@ -273,14 +273,16 @@ def _risk_of(spoken: Question, g: Grounder) -> HowSure | None:
 
 
 def _explained_at(g: Grounder) -> Between | None:
-    """Give when it was that we did what the reason was asked of; None: we do so, or plan to."""
-    focus = g.context.discourse.episode
-    match g.context.discourse.question:
-        case Why(of=of) | WhatWouldChange(of=of) if focus is not None:
-            event = first(of, Event)
-            if event is not None and event.actor == Ego() and event.tense in ("past", "perfect"):
-                return Between(*focus)
-    return None
+    """Give when it was that we did what was asked about; None: we do so, or plan to."""
+    focus, asked = g.context.discourse.episode, g.context.discourse.question
+    match asked:
+        case WhatIf(supposed=Not(content=Exists(time=Between() as then))):
+            return then  # "and without the red one?"
+    event = first(asked, Event)
+    if focus is None or event is None or event.actor != Ego():
+        return None
+    dated = isinstance(asked, Why | WhatWouldChange) or isinstance(event.time, Between)
+    return Between(*focus) if dated and event.tense in ("past", "perfect") else None
 
 
 def _of_nothing(spoken: HowMuch) -> Question:

@@ -34,6 +34,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     WholeRide,
 )
+from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlu.grounding.context import Grounder, Mode, Window
 
 Site: TypeAlias = Literal["ring", "before-ring", "junction", "lanes", "road"]
@@ -69,6 +70,8 @@ def specified(event: Event, window: Window, g: Grounder) -> Event:
         return replace(event, action="go", side=None, manner=("first",)) if before else event
     if event.action == "let-go" and event.modal is None:
         return _let_go(event, moment, g)
+    if event.action == "go" and "first" in event.manner and isinstance(event.actor, Ego):
+        return _in_lane(event, moment, g)
     if event.action == "continue-next-exit":
         number = _number(event.actor)
         ring = _site(moment, g) in ("ring", "before-ring")
@@ -162,6 +165,17 @@ def _before_whom(event: Event) -> Event:
         case Related(relation="ahead-of", to=Vehicle() as whom) if event.object is None:
             return replace(event, object=whom, where=None)
     return event
+
+
+def _in_lane(event: Event, moment: float, g: Grounder) -> Event:
+    """Read going ahead of somebody in another lane as a change to that lane, in front of him."""
+    number = _number(event.object) if event.object is not None else None
+    look = g.context.look(number, moment) if number else None
+    if look is None or look.oncoming or abs(look.left) < BESIDE or _site(moment, g) != "lanes":
+        return event
+    action: ActionName = "change-left" if look.left > 0.0 else "change-right"
+    ahead = Related("ahead-of", event.actor, event.object or Ego())
+    return replace(event, action=action, object=None, manner=(), where=ahead)
 
 
 def _turns_off(event: Event, moment: float, g: Grounder) -> bool:
