@@ -97,3 +97,15 @@ def test_without_somebody_is_asked_of_the_deed_spoken_of(between: str) -> None:
 def test_going_ahead_of_one_in_another_lane_is_changing_to_it(text: str) -> None:
     reply = Talk("motorway-0", 20.0).say(text).reply.text
     assert "moved to the left lane" in reply
+
+
+@pytest.mark.parametrize("text", ["I'd have gone past it ages ago", "why didn't you go past it?"])
+def test_going_past_one_ahead_in_our_lane_is_overtaking(text: str) -> None:
+    talk = Talk("motorway-0", 14.0)
+    talk.say("what is the lorry ahead doing?")
+    assert "left lane" in talk.say(text).reply.text
+
+
+def test_the_evidence_that_somebody_turns_is_of_the_way_that_is_expected() -> None:
+    reply = Talk("s1-0", 5.0).say("what makes you think the blue car will turn?").reply.text
+    assert "turn right" in reply

@@ -66,6 +66,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.domain.traffic_lights import Shown
 from xavi_dialogue.nlu.grounding.salience import decayed, mention, mentions_of, renewed
 
+SAME = 0.5  # [s] within which a time is now
 REMEMBERED = 20  # turns; later ones no longer refer to what was said before them
 ASSERTED = 6  # maximum of propositions that are kept
 TIMES = 4  # maximum of moments named by the passenger that are kept
@@ -287,6 +288,8 @@ def _told(result: Answer | Refusal, now: float) -> tuple[float, float] | None:
             return decided, decided
         case Happenings(form="list" | "summary") | Identified(such=None):
             return None  # who somebody is tells what he does, but not as the topic
+        case Priority(first=Ego(), time=time) if time > now - SAME:
+            return None  # who went first is of a deed, and told while it goes on
         case Priority(time=time) | Beliefs(time=float() as time):
             return time, time
     deeds = tuple(parts(result, Episode))

@@ -45,7 +45,10 @@ def grounds(
     every = [trace for trace in before.traces if prediction(trace, vehicle) is not None]
     if not every:
         raise Unanswered(NotRecorded("out-of-view", thing=Vehicle(vehicle), since=moment))
-    asked = names if set(names) - ANYTHING else _expected(before, every[-1], vehicle)
+    likely = _expected(before, every[-1], vehicle)
+    asked = names if set(names) - ANYTHING else likely
+    if len(asked) > 1:  # "that it turns": the way that it is expected to
+        asked = tuple(name for name in asked if name in likely) or asked
     stays = set(asked) <= HALTS and before.motion(vehicle).trend == "standing"
     end = None if stays else _done(before, vehicle, asked)
     if end is None and not any(means(name) or name in DRIVEN for name in asked):

@@ -72,6 +72,8 @@ def specified(event: Event, window: Window, g: Grounder) -> Event:
         return _let_go(event, moment, g)
     if event.action == "go" and "first" in event.manner and isinstance(event.actor, Ego):
         return _in_lane(event, moment, g)
+    if event.action == "pass" and isinstance(event.actor, Ego) and _leads(event, moment, g):
+        return replace(event, action="overtake")  # "I'd have gone past it"
     if event.action == "continue-next-exit":
         number = _number(event.actor)
         ring = _site(moment, g) in ("ring", "before-ring")
@@ -176,6 +178,14 @@ def _in_lane(event: Event, moment: float, g: Grounder) -> Event:
     action: ActionName = "change-left" if look.left > 0.0 else "change-right"
     ahead = Related("ahead-of", event.actor, event.object or Ego())
     return replace(event, action=action, object=None, manner=(), where=ahead)
+
+
+def _leads(event: Event, moment: float, g: Grounder) -> bool:
+    """Tell whether whom we did not pass as yet drives ahead of us in our lane."""
+    number = _number(event.object) if event.object is not None else None
+    look = g.context.look(number, moment) if number else None
+    ahead = look is not None and look.bearing == "ahead" and look.speed >= ROLLING
+    return ahead and look is not None and look.in_view and not look.oncoming
 
 
 def _turns_off(event: Event, moment: float, g: Grounder) -> bool:
