@@ -208,6 +208,12 @@ def test_had_it_been_red_we_had_stopped_while_that_was_possible():
     assert found.waits
 
 
+def test_the_line_that_we_crossed_is_that_of_a_light():
+    over = Event("cross", Ego(), Feature("line"), tense="past")
+    found = answer(Ask(When(Happens(over))), 40.0)
+    assert found.episodes[0].begin == pytest.approx(PASSED, abs=0.15)
+
+
 def test_the_lights_that_we_passed_are_listed():
     passed = Happens(Event("pass", Ego(), Wanted(), tense="past"))
     found = answer(Ask(Which(LIGHT, passed)), 40.0)

@@ -32,7 +32,7 @@ def light_episodes(
     states: States, event: Event, begin: float, end: float
 ) -> tuple[Episode, ...] | None:
     """Return the episodes in an interval [s] that an event describes; None if it has no light."""
-    light = light_of(event)
+    light = light_of(event) or _lined(states, event)
     if light is None:
         return None
     if event.action in SHOWING:
@@ -42,6 +42,15 @@ def light_episodes(
     if event.action in HELD:
         return tuple(_held(states, event, begin, end))
     return ()
+
+
+def _lined(states: States, event: Event) -> Feature | None:
+    """Find the light whose line we passed, if the event is that we passed a line."""
+    line = event.object == Feature("line") or (
+        event.where is not None and event.where.to == Feature("line")
+    )
+    passed = event.action in PASSING and isinstance(event.actor, Ego) and line
+    return Feature("light") if passed and passings(states.ride) else None
 
 
 def _showing(
