@@ -78,8 +78,10 @@ def respond(now: Situation, understood: Understood, done: tuple[Results, ...]) -
     if spoken is not None:
         return _repeat(now, spoken)
     for act in acts[len(done) :]:
-        ground = is_ground(act, acts)
-        found = (NOTED,) if ground else replies(now, act, beside=len(acts) > 1)
+        if is_ground(act, acts):
+            found: Results | NeedRollout = () if isinstance(act.act, AskHelp) else (NOTED,)
+        else:
+            found = replies(now, act, beside=len(acts) > 1)
         if isinstance(found, NeedRollout):
             return Lacking(found, done)
         done = (*done, found)

@@ -29,7 +29,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import GroundedAct
 from xavi_dialogue.domain.facts import Look
-from xavi_dialogue.domain.meaning import Ask, Claim, Request, Social, Whether
+from xavi_dialogue.domain.meaning import Ask, AskHelp, Claim, Request, Social, Whether
 from xavi_dialogue.domain.rewriting import first, parts
 from xavi_dialogue.domain.terms import (
     Believed,
@@ -92,7 +92,12 @@ def asks(acts: Sequence[GroundedAct]) -> bool:
 
 
 def is_ground(act: GroundedAct, acts: Sequence[GroundedAct]) -> bool:
-    """Check whether a claim is too vague, or says too little next to other acts, to be checked."""
+    """Check whether a claim is too vague, or says too little next to other acts, to be checked.
+
+    So is a cry for help beside a question: "help, why are we stopping?".
+    """
+    if isinstance(act.act, AskHelp):
+        return asks(acts)
     if not isinstance(act.act, Claim) or len(acts) < 2:
         return False
     if asks(acts):

@@ -186,8 +186,8 @@ def test_what_was_not_understood_of_a_turn_is_owned_up_to() -> None:
     # Nothing was made of it at all: then it says so itself.
     lost = Elliptic(event=Event("stop"))
     assert said(lost, doubts={lost: flurb}).results == (NotUnderstood(),)
-    # Doubts about a courtesy beside a question do not matter.
-    assert said(AskHelp(), FAST, doubts={AskHelp(): flurb}).results == (Helpful(), SPEED)
+    # A cry for help beside a question is not answered, and doubts about it do not matter.
+    assert said(AskHelp(), FAST, doubts={AskHelp(): flurb}).results == (SPEED,)
     assert said(AskHelp(), doubts={AskHelp(): flurb}).results == (Unfamiliar(flurb), Helpful())
 
 
