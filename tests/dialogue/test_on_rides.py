@@ -85,3 +85,14 @@ def test_whom_we_have_to_give_way_to_in_a_turn_to_come_is_who_comes_now() -> Non
     first, second = (Talk("town-0", 38.0, planner=False).say(text) for text in (plain, turning))
     assert "vehicle 39" in first.reply.text
     assert second.reply.text == first.reply.text
+
+
+def test_a_cry_for_help_beside_a_question_is_not_answered() -> None:
+    plain = Talk("junction-0", 18.0).say("why are we stopping?").reply.text
+    assert Talk("junction-0", 18.0).say("help, why are we stopping?").reply.text == plain
+    assert "Ask me what I see" in Talk("junction-0", 18.0).say("help!").reply.text
+
+
+def test_how_long_we_have_been_here_is_how_long_we_stand() -> None:
+    reply = Talk("junction-0", 18.0).say("how long have we been here?").reply.text
+    assert reply.startswith("We have been standing still for 2 seconds")

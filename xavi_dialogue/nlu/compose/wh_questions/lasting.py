@@ -175,6 +175,13 @@ def _round(clause: Clause) -> bool:
     return bends and (bool(places) or around)
 
 
+def _until_there(clause: Clause, event: Event) -> Question:
+    """Ask how long we have got left; "how long have we been here" asks how long we stand."""
+    if event.action == "arrive" and event.tense == "perfect" and clause.verb is None:
+        return HowLong(with_fields(event, action="stand", object=None, where=None))
+    return HowMuch(Measured("time-to-go"))
+
+
 def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
     """Ask how long something lasts, or how long it is until it happens."""
     spent = clause.verb is not None and clause.verb.key == "spend"
@@ -209,7 +216,7 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
         if ahead and event.action in _TURNS:
             return When(Happens(with_fields(event, tense="future")))  # "in how many seconds"
         if event.action == "arrive" or (remaining and event.action in ("change-left", "go")):
-            return HowMuch(Measured("time-to-go"))  # "how long have we got left"
+            return _until_there(clause, event)
         return HowLong(event)
     subject = clause.subject
     if isinstance(subject, Event) and subject.action == "exit-left" and clause.verb is None:

@@ -115,6 +115,10 @@ def of_nobody(spoken: Proposition) -> Proposition:
     That nobody is ahead, or in our way, is that the road is free.
     """
     match spoken:
+        case Happens(
+            event=Event("come", Nobody() as actor, tense=tense, where=Related("oncoming-to"))
+        ):
+            return of_nobody(Related("oncoming-to", actor, Ego(), tense=tense))
         case Happens(event=Event(action=action, actor=Nobody(described=known)) as event) if (
             action in _MET and event.modal is None
         ):
