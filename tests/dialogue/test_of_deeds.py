@@ -109,3 +109,9 @@ def test_going_past_one_ahead_in_our_lane_is_overtaking(text: str) -> None:
 def test_the_evidence_that_somebody_turns_is_of_the_way_that_is_expected() -> None:
     reply = Talk("s1-0", 5.0).say("what makes you think the blue car will turn?").reply.text
     assert "turn right" in reply
+
+
+def test_a_past_belief_out_of_the_blue_is_that_of_what_we_last_set_about() -> None:
+    """We began to change lanes at 3 s; the blue car came over to our lane before."""
+    reply = Talk("s1-0", 9.0).say("what did you think the blue car would do?").reply.text
+    assert "6 seconds ago" in reply

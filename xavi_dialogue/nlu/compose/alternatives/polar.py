@@ -116,9 +116,9 @@ def _foreseen(clause: Clause) -> Proposition | None:
         who = who or as_thing(sem.about) or as_thing(sem.of) or Pronoun("he")
     elif not isinstance(sem, Ego):
         return None
-    if who is None:
+    if who is None and (clause.side is None or clause.tense != "past" or clause.bearings):
         return None
-    return Is(cast(Any, state), who, time=clause.time, tense="past")
+    return Is(cast(Any, state), who or Ego(), time=clause.time, tense="past")  # "were you right?"
 
 
 def _is_all(clause: Clause) -> bool:

@@ -26,7 +26,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import last_deed
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
-from xavi_dialogue.nlu.grounding.events.windows import notable, pointed, startling
+from xavi_dialogue.nlu.grounding.events.windows import is_stale, notable, pointed, startling
 
 
 def over(time: Any, g: Grounder) -> Window:
@@ -88,10 +88,13 @@ def believed_last(g: Grounder) -> Proposition | None:
 
 def seen_then(spoken: Listing, g: Grounder) -> Listing:
     """Ask for what is believed as of now of somebody who was not in view when that was done."""
-    if spoken.of != "beliefs" or spoken.about is None or spoken.time != Back():
+    about = spoken.about
+    if spoken.of != "beliefs" or about is None or spoken.time != Back():
         return spoken
+    if g.context.discourse.episode is None or is_stale(g.context):  # as we last set about something
+        spoken = replace(spoken, time=Relative("during", Event("do")))
     then = pointed(spoken.time, g.window(spoken.time, "past"))
-    known = g.thing(spoken.about, then)
+    known = g.thing(about, then)
     if isinstance(known, Vehicle) and known.number not in g.context.world.in_view(then.end):
         return replace(spoken, about=known, time=Unsaid())
     return spoken
