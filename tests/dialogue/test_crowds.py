@@ -135,3 +135,27 @@ def test_a_request_to_stop_is_told_for_whom_we_brake() -> None:
 def test_how_long_until_green_is_of_the_light() -> None:
     assert "turn green" in Talk("junction-0", 20.0).hear("How long until green?")
     assert "traffic light is red" in Talk("junction-0", 20.0).hear("State of the signal?")
+
+
+def test_what_began_since_the_last_question_is_what_it_is_now() -> None:
+    talk = Talk("junction-0", 20.0)
+    talk.hear("How long will the red last?")
+    assert "pedestrian" in talk.say("Oh come on, what is it now?", 41.0).reply.text
+
+
+def test_nobody_in_a_colour_is_green_but_the_light() -> None:
+    talk = Talk("junction-0", 27.0)
+    talk.hear("What is that red car behind us doing?")
+    assert "the traffic light is green" in talk.say("It's green!", 27.5).reply.text
+
+
+def test_we_are_still_here_where_we_stand() -> None:
+    assert "traffic light is red" in Talk("junction-0", 20.0).hear("Why are we still here?")
+
+
+def test_it_is_the_one_on_foot_whom_the_answer_named() -> None:
+    talk = Talk("junction-0", 12.0)
+    talk.hear("What is around us?")
+    told = talk.say("What made you brake just now?", 43.0).reply.text
+    assert "pedestrian" in told
+    assert "pedestrian" in talk.say("How close was it?", 43.0).reply.text

@@ -75,8 +75,8 @@ def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -
     if thing is None and attribute == "speed" and as_thing(clause.subject) is None:
         thing = _postponed(clause)
     actor: Thing = Ego() if thing is None or isinstance(thing, Passenger) else thing
-    if attribute == "delay" and isinstance(actor, Unknown):
-        actor = Ego()  # "all that stopping"
+    if attribute == "delay" and (isinstance(actor, Unknown) or _is_deed(actor)):
+        actor = Ego()  # "all that stopping", "all this standing"
     if attribute == "delay" and isinstance(clause.subject, Event) and more.get("event") is None:
         more["event"], actor = with_fields(clause.subject, tense=clause.tense), Ego()
     if actor == more.get("to") == Ego():  # "how much room was there between us"
@@ -96,6 +96,14 @@ def is_aimed(clause: Clause, actor: Thing | None) -> bool:
     ours = isinstance(actor, Ego) and clause.tense == "present" and clause.modal in (None, "want")
     aims = clause.verb is not None and clause.verb.key in _AIMING
     return ours and (aims or "semi-want" in clause.aux)
+
+
+def _is_deed(thing: Thing) -> bool:
+    """Tell whether a description says nothing of who stands or waits, so that we do."""
+    doing = thing.doing if isinstance(thing, Described) else None
+    if doing is None or doing.action not in ("stand", "wait", "stop"):
+        return False
+    return thing == Described(doing=doing)
 
 
 def _postponed(clause: Clause) -> Thing | None:

@@ -214,3 +214,14 @@ def asked_who(context: Context) -> bool:
     asked = context.discourse.question
     placed = isinstance(asked, Which | Whether) and first(asked, (Related, Exists)) is not None
     return placed or isinstance(asked, Identify | Where | Whither | Doing)
+
+
+def still_here(spoken: Question, g: Grounder) -> Question | None:
+    """Read "why are we still here?" as why we stand, where we do; None for other questions."""
+    match spoken:
+        case Why(of=Happens(event=Event("keep-lane", Ego(), None, tense="present") as event)):
+            now = g.context.now
+            deeds = g.context.deeds(Ego(), now, now)
+            if any(e.action in ("stop", "stand") and e.end is None for e in deeds):
+                return replace(spoken, of=Happens(replace(event, action="stand")))
+    return None

@@ -47,7 +47,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.nlu.grounding.acts.follow_ups import TURNS, compared, followed
-from xavi_dialogue.nlu.grounding.acts.others import of_others
+from xavi_dialogue.nlu.grounding.acts.others import of_others, still_here
 from xavi_dialogue.nlu.grounding.acts.races import race
 from xavi_dialogue.nlu.grounding.acts.trips import SIDES, is_plain_to_see, of_trip
 from xavi_dialogue.nlu.grounding.completion.discussion import (
@@ -78,7 +78,7 @@ def recast(spoken: Question, g: Grounder) -> Question:
     spoken = followed(spoken, g)
     if isinstance(spoken, HowSure) and spoken.of is not None and is_plain_to_see(spoken.of):
         spoken = Whether(spoken.of)  # "are you sure that nobody is behind us?"
-    meant = race(spoken) or of_others(spoken, g) or _lasted(spoken, g)
+    meant = race(spoken) or of_others(spoken, g) or _lasted(spoken, g) or still_here(spoken, g)
     meant = meant or of_trip(spoken) or _of_deed(spoken, g) or _of_light(spoken)
     if meant is not None:
         return meant

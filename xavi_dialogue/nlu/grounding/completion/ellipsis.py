@@ -62,7 +62,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 )
 from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
 from xavi_dialogue.nlu.grounding.completion.replacing import with_event, with_thing, with_time
-from xavi_dialogue.nlu.grounding.completion.showing import showing
+from xavi_dialogue.nlu.grounding.completion.showing import anew, showing
 from xavi_dialogue.nlu.grounding.completion.supposing import PLACES, through, what_if, whom_struck
 from xavi_dialogue.nlu.grounding.context import Grounder
 
@@ -75,7 +75,7 @@ def complete(spoken: Elliptic, g: Grounder) -> Act | None:
     spoken = replace(spoken, thing=_typed(spoken.thing, question))
     match spoken.form:
         case "why" | "why-not":
-            return _why(spoken, question, g)
+            return anew(spoken, g) or _why(spoken, question, g)
         case "what-if":
             return what_if(spoken, question, g)
         case "same":

@@ -20,7 +20,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.rewriting import first
-from xavi_dialogue.domain.terms import Described, Event, Exists, Feature, Has, Vehicle
+from xavi_dialogue.domain.terms import Described, Ego, Event, Exists, Feature, Happens, Has, Vehicle
 from xavi_dialogue.nlu.grounding.context import Grounder
 from xavi_dialogue.nlu.grounding.things.lights import LIGHT, LIT
 
@@ -30,6 +30,8 @@ _ALIKE: Final = (Where, When, HowLong, Why, WhatIf)
 #: Questions that "the red one?" does not carry over to a vehicle, where they are of ours.
 _OURS: Final = (HowMuch, HowLong, When, Whether)
 _COUNTS: Final = (HowMany, Listing, Which)  # questions that are asked of others likewise
+SINCE: Final = 5.0  # [s] since the last question, after which what began meanwhile is meant
+_HALTS: Final = frozenset(("stop", "stand", "brake", "slow-down"))
 
 
 def showing(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | None:
@@ -66,3 +68,16 @@ def _is_named(colour: str, g: Grounder) -> bool:
     fresh = (m.thing for m in discourse.mentions if m.turn >= discourse.turn - 1)
     looks = (g.context.look(v.number, g.context.now) for v in fresh if isinstance(v, Vehicle))
     return any(look is not None and look.colour == colour for look in looks)
+
+
+def anew(spoken: Elliptic, g: Grounder) -> Act | None:
+    """Read "what is it now?" as why we stand or brake, where that began since the last question."""
+    asked, now = g.context.discourse.asked_at, g.context.now
+    if spoken != Elliptic(form="why") or asked is None or now - asked < SINCE:
+        return None
+    on = [e for e in g.context.deeds(Ego(), asked, now) if e.end is None and e.begin > asked]
+    halts = [e.action for e in on if e.action in _HALTS]
+    if not halts:
+        return None
+    action = "stand" if "stop" in halts or "stand" in halts else halts[-1]
+    return Ask(Why(Happens(Event(action, tense="present"))))

@@ -57,7 +57,7 @@ def _meant(part: Any, g: Grounder) -> Any:
             return _event(part, g)
         case Has(attribute="colour", value=value, thing=thing) if value in LIT:
             time: Any = rewrite(part.time, lambda inner: _meant(inner, g))
-            return _lit_then(replace(part, thing=_shown(thing, g), time=time), g)
+            return _lit_then(replace(part, thing=_shown(thing, value, g), time=time), g)
         case Related(relation="can-see", thing=Ego(), to=to):
             return replace(part, to=_spoken(to, g))
         case Doing(actor=None, time=Relative(anchor=Event(action=action) as anchor)) if (
@@ -139,10 +139,12 @@ def _light(thing: Thing | None) -> Feature | None:
     return thing if isinstance(thing, Feature) and thing.kind == "light" else None
 
 
-def _shown(thing: Thing, g: Grounder) -> Thing:
-    """Return what is said to be red: a light, where one leads, or nobody has been spoken of."""
+def _shown(thing: Thing, colour: object, g: Grounder) -> Thing:
+    """Return what is said to be red: a light, where one leads, or where no vehicle is red."""
     if isinstance(thing, Pronoun) and thing.form in _OPEN and _leads(g, unsaid=True):
         return LIGHT
+    if thing == Pronoun("it") and _in_view(g) and not _is_coloured(colour, g):
+        return LIGHT  # vehicles have their colour for good
     return _one(thing, g)
 
 
@@ -206,3 +208,16 @@ def _known(g: Grounder) -> bool:
     """Tell whether a traffic light has been seen."""
     event = Event("show", LIGHT)
     return bool(g.context.holds(event, g.context.begin, g.context.now))
+
+
+def _in_view(g: Grounder) -> bool:
+    now = g.context.now
+    shown = g.context.holds(Event("show", LIGHT), now, now)
+    return any(one.end is None or one.end >= now for one in shown)
+
+
+def _is_coloured(colour: object, g: Grounder) -> bool:
+    """Tell whether a vehicle that was spoken of has a colour."""
+    spoken = (v for v, salience in vehicles_of(g.context.discourse.mentions) if salience > NOBODY)
+    looks = (g.context.look(v, g.context.now) for v in spoken)
+    return any(look is None or look.colour == colour for look in looks)

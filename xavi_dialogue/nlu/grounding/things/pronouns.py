@@ -17,6 +17,8 @@ PAIR: Final = 2
 LOST: Final = 0.1  # salience below which a pronoun does not reach back
 GONE: Final = 0.5  # the same for one that is not in view then
 FORGOTTEN: Final = 10.0  # [s] since the last question after which who is gone is not meant now
+LATELY: Final = 5.0  # [s] since the last question after which "they" are those who cross now
+RIVAL: Final = 0.6  # share of the salience of one on foot with which another is rather "it"
 MISFIT: Final = 0.62  # share of its salience that is left to who did not do what is said
 LEVEL: Final = 0.98  # ratio of two saliences that do not differ
 FROM_SCENE: Final = 0.1  # cost of a pronoun for which only the scene has a vehicle
@@ -41,8 +43,8 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
         if len(crowd) > 1:
             return Vehicles(crowd)
     met = () if thing.form == "it" else on_foot(g.context, moment)
-    anew = met and _is_long_ago(g) and moment >= g.context.now
-    if weighed and not (anew and weighed[0][1] not in met and walks(weighed[0][1], g)):
+    anew = bool(weighed) and moment >= g.context.now and _is_anew(thing, weighed[0][1], met, g)
+    if weighed and not anew:
         return _salient(thing, g, weighed, moment)
     if thing.form == "they" and len(met) > 1:
         return Vehicles(met)
@@ -115,10 +117,18 @@ def _group_leads(g: Grounder) -> bool:
     return False
 
 
-def _is_long_ago(g: Grounder) -> bool:
+def _is_anew(thing: Pronoun, spoken: int, met: tuple[int, ...], g: Grounder) -> bool:
+    """Tell whether those who cross our way are meant, and not who was spoken of before them."""
+    if not met or spoken in met:
+        return False
+    several = thing.form == "they" and len(met) > 1
+    return (several and _is_long_ago(g, LATELY)) or (walks(spoken, g) and _is_long_ago(g))
+
+
+def _is_long_ago(g: Grounder, since: float = FORGOTTEN) -> bool:
     """Tell whether the last question is so long ago that the scene counts for more."""
     asked = g.context.discourse.asked_at
-    return asked is not None and g.context.now - asked > FORGOTTEN
+    return asked is not None and g.context.now - asked > since
 
 
 def _weighed(
@@ -135,7 +145,12 @@ def _weighed(
             continue
         share = MISFIT if fits is not None and fits(vehicle) is None else 1.0
         found.append((salience * share, vehicle))
-    driven = [pair for pair in found if not walks(pair[1], g)] if thing.form == "it" else []
+    most = max((salience for salience, _ in found), default=0.0)
+    driven = [
+        pair
+        for pair in found
+        if thing.form == "it" and not walks(pair[1], g) and pair[0] >= RIVAL * most
+    ]
     return sorted(driven or found, key=lambda pair: (-pair[0], pair[1]))
 
 
