@@ -49,7 +49,8 @@ def road_facts(
     here = root.here.location
     at = {v: _lanes_at(roads, state) for v, state in scene.items()}
     at[EGO] = (here,)
-    way = itinerary(roads, here, _planned(roads, root, plan, goal, view), goal)
+    planned = _planned(roads, root, plan, goal, view)
+    way = itinerary(roads, here, planned, goal)
     meetings = _meetings(roads.network, here, way.legs, view)
     return RoadFacts(
         places={v: place(roads.network, at[v][0]) for v in sorted(at) if at[v]},
@@ -57,7 +58,7 @@ def road_facts(
         distance=None if way.distance is None else round(way.distance, 1),
         free_time=None if way.free_time is None else round(way.free_time, 1),
         priority=_priority(roads, at, meetings, view, lights),
-        lights=_ahead(way.legs, lights),
+        lights=_ahead(way.legs or _beyond(roads.network, here, planned), lights),
     )
 
 
@@ -65,6 +66,17 @@ def _lanes_at(roads: Roads, state: VehicleState) -> tuple[Location, ...]:
     """Return the possible places of a vehicle on lanes for cars; none on a lane of its own kind."""
     own, lanes = roads_of(roads, state.kind), roads.network.lanes
     return tuple(x for x in lanes_at(own, state.position, state.heading) if x.lane in lanes)
+
+
+def _beyond(network: Network, here: Location, planned: Sequence[str]) -> tuple[Leg, ...]:
+    """Return the link at the end of the lane that the destination is on: its light may hold us.
+
+    Of several, the planned one counts, or else the first.
+    """
+    lane = network.lanes[here.lane]
+    links = network.links_from(here.lane)
+    taken = [link for link in links if link.to_lane in planned or {*link.via} & {*planned}]
+    return tuple(Leg(link, lane.length - here.offset) for link in (taken or [*links])[:1])
 
 
 def _ahead(legs: Sequence[Leg], lights: Sequence[LightPrediction]) -> tuple[LightAhead, ...]:

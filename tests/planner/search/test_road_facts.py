@@ -7,13 +7,14 @@ from itertools import pairwise
 
 import pytest
 
+from planner.record.light_record import LightCourse, LightPrediction, Showing
 from planner.record.places import PriorityFact, RoadFacts, RouteStep
 from planner.record.trace import EgoGoal, PlannedAction
 from planner.search.decide import decide
 from planner.search.mcts import Root
 from planner.search.road_facts import place, road_facts
 from sim.roads.network import Location, angle_between, point_at
-from sim.scene import VehicleState
+from sim.scene import Signal, VehicleState
 from sim.setup.scenario import load
 from tests.planner.nets import drawn, lane, on_lane, shipped
 from tests.planner.worlds import QUICK, before_end, changing, driven, frame, moment, still
@@ -33,7 +34,12 @@ def car_lanes(name: str, edge: str) -> list[ET.Element]:
 
 
 def facts(
-    name: str, lane: str, offset: float, goal: EgoGoal, others: dict[int, tuple[str, float]]
+    name: str,
+    lane: str,
+    offset: float,
+    goal: EgoGoal,
+    others: dict[int, tuple[str, float]],
+    lights: tuple[LightPrediction, ...] = (),
 ) -> RoadFacts:
     """The facts with the ego on a lane, and others by lane and offset; -1 is 1 m before the end."""
     roads = shipped(name)
@@ -42,7 +48,7 @@ def facts(
     for vehicle, (where, at) in others.items():
         there = on_lane(roads, where, at)
         scene[vehicle] = VehicleState(there.position, there.heading, 8.0, 0.0, 4.8, 1.8)
-    return road_facts(roads, scene, Root(here), (), goal, VIEW)
+    return road_facts(roads, scene, Root(here), (), goal, VIEW, lights)
 
 
 def goal_of(name: str) -> EgoGoal:
@@ -111,6 +117,22 @@ def test_on_the_last_road_only_the_rest_of_it_is_left() -> None:
     found = facts("s1", "main_out_0", 20.0, EgoGoal("main_out", 50.0, None), {})
     assert found.distance == 30.0
     assert found.free_time == pytest.approx(30.0 / 13.89, abs=0.1)
+
+
+def test_the_light_at_the_end_of_the_last_road_is_ahead() -> None:
+    """The destination lies before it, and still its queue may hold us."""
+    network = shipped("junction").network
+    link = next(one for one in network.links if isinstance(one.control, Signal))
+    assert isinstance(link.control, Signal)
+    lane = network.lanes[link.from_lane]
+    red = (Showing(0.0, "r"),)
+    seen = LightPrediction(
+        link.control.controller, (link.control.index,), red, (LightCourse(1.0, red),)
+    )
+    goal = EgoGoal(lane.edge, lane.length - 1.0, None)
+    found = facts("junction", lane.id, lane.length - 30.0, goal, {}, (seen,))
+    assert found.route == ()
+    assert [(one.place, one.distance) for one in found.lights] == [(link.control.index, 30.0)]
 
 
 def exit_number(name: str, before: str, after: str, arms: dict[str, str]) -> int:
