@@ -96,3 +96,9 @@ def test_a_cry_for_help_beside_a_question_is_not_answered() -> None:
 def test_how_long_we_have_been_here_is_how_long_we_stand() -> None:
     reply = Talk("junction-0", 18.0).say("how long have we been here?").reply.text
     assert reply.startswith("We have been standing still for 2 seconds")
+
+
+def test_what_may_be_broken_is_the_light_that_was_spoken_of() -> None:
+    reply = Talk("junction-0", 18.0).say("this red is taking forever. is it broken?").reply.text
+    assert "the traffic light is broken" in reply
+    assert "vehicle" not in reply

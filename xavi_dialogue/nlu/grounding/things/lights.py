@@ -19,6 +19,7 @@ from xavi_dialogue.domain.terms import (
     Feature,
     Happens,
     Has,
+    Is,
     Measured,
     Pronoun,
     Related,
@@ -75,6 +76,8 @@ def _meant(part: Any, g: Grounder) -> Any:
             | When(of=Has("colour", "red" | "green" | "amber", Pronoun()) as of)
         ):  # a vehicle has its colour for good
             return replace(part, of=_lit_then(replace(of, thing=LIGHT), g))
+        case Is(state="faulty", thing=Pronoun() as thing):
+            return replace(part, thing=_spoken(thing, g))
         case Doing(actor=Pronoun() as thing):
             return replace(part, actor=_spoken(thing, g))
         case HowKnow(of=None) if _leads(g, unsaid=False):
