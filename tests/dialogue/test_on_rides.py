@@ -102,3 +102,9 @@ def test_what_may_be_broken_is_the_light_that_was_spoken_of() -> None:
     reply = Talk("junction-0", 18.0).say("this red is taking forever. is it broken?").reply.text
     assert "the traffic light is broken" in reply
     assert "vehicle" not in reply
+
+
+def test_what_is_busy_is_the_road_and_the_nearest_are_told() -> None:
+    reply = Talk("junction-0", 18.0).say("how busy is it?").reply.text
+    assert "our road is" in reply
+    assert reply == Talk("junction-0", 18.0).say("how busy is our road?").reply.text

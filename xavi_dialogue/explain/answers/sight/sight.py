@@ -76,8 +76,8 @@ def minded(of: Is, asked: Asked) -> Finding:
 def busy(of: Is, asked: Asked) -> Finding:
     """Weigh that many vehicles are in view."""
     at = instant(asked, of.time, of.tense)
-    seen = looks(asked, asked.world.in_view(at), at)
-    return Finding(len(seen) >= MANY, seen)
+    seen = sorted(looks(asked, asked.world.in_view(at), at), key=lambda x: (x.distance, x.vehicle))
+    return Finding(len(seen) >= MANY, tuple(seen))
 
 
 def others_mind(asked: Asked, vehicle: int) -> Finding:

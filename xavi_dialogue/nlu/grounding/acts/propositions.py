@@ -250,6 +250,8 @@ def _is(spoken: Is, g: Grounder, mode: Mode, outer: Window | None) -> Is:
     spoken = spoken if spoken_of(g) else of_ride(spoken)
     if spoken.thing is None and spoken.event is None and spoken.state in _NEAR:
         spoken = replace(spoken, thing=just_named(g))
+    if spoken.state == "busy" and isinstance(spoken.thing, Pronoun):
+        spoken = replace(spoken, thing=Road())  # "how busy is it?"
     event = spoken.event
     if mode == "presupposed" and spoken.state in _UNHEARD_OF:
         g.notes.presupposed = False
@@ -339,12 +341,10 @@ def suspect(thing: Thing, event: Event | None, g: Grounder, window: Window) -> T
 
 
 def _that(g: Grounder) -> Proposition:
-    known = asserted(g.context)
-    if known is None:
+    if (known := asserted(g.context)) is None:
         g.notes.cost += NOTHING_SAID
         return That()
     g.notes.leaned = True
-    event = first(known, Event)
-    if event is not None and (when := interval(event)):
+    if (event := first(known, Event)) is not None and (when := interval(event)):
         g.notes.spans(inferred(when, g).span)
     return known
