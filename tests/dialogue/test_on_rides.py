@@ -108,3 +108,27 @@ def test_what_is_busy_is_the_road_and_the_nearest_are_told() -> None:
     reply = Talk("junction-0", 18.0).say("how busy is it?").reply.text
     assert "our road is" in reply
     assert reply == Talk("junction-0", 18.0).say("how busy is our road?").reply.text
+
+
+def test_the_last_seconds_are_told_of() -> None:
+    reply = Talk("junction-0", 36.0).say("tell me about the last ten seconds").reply.text
+    assert "0:27" in reply
+    assert "0:16" not in reply
+
+
+def test_how_the_traffic_is_asks_how_busy_it_is() -> None:
+    for text in ("how's the traffic?", "how is the traffic ahead?"):
+        assert "busy" in Talk("junction-0", 18.0).say(text).reply.text
+
+
+def test_how_hard_is_of_the_braking_that_was_spoken_of() -> None:
+    talk = Talk("junction-0", 55.0)
+    talk.say("did we brake just now?")
+    assert "m/s²" in talk.say("how hard?").reply.text
+    assert "not braking" in Talk("junction-0", 18.0).say("how hard are we braking?").reply.text
+
+
+def test_what_just_any_driver_would_do_is_no_question_of_this_ride() -> None:
+    talk = Talk("junction-0", 18.0)
+    assert "no opinions" in talk.say("what would a human have done?").reply.text
+    assert "no opinions" not in talk.say("what would the car behind us do?").reply.text

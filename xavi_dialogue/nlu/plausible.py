@@ -91,6 +91,8 @@ def _top(act: Act) -> float:
             | Why(of=Is(thing=Nobody()))
         ):
             return ODD  # "why are we braking, there is room" rather states that
+        case Ask(question=Identify(thing=thing)) if thing == Described():
+            return DOUBTFUL  # "how's the traffic" rather asks how busy it is
         case Ask(question=Identify(thing=Pronoun(form="he" | "she"))):
             return DOUBTFUL  # "what is he up to now" rather asks what he does
         case Ask(

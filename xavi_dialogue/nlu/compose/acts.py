@@ -22,7 +22,6 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Happens,
-    Passenger,
     Pronoun,
     Together,
     Vehicle,
@@ -53,7 +52,7 @@ from xavi_dialogue.nlu.compose.questions import Questions
 from xavi_dialogue.nlu.compose.statements import Acts, Found, Statements, disputed
 from xavi_dialogue.nlu.compose.states.existence import if_alone
 from xavi_dialogue.nlu.compose.suppositions import goes_on, supposes
-from xavi_dialogue.nlu.compose.talk import called, says, stirred, talk_act
+from xavi_dialogue.nlu.compose.talk import called, missed, says, stirred, talk_act
 from xavi_dialogue.nlu.compose.verbs.expecting import as_expected, dreaded_hit, feared, of_belief
 from xavi_dialogue.nlu.compose.wh_questions.frames import is_short
 from xavi_dialogue.nlu.compose.wh_questions.whys import (
@@ -151,7 +150,7 @@ class Composer(Statements):
             if wh.kind in ("who", "which"):
                 return [((Ask(Identify(Pronoun("that"))),), 0.0)]
             return [((Repair(kind),), 0.0)]
-        if wh.kind == "what" and _missed(clause):
+        if wh.kind == "what" and missed(clause):
             return [((Ask(Summarise(time=clause.time)),), 0.0)]
         if wh.kind == "why" and unit.name == "ask_lacking" and clause.verb is None:
             return [((lacking(clause),), 0.0)]
@@ -322,11 +321,6 @@ def _lead_act(part: Part) -> Act | None:
         return talk_act(part)
     denies = isinstance(part, Leaf) and part.category == "NO"
     return Social("disagree") if denies else None
-
-
-def _missed(clause: Clause) -> bool:
-    """Check whether a clause asks what the passenger missed."""
-    return clause.verb is not None and clause.verb.key == "miss" and clause.subject == Passenger()
 
 
 def _refrains(unit: Node) -> bool:

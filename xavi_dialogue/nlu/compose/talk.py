@@ -268,3 +268,8 @@ def _about(clause: Clause) -> Proposition | Thing | None:
     if clause.that is not None:
         return That()
     return None
+
+
+def missed(clause: Clause) -> bool:
+    """Check whether a clause asks what the passenger missed."""
+    return clause.verb is not None and clause.verb.key == "miss" and clause.subject == Passenger()

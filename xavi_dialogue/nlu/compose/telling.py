@@ -18,6 +18,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Ago,
     Described,
     Destination,
     Ego,
@@ -133,8 +134,8 @@ class Telling:
                 return (Ask(WhatIf(supposed)),)  # "say he had braked"
         if value.content is not None and clause.that is not None:
             return (Ask(_all_done(sem, value.content) or Whether(value.content)),)
-        if sem is None and isinstance(clause.time, WholeRide):
-            return (Ask(Summarise(time=clause.time)),)  # "tell me the whole trip"
+        if sem is None and isinstance(clause.time, Ago | WholeRide):
+            return (Ask(Summarise(time=clause.time)),)  # "tell me about the last ten seconds"
         if sem is None or isinstance(sem, (Passenger, Pronoun)):
             return (Repair("longer" if value.name == "tell" else "repeat"),)
         if isinstance(sem, Event):

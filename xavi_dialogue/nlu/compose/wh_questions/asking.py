@@ -16,12 +16,14 @@ from xavi_dialogue.domain.meaning import (
     WhatWouldChange,
     When,
     Where,
+    Whether,
     Whither,
     Why,
 )
 from xavi_dialogue.domain.terms import (
     Believed,
     Compares,
+    Described,
     Ego,
     Event,
     Exists,
@@ -198,6 +200,10 @@ class Asking(What, WhichOne):
             found = self._how_special(clause, value)
             if found is not None:
                 return found
+        ahead = isinstance(value, Related) and value.relation == "ahead-of"
+        if (value is None or ahead) and as_thing(clause.subject) == Described():
+            # "how is the traffic (ahead)?"
+            return Whether(Is("busy", Road(), time=clause.time, tense=cast(Any, clause.tense)))
         if value is None:
             subject = clause.subject
             if isinstance(subject, Noun) and subject.key == "ride":

@@ -8,7 +8,9 @@ from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
+    Beyond,
     Claim,
+    Doing,
     Elliptic,
     Fault,
     Feel,
@@ -37,6 +39,7 @@ from xavi_dialogue.nlu.grounding.context import Grounder
 from xavi_dialogue.nlu.grounding.things.lights import lit
 
 LATELY: Final = 6.0  # [s] that a feeling is about where it does not say
+_ANYBODY: Final = (Described(definite=False),)
 INCOMPLETE: Final = 1.0  # cost of a fragment that nothing completes
 
 
@@ -60,6 +63,8 @@ def act(spoken: Act, g: Grounder) -> Act:
     """Ground an act that is complete."""
     spoken = lit(spoken, g)
     match spoken:
+        case Ask(question=Doing(actor=actor)) if actor in _ANYBODY:
+            return Beyond("opinion")  # "what would a human have done?"
         case Ask():
             return Ask(question(subordinate(bound(spoken, g).question, g), g))
         case Claim(that=Is(state="at-fault", thing=thing, event=None)):

@@ -46,8 +46,13 @@ TURNS: Final = ("turn", "exit-left", "exit-right", "exit-straight", "leave")
 _CHANGING: Final = ("change-lane", "change-left", "change-right", "overtake")
 _MOVES: Final = (*TURNS, *_CHANGING)
 _STAYING: Final = ("wait", "keep-lane", "stand")
+_BRAKING: Final = ("brake", "slow-down", "stop")
 _MISHAPS: Final = ("collide", "nearly-collide")
 _SPOKEN_OF: Final = ("it", "that", "they", "them-all")
+
+
+def _brakes(event: Event) -> bool:
+    return isinstance(event.actor, Ego) and event.action in _BRAKING and event.tense == "past"
 
 
 def followed(spoken: Question, g: Grounder) -> Question:
@@ -55,6 +60,11 @@ def followed(spoken: Question, g: Grounder) -> Question:
     discourse = g.context.discourse
     asked = discourse.question
     match spoken:
+        case HowMuch(of=Measured("deceleration", Ego(), event=None, time=Unsaid()) as of):
+            braked = next((e for e in events(discourse, real=True) if _brakes(e)), None)
+            if braked is not None:
+                g.notes.leaned = True  # "did we just brake? how hard?"
+                return HowMuch(replace(of, event=braked, time=braked.time, tense="past"))
         case Why(of=of, suspect=Pronoun(form="that" | "this")) if _tells_of_us(asked):
             g.notes.leaned = True  # "is that why you don't?": "that" is what was told
             vague = isinstance(of, That) or getattr(first(of, Event), "action", None) == "do"
