@@ -67,6 +67,13 @@ def elsewhere(
     return found
 
 
+def load_kernels() -> None:
+    """Load what is compiled for `elsewhere`, which only networks with bridges call."""
+    line = sides_of(np.array(((0.0, 0.0), (1.0, 0.0))))
+    one = Passing("", False, (0.0, 0.0), 1.0, line, 0.0, 1.0, 1.0)
+    elsewhere((one,), np.zeros((1, 1, 4)), np.ones((1, 3)))
+
+
 class Levels:
     """The lanes of a network that pass above or below others."""
 

@@ -24,6 +24,7 @@ from planner.kernels.elementary import power
 from planner.record import trace as plan_trace
 from planner.record import trace_reading
 from planner.record.trace import EgoGoal, Settings, WhatIf
+from planner.roads.levels import load_kernels
 from planner.roads.trajectory import Roads
 from planner.search.decide import root_at
 from sim.roads.netfile import read_network
@@ -73,6 +74,7 @@ def _reason(error: Exception) -> Reason:
 def warm_up(network: Network) -> None:
     """Decide once behind another car, and drive a step, so that all kernels are loaded."""
     power(np.ones(1), 1.5)  # of ways beside the middle of a lane, which that decision has none of
+    load_kernels()
     for lane in network.lanes.values():
         links = network.links_from(lane.id)
         if lane.internal or lane.length < ROOM or not links:
