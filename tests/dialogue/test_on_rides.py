@@ -132,3 +132,19 @@ def test_what_just_any_driver_would_do_is_no_question_of_this_ride() -> None:
     talk = Talk("junction-0", 18.0)
     assert "no opinions" in talk.say("what would a human have done?").reply.text
     assert "no opinions" not in talk.say("what would the car behind us do?").reply.text
+
+
+@pytest.mark.parametrize(
+    ("where", "told", "untold"),
+    [
+        ("on the right", ("vehicle 18",), ("vehicle 17", "vehicle 21")),
+        ("ahead of us", ("vehicle 18", "vehicle 21"), ()),
+        ("on the left", ("vehicle 17", "vehicle 26"), ("vehicle 18",)),
+    ],
+)
+def test_what_we_see_at_a_place_is_who_is_there(
+    where: str, told: tuple[str, ...], untold: tuple[str, ...]
+) -> None:
+    reply = Talk("town-0", 18.0).say(f"what do you see {where}?").reply.text
+    assert all(name in reply for name in told)
+    assert not any(name in reply for name in untold)

@@ -8,11 +8,13 @@ from xavi_dialogue.domain.answers import Answer, Beliefs, Happenings, Helpful, I
 from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
 from xavi_dialogue.domain.meaning import Listing, Summarise
 from xavi_dialogue.domain.terms import (
+    Described,
     Ego,
     Event,
     Everyone,
     Is,
     Junction,
+    Nobody,
     Thing,
     Unsaid,
     Vehicle,
@@ -265,6 +267,8 @@ def _vehicles(asked: Asked, about: Window, whom: Thing | None) -> Answer:
     match whom:
         case Vehicle() | Vehicles():
             return identified(asked, whom, at)
+        case Nobody(described=Described()):
+            return Identified((), none=True)
         case Everyone(kind=kind):
             numbers = of_kind(asked, numbers, kind, at)
     found = (first_look(asked, v, at) for v in numbers)

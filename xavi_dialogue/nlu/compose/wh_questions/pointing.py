@@ -1,13 +1,17 @@
 """Pointing: questions for what stands out: "where did you brake hardest", "which came closest"."""
 
+from typing import cast, get_args
+
 from xavi_dialogue.domain.meaning import Question, Why
-from xavi_dialogue.domain.terms import That
+from xavi_dialogue.domain.terms import Described, That, Thing
+from xavi_dialogue.domain.vocabulary import Bearing
 from xavi_dialogue.nlu.compose.alternatives.nearness import is_choice, rivals
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.peaks import nearest_of, peak_of
-from xavi_dialogue.nlu.compose.clauses.sem import Noun
+from xavi_dialogue.nlu.compose.clauses.sem import Noun, as_thing
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, is_that
 
+_NEAR = frozenset({"around", "here", "there"})
 _POINTING = frozenset({"where", "when", "what", "who", "which", "count"})
 
 
@@ -24,3 +28,14 @@ def pointed(wh: Wh, clause: Clause) -> Question | None:
     whom = any(phrase.key == "for" and phrase.sem is None for phrase in clause.complements)
     ours = wh.kind == "who" and whom and clause.verb is None and is_that(clause.subject)
     return Why(That()) if ours else None
+
+
+def who_there(clause: Clause) -> Described | None:
+    """Describe those at a place that is named of what we see: "on the left", "behind us"."""
+    named: dict[str, Thing | None] = {key: None for key, _ in clause.bearings}
+    named |= {c.key.removeprefix("bearing-"): as_thing(c.sem) for c in clause.complements}
+    for key, of in named.items():
+        if key in get_args(Bearing) and key not in _NEAR:
+            where = cast(Bearing, key)
+            return Described(bearing=where, of=of, plural=True, definite=False)
+    return None

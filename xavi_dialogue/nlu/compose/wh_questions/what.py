@@ -65,6 +65,7 @@ from xavi_dialogue.nlu.compose.verbs.others import (
 )
 from xavi_dialogue.nlu.compose.wh_questions import doings
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured
+from xavi_dialogue.nlu.compose.wh_questions.pointing import who_there
 from xavi_dialogue.nlu.compose.wh_questions.reasoning import reasoned
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, content_of, fact, held_then, pointed_at
 
@@ -143,7 +144,7 @@ class What:
             case "take-time" if isinstance(subject, Wanted) and not clause.gerund:
                 return Why(Compares(Measured("duration", time=time), "more"))
             case "see" | "look" | "hear" if isinstance(value.subject, Ego) and wh.kind == "what":
-                return Listing("hidden" if clause.negated else "vehicles", time=time)
+                return Listing("hidden" if clause.negated else "vehicles", who_there(clause), time)
             case "assign" | "give-priority" if isinstance(value.object, Wanted):
                 held = held_then(clause, content_of(clause, value))
                 return HowSure(held, time)  # "what did you give it?"
