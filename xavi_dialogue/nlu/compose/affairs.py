@@ -59,8 +59,10 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
             return Ask(Doing()), WELL
         case HowDecide(Happens(Event("do", Ego(), None, tense="present"))):
             return Ask(Doing()), WELL
-        case HowDecide(Happens(Event("do", Ego(), None, tense="past", modal=None))):
-            return (Ask(Summarise()),)  # "so how did you do?"
+        case HowDecide(Happens(Event("do" | "move", Ego(), None, tense="past", modal=None))) if (
+            "decide" not in words.split()
+        ):
+            return (Ask(Summarise()),)  # "so how did you do?", "how was your driving?"
         case HowDecide(Is("wrong", Ego(), tense="past")):
             return (Ask(Listing("wrong-predictions")),)  # "how did you do, any mistakes?"
         case Whether(

@@ -13,6 +13,7 @@ from xavi_dialogue.domain.meaning import (
     Question,
     WhatWouldChange,
     When,
+    Where,
     Which,
     Why,
 )
@@ -34,6 +35,7 @@ from xavi_dialogue.domain.terms import (
     Rank,
     Related,
     Relative,
+    Road,
     That,
     Thing,
     Unsaid,
@@ -121,6 +123,8 @@ class WhichOne:
                         tense=cast(Any, clause.tense),
                     )
                 )
+            case Road() if clause.verb is None and isinstance(actor, Ego | Pronoun | None):
+                return Where(Ego(), time_of(clause, value))  # roads have no names here
             case Lane():
                 if (actor is None or isinstance(actor, Lane)) and clause.objects:
                     actor = as_thing(clause.objects[0][0])
