@@ -196,7 +196,8 @@ def delay(states: States, episode: Episode) -> Measure:
     """Return the time that slowing down or standing cost, compared with free driving.
 
     It is counted until the earlier speed is reached again, or until now; the value is then a lower
-    bound. Free driving is at the earlier speed, or at the limit if that is lower.
+    bound. Free driving is at the earlier speed, or at the limit if that is lower; instead of
+    following somebody, it is at the limit.
     """
     who = somebody(episode.actor) or frozenset((EGO,))
     vehicle = min(who)
@@ -207,7 +208,8 @@ def delay(states: States, episode: Episode) -> Measure:
         return asked.none("not-recorded")
     place = states.place(vehicle, episode.begin)
     free = max(motion.speed[max(first - 10, 0) : first + 1])
-    if free < 2.0 and place is not None:  # it was standing before the episode
+    stood = free < 2.0  # before the episode
+    if place is not None and (stood or episode.action == "follow"):
         free = place.limit
     if place is not None:
         free = min(free, place.limit)
