@@ -78,6 +78,8 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     spoken = ahead_of(completed(_by_anybody(spoken), g, mode))
     spoken = afoot(out_of(_at_junction(spoken), g), g)
     spoken = _by_us(spoken, g)
+    if spoken.action == "signal" and isinstance(spoken.object, Pronoun):
+        spoken = replace(spoken, object=None)  # "when did you put it on?": the indicator
     if (spoken.tense == "future" or spoken.modal == "must") and _meanwhile(spoken.time):
         spoken = replace(spoken, time=Unsaid())
     window = _window(spoken, mode, g, outer)
