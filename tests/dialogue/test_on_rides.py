@@ -148,3 +148,16 @@ def test_what_we_see_at_a_place_is_who_is_there(
     reply = Talk("town-0", 18.0).say(f"what do you see {where}?").reply.text
     assert all(name in reply for name in told)
     assert not any(name in reply for name in untold)
+
+
+def test_what_we_put_on_is_the_indicator() -> None:
+    talk = Talk("town-0", 24.0)
+    known = talk.say("when did you start indicating?").reply.text
+    assert "indicated" in known
+    assert "indicated" in Talk("town-0", 24.0).say("when did you put it on?").reply.text
+
+
+def test_following_a_slow_vehicle_costs_time_against_the_limit() -> None:
+    reply = Talk("motorway-0", 30.0).say("what did sitting behind that lorry cost us?").reply.text
+    assert "seconds" in reply
+    assert "no difference" not in reply
