@@ -11,9 +11,10 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.quantities import number
 from xavi_dialogue.nlg.surface.referring import listed
 from xavi_dialogue.nlg.surface.tables import word
-from xavi_dialogue.nlg.surface.values import Number, Quantity
+from xavi_dialogue.nlg.surface.values import Number, Quantity, Range
 
 NEAR = 4  # maximum of groups of which the place is told
+SPREAD = 3.0  # [m] by which the nearest and the farthest of a group differ if both are told
 REACH = 40.0  # [m] up to which somebody is near, but for the nearest
 
 
@@ -66,13 +67,19 @@ def _places(
             "NEAR_ROW",
             number=None if alone else _number(len(far), head, alike=alike),
             place=word("vehicles", "place", bearing),
-            far=Quantity(far[0], "m"),
+            far=_how_far(far),
             many=len(far) > 1,
             crossing=crossing and not together,
         )
         for (head, bearing, crossing), far in near
     )
     return rows, sum(len(far) for _, far in near) == len(looks)
+
+
+def _how_far(far: list[float]) -> Quantity | Range:
+    """Return the distance [m] of some, from the nearest to the farthest if they are apart."""
+    nearest, farthest = Quantity(far[0], "m"), Quantity(far[-1], "m")
+    return Range(nearest, farthest) if far[-1] - far[0] > SPREAD else nearest
 
 
 def _number(count: int, head: str, *, alike: bool) -> str:
