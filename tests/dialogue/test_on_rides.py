@@ -161,3 +161,8 @@ def test_following_a_slow_vehicle_costs_time_against_the_limit() -> None:
     reply = Talk("motorway-0", 30.0).say("what did sitting behind that lorry cost us?").reply.text
     assert "seconds" in reply
     assert "no difference" not in reply
+
+
+def test_an_unknown_word_is_owned_up_to_in_a_question_that_is_likened_to_a_plain_one() -> None:
+    asked = "blorbflisk what was the second best thing you could have done"
+    assert '"blorbflisk"' in Talk("s1-0").say(asked).reply.text

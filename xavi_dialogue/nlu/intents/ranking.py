@@ -260,11 +260,14 @@ def _beside(best: Reading, plain: tuple[Act, ...]) -> tuple[list[Act], list[Act]
 
 
 def _reading(best: Reading, pairs: Sequence[tuple[Intent, Plain]]) -> Reading:
-    """Give the reading of a text as the plain questions of intents."""
+    """Give the reading of a text as the plain questions of intents.
+
+    Words that are in no vocabulary have no part in it.
+    """
     names = " ".join(f"intent:{intent.name}" for intent, _ in pairs)
     shares = tuple(
-        TokenShare(share.text, share.read, "meaning", names, 0, share.strange)
-        for share in best.shares
+        TokenShare(one.text, one.read, "idle" if one.strange else "meaning", names, 0, one.strange)
+        for one in best.shares
     )
     probability = sum(intent.probability for intent, _ in pairs)
     acts = at_time_of(tuple(act for _, question in pairs for act in question.acts), best)
