@@ -12,7 +12,7 @@ from planner.manoeuvres.plans import ActionPlan
 from planner.motion.tracks import lanes_at
 from planner.record.light_record import UNSEEN, LightPrediction
 from planner.record.places import First, LightAhead, PriorityFact, RoadFacts, RoadPlace
-from planner.record.trace import EgoGoal, PlannedAction
+from planner.record.trace import ON_FOOT, EgoGoal, PlannedAction
 from planner.roads.classes import roads_of
 from planner.roads.routes import approach, rest_of
 from planner.roads.trajectory import Roads
@@ -52,12 +52,13 @@ def road_facts(
     planned = _planned(roads, root, plan, goal, view)
     way = itinerary(roads, here, planned, goal)
     meetings = _meetings(roads.network, here, way.legs, view)
+    drivers = {v: where for v, where in at.items() if scene[v].kind not in ON_FOOT}
     return RoadFacts(
         places={v: place(roads.network, at[v][0]) for v in sorted(at) if at[v]},
         route=steps(roads, way.legs),
         distance=None if way.distance is None else round(way.distance, 1),
         free_time=None if way.free_time is None else round(way.free_time, 1),
-        priority=_priority(roads, at, meetings, view, lights),
+        priority=_priority(roads, drivers, meetings, view, lights),
         lights=_ahead(way.legs or _beyond(roads.network, here, planned), lights),
     )
 

@@ -47,12 +47,6 @@ def test_all_who_go_before_us_are_told_the_nearest_first_and_who_waits_for_us() 
     assert told(given) == Priority(NOW, "give-way", 2, others=(3,), after=(1,), why="across")
 
 
-def test_people_on_foot_are_not_said_to_wait_for_us() -> None:
-    given = at_junction({3: "vehicle", 1: "ego", 2: "ego"})
-    given.looks[1] = look(1, kind="pedestrian", distance=10.0, oncoming=True, left=3.0)
-    assert told(given).after == (2,)
-
-
 def test_who_all_has_to_wait_for_us_is_told_where_nobody_goes_before_us() -> None:
     found = told(at_junction({1: "ego", 2: "ego"}, rule="priority"))
     assert found == Priority(NOW, "priority", 1, others=(2,))

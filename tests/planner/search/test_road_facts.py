@@ -2,6 +2,7 @@
 
 import math
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 
@@ -40,6 +41,7 @@ def facts(
     goal: EgoGoal,
     others: dict[int, tuple[str, float]],
     lights: tuple[LightPrediction, ...] = (),
+    kind: str = "car",
 ) -> RoadFacts:
     """The facts with the ego on a lane, and others by lane and offset; -1 is 1 m before the end."""
     roads = shipped(name)
@@ -47,7 +49,8 @@ def facts(
     scene = {0: VehicleState(here.position, here.heading, 8.0, 0.0, 4.8, 1.8)}
     for vehicle, (where, at) in others.items():
         there = on_lane(roads, where, at)
-        scene[vehicle] = VehicleState(there.position, there.heading, 8.0, 0.0, 4.8, 1.8)
+        state = VehicleState(there.position, there.heading, 8.0, 0.0, 4.8, 1.8)
+        scene[vehicle] = replace(state, kind=kind)
     return road_facts(roads, scene, Root(here), (), goal, VIEW, lights)
 
 
@@ -274,6 +277,12 @@ def test_priority_is_that_of_the_matrix_in_the_file(name: str, junction: str) ->
         assert {fact.vehicle: fact.who for fact in found.priority} == known
         told |= set(known.values())
     assert len(told) > 1
+
+
+def test_the_rules_between_lanes_are_not_for_people_on_foot() -> None:
+    ring = {1: ("ring_east_0", 2.0), 2: ("west_in_0", -20.0)}
+    found = facts("s3", "south_in_0", -20.0, goal_of("s3"), ring, kind="pedestrian")
+    assert found.priority == ()
 
 
 def test_who_comes_to_a_roundabout_waits_for_those_in_it() -> None:

@@ -9,7 +9,6 @@ from typing import Final
 from msgspec.structs import replace
 
 from planner.record.places import RoadFacts
-from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import Answer, Counted, Identified, Priority, Unblocking
 from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.meaning import HowMany, HowMuch, Which, Why
@@ -182,9 +181,8 @@ def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
         return None
     only = _named(asked, among)
     before = _in_order(asked, road, "vehicle", only)
-    met = _in_order(asked, road, "ego", only)
-    after = tuple(look for look in met if look.kind not in ON_FOOT)  # people are let go first
-    apart = () if not only else tuple(n for n in only if n not in _numbers((*before, *met)))
+    after = _in_order(asked, road, "ego", only)
+    apart = () if not only else tuple(n for n in only if n not in _numbers((*before, *after)))
     if len(before) + len(after) < (1 if apart else BOTH):
         return None
     if not before and not only and rule_for(road, None, gave_way=False) == "give-way":
