@@ -76,7 +76,7 @@ def request(act: Request, asked: Asked) -> Answer:
         if staying is not None:
             return staying
     hurried = sided(event) in STARTS | {"speed-up", "continue"}
-    halting = event.action in ("stop", "wait")  # it is told for whom we brake anyway
+    halting = event.action in ("stop", "wait")  # the answer names whom we brake for anyway
     cause = _cause(asked) if able and (hurried or halting) and soon is None else None
     facts = _instead(asked, event) if cause is None else ()
     already = already and cause is None

@@ -68,7 +68,7 @@ def owed_by_other(such: Proposition) -> Happens | None:
 def likeliest(asked: Asked, event: Event) -> Finding:
     """Check whether any of several vehicles will do something; the likeliest of them counts.
 
-    Of those that were named together it is told what each is going to do.
+    Of several that were named together, answers tell what each is going to do.
     """
     actor = event.actor
     if isinstance(actor, Nobody):  # "will anybody let us in?"

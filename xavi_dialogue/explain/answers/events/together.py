@@ -1,4 +1,4 @@
-"""Together: whether several have crossed our way, or are behind us, told of all of them."""
+"""Together: whether several road users all crossed our way, or are all behind us."""
 
 from xavi_dialogue.domain.answers import Counted
 from xavi_dialogue.domain.facts import Look
