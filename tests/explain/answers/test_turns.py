@@ -85,6 +85,8 @@ def test_of_those_named_whose_way_does_not_meet_ours_is_told_as_well() -> None:
     given.looks = {**given.looks, 2: look(2)}
     found = told(given, among=(Vehicle(1), Vehicle(2)))
     assert found == Priority(NOW, "give-way", 1, apart=(2,))
+    given.looks = {**given.looks, 2: look(2, kind="pedestrian")}
+    assert told(given, among=(Vehicle(1), Vehicle(2))).apart == ()
 
 
 def test_whom_we_have_to_wait_for_leaves_out_who_waits_for_us() -> None:

@@ -9,6 +9,7 @@ from typing import Final
 from msgspec.structs import replace
 
 from planner.record.places import RoadFacts
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain.answers import Answer, Counted, Identified, Priority, Unblocking
 from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.meaning import HowMany, HowMuch, Which, Why
@@ -182,7 +183,9 @@ def order(asked: Asked, among: tuple[Thing, ...]) -> Priority | None:
     only = _named(asked, among)
     before = _in_order(asked, road, "vehicle", only)
     after = _in_order(asked, road, "ego", only)
-    apart = () if not only else tuple(n for n in only if n not in _numbers((*before, *after)))
+    met = _numbers((*before, *after))
+    drive = (n for n in only if (x := asked.world.look(n, asked.now)) and x.kind not in ON_FOOT)
+    apart = tuple(n for n in drive if n not in met)  # the ways of people follow no lanes
     if len(before) + len(after) < (1 if apart else BOTH):
         return None
     if not before and not only and rule_for(road, None, gave_way=False) == "give-way":
