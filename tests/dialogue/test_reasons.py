@@ -142,8 +142,8 @@ def test_a_near_miss_is_a_collision_nearly_had() -> None:
 
 @pytest.mark.parametrize("text", ["Will you stop for the pedestrians?", "Will you let them cross?"])
 def test_people_go_first_by_the_rule_whatever_is_planned(text: str) -> None:
-    told = Talk("junction-0", 16.0).hear(text)
-    assert told.startswith("Yes, the pedestrian ahead of us on the left (vehicle 8) and the ped")
+    told = Talk("junction-0", 15.0).hear(text)
+    assert told.startswith("Yes, the pedestrian ahead of us (vehicle 8) and the ped"), told
     assert Talk("junction-0", 8.0).hear(text).startswith("Yes, the traffic light is red for us")
 
 

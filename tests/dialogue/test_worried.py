@@ -17,7 +17,7 @@ RED, ROLLING, ROUND = 20.0, 14.0, 34.5  # [s] in the ride `junction-0`
         ),
         (ROLLING, "can we go now?", "Not yet: the traffic light"),
         (ROLLING, "you're braking", "I am braking, because the traffic light is red. Besides, I"),
-        (ROLLING, "why are we not going?", "We are driving at 10 km/h, because the traffic light"),
+        (ROLLING, "why are we not going?", "We are driving at 8 km/h, because the traffic light"),
         (ROLLING, "does vehicle 8 go first?", "Yes, the pedestrian coming from the right (vehicle"),
         (RED, "you've stopped again", "We are standing still, because the traffic light is red."),
         (RED, "will you stop for those people?", "We are standing still, because"),

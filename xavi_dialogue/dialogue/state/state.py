@@ -12,6 +12,7 @@ from xavi_dialogue.dialogue.state.states import Phase, RidePhase
 from xavi_dialogue.dialogue.state.turn import Judgement, Offer, Quiz, Turn
 from xavi_dialogue.domain.answers import Answer, NeedRollout, Reason, Refusal
 from xavi_dialogue.domain.discourse import GroundedAct
+from xavi_dialogue.explain.history.between import seen_between
 from xavi_dialogue.explain.history.record import Record
 
 EPSILON = 1e-6  # [s] times closer than this are equal
@@ -98,13 +99,16 @@ class Dialogue:
 
 def up_to(record: Record, time: float) -> Record:
     """Return what was known at an earlier moment [s] of a record."""
-    seen = record.scene is not None and record.scene.time <= time + EPSILON
+    traces = tuple(t for t in record.traces if t.sim_time <= time + EPSILON)
+    scene = record.scene if record.scene and record.scene.time <= time + EPSILON else None
+    if traces and (scene is None or scene.time <= traces[-1].sim_time + EPSILON):
+        scene = seen_between(record.traces, time) or scene
     return replace(
         record,
         now=time,
-        traces=tuple(t for t in record.traces if t.sim_time <= time + EPSILON),
+        traces=traces,
         events=tuple(e for e in record.events if e.sim_time <= time + EPSILON),
         gaps=tuple(gap for gap in record.gaps if gap[0] <= time),
         ended=record.ended and time >= record.now - EPSILON,
-        scene=record.scene if seen else None,
+        scene=scene,
     )

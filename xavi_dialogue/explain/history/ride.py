@@ -18,6 +18,7 @@ from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.domain.answers import NeedRollout, NotApplicable, NotRecorded, Refusal, TooLittle
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.errors import XaviError
+from xavi_dialogue.explain.history.between import seen_between
 from xavi_dialogue.explain.history.deeds import Deed, read_deeds
 from xavi_dialogue.explain.history.joining import Joined, Seen, joined
 from xavi_dialogue.explain.history.motion import Motion
@@ -66,15 +67,17 @@ class Ride:
 
     @cached_property
     def scene(self) -> Scene | None:
-        """The newest scene, if it is later than the last decision; else None.
+        """What was seen last, if it is later than the last decision; else None.
 
         As in traces, people on foot are among the vehicles.
         """
         scene = self.record.scene
-        if scene is None or not self.traces or EGO not in scene.vehicles:
+        if not self.traces:
             return None
         since = self.traces[-1].sim_time
-        if not since + ROUNDING < scene.time <= self.now + ROUNDING:
+        if scene is None or not since + ROUNDING < scene.time <= self.now + ROUNDING:
+            scene = seen_between(self.record.traces, self.now)
+        if scene is None or EGO not in scene.vehicles:
             return None
         return replace(scene, vehicles=road_users_in(scene))
 

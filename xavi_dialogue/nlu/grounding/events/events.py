@@ -134,7 +134,7 @@ def _by_us(spoken: Event, g: Grounder) -> Event:
         return spoken
     others.sort(key=lambda pair: -pair[1])
     told = (replace(spoken, actor=Vehicle(number)) for number, _ in others[:1])
-    return spoken if any(g.context.holds(one, now, now) for one in told) else ours
+    return spoken if any(g.context.holds(one, now - JUST, now) for one in told) else ours
 
 
 def _by_anybody(spoken: Event) -> Event:
