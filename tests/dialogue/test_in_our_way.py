@@ -22,7 +22,7 @@ def test_who_is_in_our_way_is_the_nearest_who_is(ride: str, at: float, question:
     ("at", "question", "begins"),
     [
         (12.0, "Do we have right of way or them?", "The pedestrian coming from the right"),
-        (24.0, "Do we let the bicycle go?", "Yes, the green bicycle behind us on the right"),
+        (24.0, "Do we let the bicycle go?", "Yes, the green bicycle beside us on the right"),
         (24.0, "Was that normal?", "Yes, waiting for the traffic light was normal"),
         (24.0, "Other drivers would have gone. Why not you?", "I am waiting, because the traffic"),
         (24.0, "The bicycle went. Why didn't you?", "We are standing still, because the traffic"),
@@ -37,3 +37,10 @@ def test_why_not_you_is_about_what_was_just_said_of_others() -> None:
     talk.hear("How fast are we going?")
     told = talk.hear("Any other driver would have gone by now. Why not you?", "And why?")
     assert "red" in told or "go first" in told
+
+
+@pytest.mark.parametrize("text", ["why are you giving way?", "why did you give way?"])
+def test_why_we_gave_way_is_right_of_way_before_all_else_that_slowed_us(text: str) -> None:
+    told = Talk("s2-2", 6.5).hear(text)
+    assert told.startswith("The blue car"), told
+    assert "had right of way" in told

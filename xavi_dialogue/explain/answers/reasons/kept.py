@@ -52,6 +52,14 @@ def with_yielding(scene: Asked, found: Reasons, begin: float, end: float) -> Rea
     return replace(found, causes=(cause,))
 
 
+def yielding_first(deed: Episode, found: Reasons) -> Reasons:
+    """Put right of way before all else that kept us, where it is asked why we gave way."""
+    if deed.action != "give-way":
+        return found
+    ordered = sorted(found.causes, key=lambda cause: cause.kind != "right-of-way")
+    return replace(found, causes=tuple(ordered))
+
+
 def without_passed(scene: Asked, event: Event, found: Reasons) -> Reasons:
     """Leave out who has passed by now, of those that a question in the present is about."""
     said = scene.past is not None and scene.past.said

@@ -26,6 +26,7 @@ from xavi_dialogue.explain.answers.reasons.kept import (
     peak,
     with_yielding,
     without_passed,
+    yielding_first,
 )
 from xavi_dialogue.explain.answers.reasons.premises import (
     BEGUN,
@@ -272,7 +273,7 @@ def _told(scene: Asked, event: Event, deed: Episode, named: ActionName, *, premi
     reasons = without_passed(scene, event, driven_for(scene.ride, scene.world, deed, moment))
     if deed.action in (*STILL, "give-way"):
         end = moment if deed.end is None else deed.end
-        reasons = with_yielding(scene, reasons, deed.begin, end)
+        reasons = yielding_first(deed, with_yielding(scene, reasons, deed.begin, end))
     ours = [cause for cause in reasons.causes if cause.vehicle is not None]
     stops = is_stopping(scene, deed, named)
     lit = any(cause.kind == "light" for cause in reasons.causes) and not stops
