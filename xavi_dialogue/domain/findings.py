@@ -238,6 +238,7 @@ class Comfort(Value, frozen=True):
     jerk: Measure | None = None
     episode: Episode | None = None
     hard: bool = False
+    deed: bool = False  # of one deed of ours and not of the ride
 
 
 class Closeness(Value, frozen=True):

@@ -9,7 +9,7 @@ reader judged wrong, and none of the others. Cost alone cannot separate most wro
 right ones.
 """
 
-from xavi_dialogue.domain.meaning import Act, Claim, Elliptic, Feel
+from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, Feel, HowDecide
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import Unknown
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
@@ -32,6 +32,8 @@ def _typed(act: Act) -> Act | None:
             return act if is_well_typed(act) else Feel(act.feeling)
         case Claim() | Elliptic(form="same"):
             return act if is_well_typed(act) else None
+        case Ask(question=HowDecide()):
+            return act if is_well_typed(act) else None  # "how did you frobnicate?"
     return act
 
 

@@ -15,6 +15,7 @@ from xavi_dialogue.domain.meaning import (
     Summarise,
     WhatIf,
     Whether,
+    Which,
     Why,
 )
 from xavi_dialogue.domain.terms import (
@@ -26,12 +27,15 @@ from xavi_dialogue.domain.terms import (
     Not,
     Pronoun,
     Proposition,
+    Record,
     Related,
     Unknown,
+    Wanted,
 )
 from xavi_dialogue.nlu.compose.alternatives.blames import of_one_alone
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
+from xavi_dialogue.nlu.compose.wh_questions.rating import rating_of
 from xavi_dialogue.nlu.grammar.chart import Node
 
 WELL: Final = Ask(Whether(Is("safe", Ego())))
@@ -50,6 +54,8 @@ _THINGS: Final = (
 def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
     """Read how things look or go as what we do and whether it is safe."""
     acts = tuple(of_one_alone(act, words) for act in acts)
+    if (rating := rating_of(acts, words)) is not None:
+        return rating
     if len(acts) != 1 or not isinstance(acts[0], Ask):
         return acts
     match acts[0].question:
@@ -65,6 +71,8 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
             return (Ask(Summarise()),)  # "so how did you do?", "how was your driving?"
         case HowDecide(Is("wrong", Ego(), tense="past")):
             return (Ask(Listing("wrong-predictions")),)  # "how did you do, any mistakes?"
+        case Which(such=Related("on", Wanted(), Record())):
+            return (Ask(Listing("vehicles")),)  # "what's on your screen?"
         case Whether(
             Is("safe" | "better", thing, tense="present")
             | Happens(Event("go", thing, manner=("safely",), tense="present"))

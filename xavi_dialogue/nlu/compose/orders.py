@@ -28,6 +28,7 @@ _TELLING = frozenset(
     {
         "tell",
         "describe",
+        "rate",
         "summarise",
         "list",
         "justify",
@@ -79,6 +80,7 @@ class Orders(Telling):
                 in (
                     "tell",
                     "describe",
+                    "rate",
                     "summarise",
                     "list",
                     "justify",

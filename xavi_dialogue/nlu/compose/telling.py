@@ -49,6 +49,7 @@ from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Moment, Noun, 
 from xavi_dialogue.nlu.compose.propositions.severally import asked_each, towards
 from xavi_dialogue.nlu.compose.verbs.others import is_person
 from xavi_dialogue.nlu.compose.wh_questions.frames import is_short
+from xavi_dialogue.nlu.compose.wh_questions.rating import rated
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh
 
 _SHOWING = frozenset(
@@ -98,6 +99,9 @@ class Telling:
             return (Ask(_listing(sem, clause)),)
         if name == "describe":
             return (Ask(_description(sem, clause)),)
+        if name == "rate":
+            rating = rated(clause, value)
+            return () if rating is None else (Ask(rating),)
         if name not in (
             "tell",
             "report",

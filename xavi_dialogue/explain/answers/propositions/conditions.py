@@ -45,7 +45,7 @@ from xavi_dialogue.explain.answers.reference.occasions import (
     occasions,
     taken_place,
 )
-from xavi_dialogue.explain.answers.ride.comfort import comfort_of, stretch
+from xavi_dialogue.explain.answers.ride.comfort import comfort_of, stretch, with_slowing
 from xavi_dialogue.explain.answers.ride.mistakes import broken_down, wrong
 from xavi_dialogue.explain.answers.ride.places import to_go
 from xavi_dialogue.explain.answers.ride.priority import lawful, owed, right_of_way, where_rule_holds
@@ -142,15 +142,15 @@ def _may_go_straight(event: Event, asked: Asked) -> bool:
 def _comfortable(of: Is, asked: Asked) -> Finding:
     if of.event is not None and of.event.action in GOING_ON:
         of = with_fields(of, event=None)
-    if of.event is not None:
-        taken_place(asked, of.event)
     about, begin = _about(of, asked), asked.world.begin
+    if of.event is not None:
+        about = with_slowing(asked, taken_place(asked, of.event), about)
     told = of.event is not None or (about.said and about.end < asked.now - RECENT)
     if not told and about.instant and is_past(asked, of.time, of.tense):
         about = Window(max(begin, asked.now - RECENT), asked.now)
     elif not told and about.instant and asked.past is None:
         about = Window(begin, asked.now)
-    found = comfort_of(asked, about)
+    found = with_fields(comfort_of(asked, about), deed=of.event is not None)
     return Finding(found.hard == (of.state == "uncomfortable"), answer=found)
 
 

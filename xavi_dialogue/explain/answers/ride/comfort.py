@@ -8,6 +8,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import Window, was_said, window
 from xavi_dialogue.explain.answers.reference.occasions import overlaps, taken_place
 
+JOINED = 1.0  # [s] maximum time between slowing down and the stop that it led to
 HARD = 4.0  # [m/s2] minimum deceleration that passengers call hard
 BRAKING: tuple[ActionName, ...] = ("brake", "slow-down", "stop", "give-way")
 
@@ -42,6 +43,15 @@ def comfort_of(asked: Asked, about: Window, episode: Episode | None = None) -> C
 def stretch(asked: Asked, episode: Episode) -> Window:
     """Return the stretch of the ride that an episode covers."""
     return Window(episode.begin, asked.now if episode.end is None else episode.end)
+
+
+def with_slowing(asked: Asked, episode: Episode, about: Window) -> Window:
+    """Add to a stop the slowing down that led to it."""
+    if episode.action not in ("stop", "stand", "wait"):
+        return about
+    slowing = asked.world.episodes(actor=Ego(), actions=("brake", "slow-down"))
+    led = [e.begin for e in slowing if e.begin <= episode.begin <= (e.end or asked.now) + JOINED]
+    return Window(min([about.begin, *led]), about.end)
 
 
 def asked_stretch(asked: Asked, event: Event | None) -> Window:

@@ -118,7 +118,7 @@ def plan_comfort(answer: Comfort, context: SpeechContext) -> Plan:
     """Plan how comfortable the ride was."""
     first = measure_message(answer.peak, context)
     if answer.peak.value is not None and answer.peak.attribute in ("deceleration", "comfort"):
-        slots = {**first.slots, "hard": answer.hard, "did_not": "did not"}
+        slots = {**first.slots, "hard": answer.hard, "did_not": "did not", "deed": answer.deed}
         slots |= {"peak_at": Moment(answer.peak.time), "is": "was"}
         first = Message("MEASURE_COMFORT", slots)
     details: list[Message] = []

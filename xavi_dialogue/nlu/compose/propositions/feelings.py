@@ -5,6 +5,7 @@ from typing import Final
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
+    Event,
     Is,
     Next,
     Passenger,
@@ -32,4 +33,6 @@ def felt(name: str, special: Special) -> Proposition:
         named = isinstance(by, Vehicle | Pronoun) or (isinstance(by, Described) and by.definite)
         whom = by if named else Ego()
         return Is("wrong", whom, time=time_of(special), tense=tense_of(special))
+    if isinstance(special.object, Event):  # "how did you feel about that braking?"
+        return Is("comfortable", event=special.object, time=time_of(special), tense="past")
     return Is("comfortable", as_thing(special.object) or Passenger())

@@ -50,6 +50,7 @@ from xavi_dialogue.nlu.compose.verbs.trends import as_slowing, believed, trend
 from xavi_dialogue.nlu.compose.wh_questions.amounts import amounts
 from xavi_dialogue.nlu.compose.wh_questions.grades import graded
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured, since
+from xavi_dialogue.nlu.compose.wh_questions.rating import rated
 from xavi_dialogue.nlu.compose.wh_questions.wh import (
     NEXT,
     Wh,
@@ -210,7 +211,7 @@ class Asking(What, WhichOne):
                 return HowMuch(Measured("comfort", time=clause.time, tense=cast(Any, clause.tense)))
             if isinstance(subject, Measure):
                 return HowMuch(subject.of, subject.extreme)
-            return HowDecide(propose(subject) or That())
+            return rated(clause, subject) or HowDecide(propose(subject) or That())
         subject = clause.subject
         if isinstance(subject, Noun) and subject.key == "ride" and clause.tense != "future":
             return Summarise(None, clause.time)
@@ -221,6 +222,8 @@ class Asking(What, WhichOne):
             return Why(That())
         if isinstance(of, Compares) and of.left == Measured("value", of.left.thing):
             return Why(That())  # "how is that any better?"
+        if isinstance(of, Believed):
+            return HowKnow(of.content)
         return HowDecide(of)
 
     def _avoided(self, clause: Clause, event: Event) -> Proposition | None:
@@ -244,6 +247,8 @@ class Asking(What, WhichOne):
                 return HowDecide(value.content or _own_way(value) or propose(value.object))
             case "prevent" | "improve":
                 return HowAvoid(value.content or propose(value.object))
+            case "rate":
+                return rated(clause, value)
             case "score":
                 return HowMuch(Measured("value", value.subject, time=clause.time))
             case "change" if isinstance(clause.subject, Noun) and clause.subject.key == "plan":

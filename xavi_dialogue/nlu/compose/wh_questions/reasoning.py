@@ -19,6 +19,7 @@ from xavi_dialogue.domain.terms import (
     Not,
     Pronoun,
     Proposition,
+    Record,
     That,
     Unsaid,
 )
@@ -26,7 +27,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import as_of
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.nominal import propose
-from xavi_dialogue.nlu.compose.clauses.sem import as_thing
+from xavi_dialogue.nlu.compose.clauses.sem import Noun, as_thing
 from xavi_dialogue.nlu.compose.verbs.others import expected_of
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured
 from xavi_dialogue.nlu.compose.wh_questions.savings import change_to
@@ -74,10 +75,18 @@ def reasoned(clause: Clause, value: Special) -> Question | None:
                 if clause.subject.kind == "light":
                     return None  # "what is that light showing?"
                 return measured("writing", clause, clause.subject)  # "what does the sign say?"
+            if value.content is None and _shows_scene(clause.subject):
+                return Listing("vehicles", time=time)  # "what is your screen showing?"
             return HowKnow(value.content)
         case "cost" | "take-time" if isinstance(subject, (Pronoun, Event)):
             return measured("delay", clause, as_thing(subject))
     return None
+
+
+def _shows_scene(subject: object) -> bool:
+    """Say whether somebody looks at our screen or sensors, which show who is in view."""
+    named = isinstance(subject, Noun) and subject.key == "capability"
+    return named or isinstance(subject, Record)
 
 
 def _against(value: Special) -> Proposition | None:
