@@ -14,6 +14,7 @@ from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import Unknown
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.grammar.chart import Node
+from xavi_dialogue.nlu.plausible import ODD, oddity
 
 DEAR = 1.7  # cost of a unit
 DEAR_WORD = 0.3  # cost for each word of a unit
@@ -22,7 +23,7 @@ _READ_PAST = frozenset({"SKIP", "FILLER"})
 
 
 def well_typed(row: tuple[Act, ...]) -> tuple[Act, ...]:
-    """Drop claims and fragments with words that have no sense here; keep feelings without them."""
+    """Drop fragments without a sense, claims of what cannot be; keep feelings without them."""
     return tuple(found for act in row if (found := _typed(act)) is not None)
 
 
@@ -31,7 +32,7 @@ def _typed(act: Act) -> Act | None:
         case Feel():
             return act if is_well_typed(act) else Feel(act.feeling)
         case Claim() | Elliptic(form="same"):
-            return act if is_well_typed(act) else None
+            return act if is_well_typed(act) and oddity(act) < ODD else None
         case Ask(question=HowDecide()):
             return act if is_well_typed(act) else None  # "how did you frobnicate?"
     return act

@@ -64,6 +64,10 @@ _ALONE = frozenset({"come", "go", "do", "move", "stand", "turn", "continue"})
 _SIDELESS = frozenset(
     ("wait", "brake", "let-go", "stop", "slow-down", "speed-up", "give-way", "collide", "arrive")
 )
+_OF_VEHICLES = frozenset(
+    ("brake", "slow-down", "speed-up", "overtake", "wait", "give-way", "reverse", "keep-lane")
+)
+_PAST_VEHICLES = frozenset(("cut-in", "overtake", "follow", "let-go"))
 _APPROACHES = frozenset({"come", "approach", "appear", "happen", "go", "do", "head"})
 
 
@@ -227,6 +231,10 @@ def _event(value: Event) -> float:
     fixed = isinstance(value.actor, _FIXED) or _is_ground(value.actor)
     if fixed and value.action not in _APPROACHES:
         cost += ODD
+    if isinstance(value.actor, Feature) and value.action in _OF_VEHICLES:
+        cost += ODD  # "the light is slowing down"
+    if isinstance(value.object, Feature) and value.action in _PAST_VEHICLES:
+        cost += ODD  # "we cut in ahead of the space"
     if value.action == "do" and isinstance(value.object, Unknown):
         cost += DOUBTFUL
     before_us = value.action == "cross" and (value.object == Ego() or value.where is not None)

@@ -14,6 +14,7 @@ from xavi_dialogue.domain.meaning import (
     Request,
     Summarise,
     WhatIf,
+    When,
     Whether,
     Which,
     Why,
@@ -35,6 +36,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.alternatives.blames import of_one_alone
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
+from xavi_dialogue.nlu.compose.own_deeds import of_own_deed
 from xavi_dialogue.nlu.compose.wh_questions.rating import rating_of
 from xavi_dialogue.nlu.grammar.chart import Node
 
@@ -43,6 +45,7 @@ _IN_TIME: Final = Event("stop", manner=("early",), tense="present", modal="could
 #: Words with which it is asked what happens on other rides, too: "is it always this busy?". They
 #: do not include "normally", which may also tell how something is done.
 _HABITS: Final = frozenset(("always", "usually", "typically", "often"))
+_GET_TO: Final = frozenset(("get", "gets"))
 _THINGS: Final = (
     Described(plural=True, definite=False),
     Pronoun("it"),
@@ -53,7 +56,7 @@ _THINGS: Final = (
 
 def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
     """Read how things look or go as what we do and whether it is safe."""
-    acts = tuple(of_one_alone(act, words) for act in acts)
+    acts = tuple(of_own_deed(of_one_alone(act, words), words) for act in acts)
     if (rating := rating_of(acts, words)) is not None:
         return rating
     if len(acts) != 1 or not isinstance(acts[0], Ask):
@@ -73,6 +76,12 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
             return (Ask(Listing("wrong-predictions")),)  # "how did you do, any mistakes?"
         case Which(such=Related("on", Wanted(), Record())):
             return (Ask(Listing("vehicles")),)  # "what's on your screen?"
+        case Whether(Is("allowed", event=Event(actor=Ego()) as event)) | When(
+            Is("allowed", event=Event(actor=Ego()) as event)
+        ) if _GET_TO & set(words.split()):  # "do we get to go now?" is asked of what is possible
+            able = Happens(replace(event, modal="can"))
+            whether = isinstance(acts[0].question, Whether)
+            return (Ask(Whether(able) if whether else When(able)),)
         case Whether(
             Is("safe" | "better", thing, tense="present")
             | Happens(Event("go", thing, manner=("safely",), tense="present"))

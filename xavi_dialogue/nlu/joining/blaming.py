@@ -27,6 +27,8 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Exists,
+    Feature,
     Happens,
     Has,
     Is,
@@ -44,6 +46,7 @@ from xavi_dialogue.domain.terms import (
 )
 
 PASSING = frozenset({"pass", "overtake", "move"})
+_CHANGES = frozenset({"arrive", "head", "go", "move", "change-lane", "pull-out"})
 HELD = frozenset({"brake", "slow-down", "stop", "wait", "give-way"})
 
 
@@ -60,6 +63,13 @@ def asked_with(first: Act, later: Act) -> Act | None:
     if isinstance(question, Why) and isinstance(question.of, That) and question.suspect is not None:
         of = _told(first)
         return None if of is None else Ask(structs.replace(question, of=of))
+    match first, later:
+        case (
+            Claim(that=Happens(event=Event(action=action, actor=Ego())) as of),
+            Elliptic(thing=Described() | Feature() as who)
+            | Ask(question=Whether(that=Exists(thing=Feature() as who))),
+        ) if action in HELD and later in (Elliptic(who), Ask(Whether(Exists(who)))):
+            return Ask(Why(of, suspect=who))  # "and this slowing down, another light?"
     match first, _coloured(question):
         case Claim(that=Happens(event=Event(action=action, actor=Ego())) as of), Described() as who:
             if action in HELD:
@@ -144,6 +154,8 @@ def _told(first: Act) -> Proposition | None:
 def _not_done(first: Act, question: object) -> Act | None:
     """Read why we do not do what is spoken of: use a lane or a gap, go past as another does."""
     foil: Event | None = None
+    if (lane := _lane_told(first)) is not None and _is_in_it(question):
+        return Ask(Why(Not(Happens(Event("change-lane", object=lane, tense="present")))))
     match first, question:
         case Claim(that=Is(state="free" | "possible", thing=Lane(which=which) as lane)), Which(
             thing=Wanted(), such=Happens(event=Event(action="block" | "stop", object=Ego()))
@@ -180,6 +192,27 @@ def _not_done(first: Act, question: object) -> Act | None:
         ):
             foil = _likewise(that)
     return None if foil is None else Ask(Why(Not(Happens(foil))))
+
+
+def _lane_told(first: Act) -> Lane | None:
+    """Give the lane that is said to be free or to move."""
+    that = first.that if isinstance(first, Claim) else None
+    if isinstance(first, Ask) and isinstance(first.question, Whether):
+        that = first.question.that
+    match that:
+        case Is(thing=Lane() as lane) | Happens(event=Event(actor=Lane() as lane)):
+            return None if lane.which == "own" else lane
+    return None
+
+
+def _is_in_it(question: object) -> bool:
+    """Say whether it is asked why we are not in the lane just named: "why aren't we in it?"."""
+    match question:
+        case Why(of=Not(content=Related(relation="on" | "in", thing=Ego(), to=Pronoun()))):
+            return True
+        case Why(of=Not(content=Happens(event=Event(action=action, actor=Ego(), side=None)))):
+            return action in _CHANGES
+    return False
 
 
 def _likewise(that: Proposition) -> Event | None:
