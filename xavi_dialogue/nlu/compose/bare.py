@@ -33,7 +33,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import PASSED_OVER, Clause
-from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, Sem, as_lane, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.compose.suppositions import Suppositions
 from xavi_dialogue.nlu.compose.wh_questions.wh import NEXT, Wh, is_that
@@ -179,7 +179,7 @@ class BareQuestions(Suppositions):
             sem = clause.complements[0].sem
         if isinstance(sem, Event):
             return None, sem
-        return as_thing(sem), None
+        return as_thing(sem) or as_lane(sem), None
 
 
 def _still(wh: Wh, clause: Clause) -> bool:

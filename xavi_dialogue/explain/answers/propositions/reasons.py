@@ -25,6 +25,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Has,
     Is,
+    Lane,
     Measured,
     Proposition,
     Related,
@@ -124,6 +125,9 @@ def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) 
             return own_not(event, scene, question) if negated else own(event, scene, question)
         case Is():
             return _state(of, scene, question, negated=negated)
+        case Related("on", Ego(), Lane("left" | "right" as side)) if negated:
+            change: ActionName = "change-left" if side == "left" else "change-right"
+            return own_not(Event(change, time=of.time, tense=of.tense), scene, question)
         case Related():
             return standings.related(of, scene)
         case Compares(left=left) if motions.is_our_speed(of):

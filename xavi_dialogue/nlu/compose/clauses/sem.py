@@ -148,6 +148,14 @@ class Notes:
     taken: set[int] = field(default_factory=set)  # ids of those of which something was made
 
 
+def as_lane(sem: "Sem | None") -> Lane | None:
+    """Give the lane that is named by its side alone: "the left is free", "and the right?"."""
+    match sem:
+        case SideOf(side="left" | "right" as side):
+            return Lane(side)
+    return None
+
+
 def as_thing(sem: "Sem | None") -> Thing | None:
     """Give the thing that a meaning is, or can be taken for."""
     if sem is None:

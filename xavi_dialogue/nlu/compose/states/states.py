@@ -40,7 +40,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import compared_times, with_fiel
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.followers import relation_of
 from xavi_dialogue.nlu.compose.clauses.risks import moving_in
-from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, as_thing, between, is_thing
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, as_lane, as_thing, between, is_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.states.existence import existing, from_whom
 from xavi_dialogue.nlu.compose.states.pacing import pace_said
@@ -242,6 +242,8 @@ def _is(clause: Clause, key: str, too: bool) -> Proposition:
     event = subject_event(clause)
     inner = clause.inner
     thing = as_thing(clause.subject) if event is None else None
+    if state in ("free", "busy"):
+        thing = thing or as_lane(clause.subject)
     if isinstance(clause.subject, Measure):
         thing = clause.subject.of.thing
         if state == "big" and clause.subject.of.attribute in ("gap", "distance"):

@@ -3,7 +3,17 @@
 from dataclasses import replace
 from typing import Final
 
-from xavi_dialogue.domain.terms import Event, Happens, Proposition, Related, Wanted
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Happens,
+    Pronoun,
+    Proposition,
+    Related,
+    Vehicle,
+    Wanted,
+)
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.clauses.sem import as_thing
 from xavi_dialogue.nlu.compose.states.predicates import tense_of
@@ -50,4 +60,13 @@ def behind_what(clause: Clause) -> tuple[Clause, Proposition] | None:
     if "behind" in places and (open_ or verb in _DRIVEN):
         ahead = Related("behind", subject, clause.gap, time, tense)
         return bare, ahead
+    return None
+
+
+def following(clause: Clause) -> Event | None:
+    """Give the following that a place behind somebody stands for: "time lost behind the lorry"."""
+    for phrase in clause.complements:
+        whom = as_thing(phrase.sem) if phrase.key == "bearing-behind" else None
+        if isinstance(whom, Described | Vehicle | Pronoun):
+            return Event("follow", Ego(), whom, tense=tense_of(clause))
     return None

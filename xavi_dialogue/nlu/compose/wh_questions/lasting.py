@@ -36,6 +36,7 @@ from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
 from xavi_dialogue.nlu.compose.verbs.lights import colour_of
+from xavi_dialogue.nlu.compose.wh_questions.behind import following
 
 #: What is driving as such, and no moment of the ride.
 DRIVING = frozenset({"move", "go", "do", "continue", "happen", "speed-up", "slow-down"})
@@ -50,7 +51,9 @@ _SEEING = frozenset({"see", "look", "watch", "know", "track", "notice"})
 def spent_by(clause: Clause, value: Special) -> Event | None:
     """Give the deed by which time is saved or lost: "by overtaking"."""
     by = value.match.phrases.get("by")
-    return cast(Event, with_fields(by, tense=clause.tense)) if isinstance(by, Event) else None
+    if isinstance(by, Event):
+        return cast(Event, with_fields(by, tense=clause.tense))
+    return following(clause)
 
 
 def saving(clause: Clause) -> Event:

@@ -51,7 +51,9 @@ def reasoned(clause: Clause, value: Special) -> Question | None:
             return WhatWouldChange(None, most=True)
         case "decide" | "choose":
             return Listing("decisions", time=time)
-        case "save" | "cost" if isinstance(by := value.match.phrases.get("by"), Event):
+        case "cost" if isinstance(by := value.match.phrases.get("by"), Event):
+            return measured("delay", clause, Ego(), event=by)  # "what did we lose by waiting?"
+        case "save" if isinstance(by := value.match.phrases.get("by"), Event):
             return Why(as_of(Happens(by), value.clause.tense))
         case "achieve":
             by = value.match.phrases.get("by")

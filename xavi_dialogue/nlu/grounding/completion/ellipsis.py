@@ -63,6 +63,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
 from xavi_dialogue.nlu.grounding.completion.moving import at_another_time, counted_from
 from xavi_dialogue.nlu.grounding.completion.replacing import with_event, with_thing, with_time
 from xavi_dialogue.nlu.grounding.completion.showing import anew, showing
+from xavi_dialogue.nlu.grounding.completion.sides import lane_or_turn, on_a_side
 from xavi_dialogue.nlu.grounding.completion.supposing import PLACES, through, what_if, whom_struck
 from xavi_dialogue.nlu.grounding.context import Grounder
 
@@ -159,10 +160,9 @@ def _same(spoken: Elliptic, question: Question | None, g: Grounder) -> Act | Non
     if question is None:
         return _frameless(spoken, g)
     new: Question = question
-    if spoken.event is not None:
-        spoken = replace(spoken, event=_lane_or_turn(spoken.event, g))
-        if first(question, Event) is None and spoken.thing is None:
-            return _frameless(spoken, g)
+    spoken = on_a_side(spoken, question, g)
+    if spoken.event is not None and first(question, Event) is None and spoken.thing is None:
+        return _frameless(spoken, g)
     if spoken.thing is None and spoken.event is None:
         moved = at_another_time(spoken.time, question)
         if moved is not None:
@@ -260,26 +260,12 @@ def _frameless(spoken: Elliptic, g: Grounder) -> Act | None:
     """Read a fragment that follows on nothing: what is it, or what does it do."""
     g.notes.cost += FRAMELESS
     if spoken.event is not None:
-        return Ask(Whether(Happens(_lane_or_turn(spoken.event, g))))
+        return Ask(Whether(Happens(lane_or_turn(spoken.event, g))))
     if spoken.thing is None:
         return None
     if isinstance(spoken.thing, Described | Pronoun | Vehicle):
         return Ask(Identify(spoken.thing))
     return Ask(Where(spoken.thing))
-
-
-_CHANGES: Final = {"exit-left": "change-left", "exit-right": "change-right"}
-LATELY: Final = 4.0  # [s] for which a lane change is what "left again?" is of
-
-
-def _lane_or_turn(event: Event, g: Grounder) -> Event:
-    """Take "left again?" for the lane change where we are changing lanes."""
-    change = _CHANGES.get(event.action)
-    if change is None or not isinstance(event.actor, Ego):
-        return event
-    since = max(g.context.begin, g.context.now - LATELY)
-    done = any(e.action == change for e in g.context.deeds(Ego(), since, g.context.now))
-    return replace(event, action=change, tense="present") if done else event
 
 
 #: What is done for, to or because of somebody: "for whom?".
