@@ -158,15 +158,13 @@ def _sentence(typed: Typed, budget: Budget) -> tuple[Reading, ...]:
 
 
 def _as_typed(typed: Typed, stated: Typed, found: tuple[Reading, ...]) -> tuple[Reading, ...]:
-    """Return the readings of a sentence that was given its subject, without that word's share."""
-    at = next(
-        k
-        for k, (a, b) in enumerate(zip(typed.tokens, stated.tokens, strict=False))
-        if a.text != b.text
-    )
+    """Return the readings of a sentence that was given its subject, without those words' shares."""
+    more = len(stated.tokens) - len(typed.tokens)
+    pairs = enumerate(zip(typed.tokens, stated.tokens, strict=False))
+    at = next(k for k, (one, other) in pairs if one.text != other.text)
     return tuple(
         structs.replace(
-            one, shares=(*one.shares[:at], *one.shares[at + 1 :]), cost=one.cost + UNSAID
+            one, shares=(*one.shares[:at], *one.shares[at + more :]), cost=one.cost + UNSAID
         )
         for one in found
         if one.acts and not one.unknown

@@ -28,6 +28,11 @@ PERCEIVING: Final = frozenset(
     ("see", "saw", "hear", "heard", "tell", "feel", "felt", "know", "knew", "understand", "believe",
      "notice", "noticed", "think", "thought", "remember", "get")
 )  # fmt: skip
+#: Words that begin what is asked or said of us as a whole: "stuck at red?", "going to make it?".
+OURS: Final = {
+    "stuck": ("we", "are"), "gonna": ("are", "we"), "gunna": ("are", "we"),
+    "going to": ("are", "we"),
+}  # fmt: skip
 FINITE: Final = frozenset(("VPAST",))
 AMBIGUOUS: Final = frozenset(("V", "SIDE", "KIND", "EVN", "ADJ", "P", "BEARING"))
 AUXILIARIES: Final = frozenset(("did", "had", "was", "were"))
@@ -42,6 +47,10 @@ def marked(typed: Typed) -> Typed | None:
     """
     words = _words(typed)
     verb = _past(words, (first := _past(words, 0, OPENERS)), NEARLY)
+    ours = OURS.get(words[first]) if first < len(words) - 1 else None
+    ours = ours or OURS.get(" ".join(words[first : first + 2]))
+    if ours is not None and len(words) > first + 2:
+        return _with(typed, first, *ours)
     if first < verb < len(words) - 1 and _is(words[verb], FINITE):
         return _with(typed, first, "you")
     at = _past(words, 0, OPENERS)
@@ -85,7 +94,8 @@ def _is(word: str, categories: frozenset[str]) -> bool:
     return known is not None and any(e.category in categories for e in known.entries)
 
 
-def _with(typed: Typed, at: int, subject: str) -> Typed:
+def _with(typed: Typed, at: int, *said: str) -> Typed:
     first = typed.tokens[at]
     rest = (Token(first.text), *typed.tokens[at + 1 :])
-    return Typed((*typed.tokens[:at], Token(subject, first.mark), *rest), typed.end)
+    unsaid = (Token(said[0], first.mark), *map(Token, said[1:]))
+    return Typed((*typed.tokens[:at], *unsaid, *rest), typed.end)

@@ -26,6 +26,7 @@ from xavi_dialogue.domain.vocabulary import ActionName, Comparator
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.clauses.sem import Sem, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
+from xavi_dialogue.nlu.compose.verbs.lights import BY, on_light
 
 #: What somebody has done who is so: "out" has come out.
 _MOVED: dict[str, ActionName] = {"out": "pull-out", "off": "leave", "in": "enter"}
@@ -44,6 +45,18 @@ _PLACES: dict[str, Thing] = {
 def place_of(deed: Proposition | None) -> Thing | None:
     """Give the place where a deed of ours is done: "where we get off", "where we turn"."""
     return _PLACES.get(deed.event.action) if isinstance(deed, Happens) else None
+
+
+def stuck_at(clause: Clause, thing: Thing | None) -> Proposition | None:
+    """Read who is stuck at a traffic light as waiting there; None where nothing tells."""
+    places = [as_thing(on_light(c.key, c.sem, ())) for c in clause.complements if c.key in BY]
+    light = next((p for p in places if isinstance(p, Feature) and p.kind == "light"), None)
+    if any(key == "red-light" for key, _ in clause.adjectives):
+        light = Feature("light", colour="red")  # "at red"
+    if light is None or thing is None:
+        return None
+    tense: Any = clause.tense
+    return Happens(Event("wait", thing, light, time=clause.time, tense=tense))
 
 
 def by_particle(clause: Clause) -> Proposition | None:

@@ -45,6 +45,7 @@ from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.states.existence import existing, from_whom
 from xavi_dialogue.nlu.compose.states.pacing import pace_said
 from xavi_dialogue.nlu.compose.states.placing import LOOSE, placed
+from xavi_dialogue.nlu.compose.states.positions import stuck_at
 from xavi_dialogue.nlu.compose.states.predicates import UNITS, lights, nominal, tense_of
 from xavi_dialogue.nlu.compose.states.rooms import roomy
 from xavi_dialogue.nlu.compose.verbs.events import when
@@ -270,6 +271,8 @@ def _is(clause: Clause, key: str, too: bool) -> Proposition:
     time, tense = when(clause, None), tense_of(clause)
     if "ever" in clause.focus and isinstance(time, Unsaid) and tense != "present":
         time = WholeRide()  # "was it ever close?"
+    if state == "stuck" and (held := stuck_at(clause, thing)) is not None:
+        return held
     found: Proposition = Is(cast(Any, state), thing, event or inner, too, time, tense)
     if bearing is not None and state in ("close", "stuck", "stationary"):
         to = as_thing(bearing.sem) or Ego()
