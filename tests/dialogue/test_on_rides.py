@@ -166,3 +166,39 @@ def test_following_a_slow_vehicle_costs_time_against_the_limit() -> None:
 def test_an_unknown_word_is_owned_up_to_in_a_question_that_is_likened_to_a_plain_one() -> None:
     asked = "blorbflisk what was the second best thing you could have done"
     assert '"blorbflisk"' in Talk("s1-0").say(asked).reply.text
+
+
+@pytest.mark.parametrize(
+    ("text", "reply"),
+    [
+        ("will it be green when we get there?", "No, "),
+        ("will the light be red by the time we reach it?", "Yes, "),
+        ("will we make the light?", "No, "),
+        ("are we going to catch the green?", "No, "),
+        ("gonna make this light?", "No, "),
+        ("will we get through the light without stopping?", "No, "),
+        ("will we have to stop at the light?", "Yes, "),
+        ("won't we have to stop at the light?", "Yes, "),
+        ("how likely is it that the light is green when we arrive?", ""),
+        ("what are the odds we make the light", ""),
+    ],
+)
+def test_a_light_ahead_is_met_by_the_chance_that_we_have_to_stop(text: str, reply: str) -> None:
+    told = Talk("junction-0", 9.0).say(text).reply.text
+    assert told.startswith(f"{reply}we will" if reply else "We will")
+    assert "have to stop for the traffic light" in told
+    assert "not have to stop" not in told
+
+
+@pytest.mark.parametrize(
+    "text", ["wats it showing", "what does it show?", "what colour is it", "what's it showing now?"]
+)
+def test_what_shows_a_colour_is_the_light_in_view(text: str) -> None:
+    assert "The traffic light is red" in Talk("junction-0", 18.0).say(text).reply.text
+
+
+@pytest.mark.parametrize(
+    "text", ["stuck at red?", "are we stuck at a red light?", "stuck at the light?"]
+)
+def test_who_is_stuck_at_a_light_stands(text: str) -> None:
+    assert Talk("junction-0", 18.0).say(text).reply.text.startswith("Yes, ")

@@ -86,8 +86,10 @@ class LightForeseen(Value, frozen=True):
     foreseen: Foreseen | None  # None: it shows that already, or nothing is known about it
     shown: Shown | None = None
     past: bool = False  # the question is what was expected
-    asked: Literal["when", "whether", "how-sure", "going"] = "when"  # going: when we go on
-    holds: bool | None = None  # the reply to the question whether it will change
+    #: going: when we go on; met: whether it lets us through
+    asked: Literal["when", "whether", "how-sure", "going", "met"] = "when"
+    holds: bool | None = None  # the reply to the question whether it will change, or is met so
+    stops: float | None = None  # probability that we have to stop for it, if "met" is asked
 
 
 class LightPassed(Value, frozen=True):

@@ -110,6 +110,8 @@ def why_not(acts: tuple[Act, ...], unit: Node, clause: Clause) -> tuple[Act, ...
     """
     words = words_of(unit).split()
     match acts:
+        case (Request(event, False),) if "have" in words and "we" in words:
+            return (Ask(Whether(Happens(replace(event, tense="future", modal="must")))),)
         case (Request(event, False),) if clause.negated and "we" in words and "please" not in words:
             return (Ask(Why(Not(Happens(replace(event, modal="can"))))),)
         case (Request(event, False),) if _of_us_both(words_of(unit)):

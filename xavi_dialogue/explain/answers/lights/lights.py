@@ -28,6 +28,7 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.domain.terms import Believed, Event, Feature, Has, Measured
 from xavi_dialogue.explain.answers.lights import (
     lights_ahead,
+    lights_met,
     lights_seen,
     lights_supposed,
     lights_turn,
@@ -56,6 +57,8 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
     if not isinstance(act, Ask):
         return None
     match act.question:
+        case Whether(that) if lights_met.wanted(that, scene) is not None:
+            return _asked(lights_met.whether)
         case Whether(that) | HowKnow(that) | When(that) | HowLong(that) if isinstance(
             that, Believed
         ) and lights_ahead.concerns(that.content):
@@ -72,6 +75,8 @@ def explainer(act: object, scene: Asked) -> Explainer | None:
             return _asked(lights_supposed.whether_turn)
         case Whether(that) if of_another(that):
             return _asked(lights_seen.unseen)
+        case HowSure(of) if lights_met.wanted(of, scene, lights_met.COMING) is not None:
+            return _asked(lights_met.how_sure)
         case HowSure(of) if of is not None and lights_ahead.concerns(of):
             return _asked(lights_ahead.how_sure)
         case When(of) | HowLong(of) if lights_ahead.until_we_go(of, scene):

@@ -26,6 +26,7 @@ STATED = ("colour", "whether", "claim")  # questions about what it shows
 SPENT = 0.75  # [s] minimum duration of a state that is stated
 SAVED = 1.0  # [s] minimum difference that matters
 AT_ONCE = 0.75  # [s] maximum time between two events that count as simultaneous
+CERTAIN = 0.95  # minimum probability of a plan that is stated as certain
 EXACT = 2.0  # [s] maximum range of times that is stated as one time
 REPLIES = {("whether", True): "yes", ("whether", False): "no", ("claim", True): "right",
            ("claim", False): "wrong", ("seen", True): "yes", ("seen", False): "no",
@@ -122,6 +123,8 @@ def plan_foreseen(answer: LightForeseen, context: SpeechContext) -> Plan:
     """Plan when a light is expected to change: the belief with its range, and its basis."""
     found = answer.foreseen
     reply = {None: "", True: "yes", False: "no"}[answer.holds]
+    if answer.stops is not None:
+        return _met(answer, answer.stops, reply, context)
     if found is None:
         shown = answer.shown
         colour = None if shown is None else COLOURS[shown.colour]
@@ -132,6 +135,17 @@ def plan_foreseen(answer: LightForeseen, context: SpeechContext) -> Plan:
     sure = found.middle is not None and _exact(found)
     basis = () if sure else (message("LIGHT_BASIS", cycle=found.cycle),)
     return Plan((core,), basis)
+
+
+def _met(answer: LightForeseen, stops: float, reply: str, context: SpeechContext) -> Plan:
+    """Plan whether we have to stop for a light ahead, what it shows, and when it changes."""
+    slots: dict[str, object] = {"reply": reply, "chance": Chance(stops)}
+    slots |= {"sure": stops >= CERTAIN, "never": stops <= 1.0 - CERTAIN, "likely": stops >= 0.5}
+    core = message("LIGHT_MET", light=Who(Feature("light")), **slots)
+    shown = () if answer.shown is None else (light_message(answer.shown, context),)
+    found = answer.foreseen
+    told = () if found is None else (message("LIGHT_EXPECT", **_belief(found, answer, context)),)
+    return Plan((core,), (*shown, *told))
 
 
 def foreseen_message(found: Foreseen, context: SpeechContext) -> Message:

@@ -318,7 +318,7 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "need": _is("necessary", of_object=True), "end": _is("over"),
     "free-up": _is("free"), "seem": _seem, "deem": _deem,
     "give-priority": _priority, "switch": _signal, "colour": lights.coloured,
-    "stay-colour": lights.stays, "run-light": lights.ran,
+    "stay-colour": lights.stays, "run-light": lights.ran, "make-light": lights.made,
     "become": lambda s: become(s, event_of),
     "stay": _is("safe"), "allow": _is("allowed", of_object=True), "permit": _is("allowed"),
     "risk": _is("dangerous"), "blame": _is("at-fault", of_object=True),

@@ -125,6 +125,13 @@ def ran(special: Special) -> Proposition:
     return Happens(event_of(special, "pass", red))
 
 
+def made(special: Special) -> Proposition:
+    """Read "will we make the light", "catch the green": whether it lets us through."""
+    thing = as_thing(on_light("on", special.object, ()))
+    light = isinstance(thing, Feature) and thing.kind == "light"
+    return Happens(event_of(special, "pass" if light else "do", thing))
+
+
 def had_light(special: Special) -> Proposition | None:
     """Read "we had green", "he has a red light"; None where nothing of the kind is said."""
     sem = special.object

@@ -7,6 +7,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Feature,
     Happens,
     Not,
     Passenger,
@@ -69,6 +70,8 @@ def deed_asked(clause: Clause, value: Proposition) -> Question | None:
         return _instead(clause, event.actor, None)
     if "semi-allowed" in clause.aux and event.actor == Ego():
         return measured("limit", clause, event.actor)
+    if clause.verb is not None and clause.verb.key == "show" and isinstance(event.actor, Pronoun):
+        return measured("colour", clause, Feature("light"))  # "what's it showing?"
     return Doing(event.actor, clause.time, _tense(clause))
 
 

@@ -21,6 +21,7 @@ from xavi_dialogue.domain.terms import (
     Has,
     Is,
     Measured,
+    Not,
     Pronoun,
     Related,
     Relative,
@@ -39,6 +40,8 @@ GOING: Final = frozenset[ActionName](
     ("go", "move", "continue", "enter", "cross", "pass", "overtake", "arrive", "exit-straight")
 )
 CROSSING: Final = frozenset[ActionName](("cross", "pass", "enter"))
+MEETING: Final = frozenset[ActionName](("arrive", "approach", "cross", "enter", "pass", "come"))
+BY: Final = frozenset(("during", "before", "until"))
 AT: Final = frozenset(("near", "on", "ahead-of", "to", "with"))
 _OPEN: Final = frozenset(("it", "that", "this", "one"))
 _MEASURED: Final = frozenset(("distance", "place", "colour", "kind", "duration"))
@@ -80,7 +83,7 @@ def _meant(part: Any, g: Grounder) -> Any:
             return replace(part, thing=_spoken(thing, g))
         case Doing(actor=Pronoun() as thing):
             return replace(part, actor=_spoken(thing, g))
-        case HowKnow(of=None) if _leads(g, unsaid=False):
+        case HowKnow(of=None) if _leads(g, unsaid=g.context.discourse.question is None):
             g.notes.cost += RATHER_IT  # "what does it show?"
         case Where(of=Pronoun() as thing):
             return replace(part, of=_spoken(thing, g))
@@ -91,6 +94,10 @@ def _meant(part: Any, g: Grounder) -> Any:
         case Measured(attribute="distance", to=Feature(kind="line")) if _known(g):
             return replace(part, to=LIGHT)
         case Measured(attribute="distance", thing=Feature(kind="line")) if _known(g):
+            return replace(part, thing=LIGHT)
+        case Measured(attribute="colour", thing=Pronoun("it"), to=None) if _in_view(g) and _leads(
+            g, unsaid=True
+        ):
             return replace(part, thing=LIGHT)
         case Measured(attribute=attribute) if attribute in _MEASURED:
             beside = None if part.to is None else _spoken(part.to, g)
@@ -112,13 +119,19 @@ def _event(event: Event, g: Grounder) -> Event:
         return event
     if event.action in HELD:
         return replace(event, object=light, where=None)
-    if event.action in GOING and (light.colour is not None or event.action != "go"):
+    through = light.colour is not None or _light(event.object) is not None
+    if event.action in GOING and (through or event.action != "go"):
         return replace(event, action="pass", object=light, where=None)
     return event
 
 
-def _lit_then(of: Has, g: Grounder) -> Has | Happens:
-    """A colour at the time at which we passed the light; where we have passed none, that we did."""
+def _lit_then(of: Has, g: Grounder) -> Has | Happens | Not:
+    """A colour at the time at which we passed the light; where we have passed none, that we did.
+
+    Its colour when we are to come to it is whether we stop for it.
+    """
+    if (met := _met(of)) is not None:
+        return met
     time = _passing(of.time) if _light(of.thing) else of.time
     if time is of.time:
         return of
@@ -126,6 +139,17 @@ def _lit_then(of: Has, g: Grounder) -> Has | Happens:
     if not g.context.holds(replace(passed, object=LIGHT), g.context.begin, g.context.now):
         return Happens(passed)
     return replace(of, time=time)
+
+
+def _met(of: Has) -> Happens | Not | None:
+    """Take the colour of a light at which we are to arrive for whether we have to stop for it."""
+    match of.time:
+        case Relative(relation=relation, anchor=Event(action=action, actor=Ego()) as anchor) if (
+            _light(of.thing) and action in MEETING and relation in BY and anchor.tense == "present"
+        ):
+            stops = Happens(Event("stop", Ego(), LIGHT, tense="future", modal="must"))
+            return Not(stops, lexical=True) if of.value == "green" else stops
+    return None
 
 
 def _passing(time: Any) -> Any:
