@@ -83,7 +83,17 @@ def whether(question: Whether, asked: Asked) -> Answer:
         that = Happens(replace(that.event, manner=()))  # it has not done so at all
     if question.degree and isinstance(found.answer, Closeness):
         return replace(found.answer, degree=True)
+    if isinstance(found.answer, Priority):
+        return _with_basis(asked, found.answer)
     return found.answer if found.answer is not None else found.verdict(that)
+
+
+def _with_basis(asked: Asked, found: Priority) -> Priority:
+    """Return a rule with its basis."""
+    # Deferred import: the basis rests on reasons, which may be about propositions themselves.
+    from xavi_dialogue.explain.answers.owing import reason
+
+    return reason(asked, found)
 
 
 def _kept_behind(that: Proposition, found: Finding, asked: Asked) -> Answer | None:
