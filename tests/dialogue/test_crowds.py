@@ -159,3 +159,51 @@ def test_it_is_the_one_on_foot_whom_the_answer_named() -> None:
     told = talk.say("What made you brake just now?", 43.0).reply.text
     assert "pedestrian" in told
     assert "pedestrian" in talk.say("How close was it?", 43.0).reply.text
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Had every single one of them cleared the road?",
+        "Have they all left the road?",
+        "Did each of them get across?",
+        "Are the pedestrians off the road?",
+        "Is everyone off the crossing?",
+    ],
+)
+def test_who_has_crossed_is_told_together(text: str) -> None:
+    """Those who were not in our way at all do not count."""
+    talk = Talk("junction-0", 14.5)
+    assert talk.say(text).reply.text.startswith("No, ")
+    reply = Talk("junction-0", 23.0).say(text).reply.text
+    assert reply.startswith("Yes, ")
+    assert "not" not in reply
+
+
+@pytest.mark.parametrize(
+    "text", ["how many people are on the crossing?", "how many people are crossing?"]
+)
+def test_who_crossed_before_is_not_on_the_crossing(text: str) -> None:
+    assert "Nobody" in Talk("junction-0", 25.0).say(text).reply.text
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "State whether those pedestrians have priority over us, and by what rule.",
+        "do they have right of way over us and by which rule?",
+        "do they owe us or we them?",
+    ],
+)
+def test_right_of_way_is_told_of_all_who_cross_with_its_basis(text: str) -> None:
+    reply = Talk("junction-0", 13.0).say(text).reply.text
+    assert "people on foot who cross our way go first" in reply
+    assert reply.count("(vehicle") == 2
+
+
+@pytest.mark.parametrize(
+    "text", ["who are you waiting for?", "what are we waiting for?", "who are we waiting on?"]
+)
+def test_while_we_drive_freely_we_wait_for_nobody(text: str) -> None:
+    assert "not waiting for anybody" in Talk("junction-0", 3.0).say(text).reply.text
+    assert "light is red" in Talk("junction-0", 20.0).say(text).reply.text

@@ -39,7 +39,7 @@ def severally(act: GroundedAct) -> tuple[GroundedAct, ...]:
             return tuple(replace(act, act=Ask(replace(q, of=one))) for one in ways)
         case Ask(
             question=Whether(that=Happens(event=Event(actor=Vehicles(numbers=many)) as event)) as q
-        ) if event.action in OWN and event.modal in (None, "will") and len(many) <= MOST:
+        ) if _own(event) and len(many) <= MOST:
             return tuple(replace(act, act=Ask(replace(q, that=of))) for of in _each(event, many))
         case Ask(
             question=Which(such=Happens(event=Event(actor=Vehicles(numbers=many)) as event)) as q
@@ -51,6 +51,12 @@ def severally(act: GroundedAct) -> tuple[GroundedAct, ...]:
         ) if len(many) <= MOST:
             return tuple(replace(act, act=Ask(replace(q, actor=Vehicle(n)))) for n in many)
     return (act,)
+
+
+def _own(event: Event) -> bool:
+    """Check whether each of several does something by itself; those who crossed did so together."""
+    crossed = event.action == "cross" and event.tense in ("past", "perfect")
+    return event.action in OWN and event.modal in (None, "will") and not crossed
 
 
 def _each(event: Event, many: tuple[int, ...]) -> tuple[Happens, ...]:

@@ -8,7 +8,6 @@ from msgspec.structs import replace
 from xavi_dialogue.domain.answers import (
     Answer,
     ChoiceReason,
-    Identified,
     MotionReason,
     NeedRollout,
 )
@@ -38,8 +37,6 @@ from xavi_dialogue.domain.terms import (
     Is,
     Measured,
     Nobody,
-    Not,
-    Now,
     Proposition,
     Related,
     Unsaid,
@@ -48,7 +45,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
     WholeRide,
 )
-from xavi_dialogue.explain.answers import owing
+from xavi_dialogue.explain.answers import owing, waiting
 from xavi_dialogue.explain.answers.abandoned_plans import wavered
 from xavi_dialogue.explain.answers.measuring.durations import compared_costs, stands
 from xavi_dialogue.explain.answers.propositions import reasons, standing_rules
@@ -62,11 +59,10 @@ from xavi_dialogue.explain.answers.reference.reading import (
     unwrapped,
     vehicle_in,
 )
-from xavi_dialogue.explain.answers.ride.delays import held_up, let_past
+from xavi_dialogue.explain.answers.ride.delays import held_up
 from xavi_dialogue.explain.answers.suppositions import deciding, possible, risks
 from xavi_dialogue.explain.answers.suppositions.listing import closest_choice, how_decide, listed
 from xavi_dialogue.explain.answers.suppositions.undone import is_undone
-from xavi_dialogue.explain.facts.looks import STILL
 
 Explainer: TypeAlias = Callable[[Any, Asked], Answer]
 
@@ -122,7 +118,7 @@ def explainer(question: Question, scene: Asked) -> Explainer | None:
         case Which(thing, such) if _holds_us_up(such) and _over_the_ride(thing, such):
             return _who_held_up
         case Which(Wanted() | Vehicles(), such) if _holds_us_up(such):
-            return _what_for
+            return waiting.what_for
         case HowKnow(Is(state="safe" | "possible", event=Event() as event)) if is_own(event.actor):
             return _why_safe
         case HowKnow(Happens(Event(actor=Ego(), where=Related("with", to=Vehicle())))):
@@ -180,33 +176,6 @@ def _who_held_up(question: Which, scene: Asked) -> Answer:
     time = of.left.time if isinstance(of, Compares) else getattr(of, "event", Event("block")).time
     time = WholeRide() if isinstance(time, Unsaid) else time
     return held_up(scene, window(scene, time, "past"))
-
-
-def _what_for(question: Which, scene: Asked) -> Answer:
-    """Return for what or whom we wait or slow down, as the reason."""
-    of, _ = unwrapped(question.such)
-    event = of.event if isinstance(of, Happens) else Event("block")
-    if isinstance(of, Compares):
-        event = replace(event, tense=of.left.tense, time=of.left.time)
-    if isinstance(of, Is):
-        event = Event("stand", tense=of.tense, time=of.time)
-    if event.action == "block":
-        event = replace(event, action="wait", actor=Ego())
-    several = let_past(event, scene)
-    if len(several) > 1:
-        return Identified(several, question.such)
-    event = replace(event, object=None)
-    if event.action in ("stop", "stand", "wait") and event.tense == "present":
-        return reasons.why(Why(_held(scene)), scene)
-    return reasons.why(Why(Happens(event)), scene)
-
-
-def _held(scene: Asked) -> Proposition:
-    """Say that we stand, or creep, now."""
-    speed = scene.world.measure("speed", Ego(), scene.now).value
-    if speed is not None and speed > STILL:
-        return Is("slow", Ego(), time=Now(), tense="present")
-    return Not(Happens(Event("go", tense="present")))
 
 
 def _why_safe(question: HowKnow, scene: Asked) -> Answer:

@@ -1,9 +1,9 @@
 """Suppositions by themselves, and "what about": "what if he had", "if he hadn't?"."""
 
-from typing import Any
+from typing import Any, Final
 
 from xavi_dialogue.domain.meaning import Act, Ask, Claim, Elliptic, HowKnow, WhatIf, Why
-from xavi_dialogue.domain.terms import Ego, Happens, Not, Proposition, Unsaid
+from xavi_dialogue.domain.terms import Ego, Everyone, Happens, Not, Pronoun, Proposition, Unsaid
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, Sem, as_thing
@@ -19,6 +19,9 @@ _NOTICING = frozenset(
      "foresee", "anticipate", "detect", "register", "plan"}
 )  # fmt: skip
 Found = list[tuple[tuple[Act, ...], float]]
+
+
+_ALL: Final = (Pronoun("them-all"), Everyone())
 
 
 class Suppositions:
@@ -148,7 +151,10 @@ def suppose(supposed: Proposition) -> Act:
 
 
 def supposes(unit: Node, clause: Clause) -> bool:
-    """Say whether "had you gone left?" supposes it: no time and no "already" asks for a fact."""
+    """Say whether "had you gone left?" supposes it: no time and no "already" asks for a fact.
+
+    Neither does what is said of all of several.
+    """
     had = next((p for p in unit.parts if isinstance(p, Leaf) and p.category in _AUXILIARY), None)
     if had is None or had.category != "HAD":
         return False
@@ -158,7 +164,7 @@ def supposes(unit: Node, clause: Clause) -> bool:
     else:
         timed = bool(not isinstance(clause.time, Unsaid) or clause.focus or clause.manner)
         told = clause.verb is not None
-    if timed or not told:
+    if timed or not told or clause.subject in _ALL:
         return False
     return not _is_noticing(clause)
 

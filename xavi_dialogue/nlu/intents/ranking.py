@@ -19,6 +19,8 @@ from xavi_dialogue.domain.meaning import (
     HowMuch,
     Reading,
     TokenShare,
+    Whether,
+    Which,
     Why,
 )
 from xavi_dialogue.domain.rewriting import first
@@ -30,6 +32,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Proposition,
     Quantity,
+    Related,
     Thing,
 )
 from xavi_dialogue.nlu.demands import default, demanded, is_met
@@ -81,6 +84,7 @@ def ranked(text: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
         and not _is_less(best.acts, question.acts)
         and (incomplete or not _is_vaguer(best.acts, question.acts))
         and _counts(best.acts) <= _counts(question.acts)
+        and (incomplete or not _opens(best.acts, question.acts))
     ]
     found = [_reading(best, [pair]) for pair in (*offered, *_defaults(best, unmet))]
     if len(offered) > 1:
@@ -213,6 +217,18 @@ def _is_vaguer(acts: Sequence[Act], plain: Sequence[Act]) -> bool:
     vague = {kind for kind, action in _deeds(plain) if action == "do"}
     named = {kind for kind, action in _deeds(acts) if action != "do"}
     return not vague.isdisjoint(named)
+
+
+def _opens(acts: Sequence[Act], plain: Sequence[Act]) -> bool:
+    """Tell whether a plain question asks who has right of way, where it is asked of somebody."""
+    asked = (act.question for act in acts if isinstance(act, Ask))
+    said = any(isinstance(one, Whether) and _is_rule(one.that) for one in asked)
+    openly = (act.question for act in plain if isinstance(act, Ask))
+    return said and any(isinstance(one, Which) and _is_rule(one.such) for one in openly)
+
+
+def _is_rule(of: Proposition | None) -> bool:
+    return isinstance(of, Related) and of.relation in ("has-priority-over", "must-yield-to")
 
 
 def _deeds(acts: Sequence[Act]) -> Iterator[tuple[type, str]]:

@@ -1,11 +1,14 @@
 """Together: whether several road users all crossed our way, or are all behind us."""
 
+from msgspec.structs import replace
+
 from xavi_dialogue.domain.answers import Counted
-from xavi_dialogue.domain.facts import Look
+from xavi_dialogue.domain.facts import Episode, Look
 from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Happens,
     Now,
     Related,
     Unsaid,
@@ -20,6 +23,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding
 from xavi_dialogue.explain.answers.reference.moments import Window
 from xavi_dialogue.explain.answers.reference.naming import is_us, looks
+from xavi_dialogue.explain.answers.reference.naming import number as number_of
 
 ACROSS = 0.5  # [s] since its end in which crossing counts as going on
 
@@ -29,7 +33,7 @@ def together(asked: Asked, event: Event) -> Finding | None:
     if event.modal is not None or (asked.past is not None and asked.past.said):
         return None
     match event:
-        case Event(action="cross", actor=Vehicles(numbers=who), tense="present" | "perfect"):
+        case Event(action="cross", actor=Vehicles(numbers=who)) if event.tense != "future":
             return _crossing(asked, event, who)
         case Event(action="pass" | "overtake", object=Vehicles(numbers=who)) if is_us(event.actor):
             return _behind(asked, event, who)
@@ -59,7 +63,7 @@ def _crossing(asked: Asked, event: Event, who: tuple[int, ...]) -> Finding | Non
         if event.tense == "present":
             told = forecast(asked, map(Vehicle, who))
             return None if told is None else Finding(None, answer=told)
-        return Finding(True) if all(e is not None for e in last) else None
+        return _crossed(event, tuple(e for e in last if e is not None))
     kinds = {look.kind for look in looks(asked, who, asked.now)}
     kind = kinds.pop() if len(kinds) == 1 else "vehicle"
     such = Described(
@@ -67,6 +71,17 @@ def _crossing(asked: Asked, event: Event, who: tuple[int, ...]) -> Finding | Non
     )
     holds = event.tense == "present" and on == len(who)
     return Finding(holds, answer=Counted(Vehicles(who), on, such=such, said=holds))
+
+
+def _crossed(event: Event, done: tuple[Episode, ...]) -> Finding | None:
+    """Tell those of several who have crossed our way, while none of them is crossing it."""
+    who = tuple(number for e in done if (number := number_of(e.actor)) is not None)
+    if not who:
+        return None
+    actor = Vehicles(who) if len(who) > 1 else Vehicle(who[0])
+    facts = done if len(who) == 1 else ()
+    that = Happens(replace(event, actor=actor))
+    return Finding(True, answer=Finding(True, facts).verdict(that))
 
 
 def _behind(asked: Asked, event: Event, who: tuple[int, ...]) -> Finding | None:

@@ -280,6 +280,13 @@ def _priority(special: Special) -> Proposition:
     return Happens(event_of(special, "give-way", thing))
 
 
+def _owed(special: Special) -> Proposition:
+    """Read "we owe them priority": we must let them go first."""
+    thing = as_thing(special.match.phrases.get("into")) or as_thing(special.object)
+    at = time_of(special), tense_of(special)
+    return Related("must-yield-to", special.subject, thing or Pronoun("it"), *at)
+
+
 def _recede(special: Special) -> Proposition:
     """Read "pull away from us": the distance is more than it was shortly before."""
     to = as_thing(special.object) or Ego()
@@ -317,7 +324,7 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "violate": _is("allowed", positive=False), "exceed": exceed,
     "need": _is("necessary", of_object=True), "end": _is("over"),
     "free-up": _is("free"), "seem": _seem, "deem": _deem,
-    "give-priority": _priority, "switch": _signal, "colour": lights.coloured,
+    "give-priority": _priority, "owe": _owed, "switch": _signal, "colour": lights.coloured,
     "stay-colour": lights.stays, "run-light": lights.ran, "make-light": lights.made,
     "become": lambda s: become(s, event_of),
     "stay": _is("safe"), "allow": _is("allowed", of_object=True), "permit": _is("allowed"),

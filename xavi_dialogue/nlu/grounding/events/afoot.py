@@ -41,7 +41,8 @@ def afoot(event: Event, g: Grounder) -> Event:
     event = _crossed(replace(event, actor=_walker(event, g)))
     if not on_foot(event.actor, g):
         return event
-    action: ActionName = "cross" if event.action in ACROSS else event.action
+    over = event.action == "pass" and isinstance(event.object, _OURS)  # "cleared the road"
+    action: ActionName = "cross" if over or event.action in ACROSS else event.action
     if action != "cross":
         return event
     ours = event.object is None or isinstance(event.object, _OURS)
@@ -92,7 +93,7 @@ def on_foot(thing: Thing | None, g: Grounder) -> bool:
 def walked(of: Is | Related, g: Grounder) -> Is | Happens | Related:
     """Read "they are over", "he is on the crossing" of people on foot as crossing our way."""
     met = scene.on_foot(g.context, g.context.now) if isinstance(of.thing, Everyone) else ()
-    if len(met) > 1 and isinstance(of, Is):  # "is everybody across?"
+    if len(met) > 1 and (isinstance(of, Is) or of.relation == "from"):  # "is everybody across?"
         of = replace(of, thing=Vehicles(met))
     if not on_foot(of.thing, g):
         return of
@@ -102,6 +103,8 @@ def walked(of: Is | Related, g: Grounder) -> Is | Happens | Related:
             tense = "perfect" if tense == "present" else tense
         case Related(relation="on", to=Junction() | Road("own")):
             pass
+        case Related(relation="from", to=Junction() | Road("own")):  # "are they off the road?"
+            tense = "perfect" if tense == "present" else tense
         case _:
             return of
     return Happens(Event("cross", of.thing or Ego(), Ego(), tense=tense))

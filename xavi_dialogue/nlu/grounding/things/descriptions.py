@@ -145,7 +145,8 @@ def _seen_by(search: Search) -> Described:
 
 def _search(thing: Described, g: Grounder, window: Window, fits: Fits | None) -> Search:
     moment = min(window.end, g.context.now) if not window.ahead else g.context.now
-    clause = None if thing.doing is None else clause_of(thing.doing, g, window)
+    one = thing.definite or not thing.plural
+    clause = None if thing.doing is None else clause_of(thing.doing, g, window, nearly=one)
     reference = None if thing.of is None else g.thing(thing.of, window)
     if not isinstance(reference, Vehicle):
         reference = None

@@ -25,6 +25,7 @@ class Clause:
     events: tuple[Event, ...]  # one after the other, with Vehicle(_GAP) where the vehicle belongs
     begin: float  # [s]
     end: float  # [s]
+    nearly: bool = True  # what is like that counts as well
     found: dict[int, tuple[Episode | None, float]] = field(default_factory=dict)
 
     def episode(self, vehicle: int) -> Episode | None:
@@ -44,7 +45,8 @@ class Clause:
 
     def _one(self, event: Event, vehicle: int) -> tuple[Episode | None, float]:
         exact = self.context.holds(event, self.begin, self.end)
-        near = exact or like(self.context, event, self.begin, self.end)
+        known = exact or not self.nearly
+        near = exact if known else like(self.context, event, self.begin, self.end)
         near = tuple(e for e in near if _concerns(e, vehicle))
         return near[-1] if near else None, 0.0 if exact else KIN_COST if near else 1.0
 
@@ -63,10 +65,10 @@ def fill(event: Event, vehicle: int) -> Event:
     )
 
 
-def clause_of(event: Event, g: Grounder, window: Window) -> Clause:
-    """Ground a relative clause but for its gap."""
+def clause_of(event: Event, g: Grounder, window: Window, *, nearly: bool = True) -> Clause:
+    """Ground a relative clause but for its gap; of those who are counted, only what is said."""
     begin, end = _when(event, g, window)
-    return Clause(g.context, tuple(_parts(event, g, window)), begin, end)
+    return Clause(g.context, tuple(_parts(event, g, window)), begin, end, nearly)
 
 
 def _parts(event: Event, g: Grounder, window: Window) -> Iterator[Event]:
