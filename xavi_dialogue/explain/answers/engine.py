@@ -18,7 +18,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import GroundedAct, Span
 from xavi_dialogue.domain.meaning import Ask, Beyond, HowKnow, Question, Whether
-from xavi_dialogue.domain.terms import At, Between, Exists, Nobody, Related, Vehicles
+from xavi_dialogue.domain.terms import At, Between, Ego, Event, Exists, Nobody, Related, Vehicles
 from xavi_dialogue.explain.answers import causal, factual
 from xavi_dialogue.explain.answers.lights import lights
 from xavi_dialogue.explain.answers.reasons import provoked
@@ -112,6 +112,8 @@ def _seen(question: Question) -> Question:
 
 def _doubted(result: Refusal | NeedRollout, ride: Ride) -> Refusal | NeedRollout:
     """Return the result; or another, if it denies what the record may lack."""
+    if isinstance(result, DidNotHappen) and _is_heard(result.asked):
+        return NotRecorded("not-sensed")
     if isinstance(result, DidNotHappen) and lacks_deeds(ride, result.asked):
         return NotRecorded("no-deeds")
     if not isinstance(result, DidNotHappen) or result.planned is not None or not ride.gaps:
@@ -119,3 +121,8 @@ def _doubted(result: Refusal | NeedRollout, ride: Ride) -> Refusal | NeedRollout
     if result.instead or result.elsewhen is not None:
         return result
     return NotRecorded("gap-in-record", since=ride.gaps[0][0], until=ride.gaps[-1][1])
+
+
+def _is_heard(event: Event) -> bool:
+    """Check whether an event is one that we would have to hear: others honk."""
+    return event.action == "honk" and not isinstance(event.actor, Ego)

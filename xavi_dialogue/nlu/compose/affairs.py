@@ -37,6 +37,7 @@ from xavi_dialogue.nlu.compose.alternatives.blames import of_one_alone
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.own_deeds import of_own_deed
+from xavi_dialogue.nlu.compose.sounds import of_sounds
 from xavi_dialogue.nlu.compose.wh_questions.rating import rating_of
 from xavi_dialogue.nlu.grammar.chart import Node
 
@@ -57,6 +58,7 @@ _THINGS: Final = (
 def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
     """Read how things look or go as what we do and whether it is safe."""
     acts = tuple(of_own_deed(of_one_alone(act, words), words) for act in acts)
+    acts = of_sounds(acts, words)
     if (rating := rating_of(acts, words)) is not None:
         return rating
     if len(acts) != 1 or not isinstance(acts[0], Ask):

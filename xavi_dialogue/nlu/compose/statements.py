@@ -50,6 +50,7 @@ from xavi_dialogue.nlu.compose.propositions.phrases import Phrases
 from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
 from xavi_dialogue.nlu.compose.propositions.tally import counts, tallied
 from xavi_dialogue.nlu.compose.questions import Questions
+from xavi_dialogue.nlu.compose.sounds import heard
 from xavi_dialogue.nlu.compose.states.states import ungoverned
 from xavi_dialogue.nlu.compose.talk import and_you, bodily, feeling_of
 from xavi_dialogue.nlu.compose.wh_questions.wh import fact
@@ -142,7 +143,7 @@ class Statements:
         feeling = feeling_of(clause, value)
         if feeling is not None:
             return (feeling, *and_you(unit)) if tagged else (feeling,)
-        asked = self._embedded(clause, value)
+        asked = self._embedded(clause, value) or heard(clause, value)
         if asked:
             return asked
         if wavers(clause, value):

@@ -58,6 +58,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.sounds import of_one_sound
 from xavi_dialogue.nlu.compose.verbs.trends import as_slowing, believed
 from xavi_dialogue.nlu.compose.wh_questions.wh import answer_to
 from xavi_dialogue.nlu.joining.blaming import HELD, asked_with, is_clear
@@ -78,6 +79,7 @@ def merged(before: Act, later: Act) -> Act | None:
         or _of_told(before, later)
         or _of_world(before, later)
         or _of_claim(before, later)
+        or of_one_sound(before, later)
     )
 
 
