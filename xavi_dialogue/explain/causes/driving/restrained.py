@@ -32,6 +32,7 @@ from xavi_dialogue.explain.causes.plans.contrast import evidence, factual
 from xavi_dialogue.explain.causes.vehicles.hindsight import in_hindsight
 from xavi_dialogue.explain.causes.vehicles.involved import expected_actions
 from xavi_dialogue.explain.causes.vehicles.necessity import proven
+from xavi_dialogue.explain.causes.vehicles.profile import SHOWN
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.nearing import speed_at, with_lowest, with_speeds
 from xavi_dialogue.explain.history.restraints import SHARE, Restraint, lasted, restraints, slowed
@@ -165,7 +166,7 @@ def as_driven(ride: Ride, world: World, deed: Episode, at: float) -> Reasons | N
     held = restraining(ride, deed, at)
     if held is not None and (deed.end is None or deed.action in STATES):
         held = _still(ride, held, at)
-    trace = None if held is None else ride.at(held.time)
+    trace = None if held is None else _decision(ride, deed, held)
     if held is None or trace is None:
         return None
     tested = _tested(ride, world, deed, held, trace)
@@ -175,6 +176,18 @@ def as_driven(ride: Ride, world: World, deed: Episode, at: float) -> Reasons | N
     if not causes:
         return None
     return Reasons(causes, tested.causation, tested.evidence, trace)
+
+
+def _decision(ride: Ride, deed: Episode, held: Restraining) -> PlanTrace | None:
+    """Return the decision to test; of a state, one so old that it shows how we drove since.
+
+    Plans may expect more of the ego than its driving makes of them.
+    """
+    known = ride.now - SHOWN
+    if deed.action not in STATES or known >= held.time:
+        return ride.at(held.time)
+    since = next((r.begin for r in restraints(ride) if r.begin <= held.time < r.end), held.time)
+    return ride.at(known if known >= since else held.time)
 
 
 @dataclass(frozen=True, slots=True)

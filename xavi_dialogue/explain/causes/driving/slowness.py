@@ -32,6 +32,7 @@ from xavi_dialogue.explain.causes.vehicles.necessity import proven
 from xavi_dialogue.explain.facts.traffic_lights import told
 from xavi_dialogue.explain.facts.world import World
 from xavi_dialogue.explain.history.nearing import speed_at
+from xavi_dialogue.explain.history.restraints import restraint_at
 from xavi_dialogue.explain.history.ride import Ride, Unanswered
 from xavi_dialogue.explain.history.traffic_lights import ahead, shown
 
@@ -84,7 +85,15 @@ def slowness(ride: Ride, world: World, time: float) -> Slowness:
     reasons = _reasons(ride, world, trace, deed, ahead)
     if behind and is_slow is False and not any(c.vehicle for c in reasons.causes):
         reasons = replace(reasons, causes=(MotionCause("limit", value=limit),))
+    if ahead is not None and behind and not reasons.causes and _restrains(ride, ahead, time):
+        reasons = replace(reasons, causes=(_plain(ahead),), causation=None)
     return Slowness(deed, reasons, limit, is_slow)
+
+
+def _restrains(ride: Ride, ahead: Look, time: float) -> bool:
+    """Check whether somebody ahead is recorded as what keeps us from driving faster."""
+    found = restraint_at(ride, time)
+    return found is not None and (found.by, found.vehicle) == ("leader", ahead.vehicle)
 
 
 def leader(ride: Ride, world: World, time: float) -> Look | None:
