@@ -60,7 +60,7 @@ def is_must(of: Proposition | None) -> bool:
     if not isinstance(of, Happens) or event is None or not is_own(event.actor):
         return False
     named = event.object is not None or event.tense == "present"
-    owed = event.action in ("give-way", "let-go", "wait") and named
+    owed = event.action in ("give-way", "let-go") or (event.action == "wait" and named)
     coming = event.action in HALTS and event.tense == "future"  # the plan answers that
     driving = event.action not in NOT_DRIVING and not coming
     return event.modal == "must" and driving and not owed

@@ -13,6 +13,8 @@ from xavi_dialogue.domain.terms import (
     Not,
     Proposition,
     Quantity,
+    Unsaid,
+    WholeRide,
 )
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -29,7 +31,10 @@ _TO_PACE = frozenset({"into", "at"})
 
 def exceed(special: Special) -> Proposition:
     """Read "do sixty", "drive over the limit": our speed beside a number, or the limit."""
-    speed = Measured("speed", special.subject, time=time_of(special), tense=tense_of(special))
+    time, tense = time_of(special), tense_of(special)
+    if "ever" in special.clause.focus and isinstance(time, Unsaid) and tense != "present":
+        time = WholeRide()  # "did we ever get above 60?"
+    speed = Measured("speed", special.subject, time=time, tense=tense)
     limit = Measured("limit", special.subject)
     beside = next((special.match.phrases[key] for key in ("over", "into", "bearing-behind")
                    if key in special.match.phrases), None)  # fmt: skip
@@ -40,7 +45,8 @@ def exceed(special: Special) -> Proposition:
         nodes += [phrase.node for phrase in special.clause.complements if phrase.sem == beside]
         words = {word for node in nodes for word in words_of(node).split()}
         more = special.clause.verb is None or special.clause.verb.key not in ("do", "go", "drive")
-        more = more or bool(words & _ABOVE)
+        below = "over" in special.match.phrases and bool(words & _BELOW)  # "stay below 40"
+        more = (more or bool(words & _ABOVE)) and not below
         less: Any = "less" if words & _BELOW else "same"
         return Compares(speed, "more" if more else less, said)
     return Compares(speed, "more", limit)

@@ -3,6 +3,7 @@
 from typing import Any, cast
 
 from xavi_dialogue.domain.terms import (
+    Both,
     Caused,
     Described,
     Ego,
@@ -76,6 +77,20 @@ def _still_there(clause: Clause) -> Thing | None:
     clause.complements.remove(phrase)
     bearing: Any = phrase.key.removeprefix("bearing-")
     return cast(Thing, with_fields(sem, bearing=bearing, of=None if of == Ego() else of))
+
+
+def in_lane(clause: Clause, state: str) -> list[Found]:
+    """Compose "was it driving in our lane", "is it stopped in our lane": where it is, and so."""
+    named = (as_thing(c.sem) for c in clause.complements if c.key in ("in", "on"))
+    lane = next((place for place in named if isinstance(place, Lane)), None)
+    thing = as_thing(clause.subject)
+    if lane is None or thing is None or state not in ("moving", "stationary"):
+        return []
+    time, tense = clause.time, tense_of(clause)
+    there = Related("on", thing, lane, time, tense)
+    if state == "moving":
+        return [(there, 0.0)]
+    return [(Both((Is(cast(Any, state), thing, time=time, tense=tense), there)), 0.0)]
 
 
 def _by_phrase(clause: Clause, thing: Thing, phrase: Complement) -> Found | None:

@@ -155,7 +155,8 @@ def _same(clause: Clause, thing: Thing | None, subject: Thing, time: Time) -> li
     if isinstance(subject, Feature) and subject.kind == "light" and isinstance(thing, Ego):
         return [(Exists(subject, time, tense), 0.0)]  # "is that light ours?"
     same: Proposition = Related("same-as", subject, thing, time, tense)
-    if words_of(clause.objects[0][1]) in _NOMINATIVE:
+    words, named = words_of(clause.objects[0][1]), isinstance(subject, Described)
+    if words in _NOMINATIVE or (named and words == "it"):  # "the car in front is it waiting"
         return [(same, NOMINATIVE)]
     if isinstance(thing, (Described, Everyone)) or not isinstance(subject, Pronoun):
         return [(same, 0.1)]

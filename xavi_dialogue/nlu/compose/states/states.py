@@ -44,7 +44,7 @@ from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, as_lane, as_thin
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.states.existence import existing, from_whom
 from xavi_dialogue.nlu.compose.states.pacing import pace_said
-from xavi_dialogue.nlu.compose.states.placing import LOOSE, placed
+from xavi_dialogue.nlu.compose.states.placing import LOOSE, in_lane, placed
 from xavi_dialogue.nlu.compose.states.positions import stuck_at
 from xavi_dialogue.nlu.compose.states.predicates import UNITS, lights, nominal, tense_of
 from xavi_dialogue.nlu.compose.states.rooms import roomy
@@ -171,8 +171,8 @@ def _found(clause: Clause) -> list[Found]:
             return [(_is(clause, "uncomfortable", degree == "too"), 0.0)]  # "that was sudden"
         if key in STATES or key in _NEGATED:
             beside = any(isinstance(sem, Pronoun) for sem, _ in clause.objects)
-            unread = bool(clause.comparisons)  # "are you not moving faster?"
-            return [(_is(clause, key, degree == "too"), BESIDE * (beside + unread))]
+            cost = BESIDE * (beside + bool(clause.comparisons))  # "are you not moving faster?"
+            return in_lane(clause, key) or [(_is(clause, key, degree == "too"), cost)]
     if clause.comparisons and (clause.comparisons[0][1] != "as" or clause.than is not None):
         compared = _compares(clause)
         if compared is not None:

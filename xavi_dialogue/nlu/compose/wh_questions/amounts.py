@@ -32,9 +32,6 @@ from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, Sem, as
 from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
 from xavi_dialogue.nlu.compose.wh_questions.grades import (
     CHANGING,
-    WAYS,
-    far_to,
-    remaining,
     sure_of,
 )
 from xavi_dialogue.nlu.compose.wh_questions.lasting import (
@@ -47,7 +44,7 @@ from xavi_dialogue.nlu.compose.wh_questions.lasting import (
     spent_by,
     until,
 )
-from xavi_dialogue.nlu.compose.wh_questions.towards import reference
+from xavi_dialogue.nlu.compose.wh_questions.towards import WAYS, far_to, reference, remaining
 
 
 def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -> Question:

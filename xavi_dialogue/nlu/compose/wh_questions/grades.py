@@ -10,7 +10,6 @@ from xavi_dialogue.domain.meaning import (
     HowMany,
     HowMuch,
     HowSure,
-    Listing,
     Question,
     WhatIf,
     When,
@@ -18,7 +17,6 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.terms import (
     Described,
-    Destination,
     Ego,
     Event,
     Exit,
@@ -27,7 +25,6 @@ from xavi_dialogue.domain.terms import (
     Is,
     Junction,
     Measured,
-    Next,
     Not,
     Pronoun,
     Proposition,
@@ -35,7 +32,6 @@ from xavi_dialogue.domain.terms import (
     Relative,
     Tense,
     Thing,
-    Unsaid,
     Wanted,
 )
 from xavi_dialogue.nlu.compose.alternatives.nearness import how_near
@@ -55,13 +51,12 @@ from xavi_dialogue.nlu.compose.wh_questions.lasting import (
     spent_by,
 )
 from xavi_dialogue.nlu.compose.wh_questions.savings import UNREAL
-from xavi_dialogue.nlu.compose.wh_questions.towards import reference
+from xavi_dialogue.nlu.compose.wh_questions.towards import far_to, reference, remaining
 from xavi_dialogue.nlu.compose.wh_questions.wh import content_of, held_then, sureness
 
 _PACES = frozenset({"faster", "slower", "quicker"})
 _PASSING = frozenset({"avoid", "nearly-collide", "pass", "overtake"})
 CHANGING = frozenset({"slow-down", "speed-up"})
-WAYS = frozenset({"turn", "exit-left", "exit-right", "exit-straight"})
 
 
 def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Question:
@@ -92,7 +87,7 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
         case "close":
             return _close(clause, event, value, actor)
         case "long":
-            asked = long_lasting(clause, event, value, actor)
+            asked = _for_whom(long_lasting(clause, event, value, actor), clause)
             return _from_now(asked) if {"longer", "more"} & {*words} else asked
         case "big" if isinstance(actor, Feature) and (to := reference(clause)) is not None:
             return measured("distance", clause, Ego(), to=to)  # "the space to the lorry"
@@ -121,6 +116,15 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
             return _much(clause, value, actor)
         case _:
             return _quality(clause, words, value, actor)
+
+
+def _for_whom(asked: Question, clause: Clause) -> Question:
+    """Add to a waiting who caused it: "how long did they wait because of us?"."""
+    whom = None if isinstance(clause.because, Clause) else as_thing(clause.because)
+    match asked:
+        case HowLong(of=Event(action="wait", object=None) as event) if whom is not None:
+            return HowLong(with_fields(event, object=whom))
+    return asked
 
 
 def _faster(clause: Clause, event: Event | None, actor: Thing | None, pace: bool) -> Question:
@@ -223,78 +227,6 @@ def _met(clause: Clause, deed: Event) -> Event:
     found = (as_thing(part.sem) for part in clause.complements if part.key == "with")
     whom = next((thing for thing in found if thing is not None), deed.object)
     return replace(deed, object=whom, tense=tense_of(clause))
-
-
-def far_to(
-    clause: Clause, event: Event | None, value: Any, actor: Thing | None,
-    words: tuple[str, ...] = (),
-) -> Question:  # fmt: skip
-    """Ask how far it is to something; what is left is to the destination."""
-    if clause.side == "left" and not clause.objects:
-        return HowMuch(Measured("distance-to-go"))
-    if clause.verb is not None and clause.verb.key == "see" and not clause.objects:
-        return Listing("hidden", time=clause.time)  # "how far can you see": what ends our sight
-    if any(
-        isinstance(p.sem, Measure) and p.sem.of.attribute == "limit" for p in clause.complements
-    ):
-        return measured("excess", clause, actor)  # "how far over the limit are we"
-    turn = _next_turn(clause)
-    if turn is not None and not remaining(clause, actor):
-        return HowMuch(Measured("turn", event=turn))
-    to = reference(clause)
-    if to is None and remaining(clause, actor):
-        return measured("distance-to-go", clause, Ego())
-    goal = clause.time.anchor if isinstance(clause.time, Relative) else None
-    arriving = any(isinstance(e, Event) and e.action == "arrive" for e in (event, goal))
-    if arriving or isinstance(to, Destination) or isinstance(goal, Destination):
-        return measured("distance-to-go", clause, Ego())
-    if event is not None and isinstance(actor, Ego) and to is None and event.tense != "present":
-        return measured("distance-driven", clause, Ego())
-    if isinstance(actor, Pronoun | None) and to is None and _onward(clause, words):
-        off = {"off", "away"} & {*words} and isinstance(actor, Pronoun)  # of it, if it is known
-        whose = actor if off and actor is not None else Ego()
-        return measured("distance-to-go", clause, whose, time=Unsaid())
-    if isinstance(actor, Pronoun) and actor.form == "it" and event is None:
-        return measured("distance", clause, actor if to is None else Ego(), to=to)
-    if isinstance(actor, Destination):
-        return measured("distance-to-go", clause, Ego())
-    return measured("distance", clause, actor, to=to)
-
-
-def _onward(clause: Clause, words: tuple[str, ...]) -> bool:
-    """Say whether it is asked how far it is still: "how far is it still", "how far to go"."""
-    if {"ahead", "behind", "back", "front"} & {*words}:
-        return False
-    still = clause.still or bool(clause.focus & {"yet", "still"}) or isinstance(clause.time, Next)
-    inner = clause.infinitive
-    going = inner is not None and inner.verb is not None and inner.verb.key in ("go", "drive")
-    return (still or going) and not clause.bearings
-
-
-def _next_turn(clause: Clause) -> Event | None:
-    """Find the turn of ours to which it is asked how far it is."""
-    named = [clause.subject, *(p.sem for p in clause.complements), *(s for s, _ in clause.objects)]
-    if isinstance(clause.time, Relative) and clause.time.relation in ("until", "before"):
-        named.append(clause.time.anchor)  # "how far is it till the turn"
-    turns = (sem for sem in named if isinstance(sem, Event) and sem.action in WAYS)
-    found = next(turns, None)
-    if found is None or clause.tense not in ("present", "future"):
-        return None
-    return cast(Event, with_fields(found, tense="future"))
-
-
-def remaining(clause: Clause, actor: Thing | None) -> bool:
-    """Say whether "left" asks for what remains: "how far is left", "how much distance is left"."""
-    subject = clause.subject
-    if isinstance(subject, Event) and subject.action == "exit-left":
-        return True
-    if not isinstance(actor, (Pronoun, type(None))):
-        return False
-    leaving = clause.verb is not None and clause.verb.key == "leave"
-    bare = clause.verb is None and isinstance(subject, (Measure, type(None)))
-    leaving |= bare and clause.side == "left"
-    named = [getattr(node, "words", ()) for bearing, node in clause.bearings if bearing == "left"]
-    return leaving or ("left",) in named
 
 
 def _close(clause: Clause, event: Event | None, value: Any, actor: Thing | None) -> Question:
