@@ -1,6 +1,6 @@
 """State of affairs: "how are things looking?", "is everything all right?", "can't we go?"."""
 
-from typing import Final
+from typing import Any, Final
 
 from msgspec.structs import replace
 
@@ -10,6 +10,8 @@ from xavi_dialogue.domain.meaning import (
     Beyond,
     Doing,
     HowDecide,
+    HowMuch,
+    Identify,
     Listing,
     Request,
     Summarise,
@@ -23,8 +25,10 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Everyone,
     Happens,
     Is,
+    Measured,
     Not,
     Pronoun,
     Proposition,
@@ -32,6 +36,7 @@ from xavi_dialogue.domain.terms import (
     Related,
     Unknown,
     Wanted,
+    WholeRide,
 )
 from xavi_dialogue.nlu.compose.alternatives.blames import of_one_alone
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -46,6 +51,8 @@ _IN_TIME: Final = Event("stop", manner=("early",), tense="present", modal="could
 #: Words with which it is asked what happens on other rides, too: "is it always this busy?". They
 #: do not include "normally", which may also tell how something is done.
 _HABITS: Final = frozenset(("always", "usually", "typically", "often"))
+#: Words with which one of all is asked for, and not one of those in view.
+_SO_FAR: Final = frozenset(("was", "far", "ever", "seen", "met", "yet", "ride", "trip", "been"))
 _GET_TO: Final = frozenset(("get", "gets"))
 _THINGS: Final = (
     Described(plural=True, definite=False),
@@ -76,6 +83,17 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
             return (Ask(Summarise()),)  # "so how did you do?", "how was your driving?"
         case HowDecide(Is("wrong", Ego(), tense="past")):
             return (Ask(Listing("wrong-predictions")),)  # "how did you do, any mistakes?"
+        case Identify(
+            Described(
+                kind=kind,
+                extreme="fastest" | "slowest" as pace,
+                bearing=None,
+                such=None | Related("can-see", Ego(), Wanted()),
+            )
+        ) if _SO_FAR & set(words.split()):  # "what was the fastest car so far?"
+            which: Any = "highest" if pace == "fastest" else "lowest"
+            of = Measured("speed", Everyone(kind), time=WholeRide(), tense="past")
+            return (Ask(HowMuch(of, which)),)
         case Which(such=Related("on", Wanted(), Record())):
             return (Ask(Listing("vehicles")),)  # "what's on your screen?"
         case Whether(Is("allowed", event=Event(actor=Ego()) as event)) | When(

@@ -1,7 +1,7 @@
 """Hard braking: ours, and that of vehicles near us that had right of way over us."""
 
 from sim.scene import EGO
-from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.facts import Episode, Measure
 from xavi_dialogue.domain.terms import Ego, Vehicle
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import Window
@@ -45,3 +45,12 @@ def _had_to(asked: Asked, braking: Episode) -> bool:
     last = min(end + AFTER, asked.now)
     near = asked.world.extreme("distance", Ego(), "lowest", about.begin, last, braking.actor)
     return near.value is not None and near.value <= NEAR
+
+
+def hardest(asked: Asked, episode: Episode, about: Window) -> Measure:
+    """Return how hard somebody braked in an episode, and when it was hardest if that is known."""
+    end = min(about.end, asked.now)
+    found = asked.world.extreme("deceleration", episode.actor, "highest", about.begin, end, None)
+    at = about.begin if found.gap is not None else found.time
+    return Measure("deceleration", episode.actor, at, value=episode.peak, until=about.end,
+                   extreme="highest")  # fmt: skip

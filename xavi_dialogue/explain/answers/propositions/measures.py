@@ -24,6 +24,7 @@ from xavi_dialogue.domain.vocabulary import ActionName, Attribute
 from xavi_dialogue.explain.answers.expectations.approaching import foreseen_closeness
 from xavi_dialogue.explain.answers.expectations.slowing import speed_ahead
 from xavi_dialogue.explain.answers.measuring.closeness import approaches
+from xavi_dialogue.explain.answers.measuring.hard_braking import hardest
 from xavi_dialogue.explain.answers.measuring.peak_moments import peak
 from xavi_dialogue.explain.answers.measuring.rivals import rivals
 from xavi_dialogue.explain.answers.propositions.attributes import SPECIAL
@@ -37,6 +38,7 @@ from xavi_dialogue.explain.answers.reference.moments import (
     window,
 )
 from xavi_dialogue.explain.answers.reference.naming import (
+    ANY,
     check_sense,
     is_us,
     look_of,
@@ -254,6 +256,8 @@ def _extremes(asked: Asked, of: Measured, which: str, about: Window) -> tuple[Me
         return approaches(asked, of.to.kind, about)[:1] or (
             Measure("distance", Ego(), about.end, gap="not-applicable", to=of.to),
         )
+    if isinstance(of.thing, Everyone) and of.attribute == "speed":
+        return _of_all(asked, of.thing, which, about)
     found: list[Measure] = []
     for thing in things_of(asked, of, about.end):
         if of.attribute in ANYBODY and isinstance(thing, Ego) and of.to is None:
@@ -278,15 +282,26 @@ def _extremes(asked: Asked, of: Measured, which: str, about: Window) -> tuple[Me
     return tuple(m for m in found if m.gap is None) or tuple(found)
 
 
+def _of_all(asked: Asked, kind: Everyone, which: str, about: Window) -> tuple[Measure, ...]:
+    """Return the highest or lowest speed of all road users of a kind that we have seen."""
+    seen = (look_of(asked, Vehicle(v), about.end) for v in asked.world.vehicles)
+    alike = (x.vehicle for x in seen if x is not None and kind.kind in (*ANY, x.kind))
+    each = [_extreme(asked, "speed", Vehicle(v), which, about, None) for v in alike]
+    best = _best(each, which)
+    return tuple(each) if best is None else (best,)
+
+
 def _of_anybody(asked: Asked, attribute: Attribute, which: str, about: Window) -> Measure:
     """Return the extreme of a measure between us and any vehicle."""
-    each = (
-        _extreme(asked, attribute, Ego(), which, about, Vehicle(v)) for v in asked.world.vehicles
-    )
+    each = [_extreme(asked, attribute, Ego(), which, about, Vehicle(v))
+            for v in asked.world.vehicles]  # fmt: skip
+    return _best(each, which) or Measure(attribute, Ego(), about.end, gap="not-applicable")
+
+
+def _best(each: list[Measure], which: str) -> Measure | None:
     told = [m for m in each if m.gap is None and m.value is not None]
-    if not told:
-        return Measure(attribute, Ego(), about.end, gap="not-applicable")
-    return min(told, key=lambda m: (m.value or 0.0) * (1 if which == "lowest" else -1))
+    sign = 1 if which == "lowest" else -1
+    return min(told, key=lambda m: (m.value or 0.0) * sign, default=None)
 
 
 def _extreme(
@@ -299,15 +314,6 @@ def _extreme(
         return Measure(attribute, thing, end, gap="not-applicable")
     name = "highest" if which == "highest" else "lowest" if which == "lowest" else which
     return asked.world.extreme(attribute, thing, name, begin, end, other)  # type: ignore[arg-type]
-
-
-def hardest(asked: Asked, episode: Episode, about: Window) -> Measure:
-    """Return how hard somebody braked in an episode, and when it was hardest if that is known."""
-    end = min(about.end, asked.now)
-    found = asked.world.extreme("deceleration", episode.actor, "highest", about.begin, end, None)
-    at = about.begin if found.gap is not None else found.time
-    return Measure("deceleration", episode.actor, at, value=episode.peak, until=about.end,
-                   extreme="highest")  # fmt: skip
 
 
 def _hardest_of(asked: Asked, event: Event) -> Episode | None:
