@@ -62,6 +62,12 @@ def plan_activity(answer: Activity, context: SpeechContext) -> Plan:
         slots["also"] = _underway(deeds[0], answer, past)
     elif deeds:
         slots["doing"] = _underway(deeds[0], answer, past)
+        signal = (
+            None
+            if ego or deeds[0].object
+            else next((d for d in deeds[1:] if d.action == "signal"), None)
+        )
+        slots["also"] = None if signal is None else _underway(signal, answer, past)
         telling = deeds[0].action in TELLING
         slots["telling"] = ("at" if past else "now at") if telling else None
         slots["trending"] = None if telling else TRENDS.get(answer.trend or "")
