@@ -97,7 +97,7 @@ def _top(act: Act) -> float:
             return ODD  # "why are we braking, there is room" rather states that
         case Ask(question=Identify(thing=thing)) if thing == Described():
             return DOUBTFUL  # "how's the traffic" rather asks how busy it is
-        case Ask(question=Identify(thing=Pronoun(form="he" | "she"))):
+        case Ask(question=Identify(thing=Ego() | Pronoun(form="he" | "she")) | Summarise(Ego())):
             return DOUBTFUL  # "what is he up to now" rather asks what he does
         case Ask(
             question=Which(such=Happens(event=Event(action, actor, Wanted(), modal=None)))
@@ -117,16 +117,16 @@ def _top(act: Act) -> float:
             return ODD  # "how many turns until we are there" counts events, not things
         case Claim(that=Related(thing=Pronoun("who")) | Happens(event=Event(actor=Pronoun("who")))):
             return 2.0 * ODD  # "who" asks, and states nothing
-        case Ask(question=Which(thing=Feature() | Junction(), such=Has(attribute="occupant"))):
-            return ODD  # places carry nobody
-        case Ask(question=Which(such=Related(relation="same-as", to=Junction()))):
-            return ODD  # who is a place?
+        case Ask(
+            question=Which(thing=Feature() | Junction(), such=Has(attribute="occupant"))
+            | Which(such=Related(relation="same-as", to=Junction()))
+            | Which(such=Not(content=Related(relation="same-as")))
+        ):
+            return ODD  # places carry nobody, and nobody is a place
         case Ask(question=Which(thing=Wanted(), such=such, among=())) if (
             such is not None and first(such, Wanted) is None
         ):
             return ODD  # nothing in it is asked for
-        case Ask(question=Summarise(about=Ego()) | Identify(thing=Ego())):
-            return DOUBTFUL
         case Ask(question=Whether(that=Related(thing=Nobody()) | Is(thing=Nobody()), tag=False)):
             return SLIGHT  # "there is nobody in front" rather states that
         case Claim(that=Not(content=Happens(event=Event("do", Passenger(), None)))):

@@ -22,6 +22,7 @@ from xavi_dialogue.domain.meaning import (
     Why,
 )
 from xavi_dialogue.domain.terms import (
+    Back,
     Described,
     Ego,
     Event,
@@ -29,6 +30,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Measured,
+    Next,
     Not,
     Pronoun,
     Proposition,
@@ -53,6 +55,7 @@ _IN_TIME: Final = Event("stop", manner=("early",), tense="present", modal="could
 _HABITS: Final = frozenset(("always", "usually", "typically", "often"))
 #: Words with which one of all is asked for, and not one of those in view.
 _SO_FAR: Final = frozenset(("was", "far", "ever", "seen", "met", "yet", "ride", "trip", "been"))
+_PARTS: Final = frozenset(("part", "parts", "bit", "bits", "area", "areas", "road", "street"))
 _GET_TO: Final = frozenset(("get", "gets"))
 _THINGS: Final = (
     Described(plural=True, definite=False),
@@ -94,6 +97,10 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
             which: Any = "highest" if pace == "fastest" else "lowest"
             of = Measured("speed", Everyone(kind), time=WholeRide(), tense="past")
             return (Ask(HowMuch(of, which)),)
+        case HowMuch(Measured("turn", time=Back("after"))):
+            return (Ask(Doing(Ego(), Next(), "future")),)  # "after this, which direction?"
+        case Which(such=Not(Related("can-see", Ego(), Wanted()))) if _PARTS & set(words.split()):
+            return (Ask(Listing("hidden")),)  # "which part of the road can't you see?"
         case Which(such=Related("on", Wanted(), Record())):
             return (Ask(Listing("vehicles")),)  # "what's on your screen?"
         case Whether(Is("allowed", event=Event(actor=Ego()) as event)) | When(

@@ -24,6 +24,7 @@ from xavi_dialogue.domain.terms import (
     Destination,
     Ego,
     Event,
+    Exists,
     Feature,
     Happens,
     Is,
@@ -40,6 +41,7 @@ from xavi_dialogue.nlu.compose.alternatives.polar import way_asked
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
+from xavi_dialogue.nlu.joining.blaming import HELD
 
 _MOVING = frozenset({"go", "wait", "stop", "brake", "give-way", "turn", "enter", "leave"})
 Rows = Sequence[tuple[tuple[Act, ...], float]]
@@ -126,8 +128,20 @@ def _either(first: Act, later: Act) -> Question | None:
         return None
     if _is_contrary(contents[0], other):
         return Whether(contents[0])
+    if len(contents) == 1 and (why := _for_what(contents[0], other)) is not None:
+        return why
     of = of_the_same(Both((*contents, other), "or"))
     return way_asked(of) or Whether(of)
+
+
+def _for_what(that: Proposition, other: Proposition) -> Why | None:
+    """Read "did we brake for the corner, or was there somebody?" as why we braked."""
+    match that, other:
+        case Happens(event=Event(action=action, actor=Ego(), object=suspect) as event), Exists(
+            thing=Described(definite=False)
+        ) if action in HELD and suspect is not None:
+            return Why(Happens(structs.replace(event, object=None)), suspect=suspect)
+    return None
 
 
 def _held_by(that: Proposition, later: Act) -> Which | None:

@@ -38,7 +38,9 @@ def listed(question: Listing, scene: Asked) -> Options:
     if said is not None and said.said and said.begin == said.end:
         moment = ride.at(said.begin)
     if question.event is not None:
-        found = options.with_choice(ride, premise(ride, subject(scene, question.event)))
+        found = options.with_choice(ride, _premise_of(question.event, scene))
+    elif moment is None and (now := _under_way(scene)) is not None:
+        found = options.with_choice(ride, now)
     elif moment is None:  # the time of the action discussed before, if no time is named
         found = options.with_choice(ride, premise(ride, Subject(None, (), False, scene.span)))
     else:
@@ -46,6 +48,26 @@ def listed(question: Listing, scene: Asked) -> Options:
     if question.of == "rivals":
         return _told(scene, found, *options.with_rival(ride, found))
     return _told(scene, found, options.weighed(ride, found))
+
+
+def _under_way(scene: Asked) -> Premise | None:
+    """Return the latest decision if it is about a manoeuvre that goes on, and no time is named."""
+    span, ride = scene.span, scene.ride
+    whole = span is None or (not span.said and span.begin <= scene.world.begin)
+    going = [deed for deed in ride.begun if deed.ended is None and deed.action != "continue"]
+    return Premise(ride.latest, going[-1]) if whole and going else None
+
+
+def _premise_of(event: Event, scene: Asked) -> Premise:
+    """Find the decision for a deed, or else that which plans it.
+
+    Raises:
+        Unanswered: we neither did it nor plan it.
+    """
+    try:
+        return premise(scene.ride, subject(scene, event))
+    except Unanswered:
+        return premise(scene.ride, subject(scene, replace(event, tense="future")))
 
 
 def margin(scene: Asked, events: Sequence[Event]) -> Options | None:

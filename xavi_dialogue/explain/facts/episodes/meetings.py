@@ -104,8 +104,9 @@ def _passing(pair: Pair, vehicle: int) -> Iterator[Episode]:
         passed_speed = pair.speed[first] if ours else pair.eye_speed[first]
         same = not opposite and passed_speed >= FAST_ENOUGH
         beside = pair.left[first] > 0.0
-        side: Side = "left" if beside != (ours and not opposite) else "right"
-        actor, other = (EGO, vehicle) if ours and not opposite else (vehicle, EGO)
+        we_pass = (ours and not opposite) or (opposite and pair.speed[first] < MOVING)
+        side: Side = "left" if beside != we_pass else "right"
+        actor, other = (EGO, vehicle) if we_pass else (vehicle, EGO)
         yield Episode(
             named(actor),
             "overtake" if same else "pass",

@@ -191,9 +191,7 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
         each = about.event if isinstance(about, Happens) else None
         return Listing("reasons", None if each else thing, time, each)
     if sem.key in _LISTED:
-        if sem.key == "decision" and not (sem.plural or sem.word.endswith("s")):
-            return HowDecide(about)
-        return Listing(cast(Any, _LISTED[sem.key]), _other_than_ego(thing), time)
+        return _list_of(sem, about, thing, time)
     match sem.key:
         case "deed":
             return Doing(Ego(), Rank(-1 if sem.quality == "last" else 1), "past")
@@ -236,6 +234,16 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
         case "way":
             return HowMuch(Measured("route", time=time))
     return None
+
+
+def _list_of(sem: Noun, about: Proposition | None, thing: Thing | None, time: Time) -> Question:
+    """Ask for a list of what a noun names: of options, those beside a deed that is named."""
+    if sem.key == "decision" and not (sem.plural or sem.word.endswith("s")):
+        return HowDecide(about)
+    of: Any = _LISTED[sem.key]
+    if sem.key in ("option", "rival") and isinstance(about, Happens):
+        return Listing(of, time=time, event=about.event)
+    return Listing(of, _other_than_ego(thing), time)
 
 
 def _clock(about: Proposition | None, time: Time) -> Question:

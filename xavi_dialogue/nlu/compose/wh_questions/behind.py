@@ -7,6 +7,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Feature,
     Happens,
     Pronoun,
     Proposition,
@@ -66,6 +67,8 @@ def behind_what(clause: Clause) -> tuple[Clause, Proposition] | None:
 def following(clause: Clause) -> Event | None:
     """Give the following that a place behind somebody stands for: "time lost behind the lorry"."""
     for phrase in clause.complements:
+        if phrase.key == "in" and phrase.sem == Feature("queue"):
+            return Event("wait", Ego(), tense=tense_of(clause))  # "time lost in the queue"
         whom = as_thing(phrase.sem) if phrase.key == "bearing-behind" else None
         if isinstance(whom, Described | Vehicle | Pronoun):
             return Event("follow", Ego(), whom, tense=tense_of(clause))
