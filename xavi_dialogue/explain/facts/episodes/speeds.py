@@ -3,12 +3,13 @@
 from collections.abc import Iterator
 
 from planner.record.trace import SAMPLE_PERIOD, Action, Rollout
-from sim.scene import EGO
+from sim.scene import EGO, VehicleState
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.facts.actions import named
 from xavi_dialogue.explain.facts.states import States
 from xavi_dialogue.explain.history.motion import EPSILON, Motion, Sighting
+from xavi_dialogue.explain.history.ride import ROUNDING
 from xavi_dialogue.explain.history.thresholds import BEGINNING, BRAKING, MOVING, STANDING
 
 FRESH = 1.5  # [s] maximum age of a decision whose plan shows what is going on now
@@ -36,12 +37,22 @@ def _speeds(states: States, vehicle: int) -> list[Episode]:
 
 def _lit(states: States) -> Iterator[Episode]:
     """Yield braking of the ego that its brake light shows, but its speed hardly shows yet."""
-    scene = states.ride.scene
-    if scene is None or states.ride.ended or "brake" not in scene.ego.signals:
+    seen = _seen_now(states, EGO)
+    if seen is None or states.ride.ended or "brake" not in seen.signals:
         return
-    if scene.ego.speed > MOVING and _rate_now(states, EGO) < RATE:
-        speed = scene.ego.speed
-        yield Episode(named(EGO), "brake", scene.time, speed_from=speed, speed_to=speed)
+    if seen.speed > MOVING and seen.acceleration < RATE:
+        speed = seen.speed
+        yield Episode(named(EGO), "brake", states.ride.now, speed_from=speed, speed_to=speed)
+
+
+def _seen_now(states: States, vehicle: int) -> VehicleState | None:
+    """Return how a vehicle is seen now: in the newest scene, or at a decision that is taken now."""
+    ride = states.ride
+    if ride.scene is not None:
+        return ride.scene.vehicles.get(vehicle)
+    latest = ride.traces[-1] if ride.traces else None
+    fresh = latest is not None and ride.now - latest.sim_time <= ROUNDING
+    return latest.scene.get(vehicle) if latest is not None and fresh else None
 
 
 def underway(states: States) -> Iterator[Episode]:
