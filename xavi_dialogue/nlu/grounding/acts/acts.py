@@ -30,6 +30,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
 )
 from xavi_dialogue.nlu.grounding.acts.dangers import spoken_of
+from xavi_dialogue.nlu.grounding.acts.own_car import own_car
 from xavi_dialogue.nlu.grounding.acts.questions import question
 from xavi_dialogue.nlu.grounding.completion import ellipsis, repairs
 from xavi_dialogue.nlu.grounding.completion.binding import bound
@@ -61,7 +62,7 @@ def completed(spoken: Act, g: Grounder) -> Act | None:
 
 def act(spoken: Act, g: Grounder) -> Act:
     """Ground an act that is complete."""
-    spoken = lit(spoken, g)
+    spoken = own_car(lit(spoken, g), g)
     match spoken:
         case Ask(question=Doing(actor=actor)) if actor in _ANYBODY:
             return Beyond("opinion")  # "what would a human have done?"

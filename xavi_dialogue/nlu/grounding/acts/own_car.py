@@ -1,0 +1,77 @@
+"""Own car: "the car" beside others is ours, as long as no other car was spoken of."""
+
+from typing import Any, Final
+
+from msgspec.structs import replace
+
+from planner.record.trace import ON_FOOT
+from xavi_dialogue.domain.meaning import Act, Ask, WhatIf, Whether
+from xavi_dialogue.domain.rewriting import rewrite
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Everyone,
+    Happens,
+    Measured,
+    Nobody,
+    Not,
+    Pronoun,
+    Proposition,
+    Thing,
+    Vehicle,
+    Vehicles,
+)
+from xavi_dialogue.nlu.grounding.context import Grounder
+from xavi_dialogue.nlu.grounding.salience import vehicles_of
+
+PLAIN: Final = (Described(kind="car"), Described(kind="vehicle"))
+SPOKEN: Final = 0.2  # salience from which a car is spoken of
+_MEETING: Final = frozenset(
+    ("collide", "nearly-collide", "give-way", "let-go", "approach", "avoid")
+)
+
+
+def own_car(spoken: Act, g: Grounder) -> Act:
+    """Take "the car" for ours where it meets others: "how close did the car come to him?"."""
+    if _is_spoken_of(g):
+        return spoken
+    match spoken:
+        case Ask(question=WhatIf(supposed, Whether(Happens(Event(actor=Ego()))) as then)):
+            return Ask(WhatIf(_ours(supposed), then))
+    return rewrite(spoken, _meant)
+
+
+def _meant(part: Any) -> Any:
+    match part:
+        case Event(actor=actor, action=action, object=other) if actor in PLAIN:
+            return replace(part, actor=Ego()) if action in _MEETING and _others(other) else part
+        case Measured(thing=thing, to=to) if thing in PLAIN and _others(to):
+            return replace(part, thing=Ego())
+        case Measured(thing=thing, to=to) if to in PLAIN and _others(thing):
+            return replace(part, to=Ego())
+    return part
+
+
+def _ours(supposed: Proposition) -> Proposition:
+    """Take "it" for our car where what we would have done then is asked."""
+    match supposed:
+        case Not(content=content):
+            return replace(supposed, content=_ours(content))
+        case Happens(event=Event(actor=Pronoun("it"), object=None) as event):
+            return Happens(replace(event, actor=Ego()))
+    return supposed
+
+
+def _others(thing: Thing | None) -> bool:
+    """Check whether a thing is one or several others, and not a car that is told no more of."""
+    if isinstance(thing, Described):
+        return thing not in PLAIN
+    return isinstance(thing, Everyone | Nobody | Vehicle | Vehicles)
+
+
+def _is_spoken_of(g: Grounder) -> bool:
+    """Check whether somebody who drives was spoken of."""
+    spoken = (v for v, salience in vehicles_of(g.context.discourse.mentions) if salience > SPOKEN)
+    looks = (g.context.look(v, g.context.now) for v in spoken)
+    return any(look is None or look.kind not in ON_FOOT for look in looks)
