@@ -207,3 +207,10 @@ def test_right_of_way_is_told_of_all_who_cross_with_its_basis(text: str) -> None
 def test_while_we_drive_freely_we_wait_for_nobody(text: str) -> None:
     assert "not waiting for anybody" in Talk("junction-0", 3.0).say(text).reply.text
     assert "light is red" in Talk("junction-0", 20.0).say(text).reply.text
+
+
+@pytest.mark.parametrize("text", ["which of them crossed last?", "who among them crossed last?"])
+def test_the_last_of_them_is_one(text: str) -> None:
+    talk = Talk("junction-0", 13.0)
+    talk.say("who are those people?")
+    assert talk.say(text, 25.0).reply.text.count("(vehicle") == 1

@@ -2,10 +2,22 @@
 
 from typing import Final
 
-from xavi_dialogue.domain.answers import Answer
-from xavi_dialogue.domain.facts import Somebody
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.answers import Answer, Identified
+from xavi_dialogue.domain.facts import Episode, Somebody
 from xavi_dialogue.domain.meaning import Which
-from xavi_dialogue.domain.terms import Ego, Feature, Proposition, Related, Vehicle, Wanted
+from xavi_dialogue.domain.terms import (
+    Between,
+    Ego,
+    Event,
+    Feature,
+    Happens,
+    Proposition,
+    Related,
+    Vehicle,
+    Wanted,
+)
 from xavi_dialogue.explain.answers.propositions.identify import identified, which
 from xavi_dialogue.explain.answers.reference.asked import Asked
 
@@ -21,7 +33,23 @@ def who(question: Which, asked: Asked) -> Answer:
         Unanswered: it presupposes something that did not happen.
     """
     first = head(asked, asked.moment) if is_head(question.such) else None
-    return which(question, asked) if first is None else identified(asked, first, asked.moment)
+    if first is not None:
+        return identified(asked, first, asked.moment)
+    found = which(question, asked)
+    match question.such:
+        case Happens(Event(time=Between(begin, end))) if isinstance(found, Identified):
+            return _at(found, begin, end)
+    return found
+
+
+def _at(found: Identified, begin: float, end: float) -> Identified:
+    """Keep the one who did something at just that time: "which of them crossed last?"."""
+    deeds = [f for f in found.facts if isinstance(f, Episode) and isinstance(f.actor, Vehicle)]
+    exact = [e for e in deeds if (e.begin, e.end) == (begin, end)]
+    if len(exact) != 1 or len(deeds) < 2:
+        return found
+    looks = tuple(x for x in found.looks if Vehicle(x.vehicle) == exact[0].actor)
+    return replace(found, looks=looks, facts=(exact[0],))
 
 
 def is_head(such: Proposition | None) -> bool:
