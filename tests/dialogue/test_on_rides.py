@@ -202,3 +202,61 @@ def test_what_shows_a_colour_is_the_light_in_view(text: str) -> None:
 )
 def test_who_is_stuck_at_a_light_stands(text: str) -> None:
     assert Talk("junction-0", 18.0).say(text).reply.text.startswith("Yes, ")
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("did the car hit anybody?", "we did not collide"),
+        ("how close did the car come to the pedestrians?", "We came as close as"),
+        ("what was the least distance between the car and any pedestrian?", "We came as close as"),
+    ],
+)
+def test_the_car_beside_others_is_ours(text: str, told: str) -> None:
+    assert told in Talk("junction-0", 40.0).say(text).reply.text
+
+
+def test_what_the_car_would_have_done_is_asked_of_us() -> None:
+    known = Talk("junction-0", 40.0).say("would you have hit somebody had you not braked at 0:17?")
+    told = Talk("junction-0", 40.0).say("would the car have hit somebody had it not braked at 0:17")
+    assert told.reply.text == known.reply.text
+
+
+def test_at_a_decision_the_brake_light_of_its_scene_counts() -> None:
+    """We begin to brake for the pedestrian at 36.6 s, where a decision is taken."""
+    talk = Talk("junction-0", planner=False)
+    times = [t.sim_time for t in talk.ride.traces if "brake" in t.scene[0].signals]
+    moving = [at for at in times if talk.ride.traces and at > 30.0]
+    reply = Talk("junction-0", moving[0], planner=False).say("are you braking?").reply.text
+    assert reply.startswith("Yes, ")
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["what's limiting speed at the moment?", "what is limiting our speed?", "what restricts us?"],
+)
+def test_what_limits_our_speed_is_what_slows_us(text: str) -> None:
+    assert "because" in Talk("junction-0", 13.0, planner=False).say(text).reply.text
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "State the moment at which the light changed to green.",
+        "give the time when the light turned green",
+        "state when the light turned green",
+        "specify the exact time at which it turned green",
+    ],
+)
+def test_when_something_was_is_told_on_demand(text: str) -> None:
+    assert "0:26" in Talk("junction-0", 40.0).say(text).reply.text
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["did the prediction hold?", "did your prediction come true?", "did the prediction pan out?"],
+)
+def test_a_prediction_is_judged_in_other_words(text: str) -> None:
+    talk = Talk("s3-0")
+    known = talk.hear("where did you expect vehicle 2 to go?", "were you right?")
+    assert Talk("s3-0").hear("where did you expect vehicle 2 to go?", text) == known

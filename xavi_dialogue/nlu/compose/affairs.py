@@ -36,6 +36,7 @@ from xavi_dialogue.domain.terms import (
     Proposition,
     Record,
     Related,
+    Relative,
     Unknown,
     Wanted,
     WholeRide,
@@ -57,6 +58,7 @@ _HABITS: Final = frozenset(("always", "usually", "typically", "often"))
 _SO_FAR: Final = frozenset(("was", "far", "ever", "seen", "met", "yet", "ride", "trip", "been"))
 _PARTS: Final = frozenset(("part", "parts", "bit", "bits", "area", "areas", "road", "street"))
 _GET_TO: Final = frozenset(("get", "gets"))
+_TELLING: Final = frozenset(("state", "give", "name", "specify", "report", "indicate", "provide"))
 _THINGS: Final = (
     Described(plural=True, definite=False),
     Pronoun("it"),
@@ -68,7 +70,7 @@ _THINGS: Final = (
 def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
     """Read how things look or go as what we do and whether it is safe."""
     acts = tuple(of_own_deed(of_one_alone(act, words), words) for act in acts)
-    acts = of_sounds(acts, words)
+    acts = tuple(map(_when_told, of_sounds(acts, words)))
     if (rating := rating_of(acts, words)) is not None:
         return rating
     if len(acts) != 1 or not isinstance(acts[0], Ask):
@@ -118,6 +120,16 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
             ours = isinstance(that, Happens) and that.event.actor == Ego()
             return (Beyond("capability" if ours else "off-topic", min(habit)),)
     return acts
+
+
+def _when_told(act: Act) -> Act:
+    """Read "state when it changed", "give the time at which you stopped" as asking when."""
+    match act:
+        case Request(
+            Event("do", Ego(), Unknown(words=word), time=Relative("during", Event() as then)), False
+        ) if word in _TELLING:
+            return Ask(When(Happens(then)))
+    return act
 
 
 def _is_present(that: Proposition) -> bool:

@@ -282,9 +282,8 @@ def _priority(special: Special) -> Proposition:
 
 def _owed(special: Special) -> Proposition:
     """Read "we owe them priority": we must let them go first."""
-    thing = as_thing(special.match.phrases.get("into")) or as_thing(special.object)
-    at = time_of(special), tense_of(special)
-    return Related("must-yield-to", special.subject, thing or Pronoun("it"), *at)
+    to = as_thing(special.match.phrases.get("into")) or as_thing(special.object) or Pronoun("it")
+    return Related("must-yield-to", special.subject, to, time_of(special), tense_of(special))
 
 
 def _recede(special: Special) -> Proposition:
@@ -347,4 +346,5 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "beyond": lambda s: Happens(event_of(s, "do", Unknown(cast(Any, s.clause.verb).key))),
     "remove": lambda s: Not(Exists(as_thing(s.object) or Pronoun("it"))),
     "drop": lambda s: Happens(event_of(s, "drop-off", None)),
+    "come-right": lambda s: Is("right", Ego(), time=time_of(s), tense=tense_of(s)),
 }  # fmt: skip
