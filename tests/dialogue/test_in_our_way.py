@@ -44,3 +44,27 @@ def test_why_we_gave_way_is_right_of_way_before_all_else_that_slowed_us(text: st
     told = Talk("s2-2", 6.5).hear(text)
     assert told.startswith("The blue car"), told
     assert "had right of way" in told
+
+
+def test_he_is_who_walks_and_not_our_car() -> None:
+    talk = Talk("junction-0", 20.0)
+    talk.hear("can't you turn right on red here?")
+    assert talk.hear("how fast is he walking").startswith("The pedestrian")
+
+
+def test_was_it_him_asks_who_was_the_reason() -> None:
+    talk = Talk("junction-0", 29.0)
+    talk.hear("what happened?")
+    assert talk.hear("was it the bike").startswith("Yes: the green bicycle has right of way")
+
+
+def test_who_brakes_for_somebody_waits_for_him() -> None:
+    told = Talk("junction-0", 42.0).hear("is the orange car waiting for the pedestrian?")
+    assert "is braking, because it has to let the pedestrian" in told
+    assert Talk("junction-0", 42.0).hear("is the orange car waiting for us?").startswith("No")
+
+
+@pytest.mark.parametrize("text", ["are they allowed to cross now", "may those people cross here?"])
+def test_who_may_cross_now_is_told_of_now(text: str) -> None:
+    told = Talk("junction-0", 14.0).hear(text)
+    assert "has right of way" in told or "have right of way" in told, told

@@ -50,7 +50,7 @@ from xavi_dialogue.explain.answers.abandoned_plans import wavered
 from xavi_dialogue.explain.answers.measuring.durations import compared_costs, stands
 from xavi_dialogue.explain.answers.propositions import reasons, standing_rules
 from xavi_dialogue.explain.answers.reasons import choices, knowing, suspects
-from xavi_dialogue.explain.answers.reasons.provoked import because_of_us
+from xavi_dialogue.explain.answers.reasons.provoked import because_of_us, brakes_for
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import window
 from xavi_dialogue.explain.answers.reference.reading import (
@@ -191,6 +191,9 @@ def _of_whether(that: Proposition, scene: Asked) -> Explainer | None:
         return _for_anybody
     if not negated and _slowed_for(of, scene):
         return _slowed_because
+    braking = None if negated else brakes_for(of, scene)
+    if braking is not None:
+        return lambda *_: braking
     if not negated and standing_rules.at_crossing(of):
         return standing_rules.whether
     if possible.is_could(of):

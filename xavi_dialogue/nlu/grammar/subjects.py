@@ -33,6 +33,8 @@ OURS: Final = {
     "stuck": ("we", "are"), "gonna": ("are", "we"), "gunna": ("are", "we"),
     "going to": ("are", "we"),
 }  # fmt: skip
+#: Verbs of what we are asked to think: "reckon he'll stop?".
+THINKING: Final = frozenset(("reckon", "think"))
 FINITE: Final = frozenset(("VPAST",))
 AMBIGUOUS: Final = frozenset(("V", "SIDE", "KIND", "EVN", "ADJ", "P", "BEARING"))
 AUXILIARIES: Final = frozenset(("did", "had", "was", "were"))
@@ -49,6 +51,8 @@ def marked(typed: Typed) -> Typed | None:
     verb = _past(words, (first := _past(words, 0, OPENERS)), NEARLY)
     ours = OURS.get(words[first]) if first < len(words) - 1 else None
     ours = ours or OURS.get(" ".join(words[first : first + 2]))
+    if typed.end == "?" and words[first : first + 1] and words[first] in THINKING:
+        ours = ("do", "you")
     if ours is not None and len(words) > first + 2:
         return _with(typed, first, *ours)
     if first < verb < len(words) - 1 and _is(words[verb], FINITE):

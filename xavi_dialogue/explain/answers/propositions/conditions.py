@@ -161,9 +161,9 @@ def _allowed(of: Is, asked: Asked) -> Finding:
         about = _about(of, asked) if is_past(asked, of.time, of.tense) else None
         return Finding(None, answer=lawful(asked, about))
     if event is not None and event.action in RIGHT_OF_WAY and not _of_speed(event):
-        about = _about(of, asked)
         past = is_past(asked, of.time, of.tense)
-        about = where_rule_holds(asked, about) if past else about
+        now = Window(asked.now, asked.now)
+        about = where_rule_holds(asked, _about(of, asked)) if past else now
         found = right_of_way(asked, event.object, event.actor, about)
         if of.tense == "past" and is_us(event.actor) and found.rule != "priority":
             return Finding(None, answer=found)  # who had to yield, and who went: no verdict

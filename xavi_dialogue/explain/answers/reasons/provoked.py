@@ -1,4 +1,4 @@
-"""Provoked: whether another vehicle braked or stopped because of us."""
+"""Provoked: whether another vehicle brakes because of us, or of somebody else who is named."""
 
 from collections.abc import Callable
 from typing import Any
@@ -6,13 +6,13 @@ from typing import Any
 from msgspec.structs import replace
 
 from sim.scene import EGO
-from xavi_dialogue.domain.answers import Answer, MotionCause, OtherReason
+from xavi_dialogue.domain.answers import Answer, MotionCause, NeedRollout, OtherReason
 from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.meaning import Question, Whether, Why
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Happens, Proposition, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.reasons import others
-from xavi_dialogue.explain.answers.reference.asked import Asked
+from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import event_of, unwrapped
 
 #: Actions by which we move in ahead of somebody.
@@ -20,6 +20,7 @@ ENTRIES = frozenset[ActionName](
     ("change-left", "change-right", "merge", "enter", "pull-out", "exit-left", "exit-right")
 )
 BEFORE = 4.0  # [s] for which we count as having just moved in ahead of somebody
+WAITING = frozenset[ActionName](("wait", "give-way", "let-go"))
 SOON = 2.0  # [s] after a braking begins, up to which our moving in is looked at
 REACH = 60.0  # [m] maximum distance of a vehicle that brakes for us
 
@@ -85,3 +86,30 @@ def _came_in(scene: Asked, vehicle: int, deed: Episode) -> bool:
         if near and world.relation("ahead-of", Ego(), Vehicle(vehicle), time):
             return True
     return False
+
+
+def brakes_for(of: Proposition | None, scene: Asked) -> Answer | None:
+    """Return why another brakes, for a question if it waits for who makes it brake; else None.
+
+    Raises:
+        Unanswered: rollouts are needed.
+    """
+    match of:
+        case Happens(event=Event(actor=Vehicle(), object=Vehicle() | Ego(), modal=None) as event):
+            waits = event.action in WAITING and event.tense == "present"
+        case _:
+            return None
+    assert isinstance(event.actor, Vehicle)
+    motion = scene.ride.motion(event.actor.number).until(scene.now)
+    if not waits or motion.trend != "slowing":
+        return None
+    slows = Event("slow-down", event.actor, tense="present")
+    try:
+        found = others.why(slows, scene, negated=False)
+    except Unanswered as unanswered:
+        if isinstance(unanswered.result, NeedRollout):
+            raise
+        return None
+    whom = event.object.number if isinstance(event.object, Vehicle) else EGO
+    causes = found.causes if isinstance(found, OtherReason) else ()
+    return found if any(cause.vehicle == whom for cause in causes) else None

@@ -38,6 +38,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import interval
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
 from xavi_dialogue.nlu.grounding.events.windows import pointed
 from xavi_dialogue.nlu.grounding.salience import vehicles_of
+from xavi_dialogue.nlu.grounding.things.scene import on_foot
 
 #: What has a value at each moment.
 MOMENTARY: Final = frozenset(
@@ -177,7 +178,7 @@ def _corefer(spoken: Measured, g: Grounder) -> Measured:
         return spoken if spoken_of(g) else replace(spoken, attribute="distance-to-go", thing=Ego())
     unsaid = spoken.thing == Pronoun("one") and not _speaks_of_others(g)
     ours = spoken.attribute == "speed" and spoken.tense == "present" and _is_here(spoken.thing, g)
-    ours |= _is_vague(spoken.thing) and spoken.attribute in OURS and _speaks_of_us(g)
+    ours |= _is_vague(spoken.thing, g) and spoken.attribute in OURS and _speaks_of_us(g)
     if unsaid or ours:
         return replace(spoken, thing=Ego())
     return spoken
@@ -235,8 +236,11 @@ def _is_here(thing: Thing | None, g: Grounder) -> bool:
     return thing == Pronoun("this") and not set(spoken) & set(g.context.in_view(g.context.now))
 
 
-def _is_vague(thing: Thing | None) -> bool:
-    return isinstance(thing, Pronoun) and thing.form in _SPOKEN
+def _is_vague(thing: Thing | None, g: Grounder) -> bool:
+    """Tell whether a pronoun may be our car: "he" is not where somebody crosses our way."""
+    if not isinstance(thing, Pronoun) or thing.form not in _SPOKEN:
+        return False
+    return thing.form not in ("he", "she") or not on_foot(g.context, g.context.now)
 
 
 def _moment(spoken: Measured, window: Window, g: Grounder, *, extreme: bool) -> Time:

@@ -71,6 +71,7 @@ from xavi_dialogue.nlu.grounding.salience import naming, vehicles_of
 from xavi_dialogue.nlu.grounding.things.descriptions import is_such
 from xavi_dialogue.nlu.grounding.things.in_way import anybody_in_way
 from xavi_dialogue.nlu.grounding.things.pronouns import CLEAR, apart
+from xavi_dialogue.nlu.grounding.things.such import ITSELF, pointed_at, says_nothing
 
 NOTHING_SAID: Final = 0.5  # cost of "that" where nothing has been said
 UNHEARD_OF: Final = 0.4  # cost of taking for granted what no record tells
@@ -155,24 +156,13 @@ def _related(spoken: Related, g: Grounder, outer: Window | None) -> Related:
     if spoken.relation == "same-as" and isinstance(spoken.time, Back):
         spoken = replace(spoken, time=Unsaid())  # "the same car as before"
     window = at_moment(spoken.time, spoken.tense, g, outer)
-    thing = _pointed_at(spoken, g) or g.thing(spoken.thing, window)
+    thing = pointed_at(spoken, g) or g.thing(spoken.thing, window)
     place = _place(spoken, g)
     same = spoken.relation == "same-as" and is_such(thing, place, g, window)
     to = thing if same else apart(place, thing, g).thing(place, window)
+    if says_nothing(spoken, same):
+        g.notes.cost += ITSELF
     return replace(spoken, thing=thing, to=to, time=window.term)
-
-
-def _pointed_at(spoken: Related, g: Grounder) -> Thing | None:
-    """Take "that" in "is that the same red car as before?" for a red car that is in view."""
-    to = spoken.to
-    if spoken.relation != "same-as" or not isinstance(spoken.thing, Pronoun):
-        return None
-    if not isinstance(to, Described) or (to.colour is None and to.kind in ("vehicle", "car")):
-        return None
-    alike = Described(kind=to.kind, colour=to.colour, size=to.size)
-    found = g.thing(alike, g.window(Now(), "present"))
-    look = g.context.look(found.number, g.context.now) if isinstance(found, Vehicle) else None
-    return found if look is not None and look.in_view else None
 
 
 def _place(spoken: Related, g: Grounder) -> Thing:

@@ -1,4 +1,4 @@
-"""Such: vehicles told by what holds of them: "that you cannot see", "that is faster than us"."""
+"""Such: vehicles told by what holds of them: "that you cannot see", "the same one as before"."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -9,6 +9,7 @@ from xavi_dialogue.domain.rewriting import rewrite, substitute
 from xavi_dialogue.domain.terms import (
     Both,
     Compares,
+    Described,
     Ego,
     Event,
     Exists,
@@ -17,6 +18,7 @@ from xavi_dialogue.domain.terms import (
     Is,
     Junction,
     Not,
+    Now,
     Pronoun,
     Proposition,
     Related,
@@ -31,6 +33,7 @@ STANDING: Final = 0.5  # [m/s]
 LATELY: Final = 3.0  # [s] in which something counts as being done
 UNTOLD: Final = 0.4  # cost where it cannot be known
 CORNER: Final = 25.0  # [m] from the entry to a junction, up to which somebody is at its corner
+ITSELF: Final = 0.3  # cost of asking of whom was spoken of whether it was he: rather why
 GAP: Final = Vehicle(-1)
 
 
@@ -145,3 +148,21 @@ def condition_of(such: Proposition, g: Grounder, window: Window, moment: float) 
 
 
 _THINGS: Final = Thing.__args__
+
+
+def says_nothing(spoken: Related, same: bool) -> bool:
+    """Tell whether it is asked of what was spoken of whether it was itself."""
+    return same and spoken.tense == "past" and spoken.thing == Pronoun("it")
+
+
+def pointed_at(spoken: Related, g: Grounder) -> Thing | None:
+    """Take "that" in "is that the same red car as before?" for a red car that is in view."""
+    to = spoken.to
+    if spoken.relation != "same-as" or not isinstance(spoken.thing, Pronoun):
+        return None
+    if not isinstance(to, Described) or (to.colour is None and to.kind in ("vehicle", "car")):
+        return None
+    alike = Described(kind=to.kind, colour=to.colour, size=to.size)
+    found = g.thing(alike, g.window(Now(), "present"))
+    look = g.context.look(found.number, g.context.now) if isinstance(found, Vehicle) else None
+    return found if look is not None and look.in_view else None
