@@ -197,6 +197,10 @@ def _about_thing(question: Question, thing: Thing, g: Grounder) -> Question:
 
     Where it cannot be asked of that thing, it is asked what that is doing.
     """
+    if isinstance(thing, Described) and thing.bearing is not None and _is_of_room(question):
+        return Listing(
+            "vehicles", thing
+        )  # "is there room on the left?", "what about oncoming cars?"
     event = main_event(question)
     whom = isinstance(question, Which) and event is not None and isinstance(event.object, Wanted)
     if isinstance(thing, Ego) and whom and event is not None:
@@ -222,6 +226,12 @@ def _about_thing(question: Question, thing: Thing, g: Grounder) -> Question:
                 return Doing(found)
             return replace(question, of=with_event(question.of, same))
     return with_thing(question, thing, g.context)
+
+
+def _is_of_room(question: Question) -> bool:
+    """Tell whether it was asked if there is room, or if a lane or the road is free."""
+    that = question.that if isinstance(question, Whether) else None
+    return isinstance(that, Is) and that.state in ("free", "roomy") and that.event is None
 
 
 _JUDGING: Final = ("should", "could", "would")

@@ -244,7 +244,7 @@ def _in_view(g: Grounder) -> bool:
 
 
 def _is_coloured(colour: object, g: Grounder) -> bool:
-    """Tell whether a vehicle that was spoken of has a colour."""
+    """Tell whether a vehicle that was spoken of, and is not behind us, has a colour."""
     spoken = (v for v, salience in vehicles_of(g.context.discourse.mentions) if salience > NOBODY)
     looks = (g.context.look(v, g.context.now) for v in spoken)
-    return any(look is None or look.colour == colour for look in looks)
+    return any(look is None or (look.colour == colour and look.ahead >= 0.0) for look in looks)

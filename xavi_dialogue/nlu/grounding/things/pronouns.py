@@ -38,6 +38,8 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
     if thing.form == "they" and together and _group_leads(g):
         return Vehicles(together)
     weighed = _weighed(thing, g, fits, moment)
+    if thing.form == "they" and moment >= g.context.now:
+        weighed = _people_first(weighed, g, moment)
     if thing.form == "they" and weighed and _by_car(weighed[0][1], g):
         crowd = _with_others((weighed[0][1],), g, moment)
         if len(crowd) > 1:
@@ -61,6 +63,19 @@ def pronoun(thing: Pronoun, g: Grounder, window: Window, fits: Fits | None) -> T
         return thing
     g.notes.cost += FROM_SCENE
     return Vehicle(found)
+
+
+def _people_first(
+    weighed: list[tuple[float, int]], g: Grounder, moment: float
+) -> list[tuple[float, int]]:
+    """Take those on foot who were spoken of before a vehicle that was named in an earlier turn."""
+    discourse = g.context.discourse
+    now = {n for m in discourse.mentions if m.turn == discourse.turn for n in _numbers(m.thing)}
+    if not weighed or weighed[0][1] in now or walks(weighed[0][1], g):
+        return weighed
+    seen = g.context.world.in_view(moment)
+    people = [(share, one) for share, one in weighed if one in seen and walks(one, g)]
+    return people or weighed
 
 
 def apart(thing: Thing, taken: Thing, g: Grounder) -> Grounder:
