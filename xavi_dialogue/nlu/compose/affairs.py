@@ -23,6 +23,7 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.terms import (
     Back,
+    Compares,
     Described,
     Ego,
     Event,
@@ -103,6 +104,10 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
             return (Ask(Doing(Ego(), Next(), "future")),)  # "after this, which direction?"
         case Which(such=Not(Related("can-see", Ego(), Wanted()))) if _PARTS & set(words.split()):
             return (Ask(Listing("hidden")),)  # "which part of the road can't you see?"
+        case Which(Wanted(), Compares(Measured("speed", Wanted()), "more", None)) if (
+            words.startswith("what") and "would" in words.split()
+        ):
+            return (Ask(Listing("options")),)  # "what would have been quicker?"
         case Which(such=Related("on", Wanted(), Record())):
             return (Ask(Listing("vehicles")),)  # "what's on your screen?"
         case Whether(Is("allowed", event=Event(actor=Ego()) as event)) | When(
@@ -153,10 +158,21 @@ def why_not(acts: tuple[Act, ...], unit: Node, clause: Clause) -> tuple[Act, ...
             return (Ask(Whether(Happens(replace(event, tense="future", modal="must")))),)
         case (Request(event, False),) if clause.negated and "we" in words and "please" not in words:
             return (Ask(Why(Not(Happens(replace(event, modal="can"))))),)
+        case (Request(event, False),) if "we" in words and _before_others(event):
+            able = Happens(replace(event, modal="can"))
+            return (Ask(Whether(able)),)  # "could we squeeze through before they cross?"
         case (Request(event, False),) if _of_us_both(words_of(unit)):
             short = _short_of(event)
             return (Ask(short or Whether(Happens(replace(event, modal="would")))),)
     return acts
+
+
+def _before_others(event: Event) -> bool:
+    """Check whether something is to be done before another road user does something."""
+    match event.time:
+        case Relative(relation="before", anchor=Event(actor=actor)):
+            return not isinstance(actor, Ego)
+    return False
 
 
 def _of_us_both(words: str) -> bool:

@@ -139,7 +139,8 @@ class BareQuestions(Suppositions):
             clause = clause.bare or clause.gerund or clause
         if wh.key == "long" and _empty(clause) and _still(wh, clause):
             return [((Ask(HowMuch(Measured("time-to-go"))),), 0.05)]
-        if wh.key == "long" and _empty(clause) and not {"longer", "more"}.isdisjoint(wh.words):
+        longer = "now" in clause.focus or not {"longer", "more"}.isdisjoint(wh.words)
+        if wh.key == "long" and _empty(clause) and longer:  # "how long now?"
             going_on = Measured("duration", Pronoun("this"), tense="future")
             return [((Ask(HowMuch(going_on)),), 0.05)]
         if wh.key == "long" and _empty(clause):

@@ -48,7 +48,7 @@ from xavi_dialogue.explain.answers.reference.naming import (
     somebodies,
 )
 from xavi_dialogue.explain.answers.reference.occasions import did_not_happen, occasions, taken_place
-from xavi_dialogue.explain.answers.ride.comfort import stretch
+from xavi_dialogue.explain.answers.ride.comfort import stretch, with_slowing
 from xavi_dialogue.explain.answers.ride.places import told
 
 #: Attributes that change from moment to moment and are numbers.
@@ -333,7 +333,10 @@ def _of_event(question: HowMuch, asked: Asked, event: Event) -> Answer:
     of = question.of
     episode = _hardest_of(asked, event) if of.attribute == "deceleration" else None
     episode = episode or taken_place(asked, event)
-    about = stretch(asked, episode)
+    about = with_slowing(asked, episode, stretch(asked, episode))
+    halted = episode.peak is None and is_us(episode.actor) and not about.instant
+    if of.attribute == "deceleration" and halted:
+        return Measures((_extreme(asked, "deceleration", Ego(), "highest", about, None),))
     if of.attribute == "deceleration" and episode.peak is not None:
         return Measures((hardest(asked, episode, about),))
     thing = of.thing if number(of.thing) is not None else episode.actor

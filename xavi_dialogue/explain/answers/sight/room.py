@@ -25,8 +25,6 @@ def free(of: Is, asked: Asked) -> Finding:
     places = {look.vehicle: road.places.get(look.vehicle) for look in seen}
     own = road.places[EGO]
     wanted = _lane(own, lane)
-    if wanted is None and own.lanes == 1 and lane in ("left", "right"):
-        return _side_clear(asked, at, lane)
     if wanted is None:
         return Finding(False, known(asked.world.measure("lane", Ego(), at)))
     there = [
@@ -52,14 +50,6 @@ def _clear(asked: Asked, at: float) -> Finding:
     ]
     nearest = sorted(there, key=lambda look: look.distance)
     return Finding(not there, tuple(nearest))
-
-
-def _side_clear(asked: Asked, at: float, side: str) -> Finding:
-    """Weigh that nobody is close on a side of us where there is no lane."""
-    seen = looks(asked, asked.world.in_view(at), at)
-    there = [look for look in seen if side in look.bearing and "behind" not in look.bearing]
-    nearest = sorted((x for x in there if x.distance <= FREE[1]), key=lambda look: look.distance)
-    return Finding(not nearest, tuple(nearest))
 
 
 def _on_our_way(look: Look) -> bool:

@@ -11,6 +11,7 @@ from xavi_dialogue.domain.meaning import (
     HowMuch,
     HowSure,
     Listing,
+    Peak,
     Question,
     Summarise,
     WhatWouldChange,
@@ -125,6 +126,8 @@ class Asking(What, WhichOne):
         actor = as_thing(clause.subject) or Ego()
         if actor == NEXT and clause.verb is None:
             return Doing(Ego(), Next(), "future")  # "where next?"
+        if isinstance(value, Special) and value.name in ("cost", "delay"):
+            return Peak("delay", clause.time)  # "where did we lose time?"
         source = (
             wh.key == "whence"
             or wh.preposition == "from"
@@ -238,6 +241,12 @@ class Asking(What, WhichOne):
 
     def _how_special(self, clause: Clause, value: Special) -> Question | None:
         match value.name:
+            case "see" | "deem" if (
+                clause.verb is not None
+                and clause.verb.key == "find"
+                and ((opinion := rated(clause, value)) is not None)
+            ):
+                return opinion  # "how did you find the ride?"
             case "know" | "believe" | "conclude" | "see" | "say" | "tell" | "hear" | "find":
                 content = value.content
                 if content is None and value.object is not None and value.name == "see":
@@ -277,6 +286,8 @@ class Asking(What, WhichOne):
                         tense != "future"
                     ):
                         return Why(of)  # "on what basis are you not stopping?"
+                    case Happens(event=Event(actor=Ego(), tense="past", modal=None)):
+                        return Why(of)  # "on what basis did you proceed?"
                 return HowKnow(of)
             case "what" | "who" | "whose":
                 return self.what(wh, clause, value)

@@ -196,7 +196,7 @@ class What:
             case Is(state="wrong", thing=Wanted()):
                 return Doing(None, clause.time, "present")
             case Happens(event=Event(action="come", actor=Wanted(), object=None, time=time)) if (
-                isinstance(time, Relative) or doings.comes_up(wh, clause)
+                isinstance(time, Relative | Next) or doings.comes_up(wh, clause)
             ):  # "what comes after this turn?", "what's coming up?"
                 return Doing(Ego(), clause.time, "future")
             case Related(thing=Wanted(), to=Ego()) if clause.focus & {"closest", "nearest"}:

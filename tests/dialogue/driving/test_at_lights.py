@@ -1,0 +1,71 @@
+"""Questions at a red light: whose turn it is, how long, and on what basis we went."""
+
+import pytest
+
+from tests.dialogue.talking import Talk
+from xavi_dialogue.nlu.notation import acts_line
+from xavi_dialogue.nlu.parse import Parser
+
+ROLLING, RED, THROUGH = 9.0, 20.0, 34.0  # [s] in the ride `junction-0`
+
+
+def read(text: str) -> str:
+    return acts_line(Parser().read(text)[0].acts)
+
+
+@pytest.mark.parametrize("text", ["why are we slowing, it's green!", "it is green, why brake?"])
+def test_green_is_the_light_and_not_a_green_vehicle_behind_us(text: str) -> None:
+    talk = Talk("junction-0", 6.0)
+    assert "green bicycle" in talk.hear("how close was the bike?")
+    talk.at = ROLLING
+    turn = talk.say(text)
+    assert "bicycle" not in turn.reply.text
+    talk.hear("who has priority, them or us?")
+    assert "do not cross" not in talk.hear("who has priority, them or us?")
+
+
+@pytest.mark.parametrize("text", ["how long now?", "how long now", "how much longer?"])
+def test_how_long_now_is_how_long_it_goes_on(text: str) -> None:
+    assert read(text).startswith("Ask(HowMuch(Measured(duration, Pronoun(this), tense=future)))")
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["On what basis did you proceed?", "on what grounds did you go", "On what basis did you turn?"],
+)
+def test_the_basis_of_a_deed_is_its_reason(text: str) -> None:
+    assert read(text).startswith("Ask(Why(Happens(")
+
+
+@pytest.mark.parametrize(
+    "text", ["could we squeeze through before they cross", "can we go before he comes?"]
+)
+def test_going_before_others_is_asked_and_not_requested(text: str) -> None:
+    assert read(text).startswith("Ask(Whether(")
+
+
+@pytest.mark.parametrize(
+    "text", ["how hard was the last stop?", "how hard did you brake for the stop"]
+)
+def test_a_stop_is_as_hard_as_the_braking_before_it(text: str) -> None:
+    assert "not braking" not in Talk("junction-0", RED).hear(text)
+
+
+def test_oncoming_cars_after_room_beside_us_are_listed() -> None:
+    reply = Talk("junction-0", RED).hear("is there room on the left?", "what about oncoming cars?")
+    assert not reply.startswith(("Yes", "No,"))
+
+
+@pytest.mark.parametrize("text", ["what comes next", "and what comes next?"])
+def test_what_comes_next_is_what_we_do(text: str) -> None:
+    assert read(text).endswith("Ask(Doing(time=Next, tense=future))")
+
+
+@pytest.mark.parametrize("text", ["where did we lose time?", "where did we lose the most time"])
+def test_where_time_was_lost_is_its_worst_moment(text: str) -> None:
+    assert "Peak(delay" in read(text)
+
+
+@pytest.mark.parametrize("text", ["what would have been quicker", "what would have been faster?"])
+def test_what_would_have_been_quicker_is_of_the_options(text: str) -> None:
+    assert read(text) == "Ask(Listing(options))"
