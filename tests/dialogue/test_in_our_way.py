@@ -64,7 +64,9 @@ def test_who_brakes_for_somebody_waits_for_him() -> None:
     assert Talk("junction-0", 42.0).hear("is the orange car waiting for us?").startswith("No")
 
 
-@pytest.mark.parametrize("text", ["are they allowed to cross now", "may those people cross here?"])
+@pytest.mark.parametrize(
+    "text", ["are they allowed to cross now", "are those people allowed to cross?"]
+)
 def test_who_may_cross_now_is_told_of_now(text: str) -> None:
     told = Talk("junction-0", 14.0).hear(text)
     assert "has right of way" in told or "have right of way" in told, told
