@@ -7,7 +7,7 @@ from xavi_dialogue.domain.facts import Episode, Fact, Measure
 from xavi_dialogue.domain.terms import Ego, Event, Happens, Now, Unsaid, Vehicle, WholeRide
 from xavi_dialogue.domain.vocabulary import BEYOND, ActionName
 from xavi_dialogue.explain.answers.events.arriving import arrived
-from xavi_dialogue.explain.answers.events.moving import moved
+from xavi_dialogue.explain.answers.events.moving import moved, sets_off
 from xavi_dialogue.explain.answers.events.picking import likeliest
 from xavi_dialogue.explain.answers.events.together import nearest_of, together
 from xavi_dialogue.explain.answers.expectations.foreseen import (
@@ -72,7 +72,7 @@ def happens(of: Happens, asked: Asked) -> Finding:
     here = event.action == "come" and event.tense == "present"
     if here and (coming := comes(asked, event)) is not None:
         return coming
-    for told_by in (together, _moves, closes, trails, keeps, _left_room):
+    for told_by in (together, _moves, sets_off, closes, trails, keeps, _left_room):
         if (moves := told_by(asked, event)) is not None:
             return moves
     if is_ahead(asked, event.time, event.tense) or _all_the_way(event) or _intended(asked, event):

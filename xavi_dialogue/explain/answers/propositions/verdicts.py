@@ -24,6 +24,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Happens,
     Is,
+    Junction,
     Measured,
     Nobody,
     Not,
@@ -43,6 +44,7 @@ from xavi_dialogue.explain.answers.propositions.lasting import staying
 from xavi_dialogue.explain.answers.propositions.weighing import weigh
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import Finding
+from xavi_dialogue.explain.answers.reference.moments import window
 from xavi_dialogue.explain.answers.reference.naming import first_look, is_us, number
 from xavi_dialogue.explain.answers.reference.occasions import lacks_deeds, occasion
 from xavi_dialogue.explain.answers.ride.onward import WAYS, whether_ours
@@ -51,6 +53,8 @@ from xavi_dialogue.explain.answers.suppositions.own_suppositions import claimed,
 #: Manners that are a matter of opinion; the reply is the reason for what we did.
 JUDGED = frozenset(("late", "early", "long"))
 HELD = frozenset[ActionName](("stop", "stand", "wait", "brake", "slow-down"))
+THROUGH: tuple[ActionName, ...] = ("exit-left", "exit-right", "exit-straight")
+LATELY = 2.0  # [s] before a time asked about in which we entered a junction then
 HELD_BY_TREND: dict[str, ActionName] = {"standing": "stand", "slowing": "slow-down"}
 PACES: dict[str, State] = {"fast": "fast", "slowly": "slow"}
 PASSING = frozenset(("pass", "overtake"))
@@ -127,7 +131,12 @@ def _stays_behind(that: Proposition, asked: Asked) -> Vehicle | None:
 
 
 def _as_it_was(that: Proposition, asked: Asked) -> Proposition:
-    """Read overtaking of somebody who stood or came towards us as driving past."""
+    """Read overtaking of somebody who stood or came towards us as driving past.
+
+    Of a junction that we entered, it is the way through it that is on record.
+    """
+    if (way := _entered(that, asked)) is not None:
+        return way
     if not isinstance(that, Happens) or that.event.action != "overtake":
         return that
     if isinstance(that.event.actor, Nobody) or isinstance(that.event.object, Nobody):
@@ -136,6 +145,20 @@ def _as_it_was(that: Proposition, asked: Asked) -> Proposition:
     if world.holds(that.event, world.begin, asked.now):
         return that
     return Happens(passed) if world.holds(passed, world.begin, asked.now) else that
+
+
+def _entered(that: Proposition, asked: Asked) -> Happens | None:
+    """Return our way through a junction, for whether we entered it."""
+    match that:
+        case Happens(
+            event=Event(action="enter", actor=Ego(), object=Junction(), modal=None) as event
+        ) if event.tense in ("past", "perfect"):
+            about = window(asked, event.time, event.tense)
+            ways = asked.world.episodes(Ego(), THROUGH, about.begin, about.end)
+            ways = tuple(w for w in ways if about.begin - LATELY <= w.begin <= about.end)
+            if ways:
+                return Happens(replace(event, action=ways[-1].action, object=None))
+    return None
 
 
 def _as_state(that: Proposition) -> Proposition:
