@@ -260,3 +260,38 @@ def test_a_prediction_is_judged_in_other_words(text: str) -> None:
     talk = Talk("s3-0")
     known = talk.hear("where did you expect vehicle 2 to go?", "were you right?")
     assert Talk("s3-0").hear("where did you expect vehicle 2 to go?", text) == known
+
+
+@pytest.mark.parametrize(
+    ("text", "reply"),
+    [
+        ("without the blue car, would we still be in the right lane?", "I would have stayed"),
+        ("would we be in the right lane without the blue car?", "I would have stayed"),
+        ("without the blue car, would we be in the left lane now?", "I would not have moved"),
+    ],
+)
+def test_being_in_a_lane_without_somebody_is_having_kept_to_it(text: str, reply: str) -> None:
+    assert reply in Talk("s1-0", 8.0).say(text).reply.text
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "did you enter the junction?",
+        "did the car enter the junction?",
+        "have you entered the junction?",
+    ],
+)
+def test_who_turned_has_entered_the_junction(text: str) -> None:
+    talk = Talk("junction-0", 40.0)
+    talk.say("when did you reach the junction?")
+    assert talk.say(text).reply.text.startswith("Yes, I turned right")
+
+
+@pytest.mark.parametrize(
+    "text", ["does it know we're turning?", "does it know that we turn?", "does the bike see us?"]
+)
+def test_what_another_knows_of_us_is_not_what_we_do(text: str) -> None:
+    talk = Talk("junction-0", 28.0, planner=False)
+    talk.say("there's a bike right next to us")
+    assert not talk.say(text).reply.text.startswith("Yes, I am turning")

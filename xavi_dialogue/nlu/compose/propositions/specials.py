@@ -68,7 +68,7 @@ from xavi_dialogue.nlu.compose.verbs.deeds import (
     tense_of,
     time_of,
 )
-from xavi_dialogue.nlu.compose.verbs.others import is_other
+from xavi_dialogue.nlu.compose.verbs.others import is_of_us, is_other
 from xavi_dialogue.nlu.compose.verbs.sheltering import beside, emerge, lurk
 from xavi_dialogue.nlu.compose.verbs.trends import SINCE
 
@@ -101,7 +101,7 @@ def _positive(special: Special) -> Proposition:
     if is_other(special.subject) and (name in _LIKING or (name in _BELIEF and judged)):
         # "He will think that we are rude."
         return Is("upset", special.subject, time=time_of(special), tense=tense_of(special))
-    if name in _BELIEF and is_other(special.subject):
+    if name in _BELIEF and (is_of_us(special) or is_other(special.subject)):
         if special.content is None and isinstance(special.object, _OTHERS):
             return Happens(event_of(special, "do", Unknown(name)))  # "it gets its gap"
         return Related("can-see", special.subject, Ego(), time_of(special), tense_of(special))

@@ -73,6 +73,13 @@ def is_other(thing: Thing) -> bool:
     return is_person(thing) or isinstance(thing, Described | Vehicle)
 
 
+def is_of_us(special: Special) -> bool:
+    """Say whether "it" that knows something of us is somebody else: "does it know we turn?"."""
+    of = special.content
+    ours = isinstance(of, Happens) and isinstance(of.event.actor, Ego)
+    return ours and special.subject == Pronoun("it")
+
+
 def is_person(thing: Thing | None) -> bool:
     """Say whether a thing is a pronoun for somebody on the road."""
     return isinstance(thing, Pronoun) and thing.form in ("he", "she", "they")
