@@ -70,3 +70,9 @@ def test_who_brakes_for_somebody_waits_for_him() -> None:
 def test_who_may_cross_now_is_told_of_now(text: str) -> None:
     told = Talk("junction-0", 14.0).hear(text)
     assert "has right of way" in told or "have right of way" in told, told
+
+
+def test_tailgating_is_following_too_closely() -> None:
+    told = Talk("motorway-0", 20.0).hear("is the brown lorry tailgating us?")
+    assert told.startswith("No, "), told
+    assert "the gap between us" in told
