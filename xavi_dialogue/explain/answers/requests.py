@@ -13,7 +13,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Request
-from xavi_dialogue.domain.terms import Ego, Event, Now, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Lane, Now, Vehicle
 from xavi_dialogue.domain.vocabulary import BEYOND, GENTLE, ActionName
 from xavi_dialogue.explain.answers.expectations.foreseen import (
     HALTS,
@@ -54,7 +54,7 @@ def request(act: Request, asked: Asked) -> Answer:
     Raises:
         Unanswered: it is about something unknown; or rollouts are needed.
     """
-    act = replace(act, event=past_leader(asked, _paced(act.event)))
+    act = replace(act, event=past_leader(asked, _to_lane(_paced(act.event))))
     if act.negated and "close" in act.event.manner:  # "do not get so close"
         act = replace(act, event=replace(act.event, action="keep-distance"), negated=False)
     event = act.event
@@ -107,6 +107,17 @@ def _paced(event: Event) -> Event:
     if event.action in PACED and "slowly" in event.manner:
         return replace(event, action="slow-down", object=None, manner=())
     return event
+
+
+def _to_lane(event: Event) -> Event:
+    """Read "go into the middle lane" as a wish to change lanes."""
+    where = None if event.where is None else event.where.to
+    lane = next((one for one in (event.object, where) if isinstance(one, Lane)), None)
+    if event.action not in ("go", "move", "head") or lane is None or lane.which == "own":
+        return event
+    sides: dict[str, ActionName] = {"left": "change-left", "right": "change-right"}
+    action = sides.get(lane.which, "change-lane")
+    return replace(event, action=action, object=None, where=None)
 
 
 def _meant(asked: Asked, event: Event, trend: str | None) -> bool:
@@ -178,6 +189,8 @@ def _doing(asked: Asked, event: Event, trend: str | None) -> bool:
         halting = foreseen(asked, Event("stop"))
         going = halting is None or halting.share < 0.5
         return not stands(asked) and going and not macros(event)
+    if action == "head" and event.object is None:
+        return False  # it is not known where to
     found = occasion(asked, replace(event, actor=Ego(), tense="present"))
     return found is not None and found.end is None
 

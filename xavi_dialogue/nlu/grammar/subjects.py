@@ -38,6 +38,7 @@ THINKING: Final = frozenset(("reckon", "think"))
 FINITE: Final = frozenset(("VPAST",))
 AMBIGUOUS: Final = frozenset(("V", "SIDE", "KIND", "EVN", "ADJ", "P", "BEARING"))
 AUXILIARIES: Final = frozenset(("did", "had", "was", "were"))
+NOUNS: Final = frozenset(("ABS", "MEAS", "KIND", "EVN"))
 VERBS: Final = frozenset(("V", "VPAST", "VED", "VING"))
 
 
@@ -78,6 +79,8 @@ def past(typed: Typed) -> Typed | None:
         return None
     if _is(words[verb], AMBIGUOUS) or words[verb] in AUXILIARIES:
         return None  # "hit the brakes" is a request, "left again" names a turn, "did it" asks
+    if _names(words[verb], words[verb + 1]):
+        return None  # "predicted path of vehicle 1?" is a noun
     if words[verb : verb + 2] == ["felt", "like"]:
         return _with(typed, at, "it")  # "felt like we nearly hit him" is of us, and no feeling
     return _with(typed, at, "i" if words[verb] in PERCEIVING else "you")
@@ -96,6 +99,13 @@ def _past(words: list[str], at: int, passed: frozenset[str]) -> int:
 def _is(word: str, categories: frozenset[str]) -> bool:
     known = lexicon().trie.following.get(word)
     return known is not None and any(e.category in categories for e in known.entries)
+
+
+def _names(word: str, later: str) -> bool:
+    """Check whether two words are a noun together."""
+    known = lexicon().trie.following.get(word)
+    both = None if known is None else known.following.get(later)
+    return both is not None and any(e.category in NOUNS for e in both.entries)
 
 
 def _with(typed: Typed, at: int, *said: str) -> Typed:

@@ -62,6 +62,7 @@ from xavi_dialogue.nlu.compose.clauses.times import relative
 from xavi_dialogue.nlu.compose.verbs.trends import changed
 from xavi_dialogue.nlu.honesty import is_well_typed
 from xavi_dialogue.nlu.joining.outcomes import asks_whom
+from xavi_dialogue.nlu.joining.there import to_lane
 from xavi_dialogue.nlu.joining.unchanged import as_it_is
 
 _MOMENTARY = frozenset({"speed", "distance", "gap", "clearance", "limit", "acceleration",
@@ -153,8 +154,8 @@ def _setting(act: Act) -> Act | None:
 def _linked(before: Act, act: Act) -> Act:
     """Put an amount to what was told or asked just before: "we braked, how fast were we?"."""
     event = first(before, Event)
-    if event is None:
-        return act
+    if (there := to_lane(before, act)) is not None or event is None:
+        return there or act
     match before, act:
         case Ask(question=WhatIf(supposed=Happens(event=option), then=Which())), Ask(
             question=Why(of=That() | Happens(event=Event(action="do")))

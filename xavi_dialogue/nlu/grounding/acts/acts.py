@@ -113,7 +113,9 @@ def _requested(event: Event, g: Grounder) -> Event:
     target = event.object
     if isinstance(target, Described) and not target.definite:
         event = replace(event, object=replace(target, definite=True))
-    return g.event(event, "supposed")
+    found = g.event(event, "supposed")
+    there = event.action == "head" and event.object is None  # "go there" is more than to go
+    return replace(found, action="head") if there else found
 
 
 def _about(about: Proposition | Thing | None, g: Grounder) -> Proposition | Thing | None:
