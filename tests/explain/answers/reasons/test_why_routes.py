@@ -96,7 +96,7 @@ def did(action: Any, actor: Any = None, **more: Any) -> Happens:
         (Compares(Measured("speed"), "less", Measured("limit")), "motions.slow"),
         (Compares(Measured("speed"), "more", Measured("speed", ONE)), "motions.fast"),
         (Compares(Measured("speed"), "less", Measured("speed", ONE)), "motions.slow"),
-        (Compares(Measured("speed", ONE), "less", Measured("speed")), "motions.fast"),
+        (Compares(Measured("speed", ONE), "less", Measured("speed")), "others.slowly"),
         (Compares(Measured("speed", ONE), "more", Measured("speed")), "motions.slow"),
         (Compares(Measured("delay"), "more"), "motions.motion"),
         (Compares(Measured("duration"), "more"), "motions.motion"),

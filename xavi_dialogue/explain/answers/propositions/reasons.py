@@ -130,6 +130,10 @@ def _why(of: Proposition | None, scene: Asked, question: Why, *, negated: bool) 
             return own_not(Event(change, time=of.time, tense=of.tense), scene, question)
         case Related():
             return standings.related(of, scene)
+        case Compares(Measured("speed", thing, tense=tense), "less" | "same") if (
+            not negated and vehicle_in(thing) is not None
+        ):  # "why is he slower than us?", "why does the lorry drive only 80?"
+            return _state(Is("slow", thing, tense=tense), scene, question, negated=False)
         case Compares(left=left) if motions.is_our_speed(of):
             ahead = of.comparator == "more" and is_own(left.thing)
             behind = of.comparator == "less" and not is_own(left.thing)

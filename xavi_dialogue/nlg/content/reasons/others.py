@@ -130,7 +130,8 @@ def _their_deed(deed: Episode, answer: OtherReason, context: SpeechContext) -> C
     """Return what the vehicle did; the reason shows for whom."""
     if deed.action == "move" and deed.speed_to is not None:
         speed = Quantity(deed.speed_to, "m/s")
-        return Clause(Who(deed.actor, deed.begin), "drive", ("at", speed), "present", True)
+        verb = "walk" if _walks(answer.vehicle, context) else "drive"
+        return Clause(Who(deed.actor, deed.begin), verb, ("at", speed), "present", True)
     causes = {cause.vehicle for cause in answer.causes}
     other = deed.object
     number = other.number if isinstance(other, Vehicle) else 0 if isinstance(other, Ego) else None
