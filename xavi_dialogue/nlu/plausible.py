@@ -159,6 +159,10 @@ def _own(value: Any) -> float:
         case Compares(left=Measured(attribute=attribute), comparator="same", right=right):
             named = attribute in _OF_LIGHTS or not isinstance(right, Quantity)
             return DOUBTFUL if named else PLAIN
+        case Is(state="fast", thing=thing) if thing == Described(definite=False):
+            return DOUBTFUL  # "is anything coming up behind us fast?" asks who comes
+        case HowMuch(of=Measured(attribute="size", thing=Ego())):
+            return SLIGHT  # "how long do you think?"
         case Measured(thing=Unknown()) | Described(of=Unknown()):
             return DOUBTFUL
         case Described(such=Caused(cause=Wanted())):

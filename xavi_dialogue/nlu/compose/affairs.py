@@ -1,6 +1,6 @@
 """State of affairs: "how are things looking?", "is everything all right?", "can't we go?"."""
 
-from typing import Any, Final
+from typing import Final
 
 from msgspec.structs import replace
 
@@ -10,37 +10,26 @@ from xavi_dialogue.domain.meaning import (
     Beyond,
     Doing,
     HowDecide,
-    HowMuch,
-    Identify,
     Listing,
     Request,
     Summarise,
     WhatIf,
     When,
     Whether,
-    Which,
     Why,
 )
 from xavi_dialogue.domain.terms import (
-    Back,
-    Compares,
     Described,
     Ego,
     Event,
-    Everyone,
     Happens,
     Is,
-    Measured,
-    Next,
     Not,
     Pronoun,
     Proposition,
-    Record,
     Related,
     Relative,
     Unknown,
-    Wanted,
-    WholeRide,
 )
 from xavi_dialogue.nlu.compose.alternatives.blames import of_one_alone
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
@@ -48,6 +37,7 @@ from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.own_deeds import of_own_deed
 from xavi_dialogue.nlu.compose.sounds import of_sounds
 from xavi_dialogue.nlu.compose.wh_questions.rating import rating_of
+from xavi_dialogue.nlu.compose.worded import worded
 from xavi_dialogue.nlu.grammar.chart import Node
 
 WELL: Final = Ask(Whether(Is("safe", Ego())))
@@ -55,10 +45,6 @@ _IN_TIME: Final = Event("stop", manner=("early",), tense="present", modal="could
 #: Words with which it is asked what happens on other rides, too: "is it always this busy?". They
 #: do not include "normally", which may also tell how something is done.
 _HABITS: Final = frozenset(("always", "usually", "typically", "often"))
-#: Words with which one of all is asked for, and not one of those in view.
-_SO_FAR: Final = frozenset(("was", "far", "ever", "seen", "met", "yet", "ride", "trip", "been"))
-_PARTS: Final = frozenset(("part", "parts", "bit", "bits", "area", "areas", "road", "street"))
-_GET_TO: Final = frozenset(("get", "gets"))
 _TELLING: Final = frozenset(("state", "give", "name", "specify", "report", "indicate", "provide"))
 _THINGS: Final = (
     Described(plural=True, definite=False),
@@ -76,6 +62,8 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
         return rating
     if len(acts) != 1 or not isinstance(acts[0], Ask):
         return acts
+    if (found := worded(acts[0].question, words)) is not None:
+        return found
     match acts[0].question:
         case HowDecide(
             Related("can-see", thing) | Happens(Event("go", thing, tense="present"))
@@ -89,33 +77,6 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
             return (Ask(Summarise()),)  # "so how did you do?", "how was your driving?"
         case HowDecide(Is("wrong", Ego(), tense="past")):
             return (Ask(Listing("wrong-predictions")),)  # "how did you do, any mistakes?"
-        case Identify(
-            Described(
-                kind=kind,
-                extreme="fastest" | "slowest" as pace,
-                bearing=None,
-                such=None | Related("can-see", Ego(), Wanted()),
-            )
-        ) if _SO_FAR & set(words.split()):  # "what was the fastest car so far?"
-            which: Any = "highest" if pace == "fastest" else "lowest"
-            of = Measured("speed", Everyone(kind), time=WholeRide(), tense="past")
-            return (Ask(HowMuch(of, which)),)
-        case HowMuch(Measured("turn", time=Back("after"))):
-            return (Ask(Doing(Ego(), Next(), "future")),)  # "after this, which direction?"
-        case Which(such=Not(Related("can-see", Ego(), Wanted()))) if _PARTS & set(words.split()):
-            return (Ask(Listing("hidden")),)  # "which part of the road can't you see?"
-        case Which(Wanted(), Compares(Measured("speed", Wanted()), "more", None)) if (
-            words.startswith("what") and "would" in words.split()
-        ):
-            return (Ask(Listing("options")),)  # "what would have been quicker?"
-        case Which(such=Related("on", Wanted(), Record())):
-            return (Ask(Listing("vehicles")),)  # "what's on your screen?"
-        case Whether(Is("allowed", event=Event(actor=Ego()) as event)) | When(
-            Is("allowed", event=Event(actor=Ego()) as event)
-        ) if _GET_TO & set(words.split()):  # "do we get to go now?" is asked of what is possible
-            able = Happens(replace(event, modal="can"))
-            whether = isinstance(acts[0].question, Whether)
-            return (Ask(Whether(able) if whether else When(able)),)
         case Whether(
             Is("safe" | "better", thing, tense="present")
             | Happens(Event("go", thing, manner=("safely",), tense="present"))

@@ -18,6 +18,7 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.domain.terms import (
     SOMEBODY_ELSE,
     Back,
+    Described,
     Ego,
     Event,
     Happens,
@@ -31,7 +32,7 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Unsaid,
 )
-from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
+from xavi_dialogue.nlu.compose.clauses.adoption import adopted, with_fields
 from xavi_dialogue.nlu.compose.clauses.clause import PASSED_OVER, Clause
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, Sem, as_lane, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
@@ -180,6 +181,8 @@ class BareQuestions(Suppositions):
             sem = clause.complements[0].sem
         if isinstance(sem, Event):
             return None, sem
+        for phrase in clause.complements if isinstance(sem, Described) else ():
+            sem = adopted(sem, phrase) or sem  # "the one in the left lane"
         return as_thing(sem) or as_lane(sem), None
 
 

@@ -9,6 +9,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Happens,
+    Lane,
     Not,
     Passenger,
     Related,
@@ -74,6 +75,8 @@ class Followers:
                 key = cast(Leaf, part.parts[0]).key
                 sem = self.clauses.inner(part.parts[1])
                 traits.about.append((key, sem))
+                if isinstance(sem, Lane) and key in ("in", "on"):
+                    traits.fields["such"] = Related("on", Wanted(), sem)  # "the one in our lane"
                 gerund = part.parts[1]
                 if isinstance(sem, Event) and isinstance(gerund, Node) and is_negated(gerund):
                     traits.clause = Not(Happens(sem))  # "the reason for not stopping"
@@ -95,6 +98,8 @@ class Followers:
                 traits.event = event
             case Related(relation=relation, thing=Wanted(), to=to):
                 bearing = next((b for b, r in _RELATIONS.items() if r == relation), None)
+                if isinstance(to, Lane):
+                    traits.fields["such"] = found
                 if bearing is not None:
                     traits.fields["bearing"] = bearing
                     traits.fields["of"] = None if isinstance(to, Ego) else to
@@ -145,6 +150,11 @@ def place_subject(clause: Clause) -> None:
         bearing = one.key.removeprefix("bearing-")
         if isinstance(one.sem, Ego | Passenger) and bearing != one.key:
             clause.subject = structs.replace(subject, bearing=cast(Any, bearing))
+            clause.complements = [c for c in clause.complements if c is not one]
+            return
+        if one.key in ("in", "on") and isinstance(one.sem, Lane) and subject.such is None:
+            there = Related("on", Wanted(), one.sem)  # "how fast is the car in the middle lane"
+            clause.subject = structs.replace(subject, such=there)
             clause.complements = [c for c in clause.complements if c is not one]
             return
     if clause.bearings and clause.bearings[0][0] != "there":

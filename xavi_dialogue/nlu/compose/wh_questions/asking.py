@@ -52,6 +52,7 @@ from xavi_dialogue.nlu.compose.wh_questions.amounts import amounts
 from xavi_dialogue.nlu.compose.wh_questions.grades import graded
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured, since
 from xavi_dialogue.nlu.compose.wh_questions.rating import rated
+from xavi_dialogue.nlu.compose.wh_questions.reasoning import decisive
 from xavi_dialogue.nlu.compose.wh_questions.wh import (
     NEXT,
     Wh,
@@ -276,6 +277,8 @@ class Asking(What, WhichOne):
 
     def ask(self, wh: Wh, clause: Clause, value: Any) -> Question:
         """Build the question that a question word asks of a clause."""
+        if wh.kind in ("what", "who", "which") and (mattered := decisive(clause)) is not None:
+            return mattered
         match wh.kind:
             case "why":
                 return self.why(clause, value)

@@ -12,6 +12,7 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Proposition,
     Related,
+    Thing,
     Vehicle,
     Wanted,
 )
@@ -73,3 +74,10 @@ def following(clause: Clause) -> Event | None:
         if isinstance(whom, Described | Vehicle | Pronoun):
             return Event("follow", Ego(), whom, tense=tense_of(clause))
     return None
+
+
+def blamed_for(clause: Clause) -> Thing | None:
+    """Give who is said to have cost us time: "how much do we lose because of him?"."""
+    cause = clause.because
+    whom = None if isinstance(cause, Clause) else as_thing(cause)
+    return whom if isinstance(whom, Described | Vehicle | Pronoun) else None

@@ -36,7 +36,7 @@ from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
 from xavi_dialogue.nlu.compose.verbs.lights import colour_of
-from xavi_dialogue.nlu.compose.wh_questions.behind import following
+from xavi_dialogue.nlu.compose.wh_questions.behind import blamed_for, following
 
 #: What is driving as such, and no moment of the ride.
 DRIVING = frozenset({"move", "go", "do", "continue", "happen", "speed-up", "slow-down"})
@@ -77,6 +77,7 @@ def measured(attribute: str, clause: Clause, thing: Thing | None, **more: Any) -
     time = clause.time if isinstance(time, Unsaid) else time
     if thing is None and attribute == "speed" and as_thing(clause.subject) is None:
         thing = _postponed(clause)
+    thing = (blamed_for(clause) if attribute == "delay" else None) or thing
     actor: Thing = Ego() if thing is None or isinstance(thing, Passenger) else thing
     if attribute == "delay" and (isinstance(actor, Unknown) or _is_deed(actor)):
         actor = Ego()  # "all that stopping", "all this standing"

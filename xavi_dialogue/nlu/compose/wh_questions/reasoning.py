@@ -85,6 +85,14 @@ def reasoned(clause: Clause, value: Special) -> Question | None:
     return None
 
 
+def decisive(clause: Clause) -> WhatWouldChange | None:
+    """Ask what mattered most: "which vehicles were relevant to that decision?"."""
+    if not any(key == "important" for key, _ in clause.adjectives) or clause.comparisons:
+        return None
+    named = (phrase.sem for phrase in clause.complements if phrase.key in ("for", "into"))
+    return WhatWouldChange(next((propose(sem) for sem in named), None), most=True)
+
+
 def _shows_scene(subject: object) -> bool:
     """Say whether somebody looks at our screen or sensors, which show who is in view."""
     named = isinstance(subject, Noun) and subject.key == "capability"
