@@ -295,3 +295,15 @@ def test_what_another_knows_of_us_is_not_what_we_do(text: str) -> None:
     talk = Talk("junction-0", 28.0, planner=False)
     talk.say("there's a bike right next to us")
     assert not talk.say(text).reply.text.startswith("Yes, I am turning")
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("zolk what if vehicle 1 turns left", "zolk"),
+        ("what are you doing once we reach the traffic pleex circle", "pleex"),
+        ("forgive kroolk my curiosity, but is there something ahead of us?", "kroolk"),
+    ],
+)
+def test_an_unknown_word_beside_what_is_answered_is_owned_up_to(text: str, word: str) -> None:
+    assert f'"{word}"' in Talk("s1-0", 8.0, planner=False).say(text).reply.text

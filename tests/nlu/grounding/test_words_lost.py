@@ -194,7 +194,7 @@ def test_small_words_and_asides_do_not_matter() -> None:
     assert judged(TURN, share("of", "unknown")) == ((), ())
     assert judged(TURN, share("of", "strange"))[0] == ("of",)
     assert judged(SUBJECT, share("kindly", "politeness"), WILL, UNKNOWN) == (("flurb",), ())
-    assert judged(TURN, share("flurb", "strange", None)) == ((), ())
+    assert judged(TURN, share("flurb", "strange", None)) == ((), ("flurb",))
     other = judge(read(TURN, share("flurb", "strange", 1), acts=2))
     assert (other.kills(0), other.kills(1)) == ((), ("flurb",))
 
@@ -204,4 +204,4 @@ def test_strange_words_of_a_longer_aside_leave_a_doubt() -> None:
     row = [share(w, "strange" if w in ("flurb", "zig") else "grammar", None) for w in words]
     aside = Unread(words)
     assert judged(TURN, *row, unread=(aside,)) == ((), ("flurb", "zig"))
-    assert judged(TURN, *row, unread=(Unread(words[:3]),)) == ((), ())
+    assert judged(TURN, *row, unread=(Unread(words[:3]),)) == ((), ("zig",))

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
-from xavi_dialogue.domain.meaning import Reading, TokenShare
+from xavi_dialogue.domain.meaning import Beyond, Reading, TokenShare
 
 EXCLAMATION: Final = 3  # words, at most
 
@@ -61,7 +61,7 @@ def judge(reading: Reading) -> Doubts:
     kept = [s for s in reading.shares if s.share not in _ASIDE]
     fatal: Words = {}
     left: Words = {}
-    if reading.acts and (strange := _in_asides(reading)):
+    if reading.acts and (strange := (*_in_asides(reading), *_nowhere(reading))):
         left[len(reading.acts) - 1] = strange
     for share in kept:
         small = not share.strange and share.read in SMALL
@@ -82,6 +82,15 @@ def _in_asides(reading: Reading) -> tuple[str, ...]:
     asides = (unread.words for unread in reading.unread if not unread.asks)
     words = [word for aside in asides if len(aside) > EXCLAMATION for word in aside]
     return tuple(word for word in words if word in reading.strange)
+
+
+def _nowhere(reading: Reading) -> tuple[str, ...]:
+    """List the words in no vocabulary that belong to no act and no aside."""
+    if any(isinstance(act, Beyond) for act in reading.acts):
+        return ()  # such as another language
+    aside = {word for one in reading.unread for word in one.words}
+    lost = (s for s in reading.shares if s.strange and s.act is None and s.share == "unknown")
+    return tuple(share.text for share in lost if share.text not in aside)
 
 
 def _is_main(shares: Sequence[TokenShare], index: int) -> bool:

@@ -27,8 +27,11 @@ def words_of(reading: Reading, index: int) -> str:
 
 
 def phrases(reading: Reading, index: int, words: Sequence[str]) -> tuple[str, ...]:
-    """Quote words of an act, those that stand together as one; without those that tell nothing."""
-    own = [share for share in reading.shares if share.act == index]
+    """Quote words of an act, those that stand together as one; without those that tell nothing.
+
+    Words in no vocabulary that belong to no act may be quoted with any.
+    """
+    own = [s for s in reading.shares if s.act == index or (s.act is None and s.strange)]
     runs = groupby(own, lambda share: share.text in words)
     found = (_quote([one for one in run if _bears(one)]) for lost, run in runs if lost)
     return tuple(dict.fromkeys(one for one in found if one))
