@@ -73,9 +73,21 @@ def _last_seen(who: Thing, g: Grounder) -> Question:
     return When(Happens(Event("disappear", found)))
 
 
+def _tailgating(spoken: Question) -> Question | None:
+    """Ask whether somebody is too close, for "is he tailgating us?"."""
+    match spoken:
+        case Whether(that=Happens(event=Event("follow", who, whom, tense="present") as event)) if (
+            "close" in event.manner and whom is not None
+        ):
+            known = who if getattr(who, "definite", True) else Described(bearing="behind")
+            other = known if isinstance(whom, Ego) else whom
+            return replace(spoken, that=Is("close", other, too=True, tense="present"))
+    return None
+
+
 def of_others(spoken: Question, g: Grounder) -> Question | None:
     """Put the question that is meant in the place of one about others; None: it is another one."""
-    meant = _reworded(spoken, g)
+    meant = _reworded(spoken, g) or _tailgating(spoken)
     if meant is not None:
         return meant
     match spoken:
@@ -86,12 +98,6 @@ def of_others(spoken: Question, g: Grounder) -> Question | None:
         case HowSure(of=Happens(event=Event("do", actor, None))) if not isinstance(actor, Ego):
             spoken_of = any(isinstance(e.actor, Vehicle) for e in events(g.context.discourse))
             return None if spoken_of else HowSure(Related("near", actor, Ego()), spoken.time)
-        case Whether(that=Happens(event=Event("follow", who, whom, tense="present") as event)) if (
-            "close" in event.manner and whom is not None
-        ):
-            known = who if getattr(who, "definite", True) else Described(bearing="behind")
-            other = known if isinstance(whom, Ego) else whom  # "is he tailgating us?"
-            return replace(spoken, that=Is("close", other, too=True, tense="present"))
         case Whether(that=Happens(event=Event("go", actor, Feature(kind="way")) as event)):
             ours = isinstance(actor, Ego)
             return Whither() if ours else Whether(Related("with", actor, Ego(), event.time))
