@@ -136,6 +136,12 @@ def of_others(spoken: Question, g: Grounder) -> Question | None:
                 return HowMuch(nearest, "lowest")
             if event.tense == "present":  # "are you keeping well back from him?"
                 return Whether(Not(Is("close", whom), lexical=True))
+    return _how_long_there(spoken)
+
+
+def _how_long_there(spoken: Question) -> HowLong | None:
+    """Ask how long somebody stands by somebody else of how long he is there."""
+    match spoken:
         case HowLong(of=Event("stand", Ego(), where=Related(), tense="past") as event):
             return HowLong(replace(event, where=None))  # "how long did we stand behind him?"
         case HowLong(of=Event("stand", actor, where=Related() as where) as event) if not isinstance(
