@@ -18,7 +18,8 @@ Array = NDArray[np.float64]
 ASIDE = (1.2, 3.6)  # [m] to the side, from a jog that is driven as it is drawn to a lane's width
 ALIKE = 0.05  # [rad] by which the directions before and after may differ
 WITHIN = (4, 6, 8)  # path points to each side of its middle within which a jog lies
-LASTING = (32, 28, 24, 20, 16, 14, 12, 10)  # path points to each side in which to lead over
+#: Path points to each side in which to lead over.
+LASTING = (32, 28, 24, 20, 16, 14, 12, 11, 10, 9, 8, 7, 6)
 MOVED = (0, 1, -1, 2, -2, 3, -3)  # shifts of its middle that are tried, in path points
 ROOM = 0.7  # [m] by which a car may be off the middle of its lane
 

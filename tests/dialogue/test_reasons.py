@@ -109,7 +109,7 @@ def test_the_highest_risk_is_that_of_all_decisions() -> None:
 
 
 def test_hard_braking_is_looked_for_in_the_whole_ride() -> None:
-    assert Talk("s3-0", 20.0).hear("Did you brake hard?").startswith("Yes")
+    assert Talk("s2-2", 9.0).hear("Did you brake hard?").startswith("Yes")
     told = Talk("junction-0", 45.0).hear("Did you make an emergency stop?")
     assert told.startswith("No, I did not brake hard")
 

@@ -26,7 +26,7 @@ from tests.dialogue.talking import Talk
             "I did not see the traffic light",
         ),
         ("junction-0", "How often did you give way?", "I have given way once so far, at 0:29"),
-        ("s3-0", "Which predictions were wrong?", "Yes, I was wrong twice."),
+        ("s3-0", "Which predictions were wrong?", "Yes: I expected the blue car"),
         ("s1-0", "When did you last see vehicle 1?", "Yes, I can see the blue car"),
     ],
 )

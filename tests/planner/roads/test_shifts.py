@@ -39,6 +39,14 @@ def test_the_way_over_is_as_long_as_the_lane_leaves_room_for() -> None:
     assert curvature(shifted(jog(3.2), JOINT)) == pytest.approx(5.77 * 3.2 / 25.0**2, rel=0.25)
 
 
+@pytest.mark.parametrize(("aside", "over"), [(2.3, 4.0), (2.6, 5.0), (3.2, 6.0)])
+def test_a_short_jog_is_led_over_as_gently_as_the_lane_allows(aside: float, over: float) -> None:
+    points = jog(aside, over)
+    led = shifted(points, np.array([56.0, 56.0 + over]))
+    assert np.max(np.abs(led[:, 1] - points[:, 1])) <= ROOM + 1e-9
+    assert curvature(led) < 0.2 * curvature(points)
+
+
 @pytest.mark.parametrize(
     "points",
     [

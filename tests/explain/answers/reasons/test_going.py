@@ -57,7 +57,7 @@ def test_ways_that_do_not_meet_tell_nothing():
 
 
 def test_another_speed_is_answered_by_who_was_in_the_way():
-    found = told(recorded("s3-0"), WhatIf(Happens(Event("enter", manner=("fast",)))), 14.0)
+    found = told(recorded("s2-2"), WhatIf(Happens(Event("enter", manner=("fast",)))), 8.0)
     assert isinstance(found, Unslowed)
     assert found.cause is not None
     assert found.cause.kind == "right-of-way"
