@@ -61,3 +61,8 @@ def test_why_another_is_slower_is_of_that_one(text: str) -> None:
 def test_people_on_foot_walk() -> None:
     reply = Talk("junction-0", 14.0).hear("why is vehicle 9 so slow?")
     assert "driving" not in reply
+
+
+@pytest.mark.parametrize("text", ["I feel better.", "i feel better now"])
+def test_who_feels_better_is_relieved(text: str) -> None:
+    assert read(text) == "Feel(relieved)"

@@ -169,6 +169,8 @@ def _special_feeling(clause: Clause, value: Special) -> Act | None:
             return Claim(Is("slow", Ego(), tense=cast(Any, clause.tense)))  # "it feels slow"
         feeling = {"safe": "relieved", "dangerous": "afraid", "comfortable": "happy",
                    "uncomfortable": "nervous", "fast": "nervous"}.get(state, "nervous")  # fmt: skip
+        if clause.comparisons and clause.comparisons[0][0] in ("better", "safe", "good"):
+            feeling = "relieved"  # "I feel better"
         if clause.negated:
             feeling = "nervous"
         quick = state == "fast" and not clause.negated

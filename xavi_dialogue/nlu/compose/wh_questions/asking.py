@@ -279,6 +279,8 @@ class Asking(What, WhichOne):
         """Build the question that a question word asks of a clause."""
         if wh.kind in ("what", "who", "which") and (mattered := decisive(clause)) is not None:
             return mattered
+        if wh.kind == "which" and clause.modal in ("would", "could") and _replans(value):
+            return WhatWouldChange()  # "which input would flip the decision?"
         match wh.kind:
             case "why":
                 return self.why(clause, value)
@@ -339,3 +341,8 @@ def _own_way(value: Special) -> Proposition | None:
     """Return that we go our way, if a way or route is decided on: "how do you choose the way?"."""
     route = isinstance(value.object, Measure) and value.object.of.attribute == "route"
     return Happens(Event("go", Ego(), _WAY)) if route or as_thing(value.object) == _WAY else None
+
+
+def _replans(value: Any) -> bool:
+    """Say whether a plan or decision is said to change."""
+    return isinstance(value, Happens) and value.event.action == "change-plan"

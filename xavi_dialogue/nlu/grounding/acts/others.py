@@ -5,6 +5,7 @@ from typing import Final
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.meaning import (
+    Claim,
     Doing,
     HowLong,
     HowMuch,
@@ -87,7 +88,7 @@ def _tailgating(spoken: Question) -> Question | None:
 
 def of_others(spoken: Question, g: Grounder) -> Question | None:
     """Put the question that is meant in the place of one about others; None: it is another one."""
-    meant = _reworded(spoken, g) or _tailgating(spoken)
+    meant = _reworded(spoken, g) or _tailgating(spoken) or _as_fast(spoken, g)
     if meant is not None:
         return meant
     match spoken:
@@ -137,6 +138,38 @@ def of_others(spoken: Question, g: Grounder) -> Question | None:
             if event.tense == "present":  # "are you keeping well back from him?"
                 return Whether(Not(Is("close", whom), lexical=True))
     return _how_long_there(spoken)
+
+
+def _as_fast(spoken: Question, g: Grounder) -> Question | None:
+    """Read "why can't we do that?", after a question for the speed of another, of our speed."""
+    match spoken:
+        case Why(
+            of=Not(content=Happens(event=Event("do", Ego(), Pronoun() | None, tense=tense)))
+        ) if _paced_other(_spoken_of(g)):
+            g.notes.leaned = True
+            return Why(Is("slow", Ego(), tense=tense))
+    return None
+
+
+def _spoken_of(g: Grounder) -> Question | None:
+    """Give the question under discussion, or whether what was stated last is so."""
+    discourse = g.context.discourse
+    told = [act.that for act in discourse.last_acts if isinstance(act, Claim)]
+    return Whether(told[-1]) if told else discourse.question
+
+
+def _paced_other(question: Question | None) -> bool:
+    """Tell whether it was asked how fast another drives, or whether he drives fast or past."""
+    match question:
+        case HowMuch(of=Measured(attribute="speed", thing=Vehicle(), to=None)):
+            return True
+        case Whether(that=Compares(left=Measured(attribute="speed", thing=Vehicle()))):
+            return True
+        case Whether(that=Is(state="fast", thing=Vehicle())) | Why(of=Is("slow", Ego())):
+            return True
+        case Whether(that=Happens(event=Event(action=action, actor=Vehicle()))):
+            return action in ("pass", "overtake", "speed-up")
+    return False
 
 
 def _how_long_there(spoken: Question) -> HowLong | None:
