@@ -13,9 +13,11 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Exit,
+    Feature,
     Junction,
     Lane,
     Nobody,
+    Related,
     Road,
     Thing,
     Vehicle,
@@ -38,6 +40,8 @@ from xavi_dialogue.explain.answers.ride.passages import exits_passed
 from xavi_dialogue.explain.answers.ride.places import told
 from xavi_dialogue.explain.history.thresholds import TURNED
 
+APART = 15.0  # [m] maximum distance between two in a queue
+SLOW = 3.0  # [m/s] maximum speed of somebody in it
 CHANGES: frozenset[str] = frozenset(("change-left", "change-right", "change-lane"))
 
 
@@ -57,8 +61,27 @@ def how_many(question: HowMany, asked: Asked) -> Answer:
             return _changes_left(asked, event)
         return _events(asked, event)
     check_sense(question.of)
-    found = _things(asked, question.of)
+    found = _things(asked, _queued(question, asked))
     return replace(found, such=question.such) if isinstance(found, Counted) else found
+
+
+def _queued(question: HowMany, asked: Asked) -> Thing:
+    """Return who is counted; of those in a queue, only who stands close to another who does."""
+    such = question.such.such if isinstance(question.such, Described) else None
+    match such, question.of:
+        case Related(to=Feature("queue")), Vehicles(numbers=numbers):
+            looks = (asked.world.look(v, asked.moment) for v in numbers)
+            still = [x.vehicle for x in looks if x is not None and x.speed < SLOW]
+            row = tuple(v for v in still if any(_close(asked, v, w) for w in still if w != v))
+            return Vehicles(row) if row else Nobody()
+    assert not isinstance(question.of, Event)
+    return question.of
+
+
+def _close(asked: Asked, one: int, other: int) -> bool:
+    """Check whether two vehicles are as close as in a queue."""
+    gap = asked.world.measure("distance", Vehicle(one), asked.moment, Vehicle(other)).value
+    return gap is not None and gap <= APART
 
 
 def _events(asked: Asked, event: Event) -> Counted:
