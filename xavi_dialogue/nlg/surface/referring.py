@@ -281,7 +281,8 @@ def _named_thing(thing: Thing, form: str) -> str:
         case Unknown():
             return f'"{thing.words}"'
         case Pronoun():
-            return {"them-all": "them"}.get(thing.form, thing.form)
+            objects = {"he": "him", "she": "her", "they": "them"} if form == "object" else {}
+            return {"them-all": "them", **objects}.get(thing.form, thing.form)
     return "it"
 
 
