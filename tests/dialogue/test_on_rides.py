@@ -307,3 +307,35 @@ def test_what_another_knows_of_us_is_not_what_we_do(text: str) -> None:
 )
 def test_an_unknown_word_beside_what_is_answered_is_owned_up_to(text: str, word: str) -> None:
     assert f'"{word}"' in Talk("s1-0", 8.0, planner=False).say(text).reply.text
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["do we have to stop up there?", "do we have to stop at the junction?", "must we stop there"],
+)
+def test_what_we_have_to_do_up_there_is_to_come(text: str) -> None:
+    reply = Talk("s4-0", 8.0, planner=False).say(text).reply.text
+    assert not reply.startswith("I am not stopping")
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["in how much we arrive?", "in how many minutes do we get there?"],
+)
+def test_in_how_much_time_we_arrive_is_when(text: str) -> None:
+    assert "there in about" in Talk("s1-0", 8.0).say(text).reply.text
+
+
+def test_who_stands_in_a_queue_is_counted() -> None:
+    """Two more cars drive past the queue."""
+    reply = Talk("s4-0", 14.0, planner=False).say("how many cars are in the queue?").reply.text
+    everybody = Talk("s4-0", 14.0, planner=False).say("how many cars do you see?").reply.text
+    assert reply.startswith(("Two cars", "Three cars"))
+    assert not everybody.startswith(("Two cars", "Three cars"))
+
+
+def test_whom_nobody_is_behind_is_named_as_an_object() -> None:
+    talk = Talk("s4-0", 16.0, planner=False)
+    assert (
+        "behind he" not in talk.say("what about the cars behind him that we can't see?").reply.text
+    )

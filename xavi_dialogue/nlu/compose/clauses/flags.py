@@ -1,7 +1,11 @@
 """Flags: what a sense of a verb demands of a clause besides objects and phrases."""
 
+from typing import Final
+
 from xavi_dialogue.domain.terms import WholeRide
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
+
+GOING: Final = frozenset(("go", "pass", "cross", "proceed"))  # what somebody is let do
 
 
 def flag(kind: str, wanted: str, clause: Clause) -> bool:
@@ -30,7 +34,7 @@ def flag(kind: str, wanted: str, clause: Clause) -> bool:
             return clause.because is not None
         case "go":
             inner = clause.bare.verb if clause.bare is not None else None
-            return inner is not None and inner.key == "go"
+            return inner is not None and inner.key in GOING
         case "close" | "long" | "again":
             return kind in clause.manner
         case "whole":

@@ -29,8 +29,8 @@ from xavi_dialogue.domain.terms import (
     Thing,
     Unsaid,
 )
+from xavi_dialogue.nlu.grounding.acts.ahead import in_lane, to_come
 from xavi_dialogue.nlu.grounding.acts.dangers import spoken_of
-from xavi_dialogue.nlu.grounding.acts.in_lane import in_lane
 from xavi_dialogue.nlu.grounding.acts.own_car import own_car
 from xavi_dialogue.nlu.grounding.acts.questions import question
 from xavi_dialogue.nlu.grounding.completion import ellipsis, repairs
@@ -63,7 +63,7 @@ def completed(spoken: Act, g: Grounder) -> Act | None:
 
 def act(spoken: Act, g: Grounder) -> Act:
     """Ground an act that is complete."""
-    spoken = in_lane(own_car(lit(spoken, g), g), g)
+    spoken = to_come(in_lane(own_car(lit(spoken, g), g), g), g)
     match spoken:
         case Ask(question=Doing(actor=actor)) if actor in _ANYBODY:
             return Beyond("opinion")  # "what would a human have done?"

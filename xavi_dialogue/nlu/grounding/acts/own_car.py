@@ -5,7 +5,7 @@ from typing import Any, Final
 from msgspec.structs import replace
 
 from planner.record.trace import ON_FOOT
-from xavi_dialogue.domain.meaning import Act, Ask, WhatIf, Whether
+from xavi_dialogue.domain.meaning import Act, Ask, Doing, WhatIf, Whether
 from xavi_dialogue.domain.rewriting import rewrite
 from xavi_dialogue.domain.terms import (
     Described,
@@ -13,6 +13,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Happens,
+    Is,
     Measured,
     Nobody,
     Not,
@@ -27,6 +28,7 @@ from xavi_dialogue.nlu.grounding.salience import vehicles_of
 
 PLAIN: Final = (Described(kind="car"), Described(kind="vehicle"))
 SPOKEN: Final = 0.2  # salience from which a car is spoken of
+_PAST: Final = ("past", "perfect")  # as those ask who look back on a ride
 _MEETING: Final = frozenset(
     ("collide", "nearly-collide", "give-way", "let-go", "approach", "avoid")
 )
@@ -34,18 +36,25 @@ _MEETING: Final = frozenset(
 
 def own_car(spoken: Act, g: Grounder) -> Act:
     """Take "the car" for ours where it meets others: "how close did the car come to him?"."""
-    if _is_spoken_of(g):
-        return spoken
+    kinds = _spoken_of(g)
     match spoken:
-        case Ask(question=WhatIf(supposed, Whether(Happens(Event(actor=Ego()))) as then)):
+        case Ask(
+            question=WhatIf(supposed, Whether(Happens(Event(actor=Ego()))) | Doing() as then)
+        ) if not kinds:
             return Ask(WhatIf(_ours(supposed), then))
-    return rewrite(spoken, _meant)
+    return spoken if "car" in kinds else rewrite(spoken, _meant)
 
 
 def _meant(part: Any) -> Any:
     match part:
         case Event(actor=actor, action=action, object=other) if actor in PLAIN:
-            return replace(part, actor=Ego()) if action in _MEETING and _others(other) else part
+            meets = action in _MEETING and _others(other)
+            told = part.tense in _PAST and not isinstance(other, Ego)
+            return replace(part, actor=Ego()) if meets or told else part
+        case Event(actor=actor, object=other) if other in PLAIN and _others(actor):
+            return replace(part, object=Ego())
+        case Is(thing=thing, tense=tense) if thing in PLAIN and tense in _PAST:
+            return replace(part, thing=Ego())
         case Measured(thing=thing, to=to) if thing in PLAIN and _others(to):
             return replace(part, thing=Ego())
         case Measured(thing=thing, to=to) if to in PLAIN and _others(thing):
@@ -70,8 +79,9 @@ def _others(thing: Thing | None) -> bool:
     return isinstance(thing, Everyone | Nobody | Vehicle | Vehicles)
 
 
-def _is_spoken_of(g: Grounder) -> bool:
-    """Check whether somebody who drives was spoken of."""
+def _spoken_of(g: Grounder) -> tuple[str, ...]:
+    """List the kinds of those who drive and were spoken of; who is not known counts as a car."""
     spoken = (v for v, salience in vehicles_of(g.context.discourse.mentions) if salience > SPOKEN)
     looks = (g.context.look(v, g.context.now) for v in spoken)
-    return any(look is None or look.kind not in ON_FOOT for look in looks)
+    kinds = ("car" if look is None else look.kind for look in looks)
+    return tuple(kind for kind in kinds if kind not in ON_FOOT)
