@@ -76,3 +76,11 @@ def test_tailgating_is_following_too_closely() -> None:
     told = Talk("motorway-0", 20.0).hear("is the brown lorry tailgating us?")
     assert told.startswith("No, "), told
     assert "the gap between us" in told
+
+
+@pytest.mark.parametrize("before", [None, "who is in front of us?"])
+def test_it_is_our_way_that_is_clear(before: str | None) -> None:
+    talk = Talk("junction-0", 16.0)
+    if before is not None:
+        talk.hear(before)
+    assert "the way is not free" in talk.hear("is it clear now?")

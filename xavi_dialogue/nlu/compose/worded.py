@@ -11,7 +11,9 @@ from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
     Claim,
+    Compare,
     Doing,
+    HowLong,
     HowMany,
     HowMuch,
     Identify,
@@ -40,6 +42,7 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Record,
     Related,
+    Vehicle,
     Wanted,
     WholeRide,
 )
@@ -47,13 +50,25 @@ from xavi_dialogue.domain.terms import (
 #: Words with which one of all is asked for, and not one of those in view.
 _SO_FAR: Final = frozenset(("was", "far", "ever", "seen", "met", "yet", "ride", "trip", "been"))
 _PARTS: Final = frozenset(("part", "parts", "bit", "bits", "area", "areas", "road", "street"))
+_LASTED: Final = frozenset(("took", "take", "takes", "cost", "costs", "lasted"))
 _GET_TO: Final = frozenset(("get", "gets"))
 
 
 def worded(question: Question, words: str) -> tuple[Act, ...] | None:
     """Give the acts that the words of a question come to; None where its term says it all."""
     said = frozenset(words.split())
-    return _listed(question, words, said) or _of_lights_and_deeds(question, words, said)
+    found = _listed(question, words, said) or _of_lights_and_deeds(question, words, said)
+    return found or _of_waits(question, said)
+
+
+def _of_waits(question: Question, said: frozenset[str]) -> tuple[Act, ...] | None:
+    """Read "what took longer, the light or the people?" as how long we waited for each."""
+    match question:
+        case Compare(options=options, by="size" | "speed" | "time") if _LASTED & said:
+            whom = [one for one in options if isinstance(one, Described | Feature | Vehicle)]
+            waits = (Event("wait", Ego(), one, tense="past") for one in whom)
+            return tuple(Ask(HowLong(wait)) for wait in waits) if len(whom) > 1 else None
+    return None
 
 
 def _listed(question: Question, words: str, said: frozenset[str]) -> tuple[Act, ...] | None:

@@ -20,7 +20,9 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Exists,
+    Feature,
     Is,
+    Lane,
     Measured,
     Pronoun,
     Proposition,
@@ -207,8 +209,16 @@ def spoken_of(g: Grounder) -> bool:
     return any(salience >= PRESENT for _, salience in vehicles_of(g.context.discourse.mentions))
 
 
-def of_ride(spoken: Is) -> Is:
-    """Take what "it is far" is said of for the destination, and "this is fast" for our car."""
+def of_ride(spoken: Is, g: Grounder) -> Is:
+    """Take "it" in "it is far" for the destination, in "is it clear?" for our way.
+
+    "This is fast" is said of our car.
+    """
+    if spoken.state == "free" and spoken.thing == Pronoun("it"):
+        asked = g.context.discourse.question, g.context.discourse.propositions[:1]
+        return replace(spoken, thing=first(asked, Lane) or Feature("way"))
+    if spoken_of(g):
+        return spoken
     if spoken.state == "far" and spoken.thing == Pronoun("it"):
         return replace(spoken, thing=Destination())
     if spoken.state in ("fast", "slow") and spoken.thing in (Pronoun("this"), Pronoun("that")):

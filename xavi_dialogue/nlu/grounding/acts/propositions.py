@@ -47,7 +47,6 @@ from xavi_dialogue.nlu.grounding.acts.measuring import (
     measured,
     of_anybody,
     of_ride,
-    spoken_of,
     tally,
 )
 from xavi_dialogue.nlu.grounding.acts.recasting import of_nobody, something_wrong, within_limit
@@ -237,7 +236,7 @@ def _exists(spoken: Exists, g: Grounder, outer: Window | None) -> Exists:
 
 def _is(spoken: Is, g: Grounder, mode: Mode, outer: Window | None) -> Is:
     spoken = _of_event(dangers.threatened(spoken, g), g)
-    spoken = spoken if spoken_of(g) else of_ride(spoken)
+    spoken = of_ride(spoken, g)
     if spoken.thing is None and spoken.event is None and spoken.state in _NEAR:
         spoken = replace(spoken, thing=just_named(g))
     if spoken.state == "busy" and isinstance(spoken.thing, Pronoun):
