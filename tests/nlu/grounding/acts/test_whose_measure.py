@@ -21,6 +21,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Everyone,
     Exists,
+    Feature,
     Happens,
     Is,
     Measured,
@@ -249,10 +250,17 @@ def test_whom_the_same_breath_named() -> None:
         (Is("slow", Pronoun("that")), Ego()),
         (Is("fast", IT), IT),
         (Is("close", Pronoun("this")), Pronoun("this")),
+        (Is("free", IT), Feature("way")),
     ],
 )
 def test_what_is_far_or_fast_where_nobody_was_named(spoken: Is, thing: Thing) -> None:
-    assert of_ride(spoken).thing == thing
+    assert of_ride(spoken, grounder()).thing == thing
+
+
+def test_what_is_clear_is_our_way_whoever_was_named() -> None:
+    named = grounder(of((HIM, 0.9)))
+    assert of_ride(Is("free", IT), named).thing == Feature("way")
+    assert of_ride(Is("far", IT), named).thing == IT
 
 
 def test_how_fast_this_is_is_asked_of_our_car_unless_somebody_in_view_was_spoken_of() -> None:
