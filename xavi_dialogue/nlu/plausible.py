@@ -181,6 +181,8 @@ def _own(value: Any) -> float:
             return ODD
         case HowDecide(of=Caused()):
             return ODD
+        case Why(of=Not(content=Is(state="allowed", thing=Ego(), event=None))):
+            return DOUBTFUL  # "why are we breaking"
         case HowMuch(
             of=Measured(attribute="size" | "count", thing=Unknown() | Feature() | Pronoun())
         ):

@@ -2,6 +2,7 @@
 
 import pytest
 
+from tests.dialogue.talking import Talk
 from xavi_dialogue.nlu.notation import acts_line
 from xavi_dialogue.nlu.parse import Parser
 
@@ -59,3 +60,22 @@ def test_what_part_of_the_road_is_not_seen_is_hidden(text: str) -> None:
 @pytest.mark.parametrize("text", ["after this, which direction?", "which direction after that"])
 def test_which_way_after_this_is_what_comes_next(text: str) -> None:
     assert read(text) == "Ask(Doing(time=Next, tense=future))"
+
+
+@pytest.mark.parametrize(
+    ("text", "acts"),
+    [
+        ("are we in a traffic jam?", "Ask(Whether(Exists(Feature(queue))))"),
+        ("who's first in the jam", "Ask(Which(Wanted, Related(on, Wanted, Feature(queue))))"),
+        ("who is first in the queue?", "Ask(Which(Wanted, Related(on, Wanted, Feature(queue))))"),
+        ("what signal is it giving?", "Ask(HowMuch(Measured(indicator, Pronoun(it))))"),
+        ("y r we breaking its a straight rode", "Ask(Why(Happens(Event(brake, tense=present))))"),
+    ],
+)
+def test_queues_signals_and_brakes_are_what_they_are(text: str, acts: str) -> None:
+    assert read(text).startswith(acts)
+
+
+@pytest.mark.parametrize("text", ["are we in a traffic jam?", "is there a queue ahead of us?"])
+def test_who_stands_ahead_in_a_row_is_a_queue(text: str) -> None:
+    assert Talk("s4-0", 22.0).hear(text).startswith("Yes")

@@ -45,6 +45,7 @@ from xavi_dialogue.explain.answers.ride.cycling import likely_let
 from xavi_dialogue.explain.answers.ride.delays import let_past
 from xavi_dialogue.explain.answers.ride.priority import priority_at, rule_for
 from xavi_dialogue.explain.answers.ride.walking import walks_first
+from xavi_dialogue.explain.answers.sight import standing_row
 
 GOING: Final = frozenset[ActionName](("go", "move", "enter", "cross", "turn", "continue", "pass"))
 GIVEN: Final[tuple[ActionName, ...]] = ("give-way",)
@@ -211,13 +212,13 @@ def _next(asked: Asked) -> Priority | None:
 
 def unblocking(asked: Asked) -> Answer | None:
     """Return who must move first so that we can go; None if nobody stands in our way."""
-    head = queues.head(asked, asked.now)
+    head = standing_row.head(asked, asked.now)
     if head is None:
         return order(asked, ())
     waiting = asked.world.episodes(actor=head, actions=WAITS)
     whom = (number(e.object) for e in waiting if e.end is None)
     speed = asked.world.measure("speed", head, asked.now).value
-    going = speed is not None and speed > queues.SETTING_OFF
+    going = speed is not None and speed > standing_row.SETTING_OFF
     waits = () if going else tuple(dict.fromkeys(n for n in whom if n is not None))
     return Unblocking(asked.now, head.number, going, waits)
 

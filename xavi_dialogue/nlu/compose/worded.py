@@ -31,6 +31,7 @@ from xavi_dialogue.domain.terms import (
     Ego,
     Event,
     Everyone,
+    Exists,
     Feature,
     Happens,
     Has,
@@ -51,6 +52,7 @@ from xavi_dialogue.domain.terms import (
 _SO_FAR: Final = frozenset(("was", "far", "ever", "seen", "met", "yet", "ride", "trip", "been"))
 _PARTS: Final = frozenset(("part", "parts", "bit", "bits", "area", "areas", "road", "street"))
 _LASTED: Final = frozenset(("took", "take", "takes", "cost", "costs", "lasted"))
+_QUEUES: Final = frozenset(("queue", "jam", "line", "tailback", "row"))
 _GET_TO: Final = frozenset(("get", "gets"))
 
 
@@ -106,6 +108,16 @@ def _of_lights_and_deeds(
         case HowMany(Junction() as of) if words.endswith("are crossing") and of == Junction():
             crossing = Event("cross", Wanted(), tense="present")
             return (Ask(HowMany(Described(doing=crossing, plural=True, definite=False))),)
+        case Which(
+            Feature(kind="light"),
+            Happens(Event("give-way" | "keep-distance" | "do", who, Wanted(), tense=tense)),
+        ) if "signal" in said:  # "what signal is it giving?"
+            return (Ask(HowMuch(Measured("indicator", who, tense=tense))),)
+        case Whether(Related("on", Ego(), Feature(kind="queue") as queue)) if "end" not in said:
+            return (Ask(Whether(Exists(queue))),)  # "are we in a traffic jam?"
+        case Which(Wanted(), Is("first", Wanted())) if _QUEUES & said:
+            queue = Feature("queue")
+            return (Ask(Which(Wanted(), Related("on", Wanted(), queue))),)  # "who is first in it?"
         case HowMuch(Measured("colour", Ego()) as of) if {"signal", "light"} & said:
             return (Ask(HowMuch(replace(of, thing=Feature("light")))),)  # "your signal"
         case Why(suspect=Described(colour="red" | "green" | "amber" as lit) as named) as why if (

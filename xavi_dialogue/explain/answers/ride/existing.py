@@ -28,6 +28,7 @@ from xavi_dialogue.explain.answers.reference.naming import (
     somebodies,
 )
 from xavi_dialogue.explain.answers.ride.places import junction
+from xavi_dialogue.explain.answers.sight.standing_row import standing_row
 
 
 def exists(of: Exists, asked: Asked) -> Finding:
@@ -58,6 +59,9 @@ def exists(of: Exists, asked: Asked) -> Finding:
         case Exit() | Destination():
             value = asked.world.measure("exit-number", Ego(), at)
             return Finding(value.gap is None, known(value))
+        case Feature(kind="queue"):
+            row = tuple(v.number for v in standing_row(asked, at))
+            return Finding(bool(row), looks(asked, row, at))
         case Feature():
             return unknown("not-recorded")
         case Everyone():
