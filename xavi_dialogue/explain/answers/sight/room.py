@@ -10,6 +10,7 @@ from xavi_dialogue.explain.answers.reference.moments import instant
 from xavi_dialogue.explain.answers.reference.naming import looks
 
 FREE = (15.0, 30.0)  # [m] behind and ahead of us, where nobody is in a free lane
+TOLD = 2  # of those in our way, the nearest
 
 
 def free(of: Is, asked: Asked) -> Finding:
@@ -49,7 +50,7 @@ def _clear(asked: Asked, at: float) -> Finding:
         or asked.world.relation("in-the-way-of", Vehicle(look.vehicle), Ego(), at)
     ]
     nearest = sorted(there, key=lambda look: look.distance)
-    return Finding(not there, tuple(nearest))
+    return Finding(not there, tuple(nearest[:TOLD]))
 
 
 def _on_our_way(look: Look) -> bool:
