@@ -210,6 +210,7 @@ def test_who_is_stuck_at_a_light_stands(text: str) -> None:
         ("did the car hit anybody?", "we did not collide"),
         ("how close did the car come to the pedestrians?", "We came as close as"),
         ("what was the least distance between the car and any pedestrian?", "We came as close as"),
+        ("how close did the car come to the bicycle while turning right?", "We came as close as"),
     ],
 )
 def test_the_car_beside_others_is_ours(text: str, told: str) -> None:

@@ -42,7 +42,8 @@ def own_car(spoken: Act, g: Grounder) -> Act:
             question=WhatIf(supposed, Whether(Happens(Event(actor=Ego()))) | Doing() as then)
         ) if not kinds:
             return Ask(WhatIf(_ours(supposed), then))
-    return spoken if "car" in kinds else rewrite(spoken, _meant)
+    found = spoken if "car" in kinds else rewrite(spoken, _meant)
+    return found if found == spoken else rewrite(found, _likewise)
 
 
 def _meant(part: Any) -> Any:
@@ -59,6 +60,14 @@ def _meant(part: Any) -> Any:
             return replace(part, thing=Ego())
         case Measured(thing=thing, to=to) if to in PLAIN and _others(thing):
             return replace(part, to=Ego())
+    return part
+
+
+def _likewise(part: Any) -> Any:
+    """Take "the car" for ours in the rest of an act, too: "while turning right"."""
+    match part:
+        case Event(actor=actor) if actor in PLAIN:
+            return replace(part, actor=Ego())
     return part
 
 
