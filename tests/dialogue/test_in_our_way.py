@@ -84,3 +84,13 @@ def test_it_is_our_way_that_is_clear(before: str | None) -> None:
     if before is not None:
         talk.hear(before)
     assert "the way is not free" in talk.hear("is it clear now?")
+
+
+def test_nobody_is_not_denied_twice() -> None:
+    told = Talk("s4-0", 24.0).hear("are we blocking anyone?")
+    assert "nobody" not in told or "not" not in told, told
+
+
+def test_enough_distance_is_kept_from_who_is_ahead() -> None:
+    told = Talk("s4-0", 29.0).hear("are we keeping enough distance")
+    assert told.startswith("Yes, I am keeping a distance"), told

@@ -163,6 +163,8 @@ def event_clause(
 
 def denied(part: object) -> object:
     """Return a part for a negated verb, with "anybody" in place of nobody."""
+    if isinstance(part, Owned) and denied(part.owner) != part.owner:
+        return f"{denied(part.owner)}'s {part.noun}"
     if not isinstance(part, Who) or not isinstance(part.thing, Nobody):
         return part
     of = part.thing.described

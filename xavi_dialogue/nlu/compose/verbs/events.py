@@ -113,7 +113,7 @@ def event_of(clause: Clause, match: Match) -> Event:
     if action in ("exit-left", "exit-right", "exit-straight", "change-left", "change-right"):
         side = None
     action, side, thing = meant(action, side, thing, match)
-    thing = thing or _kept_from(action, match)
+    thing = _kept_from(action, thing, match)
     action = _paced(action, clause, match.object)
     action = _shown(action, clause, match)
     action = _named(action, thing, clause)
@@ -214,10 +214,10 @@ def _is_named(action: str, clause: Clause) -> bool:
     return clause.verb is not None and clause.verb.key == action
 
 
-def _kept_from(action: str, match: Match) -> Thing | None:
+def _kept_from(action: str, thing: Thing | None, match: Match) -> Thing | None:
     """Find from whom a distance is kept: "keep more distance from the bus"."""
-    if action != "keep-distance":
-        return None
+    if action != "keep-distance" or thing not in (None, Feature("space")):
+        return thing
     return next((t for sem in match.phrases.values() if (t := as_thing(sem))), None)
 
 
