@@ -340,3 +340,17 @@ def test_whom_nobody_is_behind_is_named_as_an_object() -> None:
     assert (
         "behind he" not in talk.say("what about the cars behind him that we can't see?").reply.text
     )
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "was any pedestrian endangered on this ride?",
+        "was any pedestrian in danger on this ride?",
+        "was anybody on foot in danger on this ride?",
+    ],
+)
+def test_danger_to_people_is_told_of_people(text: str) -> None:
+    reply = Talk("junction-0", 55.0).say(text).reply.text
+    assert "pedestrian" in reply
+    assert "bicycle" not in reply

@@ -8,7 +8,7 @@ from sim.scene import EGO
 from xavi_dialogue.domain.answers import Closeness
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.findings import Assurance
-from xavi_dialogue.domain.terms import Ego, Vehicle
+from xavi_dialogue.domain.terms import Described, Ego, Nobody, Thing, Vehicle
 from xavi_dialogue.domain.vocabulary import Kind
 from xavi_dialogue.explain.answers.expectations.foreseen import collision_chance, simulated
 from xavi_dialogue.explain.answers.measuring.hard_braking import braked_hard
@@ -201,3 +201,11 @@ def nearest_vehicle(
     found = ((v, closest_approach(asked, v, about)) for v in vehicles)
     ranked = [(m.value + fading * (about.end - m.time), v) for v, m in found if m.value is not None]
     return min(ranked, default=(0.0, None))[1]
+
+
+def nearest_such(asked: Asked, thing: Thing | None, about: Window) -> int | None:
+    """Return who came closest of those of a kind of whom none is named: "any pedestrian"."""
+    if not isinstance(thing, Nobody) or not isinstance(thing.described, Described):
+        return None
+    such = of_kind(asked, asked.world.vehicles, thing.described.kind, about.end)
+    return nearest_vehicle(asked, about, among=such)

@@ -25,7 +25,12 @@ from xavi_dialogue.domain.vocabulary import State
 from xavi_dialogue.explain.answers import causal
 from xavi_dialogue.explain.answers.events.stages import actor, late, over, still, stuck
 from xavi_dialogue.explain.answers.expectations.foreseen import macros
-from xavi_dialogue.explain.answers.measuring.closeness import How, closeness, with_somebody
+from xavi_dialogue.explain.answers.measuring.closeness import (
+    How,
+    closeness,
+    nearest_such,
+    with_somebody,
+)
 from xavi_dialogue.explain.answers.measuring.limits import fast, within_limit
 from xavi_dialogue.explain.answers.propositions.blame import blamed
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -128,6 +133,7 @@ def _safe(of: Is, asked: Asked) -> Finding:
     if other is None and of.event is not None:
         other = number(of.event.actor) or number(of.event.object)
     about = _about(of, asked) if past else Window(asked.now, asked.now)
+    other = nearest_such(asked, of.thing, about) if other is None else other
     if past and other is None and of.event is None and not about.said:
         about = with_somebody(asked, about)
     return Finding(None, answer=closeness(asked, other, about, how, past=past))
