@@ -40,14 +40,13 @@ def rating_of(acts: tuple[Act, ...], words: str) -> tuple[Act, ...] | None:
     """Read what asks for an opinion of our own driving: "did you brake well?"."""
     if len(acts) != 1:
         return None
-    praised = bool(_WELL & {*words.split()})
     match acts[0]:
         case Social(kind="feelings", about=Happens(event=event) as about):
             found = _of_deed(event, about.event.time)
             return None if found is None else (Social("feelings"), Ask(found))
         case Ask(question=HowDecide(of=Is(state="comfortable" | "uncomfortable") as state)):
             return (Ask(Whether(state, degree=True)),)  # "how did you find that braking?"
-        case Ask(question=Whether(that=that)) if praised:
+        case Ask(question=Whether(that=that)) if not _WELL.isdisjoint(words.split()):
             deed = _deed_in(that)
             rating = None if deed is None else _of_deed(deed, deed.time)
             return None if rating is None else (Ask(rating),)
