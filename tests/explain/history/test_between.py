@@ -117,3 +117,17 @@ def test_a_scene_that_was_kept_counts_rather() -> None:
     known = up_to(Record(3.0, traces, scene=moved), 2.5)
     assert known.scene == moved
     assert Ride(known).motion(0).speed[-1] == 7.0
+
+
+def test_an_older_scene_that_was_kept_does_not_count() -> None:
+    traces = decisions(2.0, 3.0)
+    kept = seen_between(traces, 2.2)
+    now = up_to(Record(3.0, traces, scene=kept), 2.8).scene
+    assert now is not None
+    assert now.vehicles[0].position == pytest.approx((28.0, 0.0))
+
+
+def test_an_older_scene_counts_where_no_later_decision_is_known() -> None:
+    traces = decisions(2.0, 3.0)
+    kept = seen_between(traces, 2.2)
+    assert Ride(Record(2.8, traces[:1], scene=kept)).scene == kept

@@ -12,7 +12,7 @@ from xavi_dialogue.dialogue.state.states import Phase, RidePhase
 from xavi_dialogue.dialogue.state.turn import Judgement, Offer, Quiz, Turn
 from xavi_dialogue.domain.answers import Answer, NeedRollout, Reason, Refusal
 from xavi_dialogue.domain.discourse import GroundedAct
-from xavi_dialogue.explain.history.between import seen_between
+from xavi_dialogue.explain.history.between import seen_last
 from xavi_dialogue.explain.history.record import Record
 
 EPSILON = 1e-6  # [s] times closer than this are equal
@@ -100,9 +100,8 @@ class Dialogue:
 def up_to(record: Record, time: float) -> Record:
     """Return what was known at an earlier moment [s] of a record."""
     traces = tuple(t for t in record.traces if t.sim_time <= time + EPSILON)
-    scene = record.scene if record.scene and record.scene.time <= time + EPSILON else None
-    if traces and (scene is None or scene.time <= traces[-1].sim_time + EPSILON):
-        scene = seen_between(record.traces, time) or scene
+    kept = record.scene if record.scene and record.scene.time <= time + EPSILON else None
+    scene = seen_last(kept, record.traces, time) or kept
     return replace(
         record,
         now=time,

@@ -13,6 +13,21 @@ from sim.scene import Light, LightState, Scene, Signal, VehicleState
 ROUNDING = 1e-6  # [s]
 
 
+def seen_last(kept: Scene | None, traces: Sequence[PlanTrace], now: float) -> Scene | None:
+    """Return what was seen up to a time [s], if it is later than the last decision; else None.
+
+    Args:
+        kept: the newest scene that was kept, if any; it may be a little older.
+        traces: the decisions of a ride, oldest first, maybe with later ones.
+        now: [s]
+    """
+    since = max((t.sim_time for t in traces if t.sim_time <= now + ROUNDING), default=now)
+    fresh = kept if kept is not None and since + ROUNDING < kept.time <= now + ROUNDING else None
+    if fresh is not None and fresh.time >= now - ROUNDING:
+        return fresh
+    return seen_between(traces, now) or fresh
+
+
 def seen_between(traces: Sequence[PlanTrace], time: float) -> Scene | None:
     """Return what was seen at a time [s] between two decisions, samples of tracks interpolated.
 

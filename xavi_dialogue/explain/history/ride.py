@@ -18,7 +18,7 @@ from xavi_dialogue.causal.model import Actions, CausalModel, Intervention
 from xavi_dialogue.domain.answers import NeedRollout, NotApplicable, NotRecorded, Refusal, TooLittle
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.errors import XaviError
-from xavi_dialogue.explain.history.between import seen_between
+from xavi_dialogue.explain.history.between import seen_last
 from xavi_dialogue.explain.history.deeds import Deed, read_deeds
 from xavi_dialogue.explain.history.joining import Joined, Seen, joined
 from xavi_dialogue.explain.history.motion import Motion
@@ -71,12 +71,9 @@ class Ride:
 
         As in traces, people on foot are among the vehicles.
         """
-        scene = self.record.scene
         if not self.traces:
             return None
-        since = self.traces[-1].sim_time
-        if scene is None or not since + ROUNDING < scene.time <= self.now + ROUNDING:
-            scene = seen_between(self.record.traces, self.now)
+        scene = seen_last(self.record.scene, self.record.traces, self.now)
         if scene is None or EGO not in scene.vehicles:
             return None
         return replace(scene, vehicles=road_users_in(scene))
