@@ -94,3 +94,28 @@ def test_nobody_is_not_denied_twice() -> None:
 def test_enough_distance_is_kept_from_who_is_ahead() -> None:
     told = Talk("s4-0", 29.0).hear("are we keeping enough distance")
     assert told.startswith("Yes, I am keeping a distance"), told
+
+
+def test_what_is_denied_by_a_word_is_affirmed_where_it_is_so() -> None:
+    talk = Talk("junction-0", 45.0)
+    assert talk.hear("is the green bicycle out of our way?").startswith("Yes, ")
+    assert Talk("junction-0", 16.0).hear("is our way blocked?").startswith("Yes, the way is not")
+
+
+def test_hard_braking_that_is_felt_is_ours() -> None:
+    talk = Talk("s2-2", 4.0)
+    talk.hear("what is the blue car doing?")
+    told = talk.hear("That was hard braking. How hard exactly?")
+    assert told.startswith("We braked with up to"), told
+
+
+def test_that_is_the_bus_where_another_was_spoken_of() -> None:
+    talk = Talk("junction-0", 34.0)
+    talk.hear("what is the red car doing?")
+    assert "yellow" in talk.hear("Wow, was that a bus?")
+
+
+def test_the_maximum_speed_here_is_the_limit() -> None:
+    told = Talk("junction-0", 12.0).hear("what is maximum speed here and how much we drive now?")
+    assert told.startswith("The limit here is 50 km/h."), told
+    assert "on average" not in told

@@ -77,6 +77,8 @@ def measured(
         spoken = replace(spoken, thing=Ego(), to=None if everyone else Everyone(kind))
     if _is_to_come(spoken, g):
         spoken = replace(spoken, event=None, tense="future")  # "our speed for the turn"
+    if spoken.attribute == "speed" and spoken.event == Event("move", tense="present"):
+        spoken = replace(spoken, event=None)  # "how much do we drive now?"
     event = spoken.event
     if event is not None:
         event = g.event(event, "presupposed" if event.tense == "past" else "asked", outer)

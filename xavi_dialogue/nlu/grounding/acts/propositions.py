@@ -70,7 +70,7 @@ from xavi_dialogue.nlu.grounding.salience import naming, vehicles_of
 from xavi_dialogue.nlu.grounding.things.descriptions import is_such
 from xavi_dialogue.nlu.grounding.things.in_way import anybody_in_way
 from xavi_dialogue.nlu.grounding.things.pronouns import CLEAR, apart
-from xavi_dialogue.nlu.grounding.things.such import ITSELF, pointed_at, says_nothing
+from xavi_dialogue.nlu.grounding.things.such import ITSELF, of_kind, pointed_at, says_nothing
 
 NOTHING_SAID: Final = 0.5  # cost of "that" where nothing has been said
 UNHEARD_OF: Final = 0.4  # cost of taking for granted what no record tells
@@ -103,7 +103,7 @@ def proposition(
             return in_order(Happens(g.event(event, mode, outer)), mode)
         case Not(content=content):
             inner: Mode = "denied" if mode == "presupposed" else mode
-            return Not(g.proposition(content, inner, outer))
+            return replace(spoken, content=g.proposition(content, inner, outer))
         case Both(contents=contents):
             each: list[Proposition] = []
             for one in contents:  # "did the red one leave, or is it behind us?"
@@ -133,8 +133,7 @@ def proposition(
                 _related(past_hider(come_along(spoken), g), g, outer), g
             )
         case Has():
-            window = at_moment(spoken.time, spoken.tense, g, outer)
-            return replace(spoken, thing=g.thing(spoken.thing, window), time=window.term)
+            return _has(spoken, g, outer)
         case Believed():
             spoken = believed_then(spoken)
             window = at_moment(spoken.time, spoken.tense, g, outer)
@@ -255,6 +254,12 @@ def _is(spoken: Is, g: Grounder, mode: Mode, outer: Window | None) -> Is:
         window = at_moment(spoken.time, spoken.tense, g, outer)
     thing = None if spoken.thing is None else g.thing(spoken.thing, window)
     return replace(spoken, thing=thing, event=event, time=window.term)
+
+
+def _has(spoken: Has, g: Grounder, outer: Window | None) -> Has:
+    window = at_moment(spoken.time, spoken.tense, g, outer)
+    thing = of_kind(spoken, g) or g.thing(spoken.thing, window)
+    return replace(spoken, thing=thing, time=window.term)
 
 
 def _of_event(spoken: Is, g: Grounder) -> Is:

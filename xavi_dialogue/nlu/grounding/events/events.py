@@ -36,6 +36,7 @@ from xavi_dialogue.nlu.grounding.events.afoot import afoot
 from xavi_dialogue.nlu.grounding.events.fitting import (
     JUST,
     LASTING,
+    LATELY,
     ONGOING,
     acting,
     done,
@@ -126,9 +127,11 @@ def _pointed_at(thing: Thing) -> bool:
 def _by_us(spoken: Event, g: Grounder) -> Event:
     """Take "it" in "what's it slowing down for" for our car, if we do so and no other is named."""
     held = spoken.action in _HELD or (spoken.action == "move" and "slowly" in spoken.manner)
+    now, ours = g.context.now, replace(spoken, actor=Ego())
+    if spoken.actor == Pronoun("that") and held and g.context.holds(ours, now - LATELY, now):
+        return ours  # "that was hard braking"
     if spoken.actor != Pronoun("it") or not held or spoken.tense != "present":
         return spoken
-    now, ours = g.context.now, replace(spoken, actor=Ego())
     others = [pair for pair in vehicles_of(g.context.discourse.mentions) if not walks(pair[0], g)]
     if any(salience > 1.0 for _, salience in others) or not g.context.holds(ours, now, now):
         return spoken

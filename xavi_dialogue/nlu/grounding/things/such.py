@@ -27,7 +27,9 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
+from xavi_dialogue.nlu.grounding.salience import vehicles_of
 from xavi_dialogue.nlu.grounding.things import looks
+from xavi_dialogue.nlu.grounding.things.scene import nearest
 
 STANDING: Final = 0.5  # [m/s]
 LATELY: Final = 3.0  # [s] in which something counts as being done
@@ -166,3 +168,16 @@ def pointed_at(spoken: Related, g: Grounder) -> Thing | None:
     found = g.thing(alike, g.window(Now(), "present"))
     look = g.context.look(found.number, g.context.now) if isinstance(found, Vehicle) else None
     return found if look is not None and look.in_view else None
+
+
+def of_kind(spoken: Has, g: Grounder) -> Thing | None:
+    """Take "that" in "was that a bus?" for a bus that is in view, if whom we spoke of is none."""
+    if spoken.attribute != "kind" or spoken.thing not in (Pronoun("that"), Pronoun("this")):
+        return None
+    context = g.context
+    looks_seen = [(v, context.look(v, context.now)) for v in context.in_view(context.now)]
+    alike = [v for v, look in looks_seen if look is not None and look.kind == spoken.value]
+    known = [v for v, _ in vehicles_of(context.discourse.mentions)[:1]]
+    if not alike or not known or known[0] in alike:
+        return None
+    return Vehicle(nearest(context, alike, context.now)[0].vehicle)
