@@ -119,3 +119,15 @@ def test_the_maximum_speed_here_is_the_limit() -> None:
     told = Talk("junction-0", 12.0).hear("what is maximum speed here and how much we drive now?")
     assert told.startswith("The limit here is 50 km/h."), told
     assert "on average" not in told
+
+
+@pytest.mark.parametrize("text", ["Is finish soon?", "is the destination near?"])
+def test_whether_the_end_is_near_is_how_far_it_is(text: str) -> None:
+    told = Talk("junction-0", 54.0).hear(text)
+    assert "about 80 metres to our destination" in told, told
+
+
+def test_the_end_is_the_destination() -> None:
+    told = Talk("junction-0", 40.0).hear("How many meters still until the end?")
+    assert told.startswith("It is about"), told
+    assert "destination" in told

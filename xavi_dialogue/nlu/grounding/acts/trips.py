@@ -25,6 +25,7 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.domain.terms import (
     Compares,
     Described,
+    Destination,
     Ego,
     Event,
     Everyone,
@@ -73,6 +74,8 @@ def of_trip(spoken: Question) -> Question | None:
             return Which(Wanted(), Compares(replace(loss, thing=Wanted()), "more"))
         case Whether(that=Is(state="far" | "close", thing=Feature(kind="light") as light)):
             return HowMuch(Measured("distance", light))  # "is it far to the light?"
+        case Whether(that=Is(state="present", thing=Destination(), tense="present" | "future")):
+            return Whether(Happens(Event("arrive", Ego(), tense="perfect")))  # "is the end soon?"
         case Whether(that=that):
             meant = _whether(that)
             return meant if not isinstance(meant, Happens) else replace(spoken, that=meant)
