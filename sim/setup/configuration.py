@@ -26,6 +26,7 @@ from sim.setup.tables import TableError
 
 ENDINGS = (".sumocfg", ".sumocfg.xml", ".sumo.cfg")
 STEP = 0.1  # [s] the longest simulation step in which the ego is driven
+SHORTEST = 5.0  # [s] between the departure and the end, below which the ride goes on beyond it
 SHOWN = 3  # greatest number of SUMO's warnings that are quoted
 CAR = "passenger"
 YES = ("true", "1", "yes", "on", "t", "x")  # as SUMO reads an option
@@ -234,16 +235,22 @@ class _Inspection:
         self._check_way(ego, goal, network)
         length = min(lane.length for lane in network.edge_lanes(goal))
         end = float(self.engine.call(self.engine.api.simulation.getEndTime))
+        left = (end if end >= 0.0 else LONGEST) - clock(self.engine)
+        over = left < SHORTEST
         return Inspected(
             network=path,
             ego=ego,
             goal=goal,
             goal_position=round(max(0.5 * length, length - BEFORE_END), 2),
             step=min(STEP, step),
-            duration=max(STEP, (end if end >= 0.0 else LONGEST) - clock(self.engine)),
+            duration=LONGEST if over else left,
             seed=int(self._option("seed")),
             sublane=float(self._option("lateral-resolution")) > 0.0,
-            warnings=(*self._of_sumo(), *self._unmodelled(ego, network, step)),
+            warnings=(
+                *self._of_sumo(),
+                *((f"it ends at {end:g} s, but the ride goes on to its destination",) * over),
+                *self._unmodelled(ego, network, step),
+            ),
         )
 
     def _option(self, name: str) -> str:

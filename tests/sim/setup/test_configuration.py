@@ -112,6 +112,16 @@ def test_a_car_is_added(file: Path) -> None:
         assert world._engine.api.simulation.getTime() == pytest.approx(60.0, abs=1.0)
 
 
+@pytest.mark.parametrize("begin", [147, 170])
+def test_a_ride_that_begins_at_the_end_goes_on_beyond_it(file: Path, begin: int) -> None:
+    scenario = load(f"{file}?from=top0A0&to=A0left0&begin={begin}")
+    assert scenario.duration > 600.0
+    assert "it ends at 150 s, but the ride goes on to its destination" in scenario.warnings
+    with Simulation(scenario, 0) as world:
+        assert world.scene().vehicles
+        assert world.step(None).time > 0.0
+
+
 def test_a_car_is_added_at_the_beginning_by_itself(file: Path) -> None:
     with Simulation(load(f"{file}?from=top0A0&to=A0left0"), 0) as world:
         assert world._engine.api.simulation.getTime() == pytest.approx(30.0, abs=3.0)
