@@ -131,3 +131,15 @@ def test_the_end_is_the_destination() -> None:
     told = Talk("junction-0", 40.0).hear("How many meters still until the end?")
     assert told.startswith("It is about"), told
     assert "destination" in told
+
+
+@pytest.mark.parametrize("at", [5.0, 15.0])
+def test_who_rolls_up_to_a_red_light_has_to_stop_for_it(at: float) -> None:
+    """The lines of its rollouts are not recorded, as there are many others."""
+    assert Talk("city-0", at).hear("will we have to stop at the light?").startswith("Yes")
+    assert Talk("city-0", at).hear("will we make the light?").startswith("No")
+
+
+def test_people_are_counted_as_people() -> None:
+    told = Talk("city-0", 31.0).hear("how many are on the crossing?")
+    assert told.startswith("Five pedestrians"), told

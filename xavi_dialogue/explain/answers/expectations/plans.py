@@ -34,6 +34,8 @@ MOVES: frozenset[Action] = frozenset(
 AHEAD: tuple[Attribute, ...] = ("turn", "exit-number", "distance", "time-to-go")
 STANDSTILL = 8.0  # [s] maximum time from braking to a standstill for it to be a stop
 REGAINED = 0.5  # [m/s] above the lowest speed, from which the ego is faster again
+HELD = 5.0  # [s] for which a light holds the ego if it stops for it, more or less
+WALKING = 1.5  # [m/s] up to which the ego stops for a light, if only to roll up to the line
 Mark = Callable[[Rollout, Motion], float | None]
 
 
@@ -86,6 +88,32 @@ def current_plan(asked: Asked) -> tuple[PlanTrace, Intervention] | None:
 def foreseen(asked: Asked, event: Event) -> Expected | None:
     """Return when the ego does something under its plan; None if no rollout shows that."""
     return _read(asked, _mark(event))
+
+
+def stopping_at_light(asked: Asked) -> float:
+    """Return the probability that a light holds the ego down to walking pace under its plan."""
+    known = current_plan(asked)
+    if known is None:
+        return 0.0
+    drawn = lines(known[0])
+    rows = list(zip(known[1].results, known[1].weights, strict=True))
+    held = sum(w for one, w in rows if _is_held(one.rollout, drawn.get(one.rollout.index)))
+    total = sum(weight for _, weight in rows)
+    return float(held / total) if total > 0.0 else 0.0
+
+
+def _is_held(rollout: Rollout, motion: Motion | None) -> bool:
+    """Check whether a light holds the ego down to walking pace in a rollout.
+
+    Without its line, which a large trace lacks, it counts for how long the light holds it.
+    """
+    for held in rollout.held_by_lights:
+        if motion is None or not motion.time:
+            if held.until - held.since >= HELD:
+                return True
+        elif any(motion.speed[k] < WALKING for k in motion.within(held.since, held.until)):
+            return True
+    return False
 
 
 def is_halting(asked: Asked) -> bool:

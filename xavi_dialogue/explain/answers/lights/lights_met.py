@@ -9,7 +9,7 @@ from xavi_dialogue.domain.meaning import HowSure, Whether
 from xavi_dialogue.domain.terms import Believed, Event, Feature, Happens, Proposition, Tense
 from xavi_dialogue.domain.traffic_lights import LightForeseen
 from xavi_dialogue.explain.answers.expectations.foreseen import EXPECTED
-from xavi_dialogue.explain.answers.expectations.plans import current_plan, foreseen
+from xavi_dialogue.explain.answers.expectations.plans import current_plan, stopping_at_light
 from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.reading import is_own, unwrapped
@@ -54,8 +54,7 @@ def whether(question: Whether, scene: Asked) -> LightForeseen:
     """
     through = wanted(question.that, scene, COMING)
     assert through is not None
-    halt = foreseen(scene, Event("stop"))
-    stops = 0.0 if halt is None else halt.share
+    stops = stopping_at_light(scene)
     signal, shown = meant(scene.ride, LIGHT, scene.now), shown_at(scene.ride, LIGHT, scene.now)
     found = None if signal is None else to_change(scene.ride, signal, scene.now)
     holds = (stops < EXPECTED) == through

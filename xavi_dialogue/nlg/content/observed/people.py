@@ -219,7 +219,8 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
         return Plan((first,), () if whens else _listed(facts))
     such = answer.such if isinstance(answer.such, Described) else None
     kinds = {f.kind for f in answer.facts if isinstance(f, Look)}
-    alike = such is not None and such.among is not None and len(kinds) == 1  # of six people: six
+    open_ = such is not None and (such.among is not None or such.kind == "vehicle")
+    alike = open_ and len(kinds) == 1  # of six people: six
     amount = Number(answer.count, _noun(Everyone(*kinds) if alike else such or answer.of))
     if such is not None and such.doing is not None and such.doing.tense in ("past", "perfect"):
         seen = [f.vehicle for f in answer.facts[:MANY] if isinstance(f, Look) and telling(f)]
