@@ -237,6 +237,7 @@ class _Inspection:
         end = float(self.engine.call(self.engine.api.simulation.getEndTime))
         left = (end if end >= 0.0 else LONGEST) - clock(self.engine)
         over = left < SHORTEST
+        beyond = f"it ends at {end:g} s, but the ride goes on to its destination"
         return Inspected(
             network=path,
             ego=ego,
@@ -248,7 +249,7 @@ class _Inspection:
             sublane=float(self._option("lateral-resolution")) > 0.0,
             warnings=(
                 *self._of_sumo(),
-                *((f"it ends at {end:g} s, but the ride goes on to its destination",) * over),
+                *((beyond,) if over else ()),
                 *self._unmodelled(ego, network, step),
             ),
         )

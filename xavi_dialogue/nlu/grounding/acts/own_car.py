@@ -82,7 +82,7 @@ def _ours(supposed: Proposition) -> Proposition:
 
 
 def _others(thing: Thing | None) -> bool:
-    """Check whether a thing is one or several others, and not a car that is told no more of."""
+    """Check whether a thing is somebody else, and more than a bare "the car"."""
     if isinstance(thing, Described):
         return thing not in PLAIN
     return isinstance(thing, Everyone | Nobody | Vehicle | Vehicles)
