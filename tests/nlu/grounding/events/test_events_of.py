@@ -6,10 +6,12 @@ import pytest
 from msgspec.structs import replace
 
 from planner.record.places import RoadFacts, RoadPlace
-from tests.nlu.grounding.events.test_events import BRAKE, TWO, Said, route
+from tests.nlu.grounding.events.test_events import BRAKE, NOW, TWO, Said, route
 from tests.nlu.grounding.fakes import did, talk
 from xavi_dialogue.domain.discourse import Span
+from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.domain.terms import (
+    Ago,
     At,
     Between,
     Described,
@@ -150,3 +152,33 @@ def test_while_we_go_is_no_time_of_what_is_to_come() -> None:
     assert Said(soon, mode="asked").event.time == Next()
     assert Said(soon, mode="asked").span == Span(40.0, 55.0, ahead=True)
     assert Said(soon, mode="supposed").span is None
+
+
+def slowed(first: float, last: float, begin: float, end: float | None) -> Episode:
+    return Episode(Ego(), "slow-down", begin, end, speed_from=first, speed_to=last, peak=0.6)
+
+
+@pytest.mark.parametrize("time", [Unsaid(), Ago(), Between(30.0, NOW)])
+def test_slowing_of_just_now_that_took_much_of_our_speed_is_felt_as_braking(time: Any) -> None:
+    spoken = Event("brake", time=time, tense="past")
+    found = Said(spoken, did("brake", 5.0, 7.0), slowed(3.0, 1.5, 37.0, 39.0))
+    assert found.holds
+    assert found.event.action == "brake"
+    assert found.span is not None
+    assert found.span.begin in (30.0, 37.0)
+
+
+@pytest.mark.parametrize(
+    "slowing",
+    [
+        slowed(14.0, 12.5, 37.0, 39.0),  # of a car that drives fast, it is hardly felt
+        slowed(3.0, 1.5, 30.0, 32.0),  # long over
+        Episode(Ego(), "slow-down", 37.0, 39.0),  # of which nobody knows how much it was
+    ],
+)
+def test_other_slowing_is_no_braking(slowing: Episode) -> None:
+    found = Said(Event("brake", tense="past"), did("brake", 5.0, 7.0), slowing)
+    assert found.event.time == Between(5.0, 7.0)
+    hard = Event("brake", manner=("hard",), tense="past")
+    gentle = slowed(3.0, 1.5, 37.0, 39.0)
+    assert Said(hard, did("brake", 5.0, 7.0), gentle).event.time == Between(5.0, 7.0)

@@ -40,6 +40,7 @@ from xavi_dialogue.nlu.grounding.events.fitting import (
     ONGOING,
     acting,
     done,
+    gentle_too,
     hard_ones,
     is_open,
     searched,
@@ -254,6 +255,7 @@ def _placed(found: Event, mode: Mode, g: Grounder, window: Window, inner: bool) 
     held = g.context.holds(found, *window.search)
     if mode == "denied":
         return _denied(found, g, window)
+    held = gentle_too(held, found, window, g) if mode == "presupposed" else held
     aside = mode == "asked" and found.tense == "present"  # "now we are going further left?"
     if not held and (mode == "presupposed" or aside) and found.action in SIDEWAYS:
         moved = replace(found, action=SIDEWAYS[found.action])  # "left again, what is that for"

@@ -24,6 +24,8 @@ LATELY: Final = 12.0  # [s] within which what is over is still asked about in th
 HARD: Final = 3.0  # [m/s2] from which braking is called hard
 NEAR: Final = 2.5  # [m/s] by which a speed that is said may be off
 JUST: Final = 0.5  # [s] since when what ended still goes on
+JUST_OVER: Final = 5.0  # [s] within which what ended is still felt
+FELT: Final = 0.2  # minimum share of our speed that slowing takes for it to be felt as braking
 
 
 def acting(spoken: Event, g: Grounder, window: Window, open_: bool) -> Fits:
@@ -109,3 +111,24 @@ def hard_ones(held: tuple[Episode, ...], event: Event, window: Window) -> tuple[
         return held
     least = min(HARD, max(peaks))
     return tuple(e for e, peak in zip(held, peaks, strict=True) if peak >= least)
+
+
+def gentle_too(
+    held: tuple[Episode, ...], event: Event, window: Window, g: Grounder
+) -> tuple[Episode, ...]:
+    """Add our slowing of just now to our braking, where it took much of what we drove."""
+    plain = event.action == "brake" and isinstance(event.actor, Ego) and "hard" not in event.manner
+    if not plain or window.rank is not None or window.prefer != "last":
+        return held
+    now = g.context.now
+    slowed = g.context.holds(replace(event, action="slow-down"), *window.search)
+    slowed = tuple(e for e in slowed if e.action == "slow-down" and _is_felt(e, now))
+    return tuple(sorted((*held, *slowed), key=lambda e: e.begin)) if slowed else held
+
+
+def _is_felt(slowing: Episode, now: float) -> bool:
+    """Tell whether slowing goes on or is just over, and took a good share of our speed."""
+    first, last = slowing.speed_from, slowing.speed_to
+    if first is None or last is None or (slowing.end or now) < now - JUST_OVER:
+        return False
+    return first - last >= FELT * first
