@@ -14,6 +14,7 @@ Share = Literal["meaning", "grammar", "politeness", "hedge", "address", "idle", 
 _GRAMMAR = frozenset(
     [
         "BE",
+        "FELT",
         "GOT",
         "DO",
         "HAVE",

@@ -263,9 +263,10 @@ class Slots:
                     clause.aux.append("semi-past")
             case "NOT":
                 clause.negated = not clause.negated
-            case "MAKE":
+            case "MAKE" | "FELT":
+                verb = "make" if leaf.category == "MAKE" else "feel"
                 clause.verb = Leaf(
-                    "V", "make", leaf.key, leaf.words, leaf.tokens, leaf.start, leaf.end, leaf.cost
+                    "V", verb, leaf.key, leaf.words, leaf.tokens, leaf.start, leaf.end, leaf.cost
                 )
             case "V" | "VPAST" | "VED" | "VING" | "GOING":
                 clause.verb = leaf

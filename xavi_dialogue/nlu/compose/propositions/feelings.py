@@ -6,6 +6,7 @@ from xavi_dialogue.domain.terms import (
     Described,
     Ego,
     Event,
+    Happens,
     Is,
     Next,
     Passenger,
@@ -14,6 +15,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.sem import as_thing
 from xavi_dialogue.nlu.compose.verbs.deeds import tense_of, time_of
@@ -36,3 +38,11 @@ def felt(name: str, special: Special) -> Proposition:
     if isinstance(special.object, Event):  # "how did you feel about that braking?"
         return Is("comfortable", event=special.object, time=time_of(special), tense="past")
     return Is("comfortable", as_thing(special.object) or Passenger())
+
+
+def sensed(special: Special) -> Proposition | None:
+    """Read "I felt us brake" as slowing down: how strong it was is not felt."""
+    match special.content:
+        case Happens(event=Event(action="brake", manner=()) as braking):
+            return Happens(with_fields(braking, action="slow-down"))
+    return special.content

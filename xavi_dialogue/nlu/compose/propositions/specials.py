@@ -37,7 +37,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.nominal import event_in, propose
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
-from xavi_dialogue.nlu.compose.propositions.feelings import felt
+from xavi_dialogue.nlu.compose.propositions.feelings import felt, sensed
 from xavi_dialogue.nlu.compose.propositions.having import had
 from xavi_dialogue.nlu.compose.propositions.severally import each_seen
 from xavi_dialogue.nlu.compose.propositions.valuing import (
@@ -325,7 +325,7 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "free-up": _is("free"), "seem": _seem, "deem": _deem,
     "give-priority": _priority, "owe": _owed, "switch": _signal, "colour": lights.coloured,
     "stay-colour": lights.stays, "run-light": lights.ran, "make-light": lights.made,
-    "become": lambda s: become(s, event_of),
+    "become": lambda s: become(s, event_of), "sense": lambda s: sensed(s) or _see(s),
     "stay": _is("safe"), "allow": _is("allowed", of_object=True), "permit": _is("allowed"),
     "risk": _is("dangerous"), "blame": _is("at-fault", of_object=True),
     "leave-space": _leave_space, "begin": begun, "change": changed, "measure": measured,
