@@ -1,6 +1,6 @@
 """Telling: what an order or a polite question to tell, list or explain something asks."""
 
-from typing import Any, cast
+from typing import Any, Final, cast
 
 from xavi_dialogue.domain.meaning import (
     Act,
@@ -208,7 +208,15 @@ def _summary(sem: Sem | None) -> Thing | Event | None:
     return None if from_ride else thing
 
 
+_TIMES: Final = frozenset({"time", "times", "moment", "moments", "occasion", "occasions"})
+
+
 def _listing(sem: Sem | None, clause: Clause) -> Question:
+    match sem, clause.time:
+        case Noun(word=word), Relative(relation="during", anchor=Event() as event) if (
+            word in _TIMES
+        ):  # "the moments when you braked"
+            return listed(event, Unsaid())
     if sem is None:
         return Listing("events", time=clause.time)
     if isinstance(sem, Event):
@@ -226,6 +234,9 @@ def _listing(sem: Sem | None, clause: Clause) -> Question:
             return listed(cast(Event, with_fields(thing.doing, object=None)), clause.time)
         return Listing("vehicles", thing, clause.time)
     found = asked_of(sem, clause.time)
+    match found:
+        case When(Happens(Event(object=Wanted()) as event)):  # "the times you braked"
+            return listed(cast(Event, with_fields(event, object=None)), clause.time)
     return found or Listing("events", time=clause.time)
 
 
