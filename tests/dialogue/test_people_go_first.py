@@ -61,3 +61,22 @@ def test_as_many_are_counted_as_are_expected_to_cross() -> None:
     talk.hear("Are there any people?")
     assert "will cross our way" in talk.hear("How many of them are going to cross?")
     assert "will cross our way" in talk.hear("Which of them will cross?")
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        "Give me a list of everyone you gave way to.",
+        "list everybody you gave way to",
+        "List everyone you gave way to since we set off.",
+    ],
+)
+def test_a_list_has_all_whom_we_let_go_first(question: str) -> None:
+    told = Talk("junction-0", 60.0).hear(question)
+    assert told.startswith(("Four times", "Five times"))
+    assert all(f"vehicle {number}" in told for number in (3, 8, 9, 10))
+
+
+def test_who_let_people_go_first_gave_way() -> None:
+    told = Talk("junction-0", 20.0).hear("list everybody you gave way to")
+    assert "vehicle 8" in told

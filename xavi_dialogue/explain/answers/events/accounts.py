@@ -43,6 +43,7 @@ from xavi_dialogue.explain.answers.reference.occasions import (
     occasion,
     occasions,
     overlaps,
+    with_let_first,
 )
 from xavi_dialogue.explain.answers.ride.comfort import stretch
 from xavi_dialogue.explain.answers.ride.condensing import condensed
@@ -106,7 +107,8 @@ def listing(question: Listing, asked: Asked) -> Answer:
 
 def _of_kind(asked: Asked, event: Event, about: Window) -> Happenings:
     """Return the list of the episodes in a stretch of the ride that an event describes."""
-    found = tuple(for_whom(asked, e) for e in occasions(asked, event) if belongs(asked, e, about))
+    every = with_let_first(asked, event, occasions(asked, event))
+    found = tuple(for_whom(asked, e) for e in every if belongs(asked, e, about))
     if not found and event.action == "brake":
         return _of_kind(asked, replace(event, action="slow-down"), about)
     return Happenings("list", found, event.actor, about.begin, about.end, asked=event)

@@ -82,11 +82,22 @@ def occasions(asked: Asked, event: Event) -> tuple[Episode, ...]:
     return _let_first(asked, event) or _while_let_go(asked, event)
 
 
+def with_let_first(asked: Asked, event: Event, found: Sequence[Episode]) -> tuple[Episode, ...]:
+    """Add when we let others first, as our driving recorded, where nobody is named."""
+    if event.action != "give-way" or event.object is not None:
+        return tuple(found)
+    known = {e.object for e in found}
+    besides = (e for e in _let_first(asked, event) if e.object not in known)
+    return tuple(sorted((*found, *besides), key=lambda e: (e.begin, _end(asked, e))))
+
+
 def _let_first(asked: Asked, event: Event) -> tuple[Episode, ...]:
     """Find when we let those first of whom an event says so, as our driving recorded."""
     if event.action not in ("give-way", "let-go") or not is_us(event.actor):
         return ()
-    others = [] if event.object is None else _each(asked, event.object)
+    if event.object is None:
+        return let_across(asked, asked.world.vehicles)
+    others = _each(asked, event.object)
     return let_across(asked, [v.number for v in others if isinstance(v, Vehicle)])
 
 
