@@ -36,6 +36,7 @@ from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.content.clauses.propositions import clause_of, eventful
 from xavi_dialogue.nlg.content.clauses.routes import exits_passed
 from xavi_dialogue.nlg.content.clauses.tenses import PRESENT
+from xavi_dialogue.nlg.content.observed.occasions import TOWARDS, occasions_counted
 from xavi_dialogue.nlg.content.observed.surroundings import is_past, plan_by_kind, telling
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
@@ -46,7 +47,6 @@ from xavi_dialogue.nlg.surface.values import Clause, Moment, Number, Quantity, T
 
 PLAIN = frozenset(("continue", "move", "keep-lane", "go"))
 CHANGING = frozenset(("slow-down", "speed-up", "brake", "stop"))
-TOWARDS = {"give-way": "to", "wait": "for", "let-go": "for"}  # prepositions of their objects
 FEW = 3  # maximum of vehicles that are described with their number
 MANY = 5  # maximum of vehicles that are described one by one
 
@@ -212,7 +212,7 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
         tense: Tense = "perfect" if span.get("whole") else "past"
         tense = "future" if answer.of.tense == "future" else tense
         told = event_clause(answer.of, context.now, tense=tense, negated=never)
-        whens = _occasions(answer)
+        whens = occasions_counted(answer)
         first = message("COUNTED_EVENTS", clause=told, never=never, times=times(answer.count),
                         at_least=answer.at_least, whens=whens, one=answer.count == 1,
                         **span)  # fmt: skip
@@ -252,31 +252,6 @@ def plan_counted(answer: Counted, context: SpeechContext) -> Plan:
 def _only_there(that: Proposition) -> bool:
     """Check whether the description of what is counted says nothing but that they are there."""
     return isinstance(that, Is) and that.state == "present"
-
-
-def _occasions(answer: Counted) -> tuple[Message, ...] | None:
-    """Return when it happened, each time once, with the vehicle if the question left that open."""
-    assert isinstance(answer.of, Event)
-    rows: list[tuple[float, list[Thing]]] = []
-    for fact in answer.facts:
-        if not isinstance(fact, Episode):
-            continue
-        if not rows or (answer.count > len(rows) and fact.begin > rows[-1][0]):
-            rows.append((fact.begin, []))
-        whom = fact.object
-        if isinstance(whom, Vehicle) and whom != answer.of.object and whom not in rows[-1][1]:
-            rows[-1][1].append(whom)
-    if not 0 < len(rows) <= MANY or len(rows) != answer.count:
-        return None
-    to = TOWARDS.get(answer.of.action)
-    return tuple(
-        message(
-            "OCCASION", when=Moment(begin), to=to, whom=tuple(Who(v, begin) for v in who[:MANY])
-        )
-        if to is not None and who
-        else message("OCCASION", when=Moment(begin))
-        for begin, who in rows
-    )
 
 
 def _of_each(facts: tuple[Fact, ...], said: tuple[Message, ...]) -> tuple[Message, ...]:
