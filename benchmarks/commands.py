@@ -9,6 +9,7 @@ import typer
 from benchmarks.chosen import ours, processes, there
 from benchmarks.fidelity.fidelity_commands import of_foils
 from benchmarks.foreign.commands import of_networks
+from benchmarks.planning.commands import of_planning
 
 if TYPE_CHECKING:
     from benchmarks.figures import Report
@@ -47,15 +48,6 @@ def commands(show: Show) -> typer.Typer:
     """
     group = typer.Typer(help="Measure.", no_args_is_help=True, rich_markup_mode=None)
 
-    @group.command("plan")
-    def _plan(
-        hours: Annotated[float, typer.Option(min=0.0, help="Simulated, for the memory.")] = 0.0,
-        plot: Annotated[Path | None, typer.Option(help="Write growth there as SVG.")] = None,
-        as_json: AsJson = False,
-    ) -> None:
-        """Time per decision, how it grows, time to start, memory."""
-        show(lambda _: plan(hours, plot), as_json)
-
     @group.command("drive")
     def _drive(
         scenario: Scenarios = None,
@@ -82,6 +74,7 @@ def commands(show: Show) -> typer.Typer:
         counts = (seeds, networks, seed, constants)
         show(lambda note: recognise(scenario, counts, jobs, note), as_json)
 
+    of_planning(group, show)
     _of_answers(group, show)
     of_foils(group, show)
     of_networks(group, show)
@@ -207,16 +200,6 @@ def _of_parsing(group: typer.Typer, show: Show) -> None:
     ) -> None:
         """Whether any text makes reading or grounding fail, or takes long."""
         show(lambda note: fuzz(questions, ride, runs, seed, jobs, note), as_json)
-
-
-def plan(hours: float, plot: Path | None) -> "Report":
-    """Measure planning, and draw its growth."""
-    from benchmarks.planning.plan import measure
-
-    found = measure(hours)
-    if plot is not None:
-        plot.write_text(found.plot(), encoding="utf-8")
-    return found
 
 
 def drive(

@@ -13,3 +13,7 @@ class QuestionFileError(UsageFault):
 
 class ForeignUnusable(UsageFault):
     """A file of rides, or the name of a network, cannot be used."""
+
+
+class Igp2Unusable(UsageFault):
+    """A checkout of IGP2 cannot be run beside our planner."""

@@ -23,13 +23,16 @@ from benchmarks.figures import (
     in_columns,
     targets_table,
 )
+from benchmarks.igp2.beside import BesideIgp2
+from benchmarks.igp2.beside import table as beside_table
 from benchmarks.planning.dense_scenes import crowd
 from benchmarks.planning.process_cost import Memory, memory, start_up
+from benchmarks.planning.timed_decision import timed_decision
 from benchmarks.service.dialogue import SCENARIOS, SEED, ride
 from benchmarks.svg import Line, Panel, chart
 from planner.record.trace import EgoGoal, PlanTrace, Settings
 from planner.roads.trajectory import Roads
-from planner.search.decide import Frame, Moment, decide, predict, prepare, record, root_at
+from planner.search.decide import Frame, Moment, decide, root_at
 from planner.search.mcts import Root, Search
 from sim.scene import EGO
 from sim.setup.scenario import load
@@ -73,6 +76,7 @@ class PlanReport(Aimed, frozen=True, kw_only=True):
     figures: tuple[Figure, ...]
     growth: tuple[Growth, ...]
     memory: tuple[Memory, ...]
+    igp2: tuple[BesideIgp2, ...] = ()
 
     def table(self) -> str:
         """Return the report for people."""
@@ -83,6 +87,7 @@ class PlanReport(Aimed, frozen=True, kw_only=True):
         kept += [["", f"{m.hours:.3f}", str(m.decisions), f"{m.resident:.1f}"] for m in self.memory]
         parts = [f"yardstick {self.yardstick:.2f} ms", figures_table(self.figures)]
         parts += [in_columns(rows)] + ([in_columns(kept)] if self.memory else [])
+        parts += [beside_table(self.igp2)] if self.igp2 else []
         return "\n\n".join([*parts, targets_table(self.targets)])
 
     def plot(self) -> str:
@@ -174,7 +179,7 @@ def growth(
         watch, search = Watch(), None
         for _ in range(repeats):
             frame, moment = crowd(network, goal, settings, others)
-            search = _decide(watch, "", frame, moment)
+            search = timed_decision(watch, "", frame, moment)
         assert search is not None
         found.append(_grown(axis, others, settings, watch, search, yardstick))
     return tuple(found)
@@ -209,7 +214,7 @@ def _ride_again(watch: Watch, name: str) -> None:
     for trace in conversation.dialogue.traces:
         moment = _moment(frame, trace)
         if moment is not None:
-            _decide(watch, f"{name} ", frame, moment)
+            timed_decision(watch, f"{name} ", frame, moment)
 
 
 def _moment(frame: Frame, trace: PlanTrace) -> Moment | None:
@@ -217,18 +222,6 @@ def _moment(frame: Frame, trace: PlanTrace) -> Moment | None:
     if here is None or trace.under_way is not None:
         return None
     return Moment(trace.decision, trace.sim_time, trace.scene, trace.history, Root(here))
-
-
-def _decide(watch: Watch, prefix: str, frame: Frame, moment: Moment) -> Search:
-    with watch.time(f"{prefix}decision"):
-        with watch.time(f"{prefix}recognition"):
-            beliefs = predict(frame, moment)
-        with watch.time(f"{prefix}search"):
-            search = prepare(frame, moment, beliefs)
-            search.run()
-        with watch.time(f"{prefix}record"):
-            record(frame, moment, beliefs, search)
-    return search
 
 
 def _cell(value: float) -> str:

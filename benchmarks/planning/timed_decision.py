@@ -1,0 +1,25 @@
+"""A decision, with the time of each part of it."""
+
+from benchmarks.figures import Watch
+from planner.search.decide import Frame, Moment, predict, prepare, record
+from planner.search.mcts import Search
+
+
+def timed_decision(watch: Watch, prefix: str, frame: Frame, moment: Moment) -> Search:
+    """Decide, and return the search.
+
+    Args:
+        watch: gets the durations `decision`, `recognition`, `search` and `record`.
+        prefix: before these names.
+        frame: what stays the same from decision to decision.
+        moment: what is new in this decision.
+    """
+    with watch.time(f"{prefix}decision"):
+        with watch.time(f"{prefix}recognition"):
+            beliefs = predict(frame, moment)
+        with watch.time(f"{prefix}search"):
+            search = prepare(frame, moment, beliefs)
+            search.run()
+        with watch.time(f"{prefix}record"):
+            record(frame, moment, beliefs, search)
+    return search
