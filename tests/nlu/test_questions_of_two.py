@@ -2,7 +2,17 @@
 
 import pytest
 
-from xavi_dialogue.domain.meaning import Ask, HowMuch, Request, WhatIf, Whether, Which, Why
+from xavi_dialogue.domain.meaning import (
+    Ask,
+    HowMuch,
+    Request,
+    WhatIf,
+    When,
+    Whether,
+    Which,
+    Whither,
+    Why,
+)
 from xavi_dialogue.domain.terms import (
     Both,
     Compares,
@@ -254,3 +264,50 @@ def test_both_are_asked_of_the_way_that_is_left(text: str) -> None:
     questions = [act.question for act in acts if isinstance(act, Ask)]
     asked = {one.of.attribute for one in questions if isinstance(one, HowMuch)}
     assert asked == {"time-to-go", "distance-to-go"}
+
+
+_TURN = Event("turn", tense="future")
+_UNTIL_TURN = Ask(When(Happens(_TURN)))
+_TO_TURN = Ask(HowMuch(Measured("turn", event=_TURN)))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "When do we turn, and how far is it?",
+        "How long until the turn and in how many metres?",
+        "How long till the turn, and how far is it?",
+        "How long is it to the turn and how far?",
+    ],
+)
+def test_how_far_it_is_is_asked_of_the_turn_before_it(parser: Parser, text: str) -> None:
+    assert parser.read(text)[0].acts == (_UNTIL_TURN, _TO_TURN)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "How far is the turn and how long does it take?",
+        "How many metres until the turn, and how long?",
+        "How many metres is it to the turn and when?",
+    ],
+)
+def test_how_long_it_takes_is_asked_of_the_turn_before_it(text: str) -> None:
+    assert interpret(text)[0].acts == (_TO_TURN, _UNTIL_TURN)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["Where are we turning and in how many metres?", "Where are we going and how far is it?"],
+)
+def test_where_we_go_says_how_far_it_is(parser: Parser, text: str) -> None:
+    assert parser.read(text)[0].acts == (Ask(Whither()),)
+
+
+def test_when_behind_where_we_turn_is_of_the_turn(parser: Parser) -> None:
+    assert parser.read("Where do we turn and when?")[0].acts == (Ask(Whither()), _UNTIL_TURN)
+
+
+@pytest.mark.parametrize("unit", ["metres", "meters", "kilometres"])
+def test_units_are_measured_and_not_counted(parser: Parser, unit: str) -> None:
+    assert parser.read(f"How many {unit} until the turn?")[0].acts == (_TO_TURN,)

@@ -1,8 +1,8 @@
 """Evidence: whether the acts that a clause became still contain what its words say.
 
 A rule of composition that passes over a part of its clause loses the words of that part without
-notice. So numbers, colours, kinds, superlatives, lights and crossings are looked for in the acts; a
-word that is not found there contributes nothing to them.
+notice. So numbers, units, colours, kinds, superlatives, lights and crossings are looked for in the
+acts; a word that is not found there contributes nothing to them.
 """
 
 from collections.abc import Iterator
@@ -15,6 +15,7 @@ from xavi_dialogue.domain.meaning import (
     AskHelp,
     Beyond,
     Compare,
+    HowMany,
     Peak,
     Quizzing,
     Request,
@@ -30,6 +31,7 @@ _TALK: Final = (AskHelp, Beyond, Quizzing, Social)  # stand for the whole unit
 _EXTREMES: Final = frozenset(
     (Compare, Peak, "nearest", "farthest", "fastest", "slowest", "biggest", "highest", "lowest")
 )
+_INFORMING: Final = frozenset(("NUM", "COLOUR", "KIND", "UNIT"))
 _NUMBERED: Final = frozenset(("numbered", "roll", "owner"))
 _BOTH: Final = 2.0
 _SCALES: Final = (1.0, 60.0, 3600.0)  # [s] per unit in which a time may be given
@@ -56,7 +58,7 @@ def _telling(part: Part) -> Iterator[Leaf]:
     if isinstance(part, Leaf):
         superlative = part.category == "FOCUS" and part.key == "superlative"
         place = part.category == "PLACEN" and part.key in _PLACES
-        if superlative or place or part.category in ("NUM", "COLOUR", "KIND"):
+        if superlative or place or part.category in _INFORMING:
             yield part
         return
     for inner in part.parts:
@@ -70,6 +72,8 @@ def _is_in(leaf: Leaf, found: set[Any]) -> bool:
         if said == _BOTH and "them-all" in found:
             return True  # "those two"
         return Quantity in found or any(said * scale in found for scale in _SCALES)
+    if leaf.category == "UNIT":
+        return HowMany not in found or Quantity in found  # metres are measured, not counted
     if leaf.category == "FOCUS":
         return not _EXTREMES.isdisjoint(found)
     if leaf.key == "light" and not _OF_VEHICLES.isdisjoint(found):

@@ -26,6 +26,7 @@ from xavi_dialogue.domain.meaning import (
     Where,
     Whether,
     Which,
+    Whither,
     Why,
 )
 from xavi_dialogue.domain.rewriting import first
@@ -320,10 +321,10 @@ def _is_told(before: Act, act: Act) -> bool:
             question=HowMuch(of=Measured(attribute="distance", thing=Ego(), to=None))
         ):
             return True  # "was that close? how many metres?"
-        case Ask(question=HowMuch(of=Measured(attribute="exit-number" | "turn"))), Ask(
-            question=HowMuch(of=Measured(attribute="distance", thing=Pronoun(form="it")))
-        ):
-            return True  # "which exit, and how far is it?"
+        case Ask(
+            question=HowMuch(of=Measured(attribute="exit-number" | "turn")) | Whither(actor=Ego())
+        ), Ask(question=HowMuch(of=Measured("distance", Pronoun("it") | Ego(), None))):
+            return True  # "which exit, and how far is it?", "where do we turn, in how many metres?"
         case Ask(question=HowMuch(extreme="highest" | "lowest")), Ask(
             question=Where(of=Pronoun()) | When(of=That())
         ):

@@ -1,11 +1,14 @@
-"""Trips: "when do we arrive, and how far is it?": both are asked of the way that is left."""
+"""Trips: "when do we arrive, and how far is it?": both are asked of the way that is left.
+
+So are "when do we turn, and in how many metres?" of the way to the turn.
+"""
 
 from collections.abc import Sequence
 from typing import Final
 
 from msgspec import structs
 
-from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, HowLong, HowMuch, When
+from xavi_dialogue.domain.meaning import Act, Ask, Elliptic, HowLong, HowMuch, When, Whither
 from xavi_dialogue.domain.terms import (
     Ego,
     Event,
@@ -17,11 +20,15 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
 )
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
+from xavi_dialogue.nlu.compose.wh_questions.towards import WAYS
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.joining.meanwhile import LEADING, Row
 
 TIME_LEFT: Final = HowMuch(Measured("time-to-go"))
 WAY_LEFT: Final = HowMuch(Measured("distance-to-go"))
+_NEXT: Final = Event("turn", Ego(), tense="future")
+NEXT_TURN: Final = Ask(When(Happens(_NEXT)))
+_WHEN: Final = Elliptic(form="when")
 _IT: Final = (Pronoun("it"), Pronoun("that"), Ego())
 
 
@@ -29,6 +36,10 @@ def of_the_way(units: Sequence[Node], rows: Sequence[Row]) -> list[Row]:
     """Let questions in one sentence be of the way that is left, where one of them is."""
     found = [_twice(unit, row) for unit, row in zip(units, rows, strict=True)]
     acts = [act for row in found for act in row or ()]
+    if len(acts) > 1 and (turn := next(filter(None, map(_turn, acts)), None)) is not None:
+        return [row and tuple(_to_turn(act, turn) for act in row) for row in found]
+    if any(isinstance(act, Ask) and act.question == Whither() for act in acts):
+        return [row and tuple(NEXT_TURN if act == _WHEN else act for act in row) for row in found]
     timed, far = any(map(_is_time_left, acts)), any(map(_is_way_left, acts))
     far = far or (len(acts) > 1 and any(map(_takes, acts)) and any(map(_is_far, acts)))
     timed = timed or (far and any(map(_takes, acts)))
@@ -38,9 +49,39 @@ def of_the_way(units: Sequence[Node], rows: Sequence[Row]) -> list[Row]:
 def _left(act: Act, timed: bool, far: bool) -> Act:
     if timed and _is_far(act):
         return Ask(WAY_LEFT)
-    if far and (_takes(act) or act == Elliptic(form="when")):
+    if far and (_takes(act) or act == _WHEN):
         return Ask(TIME_LEFT)
     return act
+
+
+def _turn(act: Act) -> Event | None:
+    """Find the turn of ours that is asked about, when it is or how far ahead."""
+    match act:
+        case Ask(question=HowMuch(of=Measured(attribute="turn", event=None))):
+            return _NEXT
+        case Ask(
+            question=When(of=Happens(event=Event(actor=Ego(), tense="present" | "future") as turn))
+            | HowMuch(of=Measured(attribute="turn", event=Event(actor=Ego()) as turn))
+        ):
+            return turn if turn.action in WAYS else None
+    return None
+
+
+def _to_turn(act: Act, turn: Event) -> Act:
+    """Ask how far and how long "it" is, or nothing, of the way to a turn."""
+    if _is_far(act):
+        return Ask(HowMuch(Measured("turn", event=turn)))
+    if _takes(act) or _lasts(act) or act == _WHEN:
+        return Ask(When(Happens(structs.replace(turn, tense="future"))))
+    return act
+
+
+def _lasts(act: Act) -> bool:
+    """Tell whether it is asked how long "it" takes now."""
+    match act:
+        case Ask(question=HowMuch(of=Measured(attribute="duration", thing=thing, tense="present"))):
+            return thing in _IT
+    return False
 
 
 def _twice(unit: Node, row: Row) -> Row:

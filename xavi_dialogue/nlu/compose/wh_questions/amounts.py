@@ -44,7 +44,13 @@ from xavi_dialogue.nlu.compose.wh_questions.lasting import (
     spent_by,
     until,
 )
-from xavi_dialogue.nlu.compose.wh_questions.towards import WAYS, far_to, reference, remaining
+from xavi_dialogue.nlu.compose.wh_questions.towards import (
+    WAYS,
+    far_to,
+    reference,
+    remaining,
+    until_turn,
+)
 
 
 def amounts(sem: Sem, clause: Clause, value: Any, words: tuple[str, ...] = ()) -> Question:
@@ -124,7 +130,9 @@ def _changes(clause: Clause, event: Event | None) -> bool:
 
 def _stretch(clause: Clause, value: Any, actor: Thing | None, event: Event | None) -> Question:
     if isinstance(clause.time, Relative) and clause.time.relation == "until":
-        return until(clause.time.anchor)
+        return until_turn(clause) or until(clause.time.anchor)
+    if (turn := until_turn(clause)) is not None:
+        return turn
     if isinstance(value, Special) and value.name in ("cost", "delay", *SAVING):
         deed = spent_by(clause, value)
         if value.name in SAVING and deed is None:
@@ -149,7 +157,8 @@ def _lengths(
         return measured("speed", clause, actor)
     if sem.unit == "percent":
         return sure_of(clause, value)
-    if sem.unit in ("km", "mile") and reference(clause) is None and event is None:
+    onward = reference(clause) is None and event is None and until_turn(clause) is None
+    if sem.unit in ("km", "mile") and onward:
         return measured("distance-to-go", clause, Ego())
     if event is not None and event.action in WAYS and event.tense in ("present", "future"):
         return HowMuch(Measured("turn", event=event))  # "after how many metres do we turn"

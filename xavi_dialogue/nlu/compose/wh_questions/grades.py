@@ -51,7 +51,7 @@ from xavi_dialogue.nlu.compose.wh_questions.lasting import (
     spent_by,
 )
 from xavi_dialogue.nlu.compose.wh_questions.savings import UNREAL
-from xavi_dialogue.nlu.compose.wh_questions.towards import far_to, reference, remaining
+from xavi_dialogue.nlu.compose.wh_questions.towards import far_to, reference, remaining, until_turn
 from xavi_dialogue.nlu.compose.wh_questions.wh import content_of, held_then, sureness
 
 _PACES = frozenset({"faster", "slower", "quicker"})
@@ -87,7 +87,9 @@ def graded(grade: str, words: tuple[str, ...], clause: Clause, value: Any) -> Qu
         case "close":
             return _close(clause, event, value, actor)
         case "long":
-            asked = _for_whom(long_lasting(clause, event, value, actor), clause)
+            asked = until_turn(clause) or _for_whom(
+                long_lasting(clause, event, value, actor), clause
+            )
             return _from_now(asked) if {"longer", "more"} & {*words} else asked
         case "big" if isinstance(actor, Feature) and (to := reference(clause)) is not None:
             return measured("distance", clause, Ego(), to=to)  # "the space to the lorry"

@@ -2,12 +2,13 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.meaning import HowMuch, Listing, Question
+from xavi_dialogue.domain.meaning import HowMuch, Listing, Question, When
 from xavi_dialogue.domain.terms import (
     Destination,
     Ego,
     Event,
     Feature,
+    Happens,
     Junction,
     Measured,
     Next,
@@ -115,9 +116,24 @@ def _onward(clause: Clause, words: tuple[str, ...]) -> bool:
 
 def _next_turn(clause: Clause) -> Event | None:
     """Find the turn of ours to which it is asked how far it is."""
-    named = [clause.subject, *(p.sem for p in clause.complements), *(s for s, _ in clause.objects)]
+    return _turn_among(clause, [clause.subject, *_up_to(clause), *(s for s, _ in clause.objects)])
+
+
+def until_turn(clause: Clause) -> When | None:
+    """Ask when our next turn is: "how long is it to the turn", "how many seconds until it"."""
+    turn = None if clause.verb is not None else _turn_among(clause, _up_to(clause))
+    return None if turn is None else When(Happens(turn))
+
+
+def _up_to(clause: Clause) -> list[Any]:
+    """List up to what it is measured: "how far is it till the turn"."""
+    named: list[Any] = [phrase.sem for phrase in clause.complements]
     if isinstance(clause.time, Relative) and clause.time.relation in ("until", "before"):
-        named.append(clause.time.anchor)  # "how far is it till the turn"
+        named.append(clause.time.anchor)
+    return named
+
+
+def _turn_among(clause: Clause, named: list[Any]) -> Event | None:
     turns = (sem for sem in named if isinstance(sem, Event) and sem.action in WAYS)
     found = next(turns, None)
     if found is None or clause.tense not in ("present", "future"):
