@@ -4,7 +4,9 @@ import pytest
 
 from xavi_dialogue.domain.meaning import (
     Ask,
+    HowMany,
     HowMuch,
+    Peak,
     Request,
     WhatIf,
     When,
@@ -311,3 +313,39 @@ def test_when_behind_where_we_turn_is_of_the_turn(parser: Parser) -> None:
 @pytest.mark.parametrize("unit", ["metres", "meters", "kilometres"])
 def test_units_are_measured_and_not_counted(parser: Parser, unit: str) -> None:
     assert parser.read(f"How many {unit} until the turn?")[0].acts == (_TO_TURN,)
+
+
+@pytest.mark.parametrize(
+    ("text", "of"),
+    [
+        ("How many turns did we make all told, and which one was the slowest?", "slowness"),
+        ("How many times did we turn and which of them was the slowest?", "slowness"),
+        ("How many turns have we made and which was the fastest?", "speed"),
+    ],
+)
+def test_which_one_it_was_is_asked_of_what_was_counted(parser: Parser, text: str, of: str) -> None:
+    count, which = parser.read(text)[0].acts
+    assert isinstance(count, Ask)
+    assert isinstance(count.question, HowMany)
+    assert isinstance(which, Ask)
+    assert isinstance(which.question, Peak)
+    assert which.question.of == of
+    assert which.question.deed == count.question.of
+
+
+@pytest.mark.parametrize(
+    ("text", "of"),
+    [
+        ("Which turn was the slowest?", Peak("slowness", deed=Event("turn"))),
+        ("Which of our turns was the fastest?", Peak("speed", deed=Event("turn"))),
+        ("Which lane change was the fastest?", Peak("speed", deed=Event("change-lane"))),
+        ("Which stop was the longest?", Peak("waiting")),
+    ],
+)
+def test_which_of_our_deeds_stands_out_is_asked(parser: Parser, text: str, of: Peak) -> None:
+    assert parser.read(text)[0].acts == (Ask(of),)
+
+
+def test_which_of_the_vehicles_counted_stands_out_is_no_deed(parser: Parser) -> None:
+    acts = parser.read("How many cars have you seen, and which one was the fastest?")[0].acts
+    assert not any(isinstance(act, Ask) and isinstance(act.question, Peak) for act in acts)

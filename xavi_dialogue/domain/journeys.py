@@ -44,6 +44,7 @@ class PeakMoment(Value, frozen=True):
     deeds: tuple[Episode, ...] = ()  # what we did then, the most important first
     measure: Measure | None = None  # how much it was
     others: tuple[Look, ...] = ()  # vehicles that caused it
+    among: bool = False  # of the deeds asked about alone, not of the whole ride
 
 
 class Decided(Value, frozen=True):

@@ -14,7 +14,7 @@ from xavi_dialogue.domain.terms import (
     Time,
     Unsaid,
 )
-from xavi_dialogue.domain.vocabulary import Extreme, FeelingKind, Merit
+from xavi_dialogue.domain.vocabulary import Extreme, FeelingKind, Merit, PeakKind
 
 
 class Why(Value, frozen=True):
@@ -131,10 +131,10 @@ class Listing(Value, frozen=True):
 class Peak(Value, frozen=True):
     """The question when something was greatest: "the hardest moment", "the closest call"."""
 
-    of: Literal["danger", "difficulty", "closeness", "braking", "slowing", "slowness", "speed",
-                "waiting", "delay", "risk", "choice"]  # fmt: skip
+    of: PeakKind
     time: Time = Unsaid()
     number: int = 1  # how many of them: "the three times we slowed down the most"
+    deed: Event | None = None  # while we did what: "which turn was the slowest"
 
 
 class Changed(Value, frozen=True):

@@ -170,6 +170,12 @@ Bearing: TypeAlias = Literal[
 Comparator: TypeAlias = Literal["more", "less", "same", "at-least", "at-most", "too-much", "enough"]
 Extreme: TypeAlias = Literal["highest", "lowest", "first", "last", "mean", "total"]
 
+#: What is at its most at a moment of the ride.
+PeakKind: TypeAlias = Literal[
+    "danger", "difficulty", "closeness", "braking", "slowing", "slowness", "speed", "waiting",
+    "delay", "risk", "choice",
+]  # fmt: skip
+
 FeelingKind: TypeAlias = Literal[
     "afraid", "nervous", "startled", "sick", "angry", "annoyed", "impatient", "bored", "happy",
     "relieved", "surprised", "confused", "impressed", "distrustful", "sad", "tired", "curious",

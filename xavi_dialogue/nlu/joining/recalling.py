@@ -1,6 +1,7 @@
 """Recalling: questions that set what came against what was expected, or ask on what it rests.
 
 "Did he go where you thought?" is one question, and so is "who had priority, and on what basis?".
+"Which one was the slowest?" is of our deeds where these were counted.
 """
 
 from msgspec import structs
@@ -9,8 +10,12 @@ from xavi_dialogue.domain.meaning import (
     Act,
     Ask,
     Claim,
+    Compare,
     HowKnow,
+    HowMany,
+    HowMuch,
     HowSure,
+    Identify,
     Listing,
     Question,
     Where,
@@ -20,16 +25,19 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.terms import (
     Believed,
+    Described,
     Ego,
     Event,
     Everyone,
     Happens,
     Is,
+    Measured,
     Not,
     Pronoun,
     Proposition,
     Related,
 )
+from xavi_dialogue.nlu.compose.clauses.peaks import outstanding
 
 _PRIORITY = frozenset({"has-priority-over", "must-yield-to"})
 
@@ -43,6 +51,27 @@ def recalled(before: Act, later: Act) -> Act | None:
         found = _as_expected(Whether(before.that, tag=True), question)
         found = found or _changed(before.that, question)
     return None if found is None else Ask(found)
+
+
+def of_deeds(before: Act, act: Act) -> Act:
+    """Ask which of our deeds it was: "how many turns did we make, and which was the slowest?"."""
+    match before, act:
+        case Ask(question=HowMany(of=Event() as deed)), Ask(question=question):
+            peak = outstanding(deed, _standing_out(question))
+            return act if peak is None else Ask(peak)
+    return act
+
+
+def _standing_out(question: Question) -> str | None:
+    """Give by what one of those spoken of is asked for; None where others are asked for."""
+    match question:
+        case Identify(thing=Described(extreme=extreme, definite=definite) as one):
+            return extreme if one == Described(extreme=extreme, definite=definite) else None
+        case HowMuch(of=Measured("speed", Everyone(kind="vehicle")), extreme=extreme):
+            return {"lowest": "slowest", "highest": "fastest"}.get(extreme or "")
+        case Compare(options=(Pronoun("them-all"),), by="speed", least=least):
+            return "slowest" if least else "fastest"
+    return None
 
 
 def _as_expected(asked: Question | None, later: Question | None) -> Question | None:

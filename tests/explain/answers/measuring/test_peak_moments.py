@@ -6,11 +6,11 @@ import pytest
 
 from tests.explain.answers.given import NOW, Given, deed, look, their
 from tests.explain.answers.stated import did, scene
-from xavi_dialogue.domain.answers import PeakMoment
+from xavi_dialogue.domain.answers import Counted, PeakMoment
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Peak
-from xavi_dialogue.domain.terms import Between, Ego, Vehicle
+from xavi_dialogue.domain.terms import Between, Ego, Event, Vehicle
 from xavi_dialogue.explain.answers.measuring import peak_moments
 
 ONE, TWO = Vehicle(1), Vehicle(2)
@@ -210,3 +210,19 @@ def test_what_cost_most_time_is_told_with_who_held_us_up_until_we_were_as_fast_a
     assert (found.time, found.measure and found.measure.value) == (8.0, 6.0)
     none = peak_moments.peak(Peak("delay"), scene(episodes=(short,)))
     assert none == PeakMoment("delay")
+
+
+@pytest.mark.parametrize(("of", "which"), [("slowness", "lowest"), ("speed", "highest")])
+def test_among_deeds_their_own_speeds_are_compared(of: Any, which: str) -> None:
+    found = at("speed", 12.0, 4.0)
+    turned, later = deed("exit-right", 11.0, 13.0), deed("exit-left", 15.0, 17.0)
+    given = Given(deeds=(turned, later), extremes={("speed", Ego(), which): found})
+    told = peak_moments.peak(Peak(of, deed=Event("turn")), given.asked())
+    assert told == PeakMoment(of, 12.0, (turned,), found, among=True)
+
+
+@pytest.mark.parametrize("action", ["turn", "change-lane", "overtake"])
+def test_a_deed_that_never_was_is_said_to_be_none(action: Any) -> None:
+    told = peak_moments.peak(Peak("slowness", deed=Event(action)), Given().asked())
+    assert isinstance(told, Counted)
+    assert told.count == 0

@@ -6,19 +6,20 @@ from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Answer, Happenings, PeakMoment
 from xavi_dialogue.domain.facts import Episode, Look, Measure
-from xavi_dialogue.domain.meaning import Peak
+from xavi_dialogue.domain.meaning import HowMany, Peak
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
-from xavi_dialogue.domain.vocabulary import ActionName
+from xavi_dialogue.domain.vocabulary import ActionName, Extreme
 from xavi_dialogue.explain.answers.measuring.closeness import (
     closest_approach,
     highest_risk,
     nearest_vehicle,
     shortest_time,
 )
+from xavi_dialogue.explain.answers.measuring.counting import how_many
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import Window, window
 from xavi_dialogue.explain.answers.reference.naming import first_look, number
-from xavi_dialogue.explain.answers.reference.occasions import duration, merged, overlaps
+from xavi_dialogue.explain.answers.reference.occasions import duration, merged, overlaps, within
 from xavi_dialogue.explain.answers.ride.delays import for_whom, held_up
 
 AROUND = 1.0  # [s] around a moment in which what we did belongs to it
@@ -44,9 +45,28 @@ def peak(question: Peak, asked: Asked) -> Answer:
     if about.instant:
         about = Window(asked.world.begin, asked.now)
     about = Window(max(about.begin, asked.world.begin), min(about.end, asked.now))
+    if question.deed is not None:
+        return _among(question, question.deed, asked, about)
     if question.number > 1 and question.of in RANKS:
         return _several(question, asked, about)
     return FINDERS[question.of](question.of, asked, about)
+
+
+def _among(question: Peak, deed: Event, asked: Asked, about: Window) -> Answer:
+    """Return when we were slowest or fastest of all times that we did something."""
+    found = within(asked, deed, about)
+    if not found:
+        return how_many(HowMany(deed), asked)
+    lowest = question.of == "slowness"
+    kind: Extreme = "lowest" if lowest else "highest"
+    speeds = (
+        (asked.world.extreme("speed", Ego(), kind, e.begin, e.end or asked.now), e) for e in found
+    )
+    known = [(m.value, m, e) for m, e in speeds if m.value is not None]
+    if not known:
+        return PeakMoment(question.of)
+    _, measure, most = (min if lowest else max)(known, key=lambda one: one[0])
+    return PeakMoment(question.of, measure.time, (most,), measure, among=len(known) > 1)
 
 
 def _several(question: Peak, asked: Asked, about: Window) -> Happenings:

@@ -36,6 +36,7 @@ def plan_peak_moment(answer: PeakMoment, context: SpeechContext) -> Plan:
     )
     slots: dict[str, object] = {
         "of": answer.of,
+        "among": answer.among,
         "when": Moment(answer.time),
         "who": others[0] if others else None,
         "several": others if several else None,

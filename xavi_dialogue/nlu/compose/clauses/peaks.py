@@ -18,6 +18,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import Extreme
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
+from xavi_dialogue.nlu.compose.clauses.extents import extreme_of
 from xavi_dialogue.nlu.compose.clauses.risks import is_danger
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, Sem, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
@@ -52,6 +53,27 @@ def most_of(clause: Clause) -> str:
         return "difficulty"
     said = (leaf for _, node in clause.objects for leaf in leaves_of(node))
     return next((quality_of(leaf.key, []) for leaf in said if leaf.category == "SUPER"), "")
+
+
+_PACES = {"slowest": "slowness", "fastest": "speed"}
+_BRAKING = frozenset({"brake", "slow-down"})
+_HALTING = frozenset({"stop", "stand", "wait", "give-way", "let-go"})
+
+
+def standing_out(clause: Clause) -> str | None:
+    """Return by what one of several deeds stands out: "the hardest", "the longest"."""
+    return "hardest" if "hardest" in clause.focus else extreme_of(clause)
+
+
+def outstanding(deed: Event, said: str | None) -> Peak | None:
+    """Ask which time it was most so: "which turn was the slowest", "which stop the longest"."""
+    if not isinstance(deed.actor, Ego):
+        return None
+    if deed.action in _BRAKING:
+        return Peak("braking", deed.time) if said in ("hardest", "biggest") else None
+    if deed.action in _HALTING:
+        return Peak("waiting", deed.time) if said == "biggest" else None
+    return Peak(cast(Any, _PACES[said]), deed.time, deed=deed) if said in _PACES else None
 
 
 def _most(sem: Sem) -> bool:
