@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from xavi_dialogue.domain.rewriting import first
-from xavi_dialogue.domain.terms import Measured
+from xavi_dialogue.domain.terms import Described, Measured
 from xavi_dialogue.nlu.notation import acts_line
 from xavi_dialogue.nlu.parse import Parser
 
@@ -42,3 +42,24 @@ def test_who_holds_us_up_may_only_delay_us(text: str) -> None:
     assert other.cost == best.cost
     measures = [first(reading.acts, Measured) for reading in (best, other)]
     assert "delay" in [measure.attribute for measure in measures if measure is not None]
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("What's your time gap to the lead vehicle?", "vehicle"),
+        ("How fast is the lead car?", "car"),
+        ("How far away is the lead car?", "car"),
+        ("Why is the lead truck braking?", "truck"),
+    ],
+)
+def test_the_lead_vehicle_is_ahead(text: str, kind: str) -> None:
+    named = first(PARSER.read(text)[0].acts, Described)
+    assert named == Described(kind, bearing="ahead")
+
+
+@pytest.mark.parametrize("text", ["What's our lead over the red car?", "How big is our lead?"])
+def test_a_lead_alone_is_a_distance(text: str) -> None:
+    of = first(PARSER.read(text)[0].acts, Measured)
+    assert of is not None
+    assert of.attribute == "distance"
