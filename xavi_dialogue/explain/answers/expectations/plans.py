@@ -1,5 +1,6 @@
 """Plans: what the ego is going to do, when, and how long that takes, by its rollouts."""
 
+import itertools
 import math
 from collections.abc import Callable
 
@@ -88,6 +89,21 @@ def current_plan(asked: Asked) -> tuple[PlanTrace, Intervention] | None:
 def foreseen(asked: Asked, event: Event) -> Expected | None:
     """Return when the ego does something under its plan; None if no rollout shows that."""
     return _read(asked, _mark(event))
+
+
+def covers(asked: Asked, distance: float) -> Expected | None:
+    """Return when the ego has gone a distance [m] from where it is now, under its plan."""
+
+    def gone(_: Rollout, motion: Motion) -> float | None:
+        left = distance
+        later = list(motion.within(asked.now, math.inf))
+        for before, k in itertools.pairwise(later):
+            left -= math.dist(motion.position[before], motion.position[k])
+            if left <= 0.0:
+                return motion.time[k]
+        return None
+
+    return _read(asked, gone)
 
 
 def stopping_at_light(asked: Asked) -> float:

@@ -33,7 +33,7 @@ from xavi_dialogue.explain.answers.events.accounts import TOLD, select, summary,
 from xavi_dialogue.explain.answers.events.beliefs import since_when
 from xavi_dialogue.explain.answers.expectations.forecast import forecast
 from xavi_dialogue.explain.answers.expectations.foreseen import besides, chance
-from xavi_dialogue.explain.answers.expectations.plans import foreseen, plan_ahead
+from xavi_dialogue.explain.answers.expectations.plans import covers, foreseen, plan_ahead
 from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.propositions.weighing import weigh
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
@@ -52,13 +52,14 @@ from xavi_dialogue.explain.answers.reference.occasions import (
     duration,
     occasion,
 )
-from xavi_dialogue.explain.answers.ride.onward import leaves_when
+from xavi_dialogue.explain.answers.ride.onward import course, leaves_when, turning_ahead
 from xavi_dialogue.explain.answers.ride.places import time_to_go, whither
 from xavi_dialogue.explain.answers.ride.reaching import reaching
 from xavi_dialogue.explain.causes.vehicles.announced import announced
 from xavi_dialogue.explain.history.motion import Trend
 from xavi_dialogue.explain.history.thresholds import STANDING
 
+SURE = 0.95  # minimum probability of a turn on our way whose time is told
 LIKELY = 0.5  # minimum probability of what is going to happen
 CHANGING = 0.1  # [m/s2] minimum acceleration of a changing speed
 
@@ -196,7 +197,10 @@ def _to_come(asked: Asked, of: Happens) -> Answer:
     """Return when something is going to happen: by our plan; for others, how probable it is."""
     event = of.event
     if is_us(event.actor):
-        found = foreseen(asked, event)
+        turn = turning_ahead(asked, event)
+        found = covers(asked, turn.distance) if turn is not None else foreseen(asked, event)
+        if turn is not None and (found is None or found.share < SURE):
+            return course(asked, "way", (turn,))
         if found is None or found.share < LIKELY:
             past = occasion(asked, replace(event, tense="past"))
             raise (

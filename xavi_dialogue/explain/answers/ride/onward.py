@@ -153,6 +153,18 @@ def _turning(steps: tuple[WayStep, ...], event: Event) -> tuple[WayStep, ...]:
     )  # fmt: skip
 
 
+def turning_ahead(asked: Asked, event: Event) -> WayStep | None:
+    """Return the junction where our way turns as asked about; None if there is none on record."""
+    if event.action not in WAYS or not is_us(event.actor) or asked.world.road(asked.now) is None:
+        return None
+    found = next((step for step in steps_ahead(asked) if _turns_so(step, event)), None)
+    return found if found is not None and found.kind == "junction" else None
+
+
+def _turns_so(step: WayStep, event: Event) -> bool:
+    return step.turn != "exit-straight" if event.action == "turn" else step.turn == event.action
+
+
 def junctions_left(asked: Asked, of: Junction) -> Course:
     """Return how many junctions or roundabouts are left, and what we do there."""
     steps = [s for s in steps_ahead(asked) if of.form == "junction" or s.kind == "roundabout"]

@@ -1,15 +1,25 @@
-"""Reaching: when we come to a junction, or draw level with a vehicle, at the present speeds."""
+"""Reaching: when we come to a place on our way, or draw level with a vehicle.
+
+For places, that is by our plan; for vehicles, at the present speeds.
+"""
 
 from xavi_dialogue.domain.answers import Answer, Measures
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.terms import Ego, Event, Junction, Vehicle
+from xavi_dialogue.domain.meaning import Where
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Junction, Vehicle
+from xavi_dialogue.explain.answers.expectations.plans import covers
+from xavi_dialogue.explain.answers.lights import lights_seen
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
 from xavi_dialogue.explain.answers.ride.places import junction
+from xavi_dialogue.explain.history.traffic_lights import ahead
 
 TO_PLACES = frozenset(("arrive", "enter", "approach", "head", "come"))
 PASSING = frozenset(("overtake", "pass"))
 CRAWLING = 1.5  # [m/s] speed below which no time can be estimated
+SLOWING = -0.5  # [m/s2] below which our speed now tells nothing of the time to a place
+AT_PLACE = 3.0  # [m] up to which we are at a place
+LIKELY = 0.5  # minimum share of the rollouts that come to a place
 CLOSING = 0.5  # [m/s] minimum difference in speed to draw level
 BESIDE = 2.0  # [m] minimum sideways distance at which one is not behind a vehicle
 
@@ -18,12 +28,10 @@ def reaching(asked: Asked, event: Event) -> Answer | None:
     """Return when we come to a place or pass a vehicle; None if that cannot be estimated."""
     if not is_us(event.actor):
         return None
-    if event.action in TO_PLACES and isinstance(event.object, Junction):
-        far = junction(asked, event.object, asked.now)
-        speed = asked.world.measure("speed", Ego(), asked.now).value or 0.0
-        if far.value is None or speed < CRAWLING:
-            return None if far.value is None else Measures((far,))
-        return _in(asked, far.value / speed, event.object)
+    if isinstance(event.object, Junction) and event.action in TO_PLACES:
+        return _at_place(asked, event.object, junction(asked, event.object, asked.now).value)
+    if isinstance(event.object, Feature) and event.action in PASSING | TO_PLACES:
+        return _at_feature(asked, event.object)
     vehicle = number(event.object)
     if event.action not in PASSING | TO_PLACES or vehicle is None:
         return None
@@ -41,5 +49,33 @@ def reaching(asked: Asked, event: Event) -> Answer | None:
     return _in(asked, look.ahead / closing, Vehicle(vehicle))
 
 
-def _in(asked: Asked, seconds: float, to: Junction | Vehicle) -> Measures:
+def _at_feature(asked: Asked, of: Feature) -> Answer | None:
+    """Return when we come to a light or to a line; None for what else is on a road."""
+    if of.kind not in ("light", "line") or of.of is not None:
+        return None
+    near, rank = ahead(asked.ride, asked.now), (of.rank or 1) - 1
+    if 0 <= rank < len(near):
+        return _at_place(asked, of, near[rank].distance)
+    if of.kind == "light":
+        return lights_seen.where(Where(of), asked)  # none is in view
+    return _at_place(asked, of, junction(asked, Junction(rank=of.rank or 1), asked.now).value)
+
+
+def _at_place(asked: Asked, place: Junction | Feature, distance: float | None) -> Answer | None:
+    """Return when we come to a place that is some distance [m] ahead, by our plan."""
+    if distance is None:
+        return None
+    if distance <= AT_PLACE:
+        return Measures((Measure("distance", Ego(), asked.now, value=distance, to=place),))
+    there = covers(asked, distance - AT_PLACE)
+    if there is not None and there.share >= LIKELY:
+        return _in(asked, max(there.moment - asked.now, 0.0), place)
+    speed = asked.world.measure("speed", Ego(), asked.now).value or 0.0
+    pace = asked.world.measure("acceleration", Ego(), asked.now).value or 0.0
+    if speed < CRAWLING or pace < SLOWING:
+        return Measures((Measure("distance", Ego(), asked.now, value=distance, to=place),))
+    return _in(asked, distance / speed, place)
+
+
+def _in(asked: Asked, seconds: float, to: Junction | Feature | Vehicle) -> Measures:
     return Measures((Measure("time-to-go", Ego(), asked.now, value=seconds, to=to),))

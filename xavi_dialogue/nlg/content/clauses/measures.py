@@ -4,7 +4,16 @@ from collections.abc import Mapping
 from typing import Any
 
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.terms import Destination, Ego, Exit, Junction, Thing, Vehicle, Vehicles
+from xavi_dialogue.domain.terms import (
+    Destination,
+    Ego,
+    Exit,
+    Feature,
+    Junction,
+    Thing,
+    Vehicle,
+    Vehicles,
+)
 from xavi_dialogue.domain.vocabulary import Attribute
 from xavi_dialogue.nlg.content.clauses.agreement import verbs
 from xavi_dialogue.nlg.content.clauses.tenses import PRESENT, since
@@ -197,7 +206,7 @@ def _judged(one: Measure, value: float | None) -> dict[str, Any]:
             slots |= {
                 "arrived": value <= 0.0,
                 "level": isinstance(one.to, Vehicle),
-                "reach": isinstance(one.to, Junction),
+                "reach": isinstance(one.to, Junction | Feature),
             }
             slots["bound"] = _is_bound(one)
         case "arrival-time":

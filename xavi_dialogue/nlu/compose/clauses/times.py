@@ -10,11 +10,15 @@ from xavi_dialogue.domain.terms import (
     Between,
     Ego,
     Event,
+    Feature,
+    Happens,
     Junction,
     Next,
     Now,
     Pronoun,
+    Proposition,
     Rank,
+    Related,
     Relative,
     Road,
     Start,
@@ -152,6 +156,24 @@ def left_behind(clause: Clause) -> Event | None:
     places = [as_thing(c.sem) for c in clause.complements if c.key in ("off", "from", "out")]
     found = next((p for p in places if isinstance(p, Junction | Road | Pronoun)), None)
     return None if found is None else Event("leave", Ego(), found, tense="present")
+
+
+def come_to(clause: Clause) -> Event | None:
+    """Read "until we are at the light" as our coming to that place."""
+    if clause.verb is not None or not isinstance(clause.subject, Ego) or clause.negated:
+        return None
+    places = [as_thing(c.sem) for c in clause.complements if c.key in ("at", "on", "by", "in")]
+    found = next((p for p in places if isinstance(p, Feature | Junction)), None)
+    return None if found is None else Event("arrive", Ego(), found, tense="present")
+
+
+def as_coming_to(of: Proposition) -> Proposition:
+    """Take being at a place, asked of its time to come, for our coming there."""
+    match of:
+        case Related(relation="on", thing=Ego(), to=Feature() | Junction() as place):
+            if of.tense in ("present", "future"):
+                return Happens(Event("arrive", Ego(), place, tense="future"))
+    return of
 
 
 def _amount(node: Node) -> Time:

@@ -19,7 +19,13 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.compose.clauses.amounts import speeds_of
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement, Slots, is_named
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, SideOf, as_thing
-from xavi_dialogue.nlu.compose.clauses.times import left_behind, number_before, relative, time_of
+from xavi_dialogue.nlu.compose.clauses.times import (
+    come_to,
+    left_behind,
+    number_before,
+    relative,
+    time_of,
+)
 from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, nodes_of, words_of
 from xavi_dialogue.nlu.compose.propositions.heads import rank_of
 from xavi_dialogue.nlu.compose.propositions.things import Nouns
@@ -127,6 +133,8 @@ class Adjuncts:
             said = self.clause(inner, clause)
             event, ended = self.propositions.as_event(said), self.propositions.ended(said)
             event = left_behind(said) or event
+            if leaf.key in ("until", "before"):
+                event = come_to(said) or event
         else:
             event, ended = self.nouns.read(inner), None
         anchor = ended or self.propositions.anchor(event)

@@ -46,6 +46,7 @@ from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.nominal import propose
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.clauses.times import as_coming_to
 from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
 from xavi_dialogue.nlu.compose.verbs.trends import as_slowing, believed, trend
 from xavi_dialogue.nlu.compose.wh_questions.amounts import amounts
@@ -192,7 +193,7 @@ class Asking(What, WhichOne):
             of = Happens(Event("arrive", tense="future"))  # "when do we get in?"
         if isinstance(of, Happens) and ours and of.event.tense == "present":  # "when do we turn?"
             of = Happens(with_fields(of.event, tense="future"))
-        return When(of)
+        return When(as_coming_to(of))
 
     def how(self, clause: Clause, value: Any) -> Question:
         """Ask in what manner, by what evidence, or how to avoid."""

@@ -212,7 +212,8 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
     if clause.verb is None and actor is None and behind and as_thing(behind[0]) is not None:
         return HowLong(Event("follow", Ego(), as_thing(behind[0]), tense="future"))
     for phrase in clause.complements:
-        if phrase.key == "until" and phrase.sem is not None:
+        there = clause.verb is None and isinstance(as_thing(phrase.sem), Feature | Junction)
+        if phrase.sem and (phrase.key == "until" or (there and phrase.key in ("to", "into"))):
             return until(as_thing(phrase.sem))
     if isinstance(value, Special) and value.name in SAVING:
         return measured("delay", clause, actor, event=spent_by(clause, value) or saving(clause))
@@ -323,12 +324,11 @@ def until(anchor: Any) -> Question:
     coming = isinstance(anchor, Event) and isinstance(anchor.actor, Described | Vehicle)
     if isinstance(anchor, Event) and coming and anchor.action in ("arrive", "come", "enter"):
         return When(Happens(Event("pass", Ego(), anchor.actor, tense="future")))
-    if isinstance(anchor, Event) and anchor.action == "arrive":
-        if anchor.object is None or isinstance(anchor.object, Destination):
-            return HowMuch(Measured("time-to-go"))
-        return When(Happens(anchor))
-    if isinstance(anchor, Destination):
+    arriving = isinstance(anchor, Event) and anchor.action == "arrive"
+    if isinstance(anchor.object if arriving else anchor, Destination | None):
         return HowMuch(Measured("time-to-go"))
+    if arriving:
+        return When(Happens(with_fields(anchor, tense="future")))
     if isinstance(anchor, Event):
         ahead = anchor.tense in ("present", "perfect")
         return When(Happens(with_fields(anchor, tense="future") if ahead else anchor))
