@@ -115,3 +115,16 @@ def test_a_past_belief_out_of_the_blue_is_that_of_what_we_last_set_about() -> No
     """We began to change lanes at 3 s; the blue car came over to our lane before."""
     reply = Talk("s1-0", 9.0).say("what did you think the blue car would do?").reply.text
     assert "6 seconds ago" in reply
+
+
+@pytest.mark.parametrize("question", ["What if you hadn't stopped?", "What if we hadn't stopped?"])
+@pytest.mark.parametrize(
+    ("name", "at", "whom"), [("junction-0", 28.0, "bicycle"), ("city-0", 32.0, "pedestrian")]
+)
+def test_a_stop_is_the_slowing_to_walking_pace_that_goes_on(
+    name: str, at: float, whom: str, question: str
+) -> None:
+    told = Talk(name, at).hear(question)
+    assert whom in told, told
+    assert "light" not in told
+    assert "red light" in Talk(name, at - 4.0).hear(question)  # we had stood at it before

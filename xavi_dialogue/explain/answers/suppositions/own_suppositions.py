@@ -15,7 +15,7 @@ from xavi_dialogue.domain.answers import (
     SupposedOfUs,
     Verdict,
 )
-from xavi_dialogue.domain.facts import Episode, Measure
+from xavi_dialogue.domain.facts import Measure
 from xavi_dialogue.domain.meaning import Compare, HowMuch, HowSure, Question, When, Whether, Which
 from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
@@ -50,6 +50,8 @@ from xavi_dialogue.explain.answers.suppositions import reacting
 from xavi_dialogue.explain.answers.suppositions.hastening import as_it_was, hastened, past_red
 from xavi_dialogue.explain.answers.suppositions.undone import (
     GOING,
+    as_going_on,
+    braking_of,
     is_halted,
     is_present,
     straight,
@@ -66,7 +68,6 @@ from xavi_dialogue.explain.history.ride import planned
 STANDING = 0.5  # [m/s]
 FAST = 15.0  # [m/s] minimum speed at which staying means staying in the lane
 ABOUT = 1.5  # maximum factor between a time and what the question says about it
-LATELY = 12.0  # [s] maximum age of a braking that may be meant
 PAST = frozenset[ActionName](("overtake", "pass", "avoid"))
 SQUEEZING = frozenset[ActionName](("cut-in", "merge", "pull-out", "pass"))
 
@@ -217,7 +218,7 @@ def of_us(
         return hastened(event, scene, form, struck)
     if event.action in GOING and event.side is None and event.object is None:
         return undone(structs.replace(event, action="stop", manner=()), scene, form, struck)
-    if (drove := _drove(event, scene)) is not None:
+    if (drove := braking_of(event, scene)) is not None:
         raise Unanswered(DidNotHappen(event, (drove,)))
     try:
         tried = against(event, scene)
@@ -242,17 +243,6 @@ def of_us(
         later=tried.later,
         open_at=tried.open_at,
     )
-
-
-def _drove(event: Event, scene: Asked) -> Episode | None:
-    """Find the braking or slowing that is asked about, if we did it recently, or just then."""
-    plain = not event.manner and event.object is None and event.where is None
-    if event.action not in ("brake", "slow-down") or not plain or not is_past(scene, event):
-        return None
-    since = scene.now - LATELY if scene.past is None else scene.past.begin
-    until = scene.now if scene.past is None else scene.past.end
-    found = scene.world.episodes(Ego(), (event.action,), since, until)
-    return found[-1] if found else None
 
 
 def _standing_ahead(scene: Asked, against: Contrast) -> MotionCause | None:
@@ -323,6 +313,7 @@ def undone(event: Event, scene: Asked, form: Asking, struck: int | None) -> Answ
     Raises:
         Unanswered: it cannot be known; or rollouts are needed.
     """
+    event = as_going_on(event, scene)
     names = names_of(event)
     if form == "what-if" and (red := past_red(event, scene)) is not None:
         return red

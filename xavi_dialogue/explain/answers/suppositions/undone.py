@@ -12,6 +12,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.foils import MANOEUVRES
 from xavi_dialogue.explain.answers.reference.naming import is_us
 from xavi_dialogue.explain.answers.reference.occasions import occasion
+from xavi_dialogue.explain.answers.reference.reading import is_past
 from xavi_dialogue.explain.causes.plans.options import risky_onward
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
 from xavi_dialogue.explain.causes.vehicles.when import ROUNDING
@@ -21,6 +22,8 @@ GOING = frozenset[ActionName](("go", "move", "enter", "cross", "speed-up", "cont
 #: Actions of ours because of a hindrance, in the order in which people notice them.
 HINDERED: tuple[ActionName, ...] = ("stand", "stop", "brake", "slow-down", "wait", "give-way")
 HALTED = frozenset[ActionName](("stand", "wait", "stop"))
+LATELY = 12.0  # [s] maximum age of a braking that may be meant
+WALKING = 1.5  # [m/s] up to which we all but stand
 JUST = 0.3  # [s] for which an action still counts as going on after its end
 
 
@@ -74,3 +77,30 @@ def held(asked: Asked) -> list[Episode]:
     """List what hinders us now."""
     found = asked.world.episodes(actor=Ego(), actions=HINDERED, begin=asked.now - JUST)
     return [e for e in found if e.end is None or e.end >= asked.now - JUST]
+
+
+def braking_of(event: Event, scene: Asked) -> Episode | None:
+    """Find the braking or slowing that is asked about, if we did it recently, or just then."""
+    plain = not event.manner and event.object is None and event.where is None
+    if event.action not in ("brake", "slow-down") or not plain or not is_past(scene, event):
+        return None
+    since = scene.now - LATELY if scene.past is None else scene.past.begin
+    until = scene.now if scene.past is None else scene.past.end
+    found = scene.world.episodes(Ego(), (event.action,), since, until)
+    return found[-1] if found else None
+
+
+def as_going_on(event: Event, scene: Asked) -> Event:
+    """Take a stop for our slowing down to walking pace that goes on after we stood."""
+    if event.action != "stop" or (scene.past is not None and scene.past.said):
+        return event
+    stands = scene.world.episodes(Ego(), ("stand",))
+    if not stands or stands[-1].end is None:
+        return event
+    slowing = scene.world.episodes(Ego(), ("brake", "slow-down"), stands[-1].end, scene.now)
+    again = any(
+        one.begin >= stands[-1].end and (one.end is None or one.end >= scene.now - JUST)
+        and one.speed_to is not None and one.speed_to < WALKING
+        for one in slowing
+    )  # fmt: skip
+    return structs.replace(event, action="brake") if again else event
