@@ -163,8 +163,13 @@ def _coming(one: Episode, context: SpeechContext) -> Message:
 
 
 def _there(answer: Verdict, seen: list[Look], said: Clause, slots: dict[str, object]) -> Plan:
-    """Plan who is there, the closest first; or that nobody is, and who is closest."""
-    near = sorted(seen, key=lambda look: look.distance)
+    """Plan who is there, the closest first; or that nobody is, and who is closest.
+
+    Of those behind us, or ahead, the ones in our lane come first.
+    """
+    sides = {look.bearing.partition("-")[0] for look in seen}
+    aside = sides == {"behind"} or sides == {"ahead"}
+    near = sorted(seen, key=lambda look: (aside and look.bearing not in sides, look.distance))
     shown = near[:IN_ONE]
     rows = tuple(
         message("WHO_FAR", who=Who(Vehicle(x.vehicle), x.time), far=Quantity(x.distance, "m"))

@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Relative,
     Road,
     Start,
+    Thing,
     Time,
     Unsaid,
     WholeRide,
@@ -163,14 +164,20 @@ def come_to(clause: Clause) -> Event | None:
     if clause.verb is not None or not isinstance(clause.subject, Ego) or clause.negated:
         return None
     places = [as_thing(c.sem) for c in clause.complements if c.key in ("at", "on", "by", "in")]
-    found = next((p for p in places if isinstance(p, Feature | Junction)), None)
+    found = next((p for p in places if is_come_to(p)), None)
     return None if found is None else Event("arrive", Ego(), found, tense="present")
+
+
+def is_come_to(place: Thing | None) -> bool:
+    """Check whether we come to a place on our way: a junction, a light, a line."""
+    at_junction = isinstance(place, Feature) and place.kind in ("light", "line", "crossing")
+    return at_junction or isinstance(place, Junction)
 
 
 def as_coming_to(of: Proposition) -> Proposition:
     """Take being at a place, asked of its time to come, for our coming there."""
     match of:
-        case Related(relation="on", thing=Ego(), to=Feature() | Junction() as place):
+        case Related(relation="on", thing=Ego(), to=place) if is_come_to(place):
             if of.tense in ("present", "future"):
                 return Happens(Event("arrive", Ego(), place, tense="future"))
     return of

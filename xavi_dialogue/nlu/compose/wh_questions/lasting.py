@@ -33,6 +33,7 @@ from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, timed_by
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
+from xavi_dialogue.nlu.compose.clauses.times import is_come_to
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
 from xavi_dialogue.nlu.compose.verbs.lights import colour_of
@@ -212,7 +213,7 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
     if clause.verb is None and actor is None and behind and as_thing(behind[0]) is not None:
         return HowLong(Event("follow", Ego(), as_thing(behind[0]), tense="future"))
     for phrase in clause.complements:
-        there = clause.verb is None and isinstance(as_thing(phrase.sem), Feature | Junction)
+        there = clause.verb is None and is_come_to(as_thing(phrase.sem))
         if phrase.sem and (phrase.key == "until" or (there and phrase.key in ("to", "into"))):
             return until(as_thing(phrase.sem))
     if isinstance(value, Special) and value.name in SAVING:
@@ -225,8 +226,7 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
         return HowLong(_seen(value))
     if event is not None:
         remaining = clause.verb is not None and clause.verb.key in ("get", "have")
-        ahead = event.tense == "present" and isinstance(event.actor, Ego)
-        if ahead and event.action in _TURNS:
+        if event.tense == "present" and isinstance(event.actor, Ego) and event.action in _TURNS:
             return When(Happens(with_fields(event, tense="future")))  # "in how many seconds"
         if event.action == "arrive" or (remaining and event.action in ("change-left", "go")):
             return _until_there(clause, event)
