@@ -6,6 +6,7 @@ from typing import cast
 
 from msgspec.structs import replace
 
+from planner.record.trace import ON_FOOT
 from xavi_dialogue.domain import terms
 from xavi_dialogue.domain.answers import Verdict
 from xavi_dialogue.domain.facts import Belief, Episode, Fact, Look, Measure, Relating
@@ -165,11 +166,12 @@ def _coming(one: Episode, context: SpeechContext) -> Message:
 def _there(answer: Verdict, seen: list[Look], said: Clause, slots: dict[str, object]) -> Plan:
     """Plan who is there, the closest first; or that nobody is, and who is closest.
 
-    Of those behind us, or ahead, the ones in our lane come first.
+    Of those behind us, or ahead, the vehicles in our lane come first.
     """
     sides = {look.bearing.partition("-")[0] for look in seen}
-    aside = sides == {"behind"} or sides == {"ahead"}
-    near = sorted(seen, key=lambda look: (aside and look.bearing not in sides, look.distance))
+    ours = sides if sides in ({"behind"}, {"ahead"}) else set()
+    lane = {look.vehicle for look in seen if look.bearing in ours and look.kind not in ON_FOOT}
+    near = sorted(seen, key=lambda look: (look.vehicle not in lane, look.distance))
     shown = near[:IN_ONE]
     rows = tuple(
         message("WHO_FAR", who=Who(Vehicle(x.vehicle), x.time), far=Quantity(x.distance, "m"))
