@@ -147,6 +147,9 @@ def asked_of(sem: Sem, time: Time, tense: str = "present") -> Question | None:
             thing = as_thing(sem)
             if isinstance(thing, Described) and isinstance(thing.such, Caused):
                 return WhatWouldChange(thing.such.effect, most=True)
+            match thing:
+                case Described(kind="vehicle", such=Is("wrong", Wanted())):
+                    return Listing("wrong-predictions", time=time)  # "one thing you got wrong"
             if getattr(thing, "plural", False) and not getattr(thing, "number", None):
                 return Listing("vehicles", thing, time)
             return Identify(thing) if thing is not None else None
