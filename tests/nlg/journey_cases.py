@@ -15,7 +15,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure
 from xavi_dialogue.domain.journeys import AbandonedPlan, WayStep
-from xavi_dialogue.domain.terms import Ego, Feature, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Feature, Vehicle
 from xavi_dialogue.domain.traffic_lights import Shown
 
 E = Ego()
@@ -26,6 +26,7 @@ RING = WayStep("roundabout", "exit-straight", 40.0, 1, exit=2)
 SIDEWAYS = WayStep("roundabout", "exit-left", 1.0, 1, exit=3)
 INSIDE = WayStep("roundabout", "exit-right", 12.0, 1, exit=1, inside=True)
 FURTHER = WayStep("roundabout", "exit-right", 60.0, 1, exit=2, inside=True)
+TURN = Episode(E, "exit-left", 9.0, 12.0)
 YIELD = Episode(E, "give-way", 9.0, 12.0, object=Vehicle(1))
 BEFORE = Decided(4.0, ("continue",))
 AFTER = Decided(9.0, ("change-left",), doing=(YIELD,))
@@ -81,6 +82,7 @@ CASES: tuple[Answer, ...] = (
     PeakMoment("slowness", 9.0, (YIELD,), near("speed", 0.0)),
     PeakMoment("slowness", 9.0, (), near("speed", 5.0)),
     PeakMoment("speed", 9.0, (), near("speed", 13.0)),
+    PeakMoment("tightness", 9.0, (TURN,), near("speed", 5.0), kind=Event("turn")),
     PeakMoment("braking", 9.0, (YIELD,), near("deceleration", 3.0)),
     PeakMoment("slowing", 9.0, (YIELD,), near("speed-change", 10.0)),
     PeakMoment("delay", 9.0, (YIELD,), lost(12.0, 21.0), (BLUE,)),

@@ -7,6 +7,7 @@ from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.facts import Belief, Episode, Look, Measure
 from xavi_dialogue.domain.reasons import ChoiceReason
+from xavi_dialogue.domain.terms import Event
 from xavi_dialogue.domain.traffic_lights import Shown
 
 
@@ -45,6 +46,7 @@ class PeakMoment(Value, frozen=True):
     measure: Measure | None = None  # how much it was
     others: tuple[Look, ...] = ()  # vehicles that caused it
     among: bool = False  # of the deeds asked about alone, not of the whole ride
+    kind: Event | None = None  # `meaning.Peak.deed`
 
 
 class Decided(Value, frozen=True):

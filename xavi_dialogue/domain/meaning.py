@@ -120,8 +120,7 @@ class Listing(Value, frozen=True):
 
     of: Literal[
         "events", "vehicles", "options", "beliefs", "causes", "reasons", "stops", "decisions",
-        "wrong-predictions", "capabilities", "rivals",
-        "hidden",  # parts of the road
+        "wrong-predictions", "capabilities", "rivals", "hidden",  # parts of the road
     ]  # fmt: skip
     about: Thing | None = None
     time: Time = Unsaid()

@@ -173,7 +173,7 @@ Extreme: TypeAlias = Literal["highest", "lowest", "first", "last", "mean", "tota
 #: What is at its most at a moment of the ride.
 PeakKind: TypeAlias = Literal[
     "danger", "difficulty", "closeness", "braking", "slowing", "slowness", "speed", "waiting",
-    "delay", "risk", "choice",
+    "delay", "risk", "choice", "tightness",
 ]  # fmt: skip
 
 FeelingKind: TypeAlias = Literal[

@@ -16,6 +16,7 @@ from xavi_dialogue.explain.answers.measuring.closeness import (
     shortest_time,
 )
 from xavi_dialogue.explain.answers.measuring.counting import how_many
+from xavi_dialogue.explain.answers.measuring.tight_turns import tightest
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import Window, window
 from xavi_dialogue.explain.answers.reference.naming import first_look, number
@@ -45,6 +46,8 @@ def peak(question: Peak, asked: Asked) -> Answer:
     if about.instant:
         about = Window(asked.world.begin, asked.now)
     about = Window(max(about.begin, asked.world.begin), min(about.end, asked.now))
+    if question.of == "tightness":
+        return tightest(question.deed or Event("turn"), asked, about)
     if question.deed is not None:
         return _among(question, question.deed, asked, about)
     if question.number > 1 and question.of in RANKS:

@@ -1,10 +1,12 @@
 """Peak moments: extreme moments, decisions, and what changed between them, in words."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from xavi_dialogue.domain.answers import Altered, Decided, PeakMoment, Wavered
 from xavi_dialogue.domain.facts import Belief, Episode
 from xavi_dialogue.domain.terms import Vehicle
+from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlg.content.clauses.clauses import episode_clause
 from xavi_dialogue.nlg.content.clauses.facts import episode_message, verbs_of
 from xavi_dialogue.nlg.content.clauses.manoeuvres import own_verbs
@@ -18,6 +20,10 @@ from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Number, Qua
 UNITS = {"distance": "m", "time-to-collision": "s", "speed": "m/s", "duration": "s",
          "deceleration": "m/s2", "delay": "s", "speed-change": "m/s"}  # fmt: skip
 YIELDING = frozenset(("give-way", "wait", "let-go"))
+#: Nouns of turns.
+TURNS: Mapping[ActionName, str] = {
+    "turn": "turn", "exit-left": "left turn", "exit-right": "right turn",
+}  # fmt: skip
 NAMED = 3  # maximum of vehicles named
 LONG = 1.5  # [s] minimum duration that is stated
 
@@ -46,6 +52,7 @@ def plan_peak_moment(answer: PeakMoment, context: SpeechContext) -> Plan:
         "until": None if measure is None or measure.until is None else Moment(measure.until),
         "going_on": measure is not None and measure.at_least,
         "held": others or None,
+        "kind": None if answer.kind is None else TURNS[answer.kind.action],
         "long": measure is not None and measure.attribute == "duration" and (value or 0.0) >= LONG,
     }
     if measure is not None and value is not None and measure.attribute == "probability":

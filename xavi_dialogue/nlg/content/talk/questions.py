@@ -208,6 +208,7 @@ _PEAKS: Mapping[str, str] = {
     "slowness": "the slowest moment", "speed": "the fastest moment",
     "waiting": "the longest wait", "slowing": "when we slowed down most",
     "delay": "when we lost most time", "risk": "the highest risk", "choice": "the closest decision",
+    "tightness": "the tightest turn",
 }  # fmt: skip
 
 

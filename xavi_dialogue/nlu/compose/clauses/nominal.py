@@ -57,6 +57,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import as_of, of_numbers
+from xavi_dialogue.nlu.compose.clauses.peaks import peak_named
 from xavi_dialogue.nlu.compose.clauses.risks import risk_asked
 from xavi_dialogue.nlu.compose.clauses.sem import (
     Group,
@@ -199,7 +200,7 @@ def _noun(sem: Noun, time: Time, tense: str) -> Question | None:
         case "deed":
             return Doing(Ego(), Rank(-1 if sem.quality == "last" else 1), "past")
         case "peak":
-            return Peak(cast(Any, sem.quality), time, sem.number)
+            return peak_named(sem, time)
         case "plan":
             actor = as_thing(sem.owner) or as_thing(sem.of) or Ego()
             return Doing(actor, time, "future")

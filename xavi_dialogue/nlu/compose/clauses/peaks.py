@@ -1,5 +1,6 @@
 """Peaks: "the hardest moment", "when were we slowest": what was at its most, and when."""
 
+from dataclasses import replace
 from typing import Any, cast
 
 from msgspec import structs
@@ -12,7 +13,9 @@ from xavi_dialogue.domain.terms import (
     Measured,
     Pronoun,
     Quantity,
+    Time,
     Unknown,
+    Unsaid,
     Vehicle,
     Wanted,
 )
@@ -21,14 +24,16 @@ from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.extents import extreme_of
 from xavi_dialogue.nlu.compose.clauses.risks import is_danger
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Moment, Noun, Sem, as_thing
+from xavi_dialogue.nlu.compose.clauses.traits import Traits
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of
 from xavi_dialogue.nlu.grammar.chart import Node
+from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 #: What is at its most at a moment, by superlatives and adjectives.
 _QUALITIES = {
     "nearest": "closeness", "slowest": "slowness", "fastest": "speed", "difficult": "difficulty",
     "dangerous": "danger", "highest": "difficulty", "lowest": "closeness", "important": "danger",
-    "hard": "difficulty", "uncomfortable": "difficulty",
+    "hard": "difficulty", "uncomfortable": "difficulty", "tightest": "closeness",
 }  # fmt: skip
 
 
@@ -113,7 +118,12 @@ def done_most(event: Event, relative: Node | None) -> str:
 #: What a deed of ours is the most of: "the hardest braking", "the longest stop".
 _DEEDS = {"brake": "slowing", "slow-down": "slowing", "stop": "waiting", "wait": "waiting",
           "stand": "waiting", "give-way": "waiting"}  # fmt: skip
-_HARD = frozenset({"highest", "difficult", "biggest"})
+_HARD = frozenset({"highest", "difficult", "biggest", "sharpest"})
+_TIGHT = frozenset({"tightest", "sharpest"})
+_TURNS = frozenset({"turn", "exit-left", "exit-right"})
+_PACED = _TURNS | {"change-lane", "change-left", "change-right", "overtake", "merge", "pass"}
+PEAKS = 3  # of "the hardest brakings" that are stated
+_CURVES = frozenset({"corner", "turning", "bend", "curve", "hairpin"})  # where one turns
 _RISKIEST = frozenset({"highest", "biggest", "dangerous", "worst", "difficult"})
 
 
@@ -127,6 +137,49 @@ def deed_peak(action: str, extreme: str | None) -> str:
     if extreme not in _HARD:
         return ""
     return "braking" if action in ("brake", "slow-down") else _DEEDS.get(action, "")
+
+
+def deed_ranked(sem: Sem, extreme: str | None) -> Noun | None:
+    """Read "the slowest turn", "the fastest lane change" as the deed of its kind that is that."""
+    if not isinstance(sem, Event) or not isinstance(sem.actor, Ego) or sem.tense == "future":
+        return None
+    if sem.object is not None or not isinstance(sem.time, Unsaid):
+        return None
+    tight = extreme in _TIGHT and sem.action in _TURNS
+    quality = "tightness" if tight else _PACES.get(extreme or "", "")
+    return Noun("peak", of=sem, quality=quality) if quality and sem.action in _PACED else None
+
+
+def curve_ranked(words: tuple[str, ...], extreme: str | None) -> Noun | None:
+    """Read "the tightest bend", "the slowest corner" as the turn that is that."""
+    return deed_ranked(Event("turn"), extreme) if _CURVES.intersection(words) else None
+
+
+def braked_most(sem: Sem | None, extreme: str | None) -> str:
+    """Name what "the hardest bit of braking" is the peak of; "" for nothing."""
+    return deed_peak(sem.action, extreme) if isinstance(sem, Event) else ""
+
+
+def deed_asked(clause: Clause, sem: Sem, words: tuple[str, ...]) -> Peak | None:
+    """Read "which turn was the tightest", "which lane change did you make fastest"."""
+    said = (leaf.key for _, node in clause.objects for leaf in leaves_of(node))
+    for extreme in (*said, *sorted(clause.focus)):
+        found = curve_ranked(words, extreme) or deed_ranked(sem, extreme)
+        if found is not None:
+            return peak_named(found, clause.time)
+    return None
+
+
+def peak_named(noun: Noun, time: Time) -> Peak:
+    """Ask for the peak that a noun names."""
+    deed = noun.of if isinstance(noun.of, Event) else None
+    return Peak(cast(Any, noun.quality), time, noun.number, deed)
+
+
+def peaks_of(head: Leaf, traits: Traits, quality: str) -> Noun:
+    """Name the moments at which something was at its most: "the three hardest brakings"."""
+    number = traits.fields.get("number", PEAKS if head.form == "plural" else 1)
+    return Noun("peak", word=head.words[-1], quality=quality, number=number)
 
 
 def extreme_told(clause: Clause) -> HowMuch | None:
@@ -167,7 +220,9 @@ def peak_of(clause: Clause) -> Peak | None:
     verb = None if clause.verb is None else clause.verb.key
     subject = clause.subject
     if verb is None and isinstance(subject, Noun) and subject.key == "peak" and subject.quality:
-        return Peak(cast(Any, subject.quality), clause.time, subject.number)
+        braked = any(braked_most(c.sem, "highest") for c in clause.complements if c.key == "of")
+        hard = braked and subject.quality == "difficulty"  # "the hardest bit of braking"
+        return peak_named(replace(subject, quality="braking") if hard else subject, clause.time)
     if verb is None and is_danger(subject) and most_of(clause) == "difficulty":
         return Peak("risk", clause.time)  # "when was the risk highest?"
     if verb is not None and (most := _done_most(verb, clause)):

@@ -2,7 +2,15 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.terms import Described, Event, Pronoun, Proposition, Thing, Wanted
+from xavi_dialogue.domain.terms import (
+    Described,
+    Event,
+    Happens,
+    Pronoun,
+    Proposition,
+    Thing,
+    Wanted,
+)
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem
 from xavi_dialogue.nlu.grammar.chart import Node
@@ -76,3 +84,9 @@ def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
         kind=cast(Any, kind), plural=not traits.one_of and (plural or many),
         other=traits.other, **fields,
     )  # fmt: skip
+
+
+def still_due(clause: Proposition | None) -> bool:
+    """Say whether a relative clause is of what is to come: "the turns we still have to make"."""
+    event = clause.event if isinstance(clause, Happens) else None
+    return event is not None and (event.tense == "future" or event.modal == "must")

@@ -21,7 +21,6 @@ from xavi_dialogue.domain.terms import (
     Nobody,
     Passenger,
     Pronoun,
-    Proposition,
     Rank,
     Record,
     Road,
@@ -31,7 +30,16 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
 )
 from xavi_dialogue.nlu.compose.clauses.extents import SLOWING, extent_of
-from xavi_dialogue.nlu.compose.clauses.peaks import deed_peak, done_most, most_risk, quality_of
+from xavi_dialogue.nlu.compose.clauses.peaks import (
+    braked_most,
+    curve_ranked,
+    deed_peak,
+    deed_ranked,
+    done_most,
+    most_risk,
+    peaks_of,
+    quality_of,
+)
 from xavi_dialogue.nlu.compose.clauses.risks import risk_of
 from xavi_dialogue.nlu.compose.clauses.sem import (
     Group,
@@ -43,13 +51,12 @@ from xavi_dialogue.nlu.compose.clauses.sem import (
     as_thing,
     is_thing,
 )
-from xavi_dialogue.nlu.compose.clauses.traits import Traits, described
+from xavi_dialogue.nlu.compose.clauses.traits import Traits, described, still_due
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.verbs.lights import light_of
 from xavi_dialogue.nlu.grammar.chart import Node
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
-PEAKS = 3  # of "the hardest brakings" that are stated
 _PLACES: dict[str, Thing] = {
     "destination": Destination(),
     "own-lane": Lane("own"),
@@ -81,11 +88,12 @@ def noun(head: Leaf | Node | None, traits: Traits) -> Sem:
         case "KIND":
             return _vehicle(head, traits, plural)
         case "PLACEN":
-            return _place(head, traits)
+            return curve_ranked(head.words, traits.extreme) or _place(head, traits)
         case "MEAS":
             return _measure(head, traits, plural)
         case "EVN":
-            return _deed(head, traits)
+            found = _deed(head, traits)
+            return deed_ranked(found, traits.extreme) or found
         case "RIDE":
             return Record() if head.key == "record" else Noun("ride", word=head.words[-1])
         case "UNIT" | "TUNIT" | "TIMES":
@@ -98,6 +106,7 @@ def noun(head: Leaf | Node | None, traits: Traits) -> Sem:
 
 
 _SEVERAL = frozenset({"people", "children", "schoolchildren"})  # irregular plurals
+_BARE = ("highest", "lowest", "mean", "total", "best", "tightest", "sharpest")
 _MET = (Vehicle, Described, Pronoun)
 
 
@@ -110,7 +119,7 @@ def _without_head(traits: Traits) -> Sem:
     extent = extent_of(traits)
     if extent is not None:
         return extent
-    if traits.extreme in ("highest", "lowest", "mean", "total", "best") and not traits.fields:
+    if traits.extreme in _BARE and not traits.fields:
         return Unknown(traits.extreme)
     if traits.unknown:
         return Unknown(" ".join(traits.unknown))
@@ -264,7 +273,7 @@ def _measure(head: Leaf, traits: Traits, plural: bool) -> Sem:
     )  # fmt: skip
     highest = {"nearest": "lowest", "fastest": "highest", "slowest": "lowest",
                "farthest": "highest", "biggest": "highest", "smallest": "lowest",
-               "difficult": "highest"}  # fmt: skip
+               "difficult": "highest", "sharpest": "highest", "tightest": "lowest"}  # fmt: skip
     extreme = highest.get(traits.extreme or "", traits.extreme)
     closest = "lowest" if {"closest", "nearest", "close", "minimum"} & set(head.words) else None
     extreme = extreme if extreme in ("highest", "lowest", "mean", "total") else closest
@@ -277,7 +286,7 @@ def _deed(head: Leaf, traits: Traits) -> Sem:
     if head.key == "do" and traits.ordinal in (-1, 1) and traits.determiner == "def":
         return Noun("deed", word=head.words[-1], quality="last" if traits.ordinal < 0 else "first")
     if most := deed_peak(head.key, traits.extreme):
-        return _peaks(head, traits, most)
+        return peaks_of(head, traits, most)
     if head.key == "do" and traits.extreme and quality_of(traits.extreme, traits.adjectives):
         quality = quality_of(traits.extreme, traits.adjectives, head.words)
         return Noun("peak", word=head.words[-1], quality=quality)
@@ -296,25 +305,13 @@ def _deed(head: Leaf, traits: Traits) -> Sem:
     manner = tuple(a for a in ("hard", "sudden", "late", "early") if a in said)
     manners = tuple("suddenly" if a == "sudden" else a for a in manner)
     obj = next((as_thing(s) for k, s in traits.about if k in ("for", "into", "with")), None)
-    due = traits.following or _still_due(traits.clause)
+    due = traits.following or still_due(traits.clause)
     if due and action in ("turn", "exit-left", "exit-right", "change-lane", "stop"):
         return Event(cast(Any, action), actor, obj, side, tense="future")
     if known or (action == "do" and traits.determiner == "def"):
         return Event("do", actor, Pronoun("that"))
     rank = Unsaid() if traits.ordinal is None else Rank(traits.ordinal)
     return Event(cast(Any, action), actor, obj, side, cast(Any, manners), rank)
-
-
-def _still_due(clause: Proposition | None) -> bool:
-    """Say whether a relative clause is of what is to come: "the turns we still have to make"."""
-    event = clause.event if isinstance(clause, Happens) else None
-    return event is not None and (event.tense == "future" or event.modal == "must")
-
-
-def _peaks(head: Leaf, traits: Traits, quality: str) -> Noun:
-    """Name the moments at which something was at its most: "the three hardest brakings"."""
-    number = traits.fields.get("number", PEAKS if head.form == "plural" else 1)
-    return Noun("peak", word=head.words[-1], quality=quality, number=number)
 
 
 def _abstract(head: Leaf, traits: Traits, plural: bool) -> Sem:
@@ -324,12 +321,13 @@ def _abstract(head: Leaf, traits: Traits, plural: bool) -> Sem:
         return Event(cast(Any, traits.deed))  # "the stop branch"
     if head.key == "event" and traits.place is not None:
         return traits.place  # "the roundabout business"
-    quality = quality_of(traits.extreme, traits.adjectives)
+    quality = braked_most(traits.of, traits.extreme)
+    quality = quality or quality_of(traits.extreme, traits.adjectives)
     if quality and (head.key in ("peak", "event") or "call" in head.words):
         return Noun("peak", word=" ".join(head.words), quality=quality)
     deed = traits.clause.event if isinstance(traits.clause, Happens) else None
     if head.key in ("time", "moment") and deed and (most := done_most(deed, traits.gerund)):
-        return _peaks(head, traits, most)
+        return peaks_of(head, traits, most)
     about = next((s for k, s in traits.about), None)
     extreme = traits.extreme if traits.extreme in ("highest", "lowest", "best") else None
     owner = traits.owner

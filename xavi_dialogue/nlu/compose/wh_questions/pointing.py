@@ -7,7 +7,7 @@ from xavi_dialogue.domain.terms import Described, That, Thing
 from xavi_dialogue.domain.vocabulary import Bearing
 from xavi_dialogue.nlu.compose.alternatives.nearness import is_choice, rivals
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.peaks import nearest_of, peak_of
+from xavi_dialogue.nlu.compose.clauses.peaks import deed_asked, nearest_of, peak_of
 from xavi_dialogue.nlu.compose.clauses.sem import Noun, as_thing
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh, is_that
 
@@ -19,6 +19,8 @@ def pointed(wh: Wh, clause: Clause) -> Question | None:
     """Ask for what stands out, "where did you brake hardest?"; or "who was that for?"."""
     if wh.kind == "when" and (nearest := nearest_of(clause)) is not None:
         return nearest
+    if wh.sem is not None and (deed := deed_asked(clause, wh.sem, wh.words)) is not None:
+        return deed
     most = peak_of(clause)
     if most is not None and any(map(is_choice, (wh.of, wh.sem, clause.subject))):
         return rivals(clause)  # "which of the other options came closest"
