@@ -29,6 +29,7 @@ from xavi_dialogue.nlu.compose.propositions.adjuncts import CLAUSES, Adjuncts
 from xavi_dialogue.nlu.compose.propositions.tally import frequency
 from xavi_dialogue.nlu.compose.propositions.things import Nouns
 from xavi_dialogue.nlu.compose.states.positions import place_of
+from xavi_dialogue.nlu.compose.verbs.causing import let_apart
 from xavi_dialogue.nlu.compose.verbs.lights import on_light
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
@@ -127,14 +128,10 @@ class Phrases(Adjuncts):
     def _on_vp(self, node: Node, clause: Clause) -> None:
         self.slots.fill(node.parts, clause)
 
-    _on_copular = _on_vp
-    _on_state = _on_vp
-    _on_verbless = _on_vp
+    _on_copular = _on_state = _on_verbless = _on_vp
     _on_short_gerund = _on_vp
     _on_vp_odd = _on_vp
-    _on_hads = _on_vp
-    _on_finite = _on_vp
-    _on_finite_short = _on_vp
+    _on_hads = _on_finite = _on_finite_short = _on_vp
     _on_inverted = _on_vp
     _on_pre_to = _on_vp
     _on_late_not = _on_vp
@@ -147,7 +144,9 @@ class Phrases(Adjuncts):
     def _on_object(self, node: Node, clause: Clause) -> None:
         if clause.verb is not None and words_of(node) in _REFLEXIVE:
             return  # "it has tucked itself in"
-        named = self.nouns.read(cast(Node, node.parts[0]))
+        *before, whole = let_apart(cast(Node, node.parts[0]), clause)
+        clause.objects += [(self.nouns.read(who), node) for who in before]
+        named, node = self.nouns.read(whole), Node("object", (whole,), node.start, node.end, 0.0)
         if clause.comma == node.start and is_named(named) and takes_name(clause):
             clause.subject = named  # "is it fast, that bus?"
             return

@@ -32,10 +32,10 @@ from xavi_dialogue.nlu.compose.clauses.tree import leaves_of, words_of
 from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
 from xavi_dialogue.nlu.compose.states.positions import by_event
 from xavi_dialogue.nlu.compose.states.states import state_of
+from xavi_dialogue.nlu.compose.verbs.causing import CAUSATIVE, let_do, slowed
 from xavi_dialogue.nlu.compose.verbs.events import event_of, when
 from xavi_dialogue.nlu.compose.verbs.lights import shining
 from xavi_dialogue.nlu.grammar.chart import Budget
-from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 SPREAD = 0.45  # readings that cost this much more than the best are not offered
 NO_PREDICATE = 1.0
@@ -292,14 +292,14 @@ def _for_subject(governed: Clause, one: Match) -> None:
 
 
 _MEANWHILE = frozenset({"follow", "wait", "give-way", "let-go", "block"})
-_CAUSATIVE = frozenset({"make", "let", "help", "see", "force"})
 
 
 def _regovern(clause: Clause) -> None:
     """Read "made you switch" as object and bare infinitive, not as a clause of its own."""
     inner = clause.that
-    _slowed(clause)
-    if clause.verb is None or clause.verb.key not in _CAUSATIVE or inner is None:
+    slowed(clause)
+    let_do(clause)
+    if clause.verb is None or clause.verb.key not in CAUSATIVE or inner is None:
         return
     if clause.objects or inner.subject is None or inner.aux:
         return
@@ -319,22 +319,6 @@ def _own_car(clause: Clause) -> None:
     verb = clause.verb.key if clause.verb is not None else ""
     if verb and verb not in _TOWARDS and not to_us:
         clause.subject = Ego()
-
-
-def _slowed(clause: Clause) -> None:
-    """Read "made you slow down" as the verb, not as the adjective and a particle."""
-    causing = clause.verb is not None and clause.verb.key in _CAUSATIVE | {"get", "cause"}
-    slow = "slowly" in clause.manner or ("slow", "") in clause.adjectives
-    downs = [leaf for leaf in clause.particles if leaf.key in ("down", "up")]
-    if not (causing and slow and downs and clause.objects):
-        return
-    verb = cast(Any, clause.verb)
-    leaf = Leaf("V", "slow", "base", ("slow",), (), verb.start, verb.end, 0.0)
-    clause.bare = Clause(subject=clause.objects[0][0], verb=leaf, particles=downs,
-                         complements=clause.complements, chained=clause.chained)  # fmt: skip
-    clause.adjectives, clause.complements, clause.chained = [], [], []
-    clause.manner = [manner for manner in clause.manner if manner != "slowly"]
-    clause.particles = [leaf for leaf in clause.particles if leaf not in downs]
 
 
 def _objects(clause: Clause) -> tuple[Any, ...]:
