@@ -122,6 +122,8 @@ class Adjuncts:
             self.slots.fill(node.parts, clause)
 
     def _on_hads_clause(self, node: Node, clause: Clause) -> None:
+        if clause.subject is None and clause.verb is None:
+            self.notes.unknown.append(node.leaves[0])  # "how long had he been waiting?"
         clause.condition = self.clause(cast(Node, node.parts[0]))
 
     def _on_when(self, node: Node, clause: Clause) -> None:

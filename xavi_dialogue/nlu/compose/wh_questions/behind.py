@@ -1,7 +1,9 @@
 """Behind what: who is ahead of somebody, or holds him up: "what are we stuck behind?"."""
 
 from dataclasses import replace
-from typing import Final
+from typing import Any, Final, cast
+
+from msgspec import structs
 
 from xavi_dialogue.domain.terms import (
     Described,
@@ -9,6 +11,7 @@ from xavi_dialogue.domain.terms import (
     Event,
     Feature,
     Happens,
+    Is,
     Pronoun,
     Proposition,
     Related,
@@ -16,13 +19,18 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.nlu.compose.clauses.candidates import Special
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement
 from xavi_dialogue.nlu.compose.clauses.sem import as_thing
+from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
 from xavi_dialogue.nlu.compose.states.predicates import tense_of
 from xavi_dialogue.nlu.grammar.chart import Node
 
 #: What one does where one is held up.
 _HELD: Final = frozenset({"stand", "sit", "wait", "queue", "line-up", "park", "hold"})
+#: Where somebody stays, by where he is seen.
+_PLACES: Final = {"ahead": "ahead-of", "behind": "behind", "left": "left-of", "right": "right-of",
+                  "beside": "beside"}  # fmt: skip
 _HINDERED: Final = frozenset({"stuck", "occupied"})
 _STANDING: Final = frozenset({"stuck", "stationary"})
 _DRIVEN: Final = frozenset({"drive", "travel", "crawl", "go"})
@@ -81,3 +89,33 @@ def blamed_for(clause: Clause) -> Thing | None:
     cause = clause.because
     whom = None if isinstance(cause, Clause) else as_thing(cause)
     return whom if isinstance(whom, Described | Vehicle | Pronoun) else None
+
+
+def staying(clause: Clause, value: object) -> Proposition | None:
+    """Read "has the van been behind us", "was it in view" as where it was, not as which it is.
+
+    The place behind a noun is read as part of its description.
+    """
+    thing = as_thing(clause.subject)
+    named = isinstance(value, Is) and value.state == "present"
+    if not isinstance(thing, Described) or not (value is None or named):
+        return None
+    place = thing.bearing or ""
+    if clause.tense == "present" or (place != "around" and place not in _PLACES):
+        return None
+    there = structs.replace(thing, bearing=None, of=None)
+    tense: Any = clause.tense
+    if place == "around":
+        return Is("visible", there, time=clause.time, tense=tense)
+    return Related(cast(Any, _PLACES[place]), there, thing.of or Ego(), clause.time, tense)
+
+
+def seen(value: Special) -> Proposition:
+    """Take knowing of a vehicle for seeing it."""
+    sems = (value.object, *value.match.phrases.values())
+    thing = next((t for t in map(as_thing, sems) if t is not None), None)
+    if thing is None:
+        return proposition_of(value)
+    return Related(
+        "can-see", value.subject, thing, value.clause.time, cast(Any, value.clause.tense)
+    )

@@ -19,7 +19,6 @@ from xavi_dialogue.domain.terms import (
     Not,
     Passenger,
     Pronoun,
-    Proposition,
     Related,
     Relative,
     That,
@@ -37,14 +36,13 @@ from xavi_dialogue.nlu.compose.clauses.times import is_come_to
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.propositions.specials import proposition_of
 from xavi_dialogue.nlu.compose.verbs.lights import colour_of
-from xavi_dialogue.nlu.compose.wh_questions.behind import blamed_for, following
+from xavi_dialogue.nlu.compose.wh_questions.behind import blamed_for, following, seen, staying
 
 #: What is driving as such, and no moment of the ride.
 DRIVING = frozenset({"move", "go", "do", "continue", "happen", "speed-up", "slow-down"})
 SAVING = ("save", "gain")  # what a manoeuvre does with time
 #: What lasts beside events.
 _STATES = (Related, Is, Has, Exists, Compares, Not)
-_TURNS = frozenset({"turn", "exit-left", "exit-right", "exit-straight"})
 _TURNS = frozenset({"turn", "exit-left", "exit-right"})
 _SEEING = frozenset({"see", "look", "watch", "know", "track", "notice"})
 
@@ -223,7 +221,7 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
     if isinstance(value, Special) and value.name in ("take-time", "last", "take-care"):
         return _taking(clause, value, actor)
     if isinstance(value, Special) and value.name in _SEEING:
-        return HowLong(_seen(value))
+        return HowLong(seen(value))
     if event is not None:
         remaining = clause.verb is not None and clause.verb.key in ("get", "have")
         if event.tense == "present" and isinstance(event.actor, Ego) and event.action in _TURNS:
@@ -238,6 +236,7 @@ def long_lasting(clause: Clause, event: Event | None, value: Any, actor: Thing |
         return HowLong(subject)
     if isinstance(value, Special) and value.name == "stay-colour":
         return HowLong(proposition_of(value))
+    value = staying(clause, value) or value
     lasts = isinstance(actor, Ego) or clause.tense != "present"
     if isinstance(value, _STATES) and (lasts or getattr(value, "attribute", None) == "colour"):
         return HowLong(value)
@@ -299,15 +298,6 @@ def _taking(clause: Clause, value: Special, actor: Thing | None) -> Question:
     if isinstance(clause.subject, Noun) and clause.subject.key == "ride":
         return HowMuch(Measured("time-to-go" if clause.tense == "future" else "time"))
     return measured("duration", clause, actor)
-
-
-def _seen(value: Special) -> Proposition:
-    """Take knowing of a vehicle for seeing it."""
-    sems = (value.object, *value.match.phrases.values())
-    thing = next((t for t in map(as_thing, sems) if t is not None), None)
-    if thing is None:
-        return proposition_of(value)
-    return Related("can-see", value.subject, thing, tense=cast(Any, value.clause.tense))
 
 
 def since(clause: Clause, value: Any) -> Question | None:
