@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -12,11 +12,8 @@ from benchmarks.foreign.commands import of_networks
 from benchmarks.planning.commands import of_planning
 
 if TYPE_CHECKING:
-    from benchmarks.figures import Report
+    from benchmarks.figures import Report, Show
     from benchmarks.sufficiency.sufficiency import SufficiencyReport
-
-Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # gets a function for notes
-Show: TypeAlias = Callable[[Measure, bool], None]  # measures, and prints: as JSON or for people
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Scenarios = Annotated[
@@ -40,7 +37,7 @@ Page = Annotated[
 ]
 
 
-def commands(show: Show) -> typer.Typer:
+def commands(show: "Show") -> typer.Typer:
     """Return the group of commands.
 
     Args:
@@ -82,7 +79,7 @@ def commands(show: Show) -> typer.Typer:
     return group
 
 
-def _of_answers(group: typer.Typer, show: Show) -> None:
+def _of_answers(group: typer.Typer, show: "Show") -> None:
     """Add the commands that judge answers."""
 
     @group.command("causes")
@@ -121,7 +118,7 @@ def _of_answers(group: typer.Typer, show: Show) -> None:
     _of_time(group, show)
 
 
-def _of_time(group: typer.Typer, show: Show) -> None:
+def _of_time(group: typer.Typer, show: "Show") -> None:
     """Add the commands that time answers and the dashboard."""
 
     @group.command("explain")
@@ -154,7 +151,7 @@ def _of_time(group: typer.Typer, show: Show) -> None:
         show(lambda note: dashboard(seconds, minutes, note), as_json)
 
 
-def _of_parsing(group: typer.Typer, show: Show) -> None:
+def _of_parsing(group: typer.Typer, show: "Show") -> None:
     """Add the commands that judge understanding."""
 
     @group.command("parse")

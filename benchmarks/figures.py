@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from statistics import quantiles
-from typing import Literal, Protocol, TypeVar
+from typing import Literal, Protocol, TypeAlias, TypeVar
 
 import msgspec
 from msgspec.structs import replace
@@ -17,6 +17,10 @@ class Report(Protocol):
 
     def table(self) -> str:
         """Return the report for people."""
+
+
+Measure: TypeAlias = Callable[[Callable[[str], None]], Report]  # gets a function for notes
+Show: TypeAlias = Callable[[Measure, bool], None]  # measures, and prints: as JSON or for people
 
 
 class Target(msgspec.Struct, frozen=True):

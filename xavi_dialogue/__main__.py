@@ -8,7 +8,7 @@ import sys
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 from typer.core import TyperGroup
@@ -132,10 +132,13 @@ def _add_benchmarks() -> None:
         return
     if str(top) not in sys.path:
         sys.path.append(str(top))
-    from benchmarks.commands import Measure, commands
+    from benchmarks.commands import commands
     from benchmarks.reproduce.command import command as reproduce
 
-    def measured(measure: Measure, as_json: bool) -> None:
+    if TYPE_CHECKING:
+        from benchmarks.figures import Measure
+
+    def measured(measure: "Measure", as_json: bool) -> None:
         with _errors():
             found = measure(_note)
         _write(to_json(found) if as_json else found.table())

@@ -2,20 +2,17 @@
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeAlias
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from benchmarks.chosen import ours, processes, there
 
 if TYPE_CHECKING:
-    from benchmarks.figures import Report
-
-Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # gets a function for notes
-Show: TypeAlias = Callable[[Measure, bool], None]  # measures, and prints: as JSON or for people
+    from benchmarks.figures import Report, Show
 
 
-def of_foils(group: typer.Typer, show: Show) -> None:
+def of_foils(group: typer.Typer, show: "Show") -> None:
     """Add the command that compares foils with what SUMO makes of them."""
 
     @group.command("fidelity")

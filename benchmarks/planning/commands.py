@@ -3,18 +3,15 @@
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeAlias
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 if TYPE_CHECKING:
-    from benchmarks.figures import Report
-
-Measure: TypeAlias = Callable[[Callable[[str], None]], "Report"]  # gets a function for notes
-Show: TypeAlias = Callable[[Measure, bool], None]  # measures, and prints: as JSON or for people
+    from benchmarks.figures import Report, Show
 
 
-def of_planning(group: typer.Typer, show: Show) -> None:
+def of_planning(group: typer.Typer, show: "Show") -> None:
     """Add the command that times decisions."""
 
     @group.command("plan")

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from benchmarks.commands import AsJson, Jobs, Show
+from benchmarks.commands import AsJson, Jobs
 
 if TYPE_CHECKING:
-    from benchmarks.figures import Report
+    from benchmarks.figures import Report, Show
 
 
-def command(show: Show) -> Callable[..., None]:
+def command(show: "Show") -> Callable[..., None]:
     """Return the command.
 
     Args:
