@@ -59,7 +59,7 @@ from xavi_dialogue.explain.causes.vehicles.announced import announced
 from xavi_dialogue.explain.history.motion import Trend
 from xavi_dialogue.explain.history.thresholds import STANDING
 
-SURE = 0.95  # minimum probability of a turn on our way whose time is told
+SURE = 0.95  # minimum share of the rollouts that come to a turn, for its time to be stated
 LIKELY = 0.5  # minimum probability of what is going to happen
 CHANGING = 0.1  # [m/s2] minimum acceleration of a changing speed
 

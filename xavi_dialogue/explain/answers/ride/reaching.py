@@ -1,6 +1,7 @@
 """Reaching: when we come to a place on our way, or draw level with a vehicle.
 
-For places, that is by our plan; for vehicles, at the present speeds.
+For places, that is by our plan, or at our present speed where its simulations do not come there;
+for vehicles, at the present speeds.
 """
 
 from xavi_dialogue.domain.answers import Answer, Measures
@@ -62,7 +63,7 @@ def _at_feature(asked: Asked, of: Feature) -> Answer | None:
 
 
 def _at_place(asked: Asked, place: Junction | Feature, distance: float | None) -> Answer | None:
-    """Return when we come to a place that is some distance [m] ahead, by our plan."""
+    """Return when we come to a place a distance [m] ahead; how far it is if we slow down."""
     if distance is None:
         return None
     if distance <= AT_PLACE:

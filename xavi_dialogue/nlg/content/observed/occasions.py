@@ -8,42 +8,9 @@ from xavi_dialogue.domain.terms import Event, Thing, Vehicle
 from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Moment, Who
 
-BETWEEN = 0.5  # [s] between two times that are counted as two
-
+BETWEEN = 0.5  # [s] minimum pause between two times that count as two
 TOWARDS = {"give-way": "to", "wait": "for", "let-go": "for"}  # prepositions of their objects
-MANY = 5  # maximum of times, and of vehicles at each, that are told one by one
-
-
-def _apart(answer: Counted) -> list[tuple[float, list[Thing]]]:
-    """Return when it happened and with whom; what overlaps what was before is one time."""
-    rows: list[tuple[float, list[Thing]]] = []
-    until = -inf
-    for fact in answer.facts:
-        if isinstance(fact, Episode):
-            if fact.begin >= until + BETWEEN:
-                rows.append((fact.begin, []))
-            until = max(until, inf if fact.end is None else fact.end)
-            _add(answer, fact, rows)
-    return rows
-
-
-def _by_beginning(answer: Counted) -> list[tuple[float, list[Thing]]]:
-    """Return as many beginnings as were counted, with whom it happened."""
-    rows: list[tuple[float, list[Thing]]] = []
-    for fact in answer.facts:
-        if isinstance(fact, Episode):
-            if not rows or (answer.count > len(rows) and fact.begin > rows[-1][0]):
-                rows.append((fact.begin, []))
-            _add(answer, fact, rows)
-    return rows
-
-
-def _add(answer: Counted, fact: Episode, rows: list[tuple[float, list[Thing]]]) -> None:
-    """Add to the last time the vehicle of an episode, if the question left that open."""
-    assert isinstance(answer.of, Event)
-    whom = fact.object
-    if isinstance(whom, Vehicle) and whom != answer.of.object and whom not in rows[-1][1]:
-        rows[-1][1].append(whom)
+MANY = 5  # maximum number of times that are listed, and of vehicles at each
 
 
 def occasions_counted(answer: Counted) -> tuple[Message, ...] | None:
@@ -63,3 +30,35 @@ def occasions_counted(answer: Counted) -> tuple[Message, ...] | None:
         else message("OCCASION", when=Moment(begin))
         for begin, who in rows
     )
+
+
+def _apart(answer: Counted) -> list[tuple[float, list[Thing]]]:
+    """Return the times and the vehicles at each; episodes that overlap are one time."""
+    rows: list[tuple[float, list[Thing]]] = []
+    until = -inf
+    for fact in answer.facts:
+        if isinstance(fact, Episode):
+            if fact.begin >= until + BETWEEN:
+                rows.append((fact.begin, []))
+            until = max(until, inf if fact.end is None else fact.end)
+            _add(answer, fact, rows)
+    return rows
+
+
+def _by_beginning(answer: Counted) -> list[tuple[float, list[Thing]]]:
+    """Return the first beginnings, as many as were counted, and the vehicles at each."""
+    rows: list[tuple[float, list[Thing]]] = []
+    for fact in answer.facts:
+        if isinstance(fact, Episode):
+            if not rows or (answer.count > len(rows) and fact.begin > rows[-1][0]):
+                rows.append((fact.begin, []))
+            _add(answer, fact, rows)
+    return rows
+
+
+def _add(answer: Counted, fact: Episode, rows: list[tuple[float, list[Thing]]]) -> None:
+    """Add to the last time the vehicle of an episode, if the question left that open."""
+    assert isinstance(answer.of, Event)
+    whom = fact.object
+    if isinstance(whom, Vehicle) and whom != answer.of.object and whom not in rows[-1][1]:
+        rows[-1][1].append(whom)
