@@ -6,7 +6,8 @@ import msgspec
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks.commands import Measure, commands
+from benchmarks.commands import commands
+from benchmarks.figures import Measure
 from benchmarks.sufficiency import sufficiency
 from benchmarks.sufficiency.sufficiency import SufficiencyReport, report
 from benchmarks.sufficiency.sufficiency_asking import Answered, Put, questions
