@@ -38,6 +38,7 @@ from xavi_dialogue.domain.findings import (
     PlanAhead,
     Priority,
     PullingUp,
+    Simulations,
     Slowing,
     Staying,
     Unblocking,
@@ -76,9 +77,10 @@ __all__ = [
     "Method", "MotionCause", "MotionReason", "NeedRollout", "NoSuchVehicle", "NobodyElse",
     "NotApplicable", "NotRecorded", "NotUnderstood", "NothingToAsk", "Options", "OtherReason",
     "OutcomeEstimate", "OwnSignal", "PeakMoment", "PlaceReason", "PlanAhead", "Posed", "Priority",
-    "PullingUp", "Reaction", "Reason", "Refusal", "Share", "SignalReason", "Slowing", "Sociable",
-    "Staying", "SupposedOfOther", "SupposedOfUs", "TakenAs", "Term", "TooLittle", "Unavailable",
-    "Unblocking", "Unfamiliar", "Unslowed", "Verdict", "Wavered", "Weighing", "WhichOne",
+    "PullingUp", "Reaction", "Reason", "Refusal", "Share", "SignalReason", "Simulations", "Slowing",
+    "Sociable", "Staying", "SupposedOfOther", "SupposedOfUs", "TakenAs", "Term", "TooLittle",
+    "Unavailable", "Unblocking", "Unfamiliar", "Unslowed", "Verdict", "Wavered", "Weighing",
+    "WhichOne",
 ]  # fmt: skip
 
 # --- talk ---------------------------------------------------------------------------------------
@@ -306,6 +308,7 @@ Answer: TypeAlias = (
     | Comfort
     | Closeness
     | PullingUp
+    | Simulations
     | Slowing
     | Unblocking
     | Course

@@ -3,6 +3,7 @@
 from typing import Literal
 
 from planner.record.trace import Action as MacroAction
+from planner.record.trace import Outcome
 from xavi_dialogue.domain.base import Value
 from xavi_dialogue.domain.evidence import Contrast, Evidence, Weighing
 from xavi_dialogue.domain.facts import (
@@ -179,6 +180,21 @@ class Options(Value, frozen=True):
     rival: Weighing | None = None  # only the next best; how the chosen one compares with it
     named: bool = False  # the rival is the one asked about instead of the next best
     closest: bool = False  # of all decisions, it is the one with the rival nearest in value
+    counted: bool = False  # the question is how many there are
+
+
+class Simulations(Value, frozen=True):
+    """The simulations of a decision, by how they ended."""
+
+    decided: float  # [s]
+    runs: int  # rollouts, of the option if one is named
+    ends: tuple[tuple[Outcome, int], ...]  # of these, without those that are none
+    evidence: Evidence
+    asked: Outcome | None = None  # only how many ended so
+    of: MacroAction | None = None  # the option that they began with; None: any
+    struck: tuple[tuple[int, int], ...] = ()  # by vehicle: runs that collided with it, most first
+    options: int = 0  # number of first actions that they tried
+    apart: bool = False  # an end was asked about that is not counted
 
 
 class Compared(Value, frozen=True):

@@ -121,6 +121,8 @@ Attribute: TypeAlias = Literal[
     "turn",  # which way at the next junction
     "route",  # the way to the destination
     "count",
+    "simulations",  # of a decision: of the option in `about`, that ended as the event says
+    "options",  # of a decision
     "weather", "sound", "battery", "money", "law", "world",  # what no record holds
     "load", "occupant", "writing", "parts",  # of a vehicle: what cannot be seen from outside
 ]  # fmt: skip

@@ -16,6 +16,7 @@ from xavi_dialogue.nlg.content.observed import (
     peak_moments,
     people,
     safety,
+    simulations,
     turns,
     whereabouts,
 )
@@ -48,6 +49,7 @@ FACTS: dict[type, Planner] = {
     answers.Altered: peak_moments.plan_altered,
     answers.Wavered: peak_moments.plan_wavered,
     answers.Beliefs: beliefs.plan_beliefs,
+    answers.Simulations: simulations.plan_simulations,
     answers.Options: beliefs.plan_options,
     answers.Compared: beliefs.plan_compared,
     answers.Priority: safety.plan_priority,

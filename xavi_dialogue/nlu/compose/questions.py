@@ -17,6 +17,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
 )
 from xavi_dialogue.nlu.compose.alternatives.options import WEAK, Options, alternatives, several_of
+from xavi_dialogue.nlu.compose.alternatives.simulated import simulated
 from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement, wanted_pronoun
 from xavi_dialogue.nlu.compose.clauses.followers import place_subject
 from xavi_dialogue.nlu.compose.clauses.nominal import deed_of, event_in, propose
@@ -218,7 +219,7 @@ class Questions(Options):
         pairs: list[tuple[Any, float]] = [(c.value, c.cost) for c in candidates] or [(None, 0.0)]
         found: list[tuple[Question, float]] = []
         for value, cost in pairs:
-            compared = self.compared(wh, clause, value)
+            compared = simulated(wh, clause, value) or self.compared(wh, clause, value)
             question = compared or _among(wh, self.asking.ask(wh, clause, value))
             lost = compared is None and _is_lost(wh, clause, value, question)
             extra = emphatic + WEAK * lost

@@ -44,6 +44,7 @@ from xavi_dialogue.explain.answers.measuring.durations import (
     total_cost,
     waited,
 )
+from xavi_dialogue.explain.answers.measuring.simulations import options, simulations
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import (
     SHORT,
@@ -294,4 +295,6 @@ SPECIAL: Mapping[Attribute, Callable[[Measured, Asked], Answer]] = {
     "turn": _turn,
     "exit-number": _turn,
     "count": _count,
+    "simulations": simulations,
+    "options": options,
 }

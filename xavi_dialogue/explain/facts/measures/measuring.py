@@ -93,6 +93,8 @@ LACKING: Mapping[Attribute, Gap] = {
     "delay": "not-applicable",  # World.delay of an episode
     "probability": "not-applicable",  # World.belief, World.probability
     "cost": "not-applicable",  # causes.options
+    "simulations": "not-applicable",  # answers.measuring.simulations
+    "options": "not-applicable",
     "weather": "not-sensed",
     "sound": "not-sensed",
     "battery": "not-sensed",

@@ -161,6 +161,8 @@ def plan_options(answer: Options, context: SpeechContext) -> Plan:
         return Plan((message("OPTIONS_ONE", chosen=verb),))
     if answer.rival is not None:
         return _rival(answer, chosen, others[0], context)
+    if answer.counted:
+        return Plan((_count(answer, verb),))
     first = message(
         "OPTIONS_MANY",
         besides=answer.besides,
@@ -172,6 +174,17 @@ def plan_options(answer: Options, context: SpeechContext) -> Plan:
     scores = tuple(option_message(o) for o in others)
     shown = (message("ITEMS", items=scores[:NAMED]),)
     return Plan((first,), shown)
+
+
+def _count(answer: Options, chosen: Clause) -> Message:
+    """Return how many options there were, and all of them."""
+    return message(
+        "OPTIONS_COUNTED",
+        number=str(len(answer.options)),
+        when=Moment(answer.decided) if answer.earlier else None,
+        chosen=chosen,
+        all=tuple(_verb(o.action) for o in answer.options),
+    )
 
 
 def _rival(

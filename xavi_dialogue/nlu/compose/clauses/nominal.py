@@ -265,6 +265,10 @@ def counted(sem: Sem) -> Question | None:
             return HowMany(sem)
         case Lane():
             return HowMuch(Measured("lane-count"))
+        case Noun(key="rollout"):
+            return HowMuch(Measured("simulations", tense="past"))
+        case Noun(key="option"):
+            return HowMuch(Measured("options", tense="past"))
         case Noun() | Measure() | Moment() | Quantity() | SideOf():
             return None
         case Group(members=members):

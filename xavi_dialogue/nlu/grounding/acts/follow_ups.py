@@ -33,6 +33,7 @@ from xavi_dialogue.domain.terms import (
     Unsaid,
     Vehicle,
 )
+from xavi_dialogue.nlu.grounding.acts.simulations import of_them
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     HINDERED,
     affirmed,
@@ -59,6 +60,8 @@ def followed(spoken: Question, g: Grounder) -> Question:
     """Ask of the option or decision under discussion, where nothing else is said."""
     discourse = g.context.discourse
     asked = discourse.question
+    if (counted := of_them(spoken, g)) is not None:
+        return counted
     match spoken:
         case HowMuch(of=Measured("deceleration", Ego(), event=None, time=Unsaid()) as of):
             braked = next((e for e in events(discourse, real=True) if _brakes(e)), None)

@@ -36,6 +36,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import Kind
+from xavi_dialogue.nlu.grounding.acts.simulations import COUNTED, plain
 from xavi_dialogue.nlu.grounding.completion.discussion import interval
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
 from xavi_dialogue.nlu.grounding.events.windows import pointed
@@ -64,6 +65,8 @@ def measured(
     extreme: bool = False,
 ) -> Measured:  # fmt: skip
     """Ground a measure; `extreme`: over all of the time that is said."""
+    if spoken.attribute in COUNTED:
+        return replace(plain(spoken), time=timed(spoken.time, spoken.tense, g, outer).term)
     spoken = _one_of(_corefer(spoken, g))
     both = (spoken.thing, spoken.to)
     if extreme and spoken.attribute == "distance" and spoken.to is None:
