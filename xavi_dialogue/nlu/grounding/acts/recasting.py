@@ -49,7 +49,7 @@ from xavi_dialogue.domain.terms import (
 from xavi_dialogue.nlu.grounding.acts.follow_ups import TURNS, compared, followed
 from xavi_dialogue.nlu.grounding.acts.others import of_others, still_here
 from xavi_dialogue.nlu.grounding.acts.races import race
-from xavi_dialogue.nlu.grounding.acts.trips import SIDES, is_plain_to_see, of_trip
+from xavi_dialogue.nlu.grounding.acts.trips import SIDES, about_arriving, is_plain_to_see, of_trip
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     affirmed,
     asserted,
@@ -69,6 +69,7 @@ FRESH: Final = 4.0  # [s] since when what was begun strikes those who sit in the
 _SUDDEN: Final = frozenset(("brake", "slow-down", "stop", "change-left", "change-right"))
 _HALTING: Final = frozenset(("stop", "stand", "wait", "give-way"))
 _LIMIT: Final = HowMuch(Measured("limit"))
+_KEPT: Final = frozenset(("do", "continue", "keep-distance", "follow"))
 _SUCH: Final = Described(plural=True, definite=False)  # "how many are there"
 _ANYTHING: Final = (Described(definite=False), Described(kind="car", definite=False))
 
@@ -78,7 +79,13 @@ def recast(spoken: Question, g: Grounder) -> Question:
     spoken = followed(spoken, g)
     if isinstance(spoken, HowSure) and spoken.of is not None and is_plain_to_see(spoken.of):
         spoken = Whether(spoken.of)  # "are you sure that nobody is behind us?"
-    meant = race(spoken) or of_others(spoken, g) or _lasted(spoken, g) or still_here(spoken, g)
+    meant = (
+        _of_limit(spoken, g)
+        or race(spoken)
+        or of_others(spoken, g)
+        or _lasted(spoken, g)
+        or still_here(spoken, g)
+    )
     meant = meant or of_trip(spoken) or _of_deed(spoken, g) or _of_light(spoken)
     if meant is not None:
         return meant
@@ -101,14 +108,6 @@ def recast(spoken: Question, g: Grounder) -> Question:
         ) is not None:
             g.notes.leaned = True
             return apart
-        case Whether(
-            that=Happens(
-                event=Event(actor=Ego(), action=action, object=Pronoun(form="it" | "that"))
-            )
-        ) if action in ("do", "continue", "keep-distance") and _own_measure(g.context) == _LIMIT:
-            g.notes.leaned = True
-            kept: Any = "same" if action == "do" else "at-most"
-            return Whether(Compares(Measured("speed"), kept, Measured("limit")))
         case HowDecide(of=Happens(event=Event(actor=Ego(), action=action, tense=tense))) if (
             action in _ARRIVING and tense in ("present", "future")
         ):
@@ -182,7 +181,7 @@ def _lasted(spoken: Question, g: Grounder) -> Question | None:
         case HowLong(of=That()):
             return _so_long(spoken, g)
         case HowMuch(of=Measured(attribute="distance", thing=Pronoun(form="it"), to=None)) if (
-            _about_arriving(g.context)
+            about_arriving(g.context)
         ):
             g.notes.leaned = True
             return HowMuch(Measured("distance-to-go"))
@@ -263,6 +262,18 @@ def _lasting(spoken: Question, of: Measured, g: Grounder) -> Question:
     return HowMuch(replace(of, thing=known.actor, event=known))
 
 
+def _of_limit(spoken: Question, g: Grounder) -> Question | None:
+    """Take "are you keeping to it?" after a question on the limit for one on our speed."""
+    match spoken:
+        case Whether(Happens(Event(action, Ego(), Pronoun("it" | "that")))) if (
+            action in _KEPT and _own_measure(g.context) == _LIMIT
+        ):
+            g.notes.leaned = True
+            kept: Any = "same" if action == "do" else "at-most"
+            return Whether(Compares(Measured("speed"), kept, Measured("limit")))
+    return None
+
+
 def _own_measure(context: Context) -> HowMuch | None:
     """Give what "and what is it now?" asks after a measure of ours."""
     match context.discourse.question:
@@ -280,18 +291,6 @@ def _so_long(spoken: HowLong, g: Grounder) -> Question:
         return HowMuch(Measured("time-to-go"))
     g.notes.leaned = True
     return replace(spoken, of=affirmed(known))
-
-
-def _about_arriving(context: Context) -> bool:
-    """Tell whether it was asked just now whether or when we arrive."""
-    match context.discourse.question:
-        case HowMuch(of=Measured(attribute="time-to-go" | "distance-to-go" | "arrival-time")):
-            return True
-        case Whether(that=Happens(event=Event(action="arrive"))):
-            return True
-        case When(of=Happens(event=Event(action="arrive"))):
-            return True
-    return False
 
 
 def halting(context: Context) -> bool:

@@ -46,6 +46,7 @@ from xavi_dialogue.domain.terms import (
     Wanted,
     WholeRide,
 )
+from xavi_dialogue.nlu.grounding.context import Context
 
 SIDES: Final = {"left-of": "exit-left", "right-of": "exit-right", "ahead-of": "exit-straight"}
 _DELAYED: Final = Which(Wanted(), Happens(Event("block", Wanted(), Ego(), time=WholeRide())))
@@ -225,3 +226,15 @@ def is_plain_to_see(of: Proposition) -> bool:
         case Is(state=state, tense="present"):
             return state != "sure"
     return of_trip(Whether(of)) is not None
+
+
+def about_arriving(context: Context) -> bool:
+    """Tell whether it was asked just now whether or when we arrive."""
+    match context.discourse.question:
+        case HowMuch(of=Measured(attribute="time-to-go" | "distance-to-go" | "arrival-time")):
+            return True
+        case Whether(that=Happens(event=Event(action="arrive"))):
+            return True
+        case When(of=Happens(event=Event(action="arrive"))):
+            return True
+    return False
