@@ -2,7 +2,7 @@
 
 from msgspec.structs import replace
 
-from tests.nlg.scenery import NOW
+from tests.nlg.scenery import BLUE, LORRY, NOW
 from xavi_dialogue.domain.answers import (
     Answer,
     Beliefs,
@@ -14,7 +14,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure
 from xavi_dialogue.domain.findings import Assurance
-from xavi_dialogue.domain.hidden_areas import Hider, SightTold
+from xavi_dialogue.domain.hidden_areas import AllRound, Hider, SightTold
 from xavi_dialogue.domain.terms import Ego, Event, Vehicle
 
 E, V = Ego(), Vehicle(1)
@@ -116,4 +116,10 @@ CASES: tuple[Answer, ...] = (
     Closeness(1, THEN, asked="dangerous", braked=(replace(OURS, peak=6.0, object=V),)),
     Closeness(1, Measure("distance", E, 17.0, 4.2, to=V), risk=0.008, degree=True),
     Closeness(None, None, risk=0.12, past=False, degree=True),
+    AllRound((), NOW),
+    AllRound((), 12.0, past=True),
+    AllRound((BLUE,), NOW),
+    AllRound((BLUE, LORRY), NOW),
+    AllRound((BLUE,), 12.0, past=True),
+    AllRound((BLUE, LORRY), 12.0, past=True),
 )

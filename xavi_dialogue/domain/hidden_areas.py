@@ -4,6 +4,7 @@ from typing import Literal, TypeAlias
 
 from planner.record.trace import Action as MacroAction
 from xavi_dialogue.domain.base import Value
+from xavi_dialogue.domain.facts import Look
 
 Side: TypeAlias = Literal["left", "right", "ahead"]
 
@@ -39,4 +40,12 @@ class SupposedSeeing(Value, frozen=True):
     past: bool = False
 
 
-HiddenAnswer: TypeAlias = SightTold | SupposedSeeing
+class AllRound(Value, frozen=True):
+    """The answer whether we attend to the road: we look to all sides; who was nearest to us."""
+
+    looks: tuple[Look, ...]  # the nearest first; () nobody was near
+    time: float  # [s] of the looks
+    past: bool = False
+
+
+HiddenAnswer: TypeAlias = SightTold | SupposedSeeing | AllRound

@@ -22,7 +22,7 @@ from xavi_dialogue.nlg.content.observed import (
 )
 from xavi_dialogue.nlg.content.observed.happenings import plan_happenings
 from xavi_dialogue.nlg.content.observed.verdicts import plan_verdict
-from xavi_dialogue.nlg.content.reasons.hidden_areas import plan_sight
+from xavi_dialogue.nlg.content.reasons.hidden_areas import plan_all_round, plan_sight
 from xavi_dialogue.nlg.content.talk import clarifications, quizzes, requests, talk
 
 FACTS: dict[type, Planner] = {
@@ -39,6 +39,7 @@ FACTS: dict[type, Planner] = {
     traffic_lights.LightPassed: lights.plan_passed,
     traffic_lights.TurnOnRed: lights.plan_turn_on_red,
     hidden_areas.SightTold: plan_sight,
+    hidden_areas.AllRound: plan_all_round,
     answers.Activity: conduct.plan_activity,
     answers.PlanAhead: conduct.plan_ahead,
     answers.Bound: conduct.plan_bound,

@@ -16,6 +16,7 @@ from xavi_dialogue.explain.answers.reference.naming import (
     number,
     somebodies,
 )
+from xavi_dialogue.explain.answers.sight.attention import attending
 
 MANY = 6  # minimum of vehicles in view on a busy road
 #: Actions of a driver for another one that they see.
@@ -67,6 +68,8 @@ def _sees_again(asked: Asked, vehicle: int) -> Finding:
 
 def minded(of: Is, asked: Asked) -> Finding:
     """Return facts on how a driver feels, or attends to the road: what they did for us."""
+    if of.state == "awake" and is_us(of.thing):
+        return Finding(None, answer=attending(of, asked))
     vehicle = number(of.thing)
     if vehicle is None:
         return unknown("others-thoughts")

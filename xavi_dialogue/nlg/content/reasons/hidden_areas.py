@@ -2,12 +2,12 @@
 
 from typing import Any
 
-from xavi_dialogue.domain.hidden_areas import Hider, SightTold, SupposedSeeing
+from xavi_dialogue.domain.hidden_areas import AllRound, Hider, SightTold, SupposedSeeing
 from xavi_dialogue.domain.terms import Vehicle
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import message
-from xavi_dialogue.nlg.surface.values import Chance, Quantity, Who
+from xavi_dialogue.nlg.surface.values import Chance, Moment, Quantity, Who
 
 SAVED = 0.5  # [s] minimum difference that matters
 
@@ -22,6 +22,22 @@ def plan_sight(answer: SightTold, context: SpeechContext) -> Plan:
         **_named(answer.hiders),
     }
     return Plan((message("SIGHT", **slots),))
+
+
+def plan_all_round(answer: AllRound, context: SpeechContext) -> Plan:
+    """Plan that we look to all sides, and who was nearest to us."""
+    rows = tuple(
+        message(
+            "ALL_ROUND_ROW",
+            who=Who(Vehicle(look.vehicle), look.time),
+            far=Quantity(look.distance, "m"),
+        )
+        for look in answer.looks
+    )
+    told = message(
+        "ALL_ROUND_NEAR", rows=rows, one=len(rows) == 1, past=answer.past, when=Moment(answer.time)
+    )
+    return Plan((message("ALL_ROUND"), told))
 
 
 def plan_seeing(answer: SupposedSeeing, context: SpeechContext) -> Plan:

@@ -333,7 +333,7 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "shift": shifted, "refrain": given_up,
     "heed": lambda s: Related("can-see", s.subject, as_thing(s.object) or Pronoun("it"),
                               time_of(s), tense_of(s)),
-    "recede": _recede, "with": _along,
+    "recede": _recede, "with": _along, "attend": _is("awake"),
     "load": lambda s: Has("load", "", s.subject, time_of(s), tense_of(s)),
     "driver": lambda s: Has("occupant", "", as_thing(s.object) or Pronoun("it"), time_of(s)),
     "weather": lambda s: Has("weather", "rain", tense=tense_of(s)),
