@@ -14,7 +14,7 @@ from xavi_dialogue.domain.answers import (
     Wavered,
 )
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation, Measure
-from xavi_dialogue.domain.journeys import AbandonedPlan, WayStep
+from xavi_dialogue.domain.journeys import AbandonedPlan, LaneFits, WayStep
 from xavi_dialogue.domain.terms import Ego, Event, Feature, Vehicle
 from xavi_dialogue.domain.traffic_lights import Shown
 
@@ -114,4 +114,9 @@ CASES: tuple[Answer, ...] = (
     Altered(BEFORE, AFTER, beliefs=((NEW, FALLEN),), sudden=True),
     Wavered("change-left", (AbandonedPlan(4.0, 0.2, 1),)),
     Wavered("change-left", (AbandonedPlan(4.0, 0.2, 1), AbandonedPlan(6.0, 0.31)), resumed=True),
+    Course("turns", (LEFT, LATER), onward=True),
+    Course("turns", (), left=200.0, onward=True),
+    LaneFits(Measure("lane", E, NOW, 1.0, count=3)),
+    LaneFits(Measure("lane", E, NOW, 1.0, count=1), turn=LEFT),
+    LaneFits(Measure("lane", E, NOW, 1.0, count=2), "change-left", LEFT),
 )

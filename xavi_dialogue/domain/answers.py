@@ -45,7 +45,7 @@ from xavi_dialogue.domain.findings import (
     Verdict,
 )
 from xavi_dialogue.domain.hidden_areas import HiddenAnswer
-from xavi_dialogue.domain.journeys import Altered, Course, Decided, PeakMoment, Wavered
+from xavi_dialogue.domain.journeys import Altered, Course, Decided, LaneFits, PeakMoment, Wavered
 from xavi_dialogue.domain.knowing import Avoidance, Certainty, DecisiveFactor, Grounds, Method
 from xavi_dialogue.domain.meaning import Act, Feel, Question, Request
 from xavi_dialogue.domain.reasons import (
@@ -73,8 +73,9 @@ __all__ = [
     "Comforting", "Compared", "Contrast", "Counted", "Course", "CrossingVehicle", "Decided",
     "DecisiveFactor", "Declined", "DidNotHappen", "Effect", "Evidence", "Forecast",
     "GoReason", "Grounds",
-    "Happenings", "Helpful", "Identified", "Judged", "Lasted", "Located", "Measures", "Mechanism",
-    "Method", "MotionCause", "MotionReason", "NeedRollout", "NoSuchVehicle", "NobodyElse",
+    "Happenings", "Helpful", "Identified", "Judged", "LaneFits", "Lasted", "Located", "Measures",
+    "Mechanism", "Method", "MotionCause", "MotionReason", "NeedRollout", "NoSuchVehicle",
+    "NobodyElse",
     "NotApplicable", "NotRecorded", "NotUnderstood", "NothingToAsk", "Options", "OtherReason",
     "OutcomeEstimate", "OwnSignal", "PeakMoment", "PlaceReason", "PlanAhead", "Posed", "Priority",
     "PullingUp", "Reaction", "Reason", "Refusal", "Share", "SignalReason", "Simulations", "Slowing",
@@ -312,6 +313,7 @@ Answer: TypeAlias = (
     | Slowing
     | Unblocking
     | Course
+    | LaneFits
     | PeakMoment
     | Decided
     | Altered

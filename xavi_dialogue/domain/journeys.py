@@ -35,6 +35,15 @@ class Course(Value, frozen=True):
     left: float | None = None  # [m] to the destination
     soon: float | None = None  # [s] to it
     then: bool = False  # the question is what comes after what was stated
+    onward: bool = False  # our way goes on beyond the last step, not known how
+
+
+class LaneFits(Value, frozen=True):
+    """The answer whether our lane is the one to be in: whether the plan leaves it."""
+
+    lane: Measure  # which one it is
+    change: MacroAction | None = None  # the lane change that the plan has
+    turn: WayStep | None = None  # where we turn next
 
 
 class PeakMoment(Value, frozen=True):

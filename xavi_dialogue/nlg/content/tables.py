@@ -45,6 +45,7 @@ FACTS: dict[type, Planner] = {
     answers.Bound: conduct.plan_bound,
     answers.Forecast: conduct.plan_forecast,
     answers.Course: courses.plan_course,
+    answers.LaneFits: courses.plan_lane_fits,
     answers.PeakMoment: peak_moments.plan_peak_moment,
     answers.Decided: peak_moments.plan_decided,
     answers.Altered: peak_moments.plan_altered,

@@ -37,7 +37,7 @@ from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.own_deeds import of_own_deed
 from xavi_dialogue.nlu.compose.sounds import of_sounds
 from xavi_dialogue.nlu.compose.wh_questions.rating import rating_of
-from xavi_dialogue.nlu.compose.worded import worded
+from xavi_dialogue.nlu.compose.worded import lane_fits, worded
 from xavi_dialogue.nlu.grammar.chart import Node
 
 WELL: Final = Ask(Whether(Is("safe", Ego())))
@@ -60,6 +60,8 @@ def of_affairs(acts: tuple[Act, ...], words: str) -> tuple[Act, ...]:
     acts = tuple(map(_when_told, of_sounds(acts, words)))
     if (rating := rating_of(acts, words)) is not None:
         return rating
+    if (fitting := lane_fits(acts, words)) is not None:
+        return fitting
     if len(acts) != 1 or not isinstance(acts[0], Ask):
         return acts
     if (found := worded(acts[0].question, words)) is not None:

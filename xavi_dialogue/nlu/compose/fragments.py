@@ -53,11 +53,13 @@ from xavi_dialogue.nlu.compose.suppositions import suppose
 from xavi_dialogue.nlu.compose.talk import bodily
 from xavi_dialogue.nlu.compose.wh_questions.whys import reason_for, sided
 from xavi_dialogue.nlu.compose.wishes import bare_wish
+from xavi_dialogue.nlu.compose.worded import turns_to_come
 from xavi_dialogue.nlu.grammar.chart import Node, Part
 from xavi_dialogue.nlu.grammar.lexicon import Leaf
 
 _ANY = frozenset({"any", "anybody", "anyone", "anything"})
 _THINGS = frozenset({"something", "anything", "another"})
+_TURNING = frozenset({"turn", "exit-left", "exit-right"})
 _STYLE = {
     "simpl": "simpler",
     "short": "shorter",
@@ -219,6 +221,8 @@ class Fragments(BareQuestions):
         no = any(isinstance(p, Leaf) and p.category == "NO" for p in unit.parts)
         if no and thing is not None:
             return [((Repair("meant", thing),), 0.0)]
+        if event is not None and event.action in _TURNING and "more" in words_of(unit).split():
+            return [((turns_to_come(words_of(unit)),), 0.0)]  # "any more turns?"
         if event is not None and _is_deed(unit):
             return [((Elliptic(thing, event, clause.time, negated),), 0.1),
                     ((Request(event),), 0.4)]  # fmt: skip

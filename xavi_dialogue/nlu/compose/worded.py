@@ -3,7 +3,7 @@
 "What was the fastest car so far?" is of the whole ride, "now is green, why not go?" of the light.
 """
 
-from typing import Any, Final
+from typing import Any, Final, cast
 
 from msgspec.structs import replace
 
@@ -22,6 +22,7 @@ from xavi_dialogue.domain.meaning import (
     When,
     Whether,
     Which,
+    Whither,
     Why,
 )
 from xavi_dialogue.domain.terms import (
@@ -37,6 +38,7 @@ from xavi_dialogue.domain.terms import (
     Has,
     Is,
     Junction,
+    Lane,
     Measured,
     Next,
     Not,
@@ -53,14 +55,62 @@ _SO_FAR: Final = frozenset(("was", "far", "ever", "seen", "met", "yet", "ride", 
 _PARTS: Final = frozenset(("part", "parts", "bit", "bits", "area", "areas", "road", "street"))
 _LASTED: Final = frozenset(("took", "take", "takes", "cost", "costs", "lasted"))
 _QUEUES: Final = frozenset(("queue", "jam", "line", "tailback", "row"))
+_SIDED: Final = {"left turns": "exit-left", "right turns": "exit-right"}
+_FITTING: Final = frozenset(("correct", "proper", "best"))
+_UNFIT: Final = frozenset(("wrong", "incorrect"))
+_LAST: Final = frozenset(("last", "final"))
+_TURNS: Final = frozenset(("turn", "turning"))
+_FURTHER: Final = frozenset(("any", "more", "other", "further"))
 _GET_TO: Final = frozenset(("get", "gets"))
 
 
 def worded(question: Question, words: str) -> tuple[Act, ...] | None:
     """Give the acts that the words of a question come to; None where its term says it all."""
     said = frozenset(words.split())
-    found = _listed(question, words, said) or _of_lights_and_deeds(question, words, said)
-    return found or _of_waits(question, said)
+    found = _of_turns(question, words, said) or _listed(question, words, said)
+    return found or _of_lights_and_deeds(question, words, said) or _of_waits(question, said)
+
+
+def lane_fits(acts: tuple[Act, ...], words: str) -> tuple[Act, ...] | None:
+    """Read "are we in the right lane for the exit?" as whether our lane is the one to be in."""
+    said = words.split()
+    which = next((said[i - 1] for i in range(1, len(said)) if said[i] == "lane"), "")
+    for_what = f"{which} lane for " in words or f"{which} lane to " in words
+    match acts:
+        case (Ask(Whether(Related("on", thing, Lane(), tense="present")) as asked), *others):
+            fitting = which in _FITTING or (which == "right" and for_what)
+            if thing != Ego() or not (fitting or which in _UNFIT):
+                return None
+            if not all(isinstance(o, Ask) and isinstance(o.question, Whither) for o in others):
+                return None
+            fits = Is("right", Lane())
+            return (Ask(replace(asked, that=Not(fits) if which in _UNFIT else fits)),)
+    return None
+
+
+def turns_to_come(words: str) -> Ask:
+    """Give the question how many turns are to come, to the side that the words tell."""
+    side = next((way for told, way in _SIDED.items() if told in words), "turn")
+    return Ask(HowMany(Event(cast(Any, side), Ego(), tense="future")))
+
+
+def _of_turns(question: Question, words: str, said: frozenset[str]) -> tuple[Act, ...] | None:
+    """Read "is this the last turn?", "any more left turns?" as how many are to come."""
+    match question:
+        case Whether(Happens(Event("go", Ego(), manner=("first",), modal="should"))) if (
+            _LAST & said and _TURNS & said
+        ):
+            return (turns_to_come(words),)
+        case Whether(
+            Exists(Junction(form="junction"), tense="present" | "future")
+            | Happens(Event("turn" | "leave", tense="past" | "perfect" | "present"))
+        ) if "turns" in said and _FURTHER & said:
+            return (turns_to_come(words),)
+        case HowMany(Described(doing=Event("turn" | "exit-left" | "exit-right", Wanted()))) if (
+            "turns" in said and {"more", "left"} & said
+        ):
+            return (turns_to_come(words),)  # "how many more turns before we arrive?"
+    return None
 
 
 def _of_waits(question: Question, said: frozenset[str]) -> tuple[Act, ...] | None:

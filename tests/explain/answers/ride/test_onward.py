@@ -27,6 +27,7 @@ OVER = step(40.04, "exit-straight")
 RIGHT = step(90.0, "exit-right")
 RING = step(150.0, "exit-straight", kind="roundabout", exit=2, exits=4)
 LEFT = step(200.0, "exit-left")
+LEFT_THERE = step(90.0, "exit-left")
 
 
 def ahead(*route: RouteStep, span: Span | None = None, inside: bool = False, **more: Any) -> Any:
@@ -138,6 +139,18 @@ def test_junctions_are_counted() -> None:
     assert every == way((OVER, 1), (RING, 2), (LEFT, 3), form="junctions")
     rings = room.junctions_left(asked, Junction("roundabout"))
     assert rings == way((RING, 2), form="roundabouts")
+
+
+def test_a_plan_that_leaves_the_route_leaves_the_number_of_turns_open(monkeypatch: Any) -> None:
+    """What comes after the junction where it leaves the route is not recorded."""
+    planned = (OVER, LEFT_THERE)
+    monkeypatch.setattr(room, "as_planned", lambda asked, route: planned)
+    asked = ahead(OVER, RIGHT, RING, LEFT)
+    found = room.turns_left(asked, Event("turn"))
+    assert found == way((LEFT_THERE, 2), form="turns", onward=True)
+    assert room.junctions_left(asked, Junction()).onward
+    told = room.turns_left(ahead(*planned), Event("turn"))
+    assert not told.onward
 
 
 NOW = Event("leave", tense="present")

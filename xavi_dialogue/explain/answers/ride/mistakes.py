@@ -7,7 +7,7 @@ from msgspec.structs import replace
 
 from planner.prediction.goals import BRANCHES
 from xavi_dialogue.domain.facts import Belief, Episode, Expectation
-from xavi_dialogue.domain.terms import Ego, Event, Is, Vehicle
+from xavi_dialogue.domain.terms import Ego, Event, Is, Lane, Vehicle
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.foreseen import came_of, wrong_belief
 from xavi_dialogue.explain.answers.reference.asked import Asked
@@ -16,6 +16,7 @@ from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, windo
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
 from xavi_dialogue.explain.answers.reference.occasions import away, overlaps, taken_place
 from xavi_dialogue.explain.answers.ride.comfort import HARD, stretch
+from xavi_dialogue.explain.answers.sight.room import lane_fits
 from xavi_dialogue.explain.history.predicted_roads import Wrong, wrong_predictions
 
 LEAST = 0.05  # [s] between a decision and what follows it
@@ -105,6 +106,8 @@ def _taken(asked: Asked, one: Wrong, belief: Belief) -> Episode:
 
 def wrong(of: Is, asked: Asked) -> Finding:
     """Weigh that we were wrong in what we expected of a vehicle, or of anybody."""
+    if isinstance(of.thing, Lane):
+        return lane_fits(asked)
     if of.event is not None and is_us(of.event.actor):
         return _trouble(of, asked, of.event)
     about, vehicle = window(asked, of.time, "past"), number(of.thing)

@@ -59,6 +59,12 @@ def steps_ahead(asked: Asked) -> tuple[WayStep, ...]:
     )
 
 
+def goes_onward(asked: Asked) -> bool:
+    """Whether our plan leaves the recorded route, so that the way after that is not known."""
+    route = junctions_ahead(asked.ride, asked.now)
+    return as_planned(asked, route) != route
+
+
 def _step(step: RouteStep, rank: int, inside: bool) -> WayStep:
     return WayStep(step.kind, step.turn, round(step.distance, 1), rank, step.exit, inside)
 
@@ -141,7 +147,8 @@ def way_chosen(asked: Asked) -> Course:
 
 def turns_left(asked: Asked, event: Event) -> Course:
     """Return how many turns are left, and which; roundabouts count."""
-    return course(asked, "turns", _turning(steps_ahead(asked), event))
+    steps = _turning(steps_ahead(asked), event)
+    return course(asked, "turns", steps, onward=goes_onward(asked))
 
 
 def _turning(steps: tuple[WayStep, ...], event: Event) -> tuple[WayStep, ...]:
@@ -168,7 +175,8 @@ def _turns_so(step: WayStep, event: Event) -> bool:
 def junctions_left(asked: Asked, of: Junction) -> Course:
     """Return how many junctions or roundabouts are left, and what we do there."""
     steps = [s for s in steps_ahead(asked) if of.form == "junction" or s.kind == "roundabout"]
-    return course(asked, "junctions" if of.form == "junction" else "roundabouts", tuple(steps))
+    form = "junctions" if of.form == "junction" else "roundabouts"
+    return course(asked, form, tuple(steps), onward=goes_onward(asked))
 
 
 def leaves_when(asked: Asked, event: Event) -> Course | None:

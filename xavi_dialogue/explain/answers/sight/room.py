@@ -3,11 +3,14 @@
 from planner.record.places import RoadPlace
 from sim.scene import EGO
 from xavi_dialogue.domain.facts import Look
+from xavi_dialogue.domain.journeys import LaneFits
 from xavi_dialogue.domain.terms import Ego, Is, Lane, Vehicle
+from xavi_dialogue.explain.answers.expectations.plans import steps
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, known, unknown
 from xavi_dialogue.explain.answers.reference.moments import instant
 from xavi_dialogue.explain.answers.reference.naming import looks
+from xavi_dialogue.explain.answers.ride.onward import steps_ahead
 
 FREE = (15.0, 30.0)  # [m] behind and ahead of us, where nobody is in a free lane
 TOLD = 2  # of those in our way, the nearest
@@ -37,6 +40,16 @@ def free(of: Is, asked: Asked) -> Finding:
     ]
     nearest = sorted(there, key=lambda look: look.distance)
     return Finding(not there, tuple(nearest))
+
+
+def lane_fits(asked: Asked) -> Finding:
+    """Return which lane we are in, and whether our plan leaves it before we turn."""
+    lane = asked.world.measure("lane", Ego(), asked.now)
+    if lane.value is None and lane.word is None:
+        return unknown(lane.gap or "not-recorded")
+    changes = (a for a, _ in steps(asked) if a in ("change-left", "change-right"))
+    turns = (s for s in steps_ahead(asked) if s.turn != "exit-straight")
+    return Finding(None, answer=LaneFits(lane, next(changes, None), next(turns, None)))
 
 
 def _clear(asked: Asked, at: float) -> Finding:

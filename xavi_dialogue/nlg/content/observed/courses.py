@@ -1,7 +1,9 @@
 """Courses: our way ahead, the turns that are left, and whether we stay on the road, in words."""
 
 from xavi_dialogue.domain.answers import Course
-from xavi_dialogue.domain.journeys import WayStep
+from xavi_dialogue.domain.journeys import LaneFits, WayStep
+from xavi_dialogue.nlg.content.clauses.manoeuvres import own_verbs
+from xavi_dialogue.nlg.content.clauses.measures import measure_message
 from xavi_dialogue.nlg.content.clauses.plan import Plan
 from xavi_dialogue.nlg.context import SpeechContext
 from xavi_dialogue.nlg.surface.message import Message, message
@@ -40,6 +42,19 @@ def plan_course(answer: Course, context: SpeechContext) -> Plan:
     first, *others = answer.steps
     told = message("COURSE", it=_step(first), **slots)
     return Plan((told, *(message("COURSE", it=_step(step), then=False) for step in others)))
+
+
+def plan_lane_fits(answer: LaneFits, context: SpeechContext) -> Plan:
+    """Plan which lane we are in, and whether our plan leaves it."""
+    turn = answer.turn
+    change = None if answer.change is None else own_verbs((answer.change,))
+    told = message(
+        "LANE_FITS",
+        it=measure_message(answer.lane, context),
+        change=change,
+        turn=None if turn is None else _step(turn),
+    )
+    return Plan((told,))
 
 
 def _step(step: WayStep) -> Message:
@@ -84,6 +99,7 @@ def _turns(answer: Course) -> Message:
         one=len(answer.steps) == 1,
         number=Number(len(answer.steps), f"more {COUNTED[answer.form]}"),
         kind=COUNTED[answer.form],
+        onward=answer.onward,
         items=items,
         left=_left(answer),
     )
