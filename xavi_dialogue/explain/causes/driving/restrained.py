@@ -59,6 +59,8 @@ HOLDING: Mapping[RestraintKind, HoldUp] = {
     "blocked": "blocked",
 }
 #: Restraints that say nothing of why: they leave it to the decision.
+#: What of the road itself makes us slow down.
+ROADS = frozenset[RestraintKind](("bend", "limit", "stands-first", "road-end"))
 OPEN = frozenset[RestraintKind](("stop", "nothing"))
 
 
@@ -68,6 +70,7 @@ class Restraining:
 
     found: tuple[Restraint, ...]
     time: float  # [s] of the episode that it explains
+    minor: tuple[Restraint, ...] = ()  # the others, which took less
 
     @property
     def vehicles(self) -> tuple[int, ...]:
@@ -107,7 +110,9 @@ def restraining(ride: Ride, deed: Episode, at: float) -> Restraining | None:
     found = tuple(one for one in ranked if shares[one] >= SHARE * total > 0.0)
     if not found or found[0].by in OPEN:
         return None
-    return Restraining(tuple(one for one in found if one.by not in OPEN), (begin + end) / 2.0)
+    minor = tuple(one for one in ranked if one not in found and one.by in ROADS)
+    found = tuple(one for one in found if one.by not in OPEN)
+    return Restraining(found, (begin + end) / 2.0, minor)
 
 
 def _still(ride: Ride, held: Restraining, at: float) -> Restraining | None:
@@ -171,6 +176,8 @@ def as_driven(ride: Ride, world: World, deed: Episode, at: float) -> Reasons | N
         return None
     tested = _tested(ride, world, deed, held, trace)
     parts = [_stated(ride, world, deed, one, tested, at) for one in held.found]
+    if not any(parts) and all(one.by == "hidden" for one in held.found):  # it made no difference
+        parts = [_stated(ride, world, deed, one, tested, at) for one in held.minor]
     others = tuple(tested.causes.values()) if tested.either else ()
     causes = tuple(dict.fromkeys([cause for part in parts for cause in part] + list(others)))
     if not causes:
