@@ -15,7 +15,7 @@ from xavi_dialogue.domain.answers import (
 )
 from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.meaning import Compare, Doing, HowMuch, When, Whether, Which
+from xavi_dialogue.domain.meaning import Compare, Doing, HowMuch, When, Where, Whether, Which
 from xavi_dialogue.domain.terms import (
     Compares,
     Ego,
@@ -23,6 +23,7 @@ from xavi_dialogue.domain.terms import (
     Happens,
     Is,
     Measured,
+    Now,
     Quantity,
     Vehicle,
     Wanted,
@@ -53,6 +54,9 @@ def whether(action: Any, actor: Any = None, **more: Any) -> Whether:
         (whether("arrive", manner=("early",)), "quicker"),
         (whether("enter", manner=("fast",)), "quicker"),
         (whether("turn", manner=("fast",)), "what-if"),
+        (whether("turn", manner=("early",)), "quicker"),
+        (Where(Ego()), "arrival"),
+        (Whether(Happens(Event("arrive", Ego(), time=Now()))), "arrival"),
         (whether("go", manner=("slowly",)), "what-if"),
         (Compare((), "safety"), "safer"),
         (Compare((), "safety", least=True), "riskier"),

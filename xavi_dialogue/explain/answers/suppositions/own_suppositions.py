@@ -16,9 +16,19 @@ from xavi_dialogue.domain.answers import (
     Verdict,
 )
 from xavi_dialogue.domain.facts import Measure
-from xavi_dialogue.domain.meaning import Compare, HowMuch, HowSure, Question, When, Whether, Which
+from xavi_dialogue.domain.meaning import (
+    Compare,
+    HowMuch,
+    HowSure,
+    Question,
+    When,
+    Where,
+    Whether,
+    Which,
+)
 from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import (
+    At,
     Compares,
     Ego,
     Event,
@@ -27,6 +37,7 @@ from xavi_dialogue.domain.terms import (
     Is,
     Lane,
     Measured,
+    Now,
     Proposition,
     Quantity,
     Unsaid,
@@ -54,6 +65,7 @@ from xavi_dialogue.explain.answers.suppositions.undone import (
     braking_of,
     is_halted,
     is_present,
+    is_sooner,
     straight,
 )
 from xavi_dialogue.explain.causes.driving.blocking import blocking
@@ -95,6 +107,10 @@ def form_of(then: Question | None) -> Asking:
             return "quicker"  # "would we be further along?"
         case Whether(that=Is(state="possible", event=None)):
             return "could"
+        case Where(of=Ego()):
+            return "arrival"
+        case Whether(that=Happens(event=Event("arrive", Ego(), time=Now() | At()))):
+            return "arrival"  # "would we be there by now?"
         case Whether(
             that=Happens(event=Event(actor=Ego(), action="go" | "enter" | "arrive", manner=()))
         ):
@@ -128,14 +144,6 @@ def claimed(found: Answer, that: Proposition | None) -> Answer:
             spent = Compares(Measured("delay"), "same", Quantity(said, "s"))
             return Verdict(spent, said <= ABOUT * value, (told,))
     return found
-
-
-def is_sooner(then: Question | None) -> bool:
-    """Check whether the question is if we would have gone, or been there, sooner."""
-    event = event_of(then.that) if isinstance(then, Whether) else None
-    if event is None or event.action not in (*GOING, "arrive", "go"):
-        return False
-    return manner_of(event, "first", "early", "fast") is not None
 
 
 def struck_in(then: Question | None) -> int | None:

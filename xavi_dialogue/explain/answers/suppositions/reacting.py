@@ -22,6 +22,7 @@ from xavi_dialogue.explain.answers.measuring.durations import stands
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import event_of, is_own, manner_of, unwrapped
 from xavi_dialogue.explain.causes.driving.stopping import stopping, stopping_distance
+from xavi_dialogue.explain.history.restraints import lasted
 
 #: Sudden actions of another vehicle that leave us only braking.
 SUDDEN = frozenset[ActionName](
@@ -36,6 +37,8 @@ COMING = frozenset[ActionName](("move", "go", "enter", "cross", "appear", "come"
 LYING = frozenset[ActionName](("stop", "stand", "brake"))  # actions that end in our way
 HALTING = frozenset[ActionName](("stop", "brake", "slow-down", "avoid", "swerve"))
 COLLIDING = frozenset[ActionName](("collide", "nearly-collide"))
+HALTS = frozenset[ActionName](("stop", "brake", "slow-down", "stand"))
+GOING_ON = frozenset[ActionName](("go", "move", "speed-up", "continue"))
 WAITS: tuple[ActionName, ...] = ("give-way", "wait")
 LOOK_BACK = 15.0  # [s] before the question, in which the worst time is searched
 STEP = 0.5  # [s]
@@ -55,12 +58,26 @@ def is_sudden(
     """Check whether a supposition about another vehicle leaves us only braking."""
     if asks(then) is not None:
         return True
+    if _frees(event, scene, vehicle, time, negated=negated):
+        return False
     if negated:
         return event.action in DUTIES
     if event.action in SUDDEN or manner_of(event, "suddenly", "hard") is not None:
         return True
     trend = scene.ride.motion(vehicle).until(time).trend
     return event.action in STARTING and trend in ("slowing", "standing")
+
+
+def _frees(event: Event, scene: Asked, vehicle: int, time: float, *, negated: bool) -> bool:
+    """Check whether somebody who held us up, or drove before us, is supposed to have gone on."""
+    if event.tense not in ("past", "perfect") or _is_before_us(event):
+        return False
+    if event.action not in (HALTS if negated else GOING_ON):
+        return False
+    past = scene.past
+    since, until = (time, time) if past is None else (past.begin, past.end)
+    held = (r.vehicle for r in lasted(scene.ride, since, until + STEP) if r.by == "blocked")
+    return vehicle in held or bool(scene.world.relation("ahead-of", Vehicle(vehicle), Ego(), time))
 
 
 def asks(then: Question | None) -> Asks | None:

@@ -1,5 +1,6 @@
 """Risks: who an option of a decision would have collided with in its rollouts."""
 
+import dataclasses
 from collections import Counter
 
 from msgspec.structs import replace
@@ -7,21 +8,40 @@ from msgspec.structs import replace
 from planner.record.trace import PlanTrace, Rollout
 from xavi_dialogue.causal.model import plan_of
 from xavi_dialogue.domain.answers import Answer, Identified, Options, SupposedOfUs
+from xavi_dialogue.domain.discourse import Span
 from xavi_dialogue.domain.facts import OptionValue
-from xavi_dialogue.domain.meaning import HowSure, WhatIf, Which
-from xavi_dialogue.domain.terms import At, Ego, Event, Happens, Not, Vehicle, Vehicles
+from xavi_dialogue.domain.meaning import HowSure, WhatIf, Where, Whether, Which
+from xavi_dialogue.domain.terms import (
+    At,
+    Ego,
+    Event,
+    Exists,
+    Feature,
+    Happens,
+    Is,
+    Nobody,
+    Not,
+    Now,
+    Proposition,
+    Road,
+    Unsaid,
+    Vehicle,
+    Vehicles,
+)
 from xavi_dialogue.explain.answers.measuring.closeness import closeness
 from xavi_dialogue.explain.answers.reasons import knowing
 from xavi_dialogue.explain.answers.reasons.against import EARLIER
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.moments import Window
 from xavi_dialogue.explain.answers.reference.naming import first_look
+from xavi_dialogue.explain.answers.reference.reading import event_of, unwrapped
 from xavi_dialogue.explain.answers.suppositions import supposing
 from xavi_dialogue.explain.answers.suppositions.undone import is_present
 from xavi_dialogue.explain.causes.plans.options import GOING, ONWARD, of_trace, situations
 from xavi_dialogue.explain.causes.plans.premise import Premise
 from xavi_dialogue.explain.causes.plans.terms import RISK
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
+from xavi_dialogue.explain.history.restraints import restraints
 
 
 def what_if(question: WhatIf, asked: Asked) -> Answer:
@@ -31,18 +51,46 @@ def what_if(question: WhatIf, asked: Asked) -> Answer:
         Unanswered: it cannot be supposed; or it is what was; or rollouts are needed.
     """
     question = _standing(question)
+    if _is_of_now(question):  # that is not the time of what is supposed
+        asked = dataclasses.replace(asked, span=_hindered(question.supposed, asked))
     if question.then == HowSure():
         return _likelihood(question, asked)
     return _met_by(question, asked) or supposing.what_if(question, asked)
 
 
 def _standing(question: WhatIf) -> WhatIf:
-    """Take "if it had not moved" for "if it had stood still"."""
+    """Take "if it had not moved" for standing still, and a free road for one with nobody else."""
     match question.supposed:
         case Not(Happens(Event("move" | "go", actor=Vehicle() | Vehicles()) as event)):
             event = replace(event, action="stand")
             return replace(question, supposed=Happens(event))
+        case Is(state="free", thing=Road() | Feature(kind="way"), tense=tense, time=time):
+            return replace(question, supposed=Exists(Nobody(), time, tense))
     return question
+
+
+def _hindered(supposed: Proposition, asked: Asked) -> Span | None:
+    """Return when a vehicle that is supposed to have done something else last held us up."""
+    event = event_of(unwrapped(supposed)[0])
+    other = event.actor.number if event is not None and isinstance(event.actor, Vehicle) else None
+    held = [one for one in restraints(asked.ride) if one.restraint.vehicle == other]
+    last = held[-1] if other is not None and held else None
+    return None if last is None else Span(last.begin, min(last.end, asked.now), said=False)
+
+
+def _is_of_now(question: WhatIf) -> bool:
+    """Check whether something else in the past is supposed, and asked where that leaves us now."""
+    match question.supposed:
+        case Happens(Event(tense="past" | "perfect", time=Unsaid())):
+            pass
+        case Not(Happens(Event(tense="past" | "perfect", time=Unsaid()))):
+            pass
+        case _:
+            return False
+    match question.then:
+        case Where(of=Ego(), time=Now() | At()) | Whether(that=Happens(Event("arrive", Ego()))):
+            return True
+    return False
 
 
 def _likelihood(question: WhatIf, asked: Asked) -> Answer:

@@ -40,7 +40,6 @@ from xavi_dialogue.explain.answers.suppositions.own_suppositions import (
     arrival,
     claimed,
     form_of,
-    is_sooner,
     kept_ahead,
     of_us,
     paced,
@@ -60,7 +59,7 @@ from xavi_dialogue.explain.answers.suppositions.supposed_when import (
     was_done,
     without_at,
 )
-from xavi_dialogue.explain.answers.suppositions.undone import GOING
+from xavi_dialogue.explain.answers.suppositions.undone import GOING, is_sooner
 from xavi_dialogue.explain.causes.driving.suppositions import (
     Supposed,
     is_faster,

@@ -5,6 +5,7 @@ from dataclasses import replace
 from msgspec import structs
 
 from xavi_dialogue.domain.facts import Episode
+from xavi_dialogue.domain.meaning import Question, Whether
 from xavi_dialogue.domain.reasons import Asking
 from xavi_dialogue.domain.terms import Ego, Event
 from xavi_dialogue.domain.vocabulary import ActionName
@@ -12,7 +13,7 @@ from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.foils import MANOEUVRES
 from xavi_dialogue.explain.answers.reference.naming import is_us
 from xavi_dialogue.explain.answers.reference.occasions import occasion
-from xavi_dialogue.explain.answers.reference.reading import is_past
+from xavi_dialogue.explain.answers.reference.reading import event_of, is_past, manner_of
 from xavi_dialogue.explain.causes.plans.options import risky_onward
 from xavi_dialogue.explain.causes.vehicles.actions import names_of
 from xavi_dialogue.explain.causes.vehicles.when import ROUNDING
@@ -21,6 +22,7 @@ from xavi_dialogue.explain.history.ride import planned
 GOING = frozenset[ActionName](("go", "move", "enter", "cross", "speed-up", "continue"))
 #: Actions of ours because of a hindrance, in the order in which people notice them.
 HINDERED: tuple[ActionName, ...] = ("stand", "stop", "brake", "slow-down", "wait", "give-way")
+TURNING = frozenset[ActionName](("turn", "exit-left", "exit-right", "leave"))
 HALTED = frozenset[ActionName](("stand", "wait", "stop"))
 LATELY = 12.0  # [s] maximum age of a braking that may be meant
 WALKING = 1.5  # [m/s] up to which we all but stand
@@ -66,6 +68,16 @@ def straight(event: Event, asked: Asked, form: Asking) -> Event:
     if event.side is None and risky_onward(asked.ride) is None:
         return event
     return structs.replace(event, action="exit-straight", side=None)
+
+
+def is_sooner(then: Question | None) -> bool:
+    """Check whether the question is if we would have gone, turned, or been there, sooner."""
+    event = event_of(then.that) if isinstance(then, Whether) else None
+    if event is not None and event.action in TURNING:
+        return manner_of(event, "early") is not None
+    if event is None or event.action not in (*GOING, "arrive"):
+        return False
+    return manner_of(event, "first", "early", "fast") is not None
 
 
 def is_halted(asked: Asked) -> bool:
