@@ -19,8 +19,7 @@ from planner.record.trace import EgoGoal, PlanTrace, Settings
 from planner.record.trace_reading import decode
 from planner.roads.trajectory import Roads
 from planner.rollouts.waypoints import survey
-from planner.search.decide import Frame, Moment, root_at
-from planner.search.mcts import Root
+from planner.search.inputs import Frame, Moment, Root, root_at
 from sim.roads.netconvert import opendrive_net
 from sim.roads.netfile import read_network
 from sim.roads.network import Network

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from planner.record.trace import SAMPLE_PERIOD, EgoGoal, Settings, Track
 from planner.roads.trajectory import Roads
 from planner.rollouts.waypoints import survey
-from planner.search.decide import Frame, Moment, root_at
-from planner.search.mcts import Root
+from planner.search.inputs import Frame, Moment, Root, root_at
 from sim.roads.network import Lane, Network, point_at
 from sim.scene import EGO, VehicleState
 

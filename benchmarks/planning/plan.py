@@ -27,13 +27,16 @@ from benchmarks.igp2.beside import BesideIgp2
 from benchmarks.igp2.beside import table as beside_table
 from benchmarks.planning.dense_scenes import crowd
 from benchmarks.planning.process_cost import Memory, memory, start_up
+from benchmarks.planning.several_trees import SeveralTrees
+from benchmarks.planning.several_trees import table as trees_table
 from benchmarks.planning.timed_decision import timed_decision
 from benchmarks.service.dialogue import SCENARIOS, SEED, ride
 from benchmarks.svg import Line, Panel, chart
 from planner.record.trace import EgoGoal, PlanTrace, Settings
 from planner.roads.trajectory import Roads
-from planner.search.decide import Frame, Moment, decide, root_at
-from planner.search.mcts import Root, Search
+from planner.search.decide import decide
+from planner.search.inputs import Frame, Moment, Root, root_at
+from planner.search.mcts import Search
 from sim.scene import EGO
 from sim.setup.scenario import load
 from xavi_dialogue.process.garbage import settled
@@ -77,6 +80,7 @@ class PlanReport(Aimed, frozen=True, kw_only=True):
     growth: tuple[Growth, ...]
     memory: tuple[Memory, ...]
     igp2: tuple[BesideIgp2, ...] = ()
+    several_trees: tuple[SeveralTrees, ...] = ()
 
     def table(self) -> str:
         """Return the report for people."""
@@ -88,6 +92,7 @@ class PlanReport(Aimed, frozen=True, kw_only=True):
         parts = [f"yardstick {self.yardstick:.2f} ms", figures_table(self.figures)]
         parts += [in_columns(rows)] + ([in_columns(kept)] if self.memory else [])
         parts += [beside_table(self.igp2)] if self.igp2 else []
+        parts += [trees_table(self.several_trees)] if self.several_trees else []
         return "\n\n".join([*parts, targets_table(self.targets)])
 
     def plot(self) -> str:

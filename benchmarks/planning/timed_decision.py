@@ -1,8 +1,10 @@
 """A decision, with the time of each part of it."""
 
 from benchmarks.figures import Watch
-from planner.search.decide import Frame, Moment, predict, prepare, record
+from planner.search.decide import predict, searched
+from planner.search.inputs import Frame, Moment
 from planner.search.mcts import Search
+from planner.search.recording import record
 
 
 def timed_decision(watch: Watch, prefix: str, frame: Frame, moment: Moment) -> Search:
@@ -18,8 +20,7 @@ def timed_decision(watch: Watch, prefix: str, frame: Frame, moment: Moment) -> S
         with watch.time(f"{prefix}recognition"):
             beliefs = predict(frame, moment)
         with watch.time(f"{prefix}search"):
-            search = prepare(frame, moment, beliefs)
-            search.run()
+            search = searched(frame, moment, beliefs)
         with watch.time(f"{prefix}record"):
             record(frame, moment, beliefs, search)
     return search

@@ -15,7 +15,7 @@ from planner.motion.forward import Motion
 from planner.record.trace import SAMPLE_PERIOD, PlanTrace
 from planner.roads.routes import Refusal
 from planner.roads.trajectory import Array, Path, Roads, relative
-from planner.search.decide import root_at
+from planner.search.inputs import root_at
 from sim.scene import EGO, Point, VehicleState
 
 ASIDE = 0.3  # [m] greatest distance of a line from the path; recorded lines are rounded

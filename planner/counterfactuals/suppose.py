@@ -22,7 +22,8 @@ from planner.prediction.recognise import Belief, Trajectory
 from planner.record.trace import ON_FOOT, Action, EgoGoal
 from planner.roads.routes import Refusal
 from planner.rollouts.rollout import Leg, Task, held_by_lights, held_up, take
-from planner.search.decide import Frame, Moment, observed
+from planner.search.decide import observed
+from planner.search.inputs import Frame, Moment
 
 STRAIGHT = ("continue", "exit-straight")  # one word to people
 

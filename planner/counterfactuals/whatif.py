@@ -30,18 +30,9 @@ from planner.record.light_record import LightPrediction, LightSupposed
 from planner.record.trace import PlanTrace, Settings, Track, VehiclePrediction, WhatIf
 from planner.roads.routes import Refusal
 from planner.roads.trajectory import Roads
-from planner.search.decide import (
-    Frame,
-    Moment,
-    decide,
-    observed,
-    predict,
-    prepare,
-    record,
-    rollouts,
-    root_at,
-)
-from planner.search.mcts import Root
+from planner.search.decide import decide, observed, predict, prepare, searched
+from planner.search.inputs import Frame, Moment, Root, root_at
+from planner.search.recording import record, rollouts
 from planner.traffic_lights.cycles import supposed
 from sim.roads.network import Network
 from sim.scene import EGO, LightState, VehicleState
@@ -80,13 +71,12 @@ def replan(trace: PlanTrace, network: Network, request: WhatIf) -> PlanTrace:
         Inapplicable: a vehicle cannot have that goal or take those actions.
     """
     _check(trace, network, request)
-    frame, moment = _restore(trace, Roads(network), request)
+    frame, moment = restore(trace, Roads(network), request)
     beliefs = _beliefs(frame, moment, request, trace.predictions)
     changed = bool(request.gone or supposed_lights(request) or seen_past(request))
     changed = changed or request.vehicle is not None
     if changed:
-        search = prepare(frame, moment, beliefs)
-        search.run()
+        search = searched(frame, moment, beliefs)
         trace = record(frame, moment, beliefs, search)
     trace = msgspec.structs.replace(trace, what_if=request)
     if not changed or request.actions:
@@ -102,7 +92,7 @@ def decide_again(trace: PlanTrace, network: Network, settings: Settings) -> Plan
     """
     _check(trace, network, WhatIf())
     there = msgspec.structs.replace(trace, settings=settings)
-    frame, moment = _restore(there, Roads(network), WhatIf())
+    frame, moment = restore(there, Roads(network), WhatIf())
     return decide(frame, moment).trace
 
 
@@ -184,8 +174,12 @@ def supposed_lights(request: WhatIf) -> tuple[LightSupposed, ...]:
     return request.lights if isinstance(request.lights, tuple) else ()
 
 
-def _restore(trace: PlanTrace, roads: Roads, request: WhatIf) -> tuple[Frame, Moment]:
-    """Return the frame and moment of a recorded decision, with what is changed in its scene."""
+def restore(trace: PlanTrace, roads: Roads, request: WhatIf) -> tuple[Frame, Moment]:
+    """Return the frame and moment of a recorded decision, with what is changed in its scene.
+
+    Raises:
+        WhatIfError: the ego's place is not clear from the trace.
+    """
     here = root_at(roads, trace.scene[EGO], trace.sim_time)
     if here is None:
         raise WhatIfError(f"the ego was on no lane at {trace.sim_time} s")

@@ -24,8 +24,8 @@ from planner.record.trace import Action, EgoGoal, PlanTrace, Settings
 from planner.roads.routes import Refusal
 from planner.roads.trajectory import Roads
 from planner.rollouts.waypoints import survey, way
-from planner.search.decide import Decision, Frame, Moment, decide, root_at
-from planner.search.mcts import Root
+from planner.search.decide import Decision, Elsewhere, decide
+from planner.search.inputs import Frame, Moment, Root, at_place, root_at
 from sim.roads.network import Location, Network
 from sim.scene import EGO, Command, Scene, Signal, VehicleState
 
@@ -72,8 +72,15 @@ class Driver:
     """Drives one car to its goal."""
 
     def __init__(
-        self, network: Network, goal: EgoGoal, settings: Settings, seed: int, vehicle: str = "car"
+        self,
+        network: Network,
+        goal: EgoGoal,
+        settings: Settings,
+        seed: int,
+        vehicle: str = "car",
+        elsewhere: Elsewhere | None = None,
     ) -> None:
+        self._elsewhere = elsewhere
         self._frame = Frame(Roads(network), goal, settings, seed, vehicle)
         self._memory = Memory(self._frame.roads)
         survey(self._frame.roads, goal)
@@ -148,7 +155,7 @@ class Driver:
             lights=self._lookout(scene),
             phantoms=self._imagined(scene),
         )
-        decision = decide(self._frame, moment)
+        decision = decide(self._frame, moment, self._elsewhere)
         self._last, self._moment, self._decided = decision, moment, scene.time
         if scene.unseen and decision.trace.road is not None:
             places = decision.trace.road.places
@@ -238,18 +245,14 @@ class Driver:
             return here
         lane, begin = current.plan.path.lane_at(current.motion.arc)
         location = Location(lane, current.motion.arc - begin, 0.0)
-        ego = self._memory.now[EGO]  # as the trace records it
-        return Situation(
-            scene.time, ego.position, ego.heading, ego.speed, ego.acceleration, location
-        )
+        return at_place(self._memory.now[EGO], scene.time, location)  # as the trace records it
 
     def _beyond(self, ego: VehicleState, time: float) -> Situation | None:
         """Return its situation if it could not stop and has driven beyond the end of the road."""
         if self._left is None:
             return None
         end = self._frame.roads.network.lanes[self._left].length
-        location = Location(self._left, end, 0.0)
-        return Situation(time, ego.position, ego.heading, ego.speed, ego.acceleration, location)
+        return at_place(ego, time, Location(self._left, end, 0.0))
 
     def _drive(self, scene: Scene, dt: float, events: list[Event]) -> Command:
         current = self._current

@@ -98,6 +98,8 @@ class Settings(msgspec.Struct, frozen=True):
     view_radius: float = 100.0  # [m]
     #: whether the others of a rollout brake for the ego; unset in older traces: they do not
     reacting: bool | msgspec.UnsetType = msgspec.UNSET
+    #: search trees that share the rollouts, and may grow in parallel; unset: one
+    trees: int | msgspec.UnsetType = msgspec.UNSET
 
 
 class EgoGoal(msgspec.Struct, frozen=True):

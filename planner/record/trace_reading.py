@@ -26,6 +26,7 @@ SETTINGS: Final = (
     ("min_rollouts", 0.0, 10_000.0, ""),
     ("comparisons", 0.0, 10_000.0, ""),
     ("depth", 1.0, 100.0, ""),
+    ("trees", 1.0, 64.0, ""),
     ("horizon", 1.0, 600.0, "s"),
     ("period", 0.0, LATEST, "s"),
     ("rationality", 0.0, 1e3, ""),
@@ -86,7 +87,9 @@ def _faults(trace: PlanTrace) -> Iterator[str]:
 def _times(trace: PlanTrace) -> Iterator[str]:
     yield from _outside("sim_time", (trace.sim_time,), 0.0, LATEST, "s")
     for name, least, most, unit in SETTINGS:
-        yield from _outside(f"settings.{name}", (getattr(trace.settings, name),), least, most, unit)
+        value = getattr(trace.settings, name)
+        if value is not msgspec.UNSET:
+            yield from _outside(f"settings.{name}", (value,), least, most, unit)
 
 
 def _figures(trace: PlanTrace) -> Iterator[str]:

@@ -1,89 +1,35 @@
 """One decision: recognition of the others' goals, the search, and the record as a PlanTrace."""
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
 
 from planner.hidden_areas.caution import cautious
-from planner.manoeuvres.actions import Situation
 from planner.manoeuvres.footways import crossings_along
 from planner.motion.forward import DT
 from planner.motion.tracks import Observed, indicating, lanes_at
 from planner.prediction.people import concerned
-from planner.prediction.recognise import Belief, Trajectory, recognise
+from planner.prediction.recognise import Belief, recognise
 from planner.prediction.relevance import relevant
-from planner.record.fitting import fitted
-from planner.record.hidden_record import Phantom
-from planner.record.light_record import LightPrediction
-from planner.record.trace import (
-    ON_FOOT,
-    SCHEMA,
-    Component,
-    EgoGoal,
-    GoalPrediction,
-    PlanTrace,
-    RewardTerm,
-    Rollout,
-    Settings,
-    TimedAction,
-    Track,
-    TrajectoryPrediction,
-    VehiclePrediction,
-)
-from planner.roads.trajectory import Array, Roads
-from planner.rollouts.reward import COSTS
+from planner.record.trace import ON_FOOT, PlanTrace, Track
 from planner.rollouts.rollout import Task
 from planner.rollouts.waypoints import way, waypoint
-from planner.search.mcts import Root, Search
-from planner.search.road_facts import road_facts
-from planner.search.simulated import Simulated
-from planner.traffic_lights.signals import Outlook
+from planner.search.inputs import Frame, Moment
+from planner.search.mcts import Search
+from planner.search.recording import record
+from planner.search.trees import GrownTree, detached, share, trees_of
 from sim.roads.network import Crossing
-from sim.scene import EGO, Point, VehicleState
-
-Line: TypeAlias = tuple[tuple[Point, ...], tuple[float, ...]]  # places [m], speeds [m/s]
+from sim.scene import EGO, VehicleState
 
 CROWD = 16  # maximum number of vehicles whose goals are recognised
-DIGITS: dict[Component, int] = {
-    "time": 2,
-    "jerk": 4,
-    "angular-acceleration": 5,
-    "curvature": 6,
-}
 
-
-@dataclass(frozen=True, slots=True)
-class Frame:
-    """The inputs that stay the same from decision to decision."""
-
-    roads: Roads
-    goal: EgoGoal
-    settings: Settings
-    seed: int
-    vehicle: str  # the car's id on the bus
-
-
-@dataclass(frozen=True, slots=True)
-class Moment:
-    """The inputs that are new in every decision."""
-
-    number: int
-    time: float  # [s]
-    scene: Mapping[int, VehicleState]
-    history: Mapping[int, Track]
-    root: Root
-    unseen: Mapping[int, float] = field(default_factory=dict)  # [s] when last seen
-    unpaced: frozenset[int] = frozenset()  # whose speed a removed vehicle limited
-    lights: tuple[LightPrediction, ...] = ()
-    phantoms: tuple[Phantom, ...] = ()
-
-    @property
-    def outlook(self) -> Outlook:
-        """The courses that the lights may take."""
-        return Outlook(self.time, self.lights)
+#: Waits for a tree that is grown elsewhere; None: it was not grown, or takes too long.
+Pending: TypeAlias = Callable[[], GrownTree | None]
+#: Begins to grow all trees of a decision but the first elsewhere, such as in other processes.
+Elsewhere: TypeAlias = Callable[[Moment], Sequence[Pending]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -94,12 +40,49 @@ class Decision:
     beliefs: Mapping[int, Sequence[Belief]]
 
 
-def decide(frame: Frame, moment: Moment) -> Decision:
-    """Decide what to do next."""
+def decide(frame: Frame, moment: Moment, elsewhere: Elsewhere | None = None) -> Decision:
+    """Decide what to do next.
+
+    Args:
+        frame, moment: the inputs.
+        elsewhere: grows trees in parallel; None: all are grown here. The decision is the same.
+    """
+    pending = elsewhere(moment) if elsewhere is not None else ()
     beliefs = predict(frame, moment)
-    search = prepare(frame, moment, beliefs)
-    search.run()
+    search = searched(frame, moment, beliefs, pending)
     return Decision(record(frame, moment, beliefs, search), beliefs)
+
+
+def searched(
+    frame: Frame,
+    moment: Moment,
+    beliefs: Mapping[int, Sequence[Belief]],
+    pending: Sequence[Pending] = (),
+) -> Search:
+    """Search, in as many trees as the settings say, and return the search.
+
+    Args:
+        frame, moment: the inputs.
+        beliefs: those about every other road user.
+        pending: the trees after the first that are grown elsewhere; () if none are.
+    """
+    search = prepare(frame, moment, beliefs)
+    count = trees_of(frame.settings)
+    search.grow(share(frame.settings.rollouts, count, 0))
+    for tree in range(1, count):
+        found = pending[tree - 1]() if pending else None
+        search.join(grown(frame, moment, beliefs, tree) if found is None else found)
+    search.conclude()
+    return search
+
+
+def grown(
+    frame: Frame, moment: Moment, beliefs: Mapping[int, Sequence[Belief]], tree: int
+) -> GrownTree:
+    """Grow one of the trees after the first, and return it."""
+    search = prepare(frame, moment, beliefs, salt=f"/tree {tree}")
+    search.grow(share(frame.settings.rollouts, trees_of(frame.settings), tree))
+    return detached(search.rollouts, search.refusals)
 
 
 def predict(frame: Frame, moment: Moment) -> dict[int, tuple[Belief, ...]]:
@@ -176,143 +159,3 @@ def observed(vehicle: int, track: Track, state: VehicleState) -> Observed:
         indicating(state),
         kind=state.kind,
     )
-
-
-def record(
-    frame: Frame, moment: Moment, beliefs: Mapping[int, Sequence[Belief]], search: Search
-) -> PlanTrace:
-    """Return the trace of a decision."""
-    under_way, plan = moment.root.under_way, search.plan()
-    view = frame.settings.view_radius
-    trace = PlanTrace(
-        schema=SCHEMA,
-        vehicle=frame.vehicle,
-        sim_time=moment.time,
-        decision=moment.number,
-        seed=frame.seed,
-        settings=frame.settings,
-        network=frame.roads.network.hash,
-        goal=frame.goal,
-        under_way=None if under_way is None else TimedAction(under_way[0].action, moment.time),
-        history=dict(sorted(moment.history.items())),
-        scene=dict(sorted(moment.scene.items())),
-        predictions=tuple(
-            VehiclePrediction(vehicle, tuple(_goal(belief) for belief in known))
-            for vehicle, known in beliefs.items()
-        ),
-        rollouts=rollouts(search.rollouts, moment.time),
-        not_applicable=search.not_applicable(),
-        plan=plan,
-        unseen=dict(sorted(moment.unseen.items())),
-        waypoint=None if search.task.goal == frame.goal else search.task.goal,
-        road=road_facts(
-            frame.roads, moment.scene, moment.root, plan, frame.goal, view, moment.lights
-        ),
-        costs=COSTS,
-        lights=moment.lights,
-        phantoms=moment.phantoms,
-        driving=moment.root.driving,
-    )
-    return fitted(trace)
-
-
-def rollouts(simulated: Sequence[Simulated], start: float, offset: int = 0) -> tuple[Rollout, ...]:
-    """Return the records of rollouts, numbered from `offset`, each path and speed recorded once."""
-    seen: dict[Line, int] = {}
-    lines: dict[tuple[int, ...], Line] = {}  # by legs, which many rollouts share
-    parts: dict[int, dict[Component, float | None]] = {}  # by identity, as they are shared
-    costs: dict[int, dict[RewardTerm, float]] = {}
-    found = []
-    for index, one in enumerate(simulated, offset):
-        legs = tuple(map(id, one.legs))
-        line = lines.get(legs)
-        if line is None:
-            line = lines[legs] = _line(one)
-        if id(one.terms) not in costs:
-            costs[id(one.terms)] = {term: round(cost, 4) for term, cost in one.terms.items()}
-        if id(one.components) not in parts:
-            parts[id(one.components)] = {
-                name: None if value is None else round(value, DIGITS[name])
-                for name, value in one.components.items()
-            }
-        first = seen.setdefault(line, index)
-        new = first == index
-        found.append(
-            Rollout(
-                index=index,
-                forced=one.forced,
-                samples=one.samples,
-                actions=tuple(
-                    TimedAction(leg.action, round(start + leg.first * DT, 2)) for leg in one.legs
-                ),
-                path=line[0] if new else None,
-                speed=line[1] if new else None,
-                same_as=None if new else first,
-                outcome=one.outcome,
-                components=parts[id(one.components)],
-                reward=one.reward,
-                collided_with=one.legs[-1].collided_with if one.legs else None,
-                held_up=one.held_up,
-                terms=costs[id(one.terms)],
-                weight=None if one.weight is None else round(one.weight, 6),
-                braking=one.braking,
-                lights=one.lights,
-                held_by_lights=one.held_by_lights,
-                phantoms=one.phantoms,
-                held_by_hidden=one.held_by_hidden,
-            )
-        )
-    return tuple(found)
-
-
-def _line(one: Simulated) -> Line:
-    if not one.legs:
-        return (), ()
-    position = np.vstack((one.legs[0].position[:1], *(leg.position[1:] for leg in one.legs)))
-    speed = np.concatenate((one.legs[0].speed[:1], *(leg.speed[1:] for leg in one.legs)))
-    return points(position), numbers(speed)
-
-
-def points(position: Array) -> tuple[Point, ...]:
-    """Return positions [m] [N, 2] as the trace records them, to the decimetre."""
-    x, y = np.round(position, 1).T.tolist()
-    return tuple(zip(x, y, strict=True))
-
-
-def numbers(values: Array) -> tuple[float, ...]:
-    """Return speeds [m/s] [N] as the trace records them."""
-    return tuple(np.round(values, 1).tolist())
-
-
-def _goal(belief: Belief) -> GoalPrediction:
-    target = belief.goal.target
-    return GoalPrediction(
-        kind=belief.goal.kind,
-        place=belief.goal.place,
-        edge=None if target is None else target.edge,
-        prior=round(belief.goal.prior, 6),
-        likelihood=round(belief.likelihood, 6),
-        probability=round(belief.probability, 6),
-        trajectories=tuple(_trajectory(way) for way in belief.trajectories),
-        indicators=round(belief.indicators, 4),
-    )
-
-
-def _trajectory(way: Trajectory) -> TrajectoryPrediction:
-    there = ~np.isnan(way.motion.position[:, 0])
-    return TrajectoryPrediction(
-        probability=round(way.probability, 6),
-        actions=way.actions,
-        path=points(way.motion.position[there]),
-        speed=numbers(way.motion.speed[there]),
-        held_up=way.held_up,
-        held_by_lights=way.held_by_lights,
-    )
-
-
-def root_at(roads: Roads, ego: VehicleState, time: float) -> Situation | None:
-    """Return the situation of the ego, from its state alone; None off the road."""
-    found = lanes_at(roads, ego.position, ego.heading)
-    if not found:
-        return None
-    return Situation(time, ego.position, ego.heading, ego.speed, ego.acceleration, found[0])

@@ -32,8 +32,10 @@ from planner.rollouts.reward import EFFORT, absent, reward, terms
 from planner.rollouts.rollout import Leg, Task, held_by_lights, held_up, hindered, summarise, take
 from planner.rollouts.waypoints import cost_by, cost_left
 from planner.search.comparison import Samples, draw, source_of, standard_error, weighted
-from planner.search.simulated import Simulated
+from planner.search.inputs import Root
+from planner.search.simulated import Simulated, braking
 from planner.search.tree import Edge, Node, Tree
+from planner.search.trees import GrownTree
 from planner.traffic_lights.signals import DARK, Lights, Outlook
 from sim.roads.network import Location
 
@@ -44,15 +46,6 @@ Options: TypeAlias = tuple[Mapping[Action, ActionPlan], tuple[Action, ...]]
 LATE = 1e3  # [s] added to the cost of a stop, so that it is tried last
 ENOUGH = 0.05  # minimum share of the rollouts for the first action of a plan
 FATAL: tuple[Outcome, ...] = ("collision", "dead")
-
-
-@dataclass(frozen=True, slots=True)
-class Root:
-    """The situation in which the search begins."""
-
-    here: Situation
-    under_way: tuple[ActionPlan, Motion] | None = None  # must be finished first
-    driving: Action | None = None  # being driven, but can be abandoned
 
 
 @dataclass
@@ -89,11 +82,22 @@ class Search:
         )
         self._draws = {name: random.Random(f"{self.seed}/{name}") for name in names}
 
-    def run(self) -> None:
-        """Run the rollouts of the search, compare the first actions, and force missing rollouts."""
-        for _ in range(self.settings.rollouts):
+    def grow(self, rollouts: int) -> None:
+        """Run rollouts that the tree learns from."""
+        for _ in range(rollouts):
             drawn = draw(self.beliefs, self._draws, self.lights, self.phantoms)
             self._learn(self.tree, drawn, (), forced=False)
+
+    def join(self, other: GrownTree) -> None:
+        """Add the rollouts of another tree, as if this one had learnt from them."""
+        for one in other.rollouts:
+            self.rollouts.append(one)
+            self.tree.back_up(one.actions[: self.settings.depth], one.reward)
+        for where, reason in other.refusals.items():
+            self.refusals.setdefault(where, reason)
+
+    def conclude(self) -> None:
+        """Compare the first actions, and force missing rollouts."""
         self._compare()
         tried = Counter(rollout.actions[0] for rollout in self.rollouts if rollout.legs)
         for action in self._first_actions():
@@ -222,7 +226,10 @@ class Search:
             slow = self._held_by_hidden(legs)
             shown: dict[Component, float | None] = absent() if outcome != "done" else {**parts}
             row = tuple(legs)
-            found = Simulated(samples, row, outcome, shown, gained, spent, stretches, stops, slow)
+            brakes = braking(row)
+            found = Simulated(
+                samples, row, outcome, shown, gained, spent, stretches, stops, slow, brakes
+            )
             self._known[key] = found
         return found
 

@@ -17,7 +17,7 @@ from planner.roads.classes import roads_of
 from planner.roads.routes import approach, rest_of
 from planner.roads.trajectory import Roads
 from planner.rollouts.itinerary import Leg, is_junction, itinerary, rings_of, steps
-from planner.search.mcts import Root
+from planner.search.inputs import Root
 from planner.traffic_lights.signals import MEANING
 from sim.roads.network import Link, Location, Network
 from sim.scene import EGO, LightState, Signal, VehicleState

@@ -1,5 +1,6 @@
 """The result of one rollout."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from planner.record.hidden_record import HeldByHidden, PhantomSample
@@ -23,6 +24,7 @@ class Simulated:
     held_up: tuple[HeldUp, ...]
     held_by_lights: tuple[HeldByLight, ...]
     held_by_hidden: tuple[HeldByHidden, ...]
+    braking: tuple[int, ...]  # vehicles that brake for the ego, or for another that does
     forced: bool = False
     weight: float | None = None  # in the comparison of the first actions
 
@@ -42,15 +44,15 @@ class Simulated:
         return tuple(one for one in self.drawn if isinstance(one, PhantomSample))
 
     @property
-    def braking(self) -> tuple[int, ...]:
-        """The vehicles that brake for the ego, or for another that does, in increasing order."""
-        if not self.legs:
-            return ()
-        traffic = self.legs[-1].traffic
-        pairs = zip(traffic.vehicles, traffic.braking.tolist(), strict=True)
-        return tuple(sorted(vehicle for vehicle, brakes in pairs if brakes and vehicle >= 0))
-
-    @property
     def actions(self) -> Node:
         """The macro actions, in order."""
         return tuple(leg.action for leg in self.legs)
+
+
+def braking(legs: Sequence[Leg]) -> tuple[int, ...]:
+    """Return the vehicles that brake for the ego in a rollout, or for another that does, sorted."""
+    if not legs:
+        return ()
+    traffic = legs[-1].traffic
+    pairs = zip(traffic.vehicles, traffic.braking.tolist(), strict=True)
+    return tuple(sorted(vehicle for vehicle, brakes in pairs if brakes and vehicle >= 0))

@@ -17,8 +17,8 @@ from planner.motion.tracks import links_of
 from planner.record.trace import Action, EgoGoal, Settings, Track
 from planner.roads.routes import Refusal
 from planner.roads.trajectory import Path, Roads
-from planner.search.decide import Frame, Moment, root_at
-from planner.search.mcts import Root
+from planner.search.inputs import Frame, Moment, Root, root_at
+from planner.search.mcts import Search
 from sim.roads.netfile import read_network
 from sim.roads.network import Direction, Link, Location, point_at
 from sim.scene import EGO, VehicleState
@@ -151,3 +151,9 @@ def obstacle(
         np.gradient(np.array(arcs)) / DT if len(arcs) > 1 else np.zeros(1),
         links_of(roads(name), lanes),
     )
+
+
+def run(search: Search) -> None:
+    """Run all rollouts of a search, in one tree."""
+    search.grow(search.settings.rollouts)
+    search.conclude()

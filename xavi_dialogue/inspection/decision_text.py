@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from planner.record.trace import PlanTrace, VehiclePrediction
+from planner.search.trees import trees_of
 from sim.scene import EGO, VehicleState
 from xavi_dialogue.bus.sanitize import one_line
 from xavi_dialogue.inspection.comparison import Option, comparison
@@ -82,8 +83,9 @@ def _head(trace: PlanTrace) -> Iterator[str]:
     now = f"decision {trace.decision} at {_number(trace.sim_time)} s{speed}"
     place = f"{one_line(goal.edge)} ({_number(goal.position)} m, {lane})"
     yield f"{one_line(trace.vehicle)}: {now}, to {place}"
+    grown = "" if trees_of(settings) == 1 else f" in {trees_of(settings)} trees"
     yield (
-        f"trace {trace.trace_id}; seed {trace.seed}; {settings.rollouts} rollouts,"
+        f"trace {trace.trace_id}; seed {trace.seed}; {settings.rollouts} rollouts{grown},"
         f" {settings.depth} actions deep, {_number(settings.horizon)} s ahead"
     )
     if trace.under_way is not None:

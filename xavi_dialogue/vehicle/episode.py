@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Literal, Protocol, TypeAlias
 
+import msgspec
+
 from planner.driving.driver import Driver, DriveStep
 from planner.record.events import Event
 from planner.record.trace import Action, EgoGoal, PlanTrace, Settings
@@ -21,6 +23,7 @@ from xavi_dialogue.bus.interface import DEFAULT_VEHICLE
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.process.garbage import settled
+from xavi_dialogue.vehicle.search_workers import SearchedRide, search_workers
 
 Ending: TypeAlias = Literal["arrived", "collided", "duration"]
 
@@ -111,9 +114,10 @@ def network_of(scenario: Scenario) -> Network:
     return read_network(scenario.network)
 
 
-def settings_of(scenario: Scenario) -> Settings:
+def settings_of(scenario: Scenario, trees: int = 1) -> Settings:
     """Return the planner's settings in a scenario."""
-    return Settings(view_radius=scenario.view_radius, reacting=True)
+    several = trees if trees > 1 else msgspec.UNSET
+    return Settings(view_radius=scenario.view_radius, reacting=True, trees=several)
 
 
 @contextmanager
@@ -124,14 +128,29 @@ def start(
     *,
     duration: float | None = None,
     vehicle: str = DEFAULT_VEHICLE,
+    trees: int = 1,
 ) -> Iterator[Iterator[Moment]]:
     """Start SUMO and the driver; the ride advances as its moments are taken.
+
+    Args:
+        scenario: to drive.
+        seed: of the ride.
+        network: of the scenario.
+        duration: [s] after which the ride ends; None: the scenario's.
+        vehicle: name of the car on the bus.
+        trees: of each search; all but the first grow in processes of their own.
 
     Raises:
         SimulationError: SUMO is not installed or does not start.
     """
     goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
-    driver = Driver(network, goal, settings_of(scenario), seed, vehicle)
-    with Simulation(scenario, seed) as world, settled():
+    settings = settings_of(scenario, trees)
+    searched = SearchedRide(network, goal, settings, seed, vehicle)
+    with (
+        Simulation(scenario, seed) as world,
+        search_workers(searched) as elsewhere,
+        settled(),
+    ):
+        driver = Driver(network, goal, settings, seed, vehicle, elsewhere)
         limit = scenario.duration if duration is None else min(duration, scenario.duration)
         yield moments(world, driver, scenario.step, limit)

@@ -108,6 +108,7 @@ class DriveOptions:
     replanning: ReplanningOptions = field(
         default_factory=ReplanningOptions
     )  # options of planning again
+    trees: int = 1  # of each search
 
 
 def drive(
@@ -173,7 +174,7 @@ def _drive(scenario: Scenario, seed: int, options: DriveOptions, connections: _C
         records = (*records, bus_session.planning.record)
     network = network_of(scenario)
     _LOG.info("the ride begins", extra={"scenario": scenario.name, "seed": seed})
-    with start(scenario, seed, network, duration=options.duration) as ride:
+    with start(scenario, seed, network, duration=options.duration, trees=options.trees) as ride:
         pace = Pace(options.speed, running=not options.controlled)
         VehicleNode(
             ride, scenario.step, records, reporter, connections.orders, pace, options.controlled

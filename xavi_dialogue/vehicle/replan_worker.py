@@ -26,7 +26,7 @@ from planner.record import trace_reading
 from planner.record.trace import EgoGoal, Settings, WhatIf
 from planner.roads.levels import load_kernels
 from planner.roads.trajectory import Roads
-from planner.search.decide import root_at
+from planner.search.inputs import root_at
 from sim.roads.netfile import read_network
 from sim.roads.network import Network, point_at
 from sim.scene import EGO, Scene, VehicleState

@@ -12,8 +12,8 @@ from planner.manoeuvres.actions import SIDES
 from planner.record.trace import Action, EgoGoal, PlanTrace
 from planner.roads.routes import Refusal
 from planner.roads.trajectory import Roads
-from planner.search.decide import Frame, Moment, decide, root_at
-from planner.search.mcts import Root
+from planner.search.decide import decide
+from planner.search.inputs import Frame, Moment, Root, root_at
 from sim.scene import EGO, Scene, VehicleState
 from tests.planner.worlds import LENGTH, QUICK, WIDTH, before_end, driven, goal, roads, row
 

@@ -14,8 +14,8 @@ from planner.driving.driver import Driver
 from planner.record.events import Event
 from planner.record.trace import MAX_BYTES, Action, EgoGoal, PlanTrace, Settings, encode
 from planner.roads.trajectory import Roads
-from planner.search.decide import Frame, Moment, decide, root_at
-from planner.search.mcts import Root
+from planner.search.decide import decide
+from planner.search.inputs import Frame, Moment, Root, root_at
 from sim.roads.netfile import read_network
 from sim.scene import EGO, Scene
 from sim.setup.scenario import Scenario, load

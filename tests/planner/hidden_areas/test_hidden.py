@@ -28,8 +28,8 @@ from planner.record.trace import EgoGoal, PlanTrace, Settings, Track, encode
 from planner.record.trace_reading import decode
 from planner.roads.trajectory import Roads
 from planner.search.comparison import likeliest
-from planner.search.decide import Frame, Moment, decide
-from planner.search.mcts import Root
+from planner.search.decide import decide
+from planner.search.inputs import Frame, Moment, Root
 from sim.roads.network import Location
 from sim.scene import EGO, Unseen, VehicleState
 from tests.planner.nets import drawn, lane, link

@@ -2,8 +2,8 @@
 
 from planner.prediction.relevance import FEW, relevant
 from planner.record.trace import EgoGoal, Settings, Track
-from planner.search.decide import Frame, Moment, decide
-from planner.search.mcts import Root
+from planner.search.decide import decide
+from planner.search.inputs import Frame, Moment, Root
 from sim.scene import VehicleState
 from tests.planner.crossroads import ARM, before, crossroads
 from tests.planner.nets import on_lane

@@ -8,18 +8,9 @@ import pytest
 
 from planner.manoeuvres.actions import Situation
 from planner.record.trace import EgoGoal, Sample, Settings, Track
-from planner.search.decide import (
-    Frame,
-    Moment,
-    decide,
-    numbers,
-    points,
-    predict,
-    prepare,
-    rollouts,
-    root_at,
-)
-from planner.search.mcts import Root
+from planner.search.decide import decide, predict, prepare
+from planner.search.inputs import Frame, Moment, Root, root_at
+from planner.search.recording import numbers, points, rollouts
 from planner.search.simulated import Simulated
 from sim.roads.network import Location
 from sim.scene import VehicleState
@@ -50,21 +41,10 @@ def simulated(*legs: Part, samples: tuple[Sample, ...] = (), **more: Any) -> Sim
         "held_up": (),
         "held_by_lights": (),
         "held_by_hidden": (),
+        "braking": (),
     }  # fmt: skip
     one = Simulated(samples, (), **{**known, **more})
     return replace(one, legs=cast("Any", legs)) if legs else one
-
-
-class Quiet(Simulated):
-    """A rollout for which nobody brakes."""
-
-    braking = ()
-
-
-def quiet(*legs: Part, **more: Any) -> Simulated:
-    one = simulated(*legs, **more)
-    fields = {name: getattr(one, name) for name in Simulated.__dataclass_fields__}
-    return Quiet(**fields)
 
 
 def part(action: str, first: int, *xs: float, hit: int | None = None) -> Part:
@@ -76,7 +56,7 @@ THEN = part("continue", 2, 20.06, 30.0)
 
 
 def test_a_line_that_was_driven_before_is_referred_to() -> None:
-    ways = [quiet(FIRST, THEN), quiet(FIRST), quiet(FIRST, THEN), quiet(FIRST)]
+    ways = [simulated(FIRST, THEN), simulated(FIRST), simulated(FIRST, THEN), simulated(FIRST)]
     found = rollouts(ways, 50.0, 7)
     assert [one.index for one in found] == [7, 8, 9, 10]
     assert [one.same_as for one in found] == [None, None, 7, 8]
@@ -91,13 +71,13 @@ def test_a_line_that_was_driven_before_is_referred_to() -> None:
 
 
 def test_figures_are_rounded() -> None:
-    (one,) = rollouts([quiet(FIRST, weight=0.12345678)], 50.0)
+    (one,) = rollouts([simulated(FIRST, weight=0.12345678)], 50.0)
     assert one.components == {
         "time": 4.44, "jerk": 0.1235, "angular-acceleration": 0.12346, "curvature": 0.123457
     }  # fmt: skip
     assert one.terms == {"time": 4.4444, "effort": 0.5556}
     assert one.weight == 0.123457
-    (other,) = rollouts([quiet(FIRST, components={"time": None})], 50.0)
+    (other,) = rollouts([simulated(FIRST, components={"time": None})], 50.0)
     assert (other.components, other.weight) == ({"time": None}, None)
     assert points(np.array([(1.04, -2.06)])) == ((1.0, -2.1),)
     assert numbers(np.array([3.14, 2.96])) == (3.1, 3.0)
@@ -105,7 +85,7 @@ def test_figures_are_rounded() -> None:
 
 def test_the_last_leg_tells_who_was_hit() -> None:
     hit = part("continue", 2, 20.0, hit=9)
-    found = rollouts([quiet(FIRST, hit), quiet(FIRST), quiet()], 50.0)
+    found = rollouts([simulated(FIRST, hit), simulated(FIRST), simulated()], 50.0)
     assert [one.collided_with for one in found] == [9, None, None]
     assert (found[2].path, found[2].speed, found[2].actions) == ((), (), ())
 

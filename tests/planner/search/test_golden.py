@@ -13,9 +13,10 @@ from typing import Any
 import pytest
 
 from planner.record.trace import Settings
-from planner.search.decide import Frame, Moment, predict, prepare
+from planner.search.decide import predict, prepare
+from planner.search.inputs import Frame, Moment
 from planner.search.mcts import Search
-from tests.planner.worlds import before_end, changing, driven, frame, moment, still
+from tests.planner.worlds import before_end, changing, driven, frame, moment, run, still
 
 GOLDEN = Path(__file__).parent / "golden" / "s1_cut_in.json"
 
@@ -35,7 +36,7 @@ def searched() -> dict[str, Any]:
     constant, scene = decision()
     beliefs = predict(constant, scene)
     search = prepare(constant, scene, beliefs)
-    search.run()
+    run(search)
     return {
         "beliefs": {b.goal.kind: round(b.probability, 4) for b in beliefs[1]},
         "tree": tree(search),

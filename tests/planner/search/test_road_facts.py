@@ -12,7 +12,7 @@ from planner.record.light_record import LightCourse, LightPrediction, Showing
 from planner.record.places import PriorityFact, RoadFacts, RouteStep
 from planner.record.trace import EgoGoal, PlannedAction
 from planner.search.decide import decide
-from planner.search.mcts import Root
+from planner.search.inputs import Root
 from planner.search.road_facts import place, road_facts
 from sim.roads.network import Location, angle_between, point_at
 from sim.scene import Signal, VehicleState

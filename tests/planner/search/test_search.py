@@ -9,7 +9,8 @@ from planner.motion.forward import Motion
 from planner.record.trace import ACTIONS, Action, Outcome, Settings
 from planner.search.comparison import likeliest
 from planner.search.decide import predict, prepare
-from planner.search.mcts import Root, Search
+from planner.search.inputs import Root
+from planner.search.mcts import Search
 from planner.search.simulated import Simulated
 from planner.search.tree import Tree
 from tests.planner.worlds import (
@@ -21,6 +22,7 @@ from tests.planner.worlds import (
     plan_of,
     roads,
     row,
+    run,
     situation,
     still,
 )
@@ -40,7 +42,7 @@ def search(settings: Settings = FEW, seed: int = 0) -> Search:
 
 def ran(settings: Settings = FEW, seed: int = 0) -> Search:
     one = search(settings, seed)
-    one.run()
+    run(one)
     return one
 
 
@@ -96,7 +98,7 @@ def test_the_same_samples_and_actions_give_the_same_drive() -> None:
 
 def test_samples_follow_the_beliefs() -> None:
     one = search(Settings(rollouts=300, min_rollouts=0))
-    one.run()
+    run(one)
     beliefs = one.beliefs[1]
     for index, belief in enumerate(beliefs):
         drawn = sum(not r.forced and r.samples[0].goal == index for r in one.rollouts)
@@ -132,7 +134,7 @@ def test_only_the_action_under_way_applies_at_the_root() -> None:
     plan = plan_of("s1", here, "change-left", aim=True)
     one = search()
     one.root = Root(here, (plan, Motion(8.0, here.speed, 0.0)))
-    one.run()
+    run(one)
     assert {rollout.actions[0] for rollout in one.rollouts} == {"change-left"}
     assert one.refusals[(), "continue"] == "another manoeuvre is under way"
     start = plan.path.pose(8.0)[0]

@@ -5,10 +5,12 @@ import pytest
 from planner.record.trace import ACTIONS, Action, EgoGoal, PlannedAction, Settings
 from planner.roads.trajectory import Roads
 from planner.rollouts.rollout import Task
-from planner.search.mcts import Root, Search
+from planner.search.inputs import Root
+from planner.search.mcts import Search
 from planner.search.tree import Edge, Tree
 from tests.planner.drives import SIZE, avenue, corner
 from tests.planner.nets import on_lane
+from tests.planner.worlds import run
 
 ROAD, CORNER = avenue(limit=10.0), corner()
 
@@ -32,7 +34,7 @@ def search(
 
 
 def ran(one: Search) -> Search:
-    one.run()
+    run(one)
     return one
 
 
@@ -46,7 +48,7 @@ def ran(one: Search) -> Search:
     ],
 )
 def test_what_would_lead_to_the_goal_soonest_is_tried_first(one: Search, order: list[str]) -> None:
-    one.run()
+    run(one)
     assert [rollout.actions[0] for rollout in one.rollouts[: len(order)]] == order
     assert {rollout.actions[0] for rollout in one.rollouts} == set(order)
     assert one.plan()[0].action == order[0]
@@ -100,7 +102,7 @@ def test_what_is_forced_is_taken_from_the_root() -> None:
 def test_a_single_first_action_is_not_compared() -> None:
     inside = search(CORNER, "south", 100.0, 101.0)
     inside.root = Root(on_lane(CORNER, ":R_0", 1.0, 5.0))
-    inside.run()
+    run(inside)
     assert {r.actions[0] for r in inside.rollouts} == {"exit-right"}
     assert inside.compared == {}
     assert len(inside.rollouts) == 12

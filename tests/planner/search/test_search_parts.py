@@ -16,13 +16,15 @@ from planner.record.trace import Action, EgoGoal, Sample, Settings
 from planner.roads.trajectory import Roads
 from planner.rollouts.rollout import Task
 from planner.search.comparison import draw, likeliest, source_of, weighted
-from planner.search.mcts import Root, Search
+from planner.search.inputs import Root
+from planner.search.mcts import Search
 from planner.traffic_lights.signals import Outlook
 from tests.planner.drives import SIZE
 from tests.planner.hidden_areas.test_hidden import ROADS as HIDDEN_ROADS
 from tests.planner.nets import drawn, lane, on_lane
 from tests.planner.search.test_comparison import STILL, beliefs
 from tests.planner.search.test_search_drawn import CORNER, ROAD, ran, search
+from tests.planner.worlds import run
 
 
 def light(name: str, *chances: float) -> LightPrediction:
@@ -190,7 +192,7 @@ def test_where_nothing_applies_a_rollout_is_lost() -> None:
     assert known[0].keys() == set(known[1])
     blocked = search(roads, "road", 100.0, 100.0)
     blocked._options = lambda *_: ({}, ())  # type: ignore[method-assign]
-    blocked.run()
+    run(blocked)
     assert {r.outcome for r in blocked.rollouts} == {"dead"}
     assert {r.actions for r in blocked.rollouts} == {()}
     assert blocked.compared == {}

@@ -9,9 +9,9 @@ from planner.motion.forward import Motion
 from planner.motion.obstacles import Motions, Obstacle
 from planner.prediction.recognise import Trajectory
 from planner.record.trace import EgoGoal, Settings
-from planner.search import decide
-from planner.search.decide import Frame, Moment, numbers, points, root_at
-from planner.search.mcts import Root
+from planner.search import decide, recording
+from planner.search.inputs import Frame, Moment, Root, root_at
+from planner.search.recording import numbers, points
 from sim.scene import VehicleState
 from tests.planner.drives import avenue
 from tests.planner.nets import on_lane
@@ -49,7 +49,7 @@ def test_only_what_is_there_of_a_predicted_motion_is_recorded() -> None:
     place = np.array([(0.04, 1.0), (2.06, 1.0), (np.nan, np.nan)])
     gone = Obstacle(1, 4.0, 2.0, place, np.zeros(3), np.array([9.96, 10.04, 0.0]), frozenset())
     way = Trajectory(0.123456789, ("continue",), Motions(gone))
-    found = decide._trajectory(way)
+    found = recording._trajectory(way)
     assert found.path == ((0.0, 1.0), (2.1, 1.0))
     assert found.speed == (10.0, 10.0)
     assert found.probability == pytest.approx(0.123457, abs=1e-9)

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 import typer
 
@@ -33,6 +33,25 @@ if TYPE_CHECKING:
     from xavi_dialogue.bus.shards import Shard
 
 
+SaveDecisions: TypeAlias = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="Save the decisions, for `trace show`; a name without an ending gets .ride.jsonl.gz.",
+    ),
+]
+Trees: TypeAlias = Annotated[
+    int,
+    typer.Option(
+        min=1,
+        max=64,
+        envvar="XAVI_TREES",
+        help="Search trees of a decision; all but the first grow in processes of their own."
+        " The same number gives the same ride on every machine.",
+    ),
+]
+
+
 def add(app: typer.Typer, shell: Streams) -> None:
     """Add the commands."""
     app.command("drive")(_drive(shell))
@@ -51,20 +70,14 @@ def _drive(shell: Streams) -> Callable[..., None]:
         connect: Connect = None,
         zenoh: ZenohFile = None,
         vehicle: OwnVehicle = None,
-        save: Annotated[
-            Path | None,
-            typer.Option(
-                metavar="FILE",
-                help="Save the decisions, for `trace show`; a name without an ending"
-                " gets .ride.jsonl.gz.",
-            ),
-        ] = None,
+        save: SaveDecisions = None,
         workers: Annotated[
             int, typer.Option(min=1, max=64, help="Worker processes for what-ifs.")
         ] = 1,
         waiting: Annotated[
             int, typer.Option(min=1, max=1000, help="What-ifs that may wait for a worker.")
         ] = 8,
+        trees: Trees = 1,
         as_json: AsJson = False,
         control: Control = False,
         ego: EgoId = None,
@@ -88,7 +101,9 @@ def _drive(shell: Streams) -> Callable[..., None]:
             replanning, signals = ReplanningOptions(workers, waiting), Signals()
             name = vehicle or DEFAULT_VEHICLE
             file = save and named(save)
-            manner = DriveOptions(speed or 0.0, duration, link, name, control, file, replanning)
+            manner = DriveOptions(
+                speed or 0.0, duration, link, name, control, file, replanning, trees
+            )
             summary = drive(loaded, loaded.seed if seed is None else seed, manner, signals)
             if file is not None:
                 shell.note(f"the decisions are in {file}")

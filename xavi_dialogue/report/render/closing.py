@@ -1,5 +1,6 @@
 """Sections on what the record cannot show, and on where the report comes from."""
 
+from planner.search.trees import trees_of
 from xavi_dialogue.report.content import Limitation
 from xavi_dialogue.report.render.markup import Markup, joined, listed, table, tag
 from xavi_dialogue.report.render.notes import percent
@@ -41,10 +42,11 @@ def hashes(page: Page) -> Markup:
         (f"D{one.number}", f"{one.time:.1f} s", tag("code", one.trace)) for one in known.traces
     )
     settings = subject.settings
+    grown = "" if trees_of(settings) == 1 else f" in {trees_of(settings)} search trees"
     told = (
-        f"The planner's settings: {settings.rollouts} rollouts, {settings.depth} actions deep, "
-        f"{settings.horizon:g} s ahead, a decision every {settings.period:g} s, "
-        f"view of {settings.view_radius:g} m."
+        f"The planner's settings: {settings.rollouts} rollouts{grown}, "
+        f"{settings.depth} actions deep, {settings.horizon:g} s ahead, "
+        f"a decision every {settings.period:g} s, view of {settings.view_radius:g} m."
     )
     return joined(
         (
