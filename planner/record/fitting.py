@@ -1,5 +1,8 @@
 """Fitting: a trace within its bounds, without the lines that it has no room for."""
 
+from collections.abc import Collection
+from typing import TypeAlias
+
 import msgspec
 
 from planner.record.places import LightChange
@@ -9,6 +12,7 @@ from planner.record.trace import (
     GoalPrediction,
     PlanTrace,
     Track,
+    TrajectoryPrediction,
     VehiclePrediction,
     encode,
 )
@@ -16,6 +20,8 @@ from sim.scene import EGO
 
 RECENT = 11  # samples of the history of who is not predicted: what came before is in older traces
 IMPROBABLE = (0.1, 0.2, 0.35, 0.5)  # probabilities up to which predicted lines are dropped first
+
+_Place: TypeAlias = tuple[int, int, int]  # vehicle, index of a goal, index of a trajectory
 
 
 def fitted(trace: PlanTrace) -> PlanTrace:
@@ -31,22 +37,22 @@ def fitted(trace: PlanTrace) -> PlanTrace:
         return trace
     shorter = _without_past(trace)
     excess -= _size(trace.history) - _size(shorter.history)
-    trace, size = shorter, _size(trace.predictions)
+    trace, lines = shorter, _lines(trace)
     for below in IMPROBABLE:
         if excess > 0:
-            trace = _without_lines(trace, below)
-            now = _size(trace.predictions)
-            excess, size = excess - (size - now), now
+            dropped = {place: size for place, (chance, size) in lines.items() if chance <= below}
+            trace, excess = _without_lines(trace, dropped), excess - sum(dropped.values())
+            lines = {place: line for place, line in lines.items() if place not in dropped}
     if excess <= 0:
         return trace
     rollouts = list(trace.rollouts)
     for k in range(len(rollouts) - 1, -1, -1):
-        if excess > 0 and rollouts[k].path is not None:
-            bare = msgspec.structs.replace(rollouts[k], path=None, speed=None)
-            excess -= _size(rollouts[k]) - _size(bare)
-            rollouts[k] = bare
+        path, speed = rollouts[k].path, rollouts[k].speed
+        if excess > 0 and path is not None:
+            excess -= _size(path) + _size(speed) - 2 * _size(None)
+            rollouts[k] = msgspec.structs.replace(rollouts[k], path=None, speed=None)
     trace = msgspec.structs.replace(trace, rollouts=tuple(rollouts))
-    return trace if excess <= 0 else _without_lines(trace, 1.0)
+    return trace if excess <= 0 else _without_lines(trace, lines)
 
 
 def _size(part: object) -> int:
@@ -82,20 +88,38 @@ def _recent(track: Track) -> Track:
     )
 
 
-def _without_lines(trace: PlanTrace, below: float) -> PlanTrace:
-    """Return the trace without the predicted lines that are at most as probable as `below`."""
+def _lines(trace: PlanTrace) -> dict[_Place, tuple[float, int]]:
+    """Return the probability of each predicted trajectory, and the bytes of its lines."""
+    return {
+        (known.vehicle, g, w): (
+            goal.probability * way.probability,
+            _size(way) - _size(_bare(way)),
+        )
+        for known in trace.predictions
+        for g, goal in enumerate(known.goals)
+        for w, way in enumerate(goal.trajectories)
+    }
 
-    def stripped(goal: GoalPrediction) -> GoalPrediction:
+
+def _without_lines(trace: PlanTrace, dropped: Collection[_Place]) -> PlanTrace:
+    """Return the trace without the lines of some predicted trajectories."""
+
+    def stripped(vehicle: int, g: int, goal: GoalPrediction) -> GoalPrediction:
         ways = (
-            msgspec.structs.replace(way, path=(), speed=(), held_up=())
-            if goal.probability * way.probability <= below
-            else way
-            for way in goal.trajectories
+            _bare(way) if (vehicle, g, w) in dropped else way
+            for w, way in enumerate(goal.trajectories)
         )
         return msgspec.structs.replace(goal, trajectories=tuple(ways))
 
     predictions = tuple(
-        VehiclePrediction(known.vehicle, tuple(map(stripped, known.goals)))
+        VehiclePrediction(
+            known.vehicle,
+            tuple(stripped(known.vehicle, g, goal) for g, goal in enumerate(known.goals)),
+        )
         for known in trace.predictions
     )
     return msgspec.structs.replace(trace, predictions=predictions)
+
+
+def _bare(way: TrajectoryPrediction) -> TrajectoryPrediction:
+    return msgspec.structs.replace(way, path=(), speed=(), held_up=())
