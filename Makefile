@@ -31,11 +31,11 @@ test: develop ## everything that must hold: lint, types, tests
 	@status=0; \
 	$(MAKE) --no-print-directory lint || status=1; \
 	$(BIN)/python -m pytest -n 2 --dist loadfile --no-loadscope-reorder --ignore=tests/drills \
-		--ignore=tests/browser $(ARGS) || status=1; \
+		--ignore=tests/programs --ignore=tests/browser $(ARGS) || status=1; \
 	exit $$status
 
-drills: develop ## what goes wrong between real processes, tried out (docs/drills.md)
-	@$(BIN)/python -m pytest tests/drills -n 2 --dist worksteal $(ARGS)
+drills: develop ## programs as users start them, and what goes wrong between them (docs/drills.md)
+	@$(BIN)/python -m pytest tests/programs tests/drills -n 2 --dist worksteal $(ARGS)
 
 storm: develop ## SEEDS runs of the simulated world in which things go wrong (docs/simulated.md)
 	@$(BIN)/python -m tests.simulated --seeds $(SEEDS) $(ARGS)

@@ -16,18 +16,12 @@ GARBAGE = (20_000, 20, 20)  # thresholds of the collector; the tests make many s
 #: The files that take longest, in this order. They run first, so that what is left for the end are
 #: short ones, and processes that share the files out end together.
 LONGEST = (
-    "chat/test_processes.py",
     "test_transcripts.py",
-    "docs/test_guides.py",
     "audit/test_running.py",
-    "test_packaging.py",
     "simulated/test_world.py",
     "explain/answers/test_every_question.py",
-    "process/test_kernel_cache.py",
     "chat/test_killed.py",
     "planner/driving/test_signal_rides.py",
-    "library/test_connection.py",
-    "chat/test_client_example.py",
     "benchmarks/test_foreign.py",
     "sim/scenarios/test_worlds.py",
 )

@@ -23,10 +23,10 @@ PATIENCE = 300.0  # [s] before a test gives up on what never ends
 #: Why some are not run here. The targets of make are looked up.
 ELSEWHERE = {
     "git clone": "the repository itself",
-    "printf": "talks through a pipe; tests/chat does",
-    "xavi chat": "talks; tests/chat does",
+    "printf": "talks through a pipe; test_chat_processes.py does",
+    "xavi chat": "talks; test_chat_processes.py does",
     "xavi forget": "erases what the commands before kept; tests/storage/test_turn_log.py forgets",
-    "xavi serve": "never ends; tests/chat/test_client_example.py and tests/library start it",
+    "xavi serve": "never ends; test_client_example.py and test_connection.py start it",
     "xavi drive --connect": "needs the service; the same tests start it",
     "xavi drive --zenoh": "needs keys and the service; tests/drills drive so",
     "xavi ask --zenoh": "needs keys and the service; tests/drills ask so",

@@ -8,7 +8,7 @@ from contextlib import ExitStack
 import pytest
 
 import xavi_dialogue as xavi
-from tests.chat.test_client_example import started
+from tests.programs.test_client_example import started
 
 pytestmark = pytest.mark.slow
 
