@@ -19,12 +19,16 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
     Wanted,
 )
+from xavi_dialogue.domain.vocabulary import ActionName, Relation
 from xavi_dialogue.explain.answers.expectations.forecast import forecast
 from xavi_dialogue.explain.answers.expectations.foreseen import chance
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.answers.reference.findings import Finding, expected
 from xavi_dialogue.explain.answers.reference.naming import ANY, look_of, somebodies
 
+#: Where a road user may be from another, and what it does there for a while.
+PLACES = frozenset[Relation](("beside", "behind", "ahead-of", "left-of", "right-of", "near"))
+LASTING = frozenset[ActionName](("wait", "stand", "stop", "brake", "go", "move", "follow"))
 LIKELY = 0.5  # minimum probability of what one of several vehicles is going to do
 STEADY = 0.3  # [m/s2] below which a speed counts as constant
 LATELY = 10.0  # [s] for which a vehicle that was lost from view may still be near
@@ -113,6 +117,16 @@ def in_line(such: Related, seen: tuple[Look, ...], asked: Asked, at: float) -> t
         if here is not None and there.edge == here.edge and there.lane != here.lane
     ]  # fmt: skip
     return tuple(look for look in near if look.vehicle not in beside)
+
+
+def is_placed(asked: Asked, event: Event, episode: Episode) -> bool:
+    """Check whether what goes on now goes on where the event says: "who waits beside us?"."""
+    place = event.where
+    if place is None or place.relation not in PLACES or event.action not in LASTING:
+        return True
+    if event.tense != "present" or asked.past is not None:
+        return True
+    return bool(asked.world.relation(place.relation, episode.actor, place.to, asked.now))
 
 
 def spent(asked: Asked, episode: Episode, at: float) -> bool:

@@ -28,6 +28,7 @@ BY: Mapping[str, tuple[Attribute, bool]] = {
     "distance": ("distance", False),
 }  # fmt: skip
 
+BOTH = 2  # number of things in a plain comparison
 SAME = 0.6  # maximum difference of two values that count as the same
 
 
@@ -54,6 +55,8 @@ def rivals(question: Compare, asked: Asked, *, by: bool = False) -> Answer:
     attribute, most = BY[question.by]
     most = most != question.least
     values = sorted((_value(asked, attribute, t, at) for t in things), key=_key, reverse=most)
+    if by and Ego() in things and len(things) > BOTH:
+        values = _before_us(asked, values, at)
     first, second = values[0], values[1]
     to = Ego() if attribute == "distance" else None
     left, right = Measured(attribute, first.thing, to), Measured(attribute, second.thing, to)
@@ -62,12 +65,28 @@ def rivals(question: Compare, asked: Asked, *, by: bool = False) -> Answer:
         gap = None if missing is None else missing.gap
         return Finding(None, known(*values), gap).verdict(Compares(left, "more", right))
     same = abs(first.value - second.value) <= SAME
-    that = Compares(left, "same" if same else "more" if most else "less", right)
+    that = Compares(
+        left, "same" if same else "more" if first.value > second.value else "less", right
+    )
     if by and not same:
         apart = Quantity(abs(first.value - second.value), "m/s")
         that = replace(that, by=apart)
     verdict = Finding(True, tuple(values)).verdict(that)
     return replace(verdict, either=True)
+
+
+def _before_us(asked: Asked, values: list[Measure], at: float) -> list[Measure]:
+    """Order values of several by their distance to us, with ours in the second place."""
+    near = sorted(
+        (one for one in values if one.thing != Ego()),
+        key=lambda one: _key(_value(asked, "distance", _who(one), at)),
+    )
+    return [near[0], *(one for one in values if one.thing == Ego()), *near[1:]]
+
+
+def _who(one: Measure) -> Ego | Vehicle:
+    assert isinstance(one.thing, Ego | Vehicle)
+    return one.thing
 
 
 def _in_line(question: Compare, things: Sequence[Ego | Vehicle], asked: Asked, at: float) -> Answer:

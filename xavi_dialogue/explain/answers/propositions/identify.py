@@ -37,6 +37,7 @@ from xavi_dialogue.explain.answers.events.beliefs import time_of
 from xavi_dialogue.explain.answers.events.picking import (
     extreme_of,
     in_line,
+    is_placed,
     is_to_come,
     lately_lost,
     owed_by_other,
@@ -163,13 +164,11 @@ def _who_did(question: Which, such: Happens, asked: Asked) -> Answer:
     )
 
 
-def _told(
-    asked: Asked, event: Event, candidate: Ego | Vehicle
-) -> list[tuple[Episode, Ego | Vehicle]]:
-    single = with_wanted(event, candidate)
+def _told(asked: Asked, event: Event, who: Ego | Vehicle) -> list[tuple[Episode, Ego | Vehicle]]:
+    single = with_wanted(event, who)
     if single.actor == single.object:
         return []
-    return [(e, candidate) for e in occasions(asked, single)]
+    return [(e, who) for e in occasions(asked, single) if is_placed(asked, single, e)]
 
 
 def _nobody(question: Which, such: Proposition, asked: Asked) -> Answer:

@@ -134,7 +134,8 @@ def _faster(clause: Clause, event: Event | None, actor: Thing | None, pace: bool
     verb = clause.verb
     if pace and event is None and verb is None:
         than = None if isinstance(clause.than, Clause) else as_thing(clause.than)
-        return measured("speed", clause, actor, to=than or Pronoun("it"))
+        other: Thing = Pronoun("it") if isinstance(actor, Ego | Pronoun | None) else Ego()
+        return measured("speed", clause, actor, to=than or other)
     if pace and verb is not None and verb.key in ("get", "become", "grow"):
         return measured("speed-change", clause, actor)
     arrives = event is not None and event.action == "arrive"

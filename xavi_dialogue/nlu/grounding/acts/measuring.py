@@ -27,6 +27,7 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Proposition,
     Quantity,
+    Related,
     Relative,
     Thing,
     Time,
@@ -67,7 +68,7 @@ def measured(
     """Ground a measure; `extreme`: over all of the time that is said."""
     if spoken.attribute in COUNTED:
         return replace(plain(spoken), time=timed(spoken.time, spoken.tense, g, outer).term)
-    spoken = _one_of(_corefer(spoken, g))
+    spoken = _in_lane(_one_of(_corefer(spoken, g)))
     both = (spoken.thing, spoken.to)
     if extreme and spoken.attribute == "distance" and spoken.to is None:
         both = (spoken.thing, Ego())  # "how close did the cyclist get?"
@@ -100,6 +101,24 @@ def measured(
     if isinstance(time, At) and isinstance(spoken.time, Relative | Back | Ago):
         g.notes.span = Span(time.at, time.at, said=True)
     return replace(spoken, thing=thing, to=to, event=event, about=about, time=time)
+
+
+def than_us(spoken: Compares) -> Measured | Quantity | None:
+    """Give what a measure is compared with: "is the left lane faster?" is than we are."""
+    of = spoken.left
+    lane = isinstance(of.thing, Lane) and of.thing.which != "own" and of.attribute == "speed"
+    if lane and spoken.right is None and spoken.comparator in ("more", "less"):
+        return replace(of, thing=Ego())
+    return spoken.right
+
+
+def _in_lane(spoken: Measured) -> Measured:
+    """Take the speed of another lane for that of the vehicles in it."""
+    lane = spoken.thing
+    if spoken.attribute != "speed" or not isinstance(lane, Lane) or lane.which == "own":
+        return spoken
+    there = Described(such=Related("on", Wanted(), lane), plural=True)
+    return replace(spoken, thing=there)
 
 
 def _one_of(spoken: Measured) -> Measured:

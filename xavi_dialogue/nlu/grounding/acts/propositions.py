@@ -48,6 +48,7 @@ from xavi_dialogue.nlu.grounding.acts.measuring import (
     of_anybody,
     of_ride,
     tally,
+    than_us,
 )
 from xavi_dialogue.nlu.grounding.acts.recasting import of_nobody, something_wrong, within_limit
 from xavi_dialogue.nlu.grounding.acts.restating import restated
@@ -198,7 +199,7 @@ def at_moment(time: Time, tense: Tense, g: Grounder, outer: Window | None) -> Wi
 
 
 def _compares(spoken: Compares, g: Grounder, outer: Window | None) -> Compares:
-    of, right = spoken.left, spoken.right
+    of, right = spoken.left, than_us(spoken)
     if of.attribute == "count":
         return replace(spoken, left=tally(of, g))
     if isinstance(right, Quantity) and right.unit == "count" and of.attribute in _PACES:
