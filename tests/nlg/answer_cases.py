@@ -27,6 +27,7 @@ from xavi_dialogue.domain.answers import (
     Options,
     PlanAhead,
     Priority,
+    Simulations,
     Sociable,
     Staying,
     Verdict,
@@ -69,6 +70,7 @@ RIDE = (
     Episode(E, "stand", 14.0, 18.0),
     Episode(E, "exit-right", 18.0),
 )
+ENDS = (("done", 80), ("collision", 6), ("termination", 3), ("dead", 30))
 OPTIONS = (
     OptionValue("change-left", True, "done", 0.9, 12.0, 0.0, 1.0),
     OptionValue("continue", False, "done", 0.9, 16.0, 4.0, 0.5),
@@ -293,4 +295,14 @@ CASES: tuple[Answer, ...] = (
     Options((OPTIONS[0], OPTIONS[2]), 2.0, Evidence(), rival="better"),
     Options((OPTIONS[0], *DEAD), 2.0, Evidence(), rival="better"),
     Options(OPTIONS[:1], 2.0, Evidence(), rival="alone"),
+    Options(OPTIONS, 2.0, Evidence(), counted=True),
+    Options(OPTIONS, 2.0, Evidence(), counted=True, earlier=True),
+    Simulations(2.0, 119, ENDS, Evidence(), options=4),
+    Simulations(2.0, 80, ENDS[:1], Evidence(), of="stop", options=4),
+    Simulations(2.0, 0, (), Evidence(), of="stop", options=4),
+    Simulations(2.0, 119, ENDS, Evidence(), asked="collision", struck=((1, 4), (2, 2)), options=4),
+    Simulations(2.0, 119, ENDS[:1], Evidence(), asked="collision", options=4),
+    Simulations(2.0, 80, ENDS[:1], Evidence(), asked="done", options=4),
+    Simulations(2.0, 0, (), Evidence(), asked="done", of="stop", options=4),
+    Simulations(2.0, 119, ENDS, Evidence(), apart=True, options=4),
 )

@@ -136,4 +136,8 @@ CASES: tuple[tuple[Measure, ...], ...] = (
         Measure("speed", V, NOW, gap="out-of-view"),
         Measure("speed", V, NOW - 0.8, 13.0, reference=13.9),
     ),
+    (Measure("simulations", E, NOW, gap="not-applicable"),),
+    (Measure("simulations", E, NOW, 119.0),),
+    (Measure("options", E, NOW, 4.0),),
+    (Measure("options", E, NOW, gap="not-applicable"),),
 )

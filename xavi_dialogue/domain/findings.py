@@ -62,6 +62,7 @@ class Counted(Value, frozen=True):
     until: float | None = None
     such: Thing | None = None  # the description that they fit
     said: bool | None = None  # whether it is the number that the passenger named
+    times: tuple[float, ...] = ()  # [s] when each of the times began, if they were counted
 
 
 class Happenings(Value, frozen=True):

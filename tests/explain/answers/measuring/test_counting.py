@@ -210,3 +210,18 @@ def test_lanes_and_exits_are_told_by_the_road() -> None:
     lost = counted(Destination())
     assert lost == NotRecorded("not-recorded", Destination(), about="count")
     assert place().lanes == 2
+
+
+@pytest.mark.parametrize(
+    ("waits", "times"),
+    [
+        ([("give-way", 2.0, 5.0, 1), ("give-way", 3.0, 4.0, 2)], (2.0,)),
+        ([("give-way", 2.0, 5.0, 1), ("give-way", 9.0, 11.0, 2)], (2.0, 9.0)),
+        ([("give-way", 2.0, 5.0, 1), ("give-way", 3.0, 4.0, 2), ("give-way", 9.0, 11.0, 2)],
+         (2.0, 9.0)),
+    ],
+)  # fmt: skip
+def test_each_time_that_is_counted_has_its_beginning(waits: Any, times: Any) -> None:
+    rows = tuple(did(what, begin, end, object=Vehicle(v)) for what, begin, end, v in waits)
+    found = counted(Event("give-way"), episodes=rows)
+    assert (found.count, found.times) == (len(times), times)

@@ -95,7 +95,8 @@ def _events(asked: Asked, event: Event) -> Counted:
         found = tuple(e for e in found if not _straight_over(asked, e)) or found
     times = merged(asked, (replace(e, object=None) for e in found))
     lost = any(b <= about.end and e >= about.begin for b, e in asked.ride.gaps)
-    return Counted(event, len(times), found, lost, about.begin, about.end)
+    begun = tuple(e.begin for e in times)
+    return Counted(event, len(times), found, lost, about.begin, about.end, times=begun)
 
 
 def _straight_over(asked: Asked, episode: Episode) -> bool:

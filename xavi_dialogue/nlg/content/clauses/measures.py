@@ -51,7 +51,7 @@ EVEN = 0.3  # [m/s2] maximum acceleration that counts as none
 GENTLE, FIRM, HARD = 1.5, 3.2, 4.0  # [m/s2] minimum of normal, firm, hard braking
 _UNPLACED = frozenset(("place", "heading", "origin"))
 _VAGUE = frozenset(("indicator", "brake-lights", "right-of-way", "visibility", "comfort", "route",
-                    "cost", "value", "count", "turn"))  # fmt: skip
+                    "cost", "value", "count", "simulations", "options", "turn"))  # fmt: skip
 _WORDED = frozenset(("colour", "kind", "place", "origin", "heading", "visibility"))
 _EITHER = frozenset(("lane", "route", *WORLDLY))
 

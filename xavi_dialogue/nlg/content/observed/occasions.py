@@ -16,9 +16,7 @@ MANY = 5  # maximum number of times that are listed, and of vehicles at each
 def occasions_counted(answer: Counted) -> tuple[Message, ...] | None:
     """Return when it happened, each time once, with the vehicle if the question left that open."""
     assert isinstance(answer.of, Event)
-    rows = _apart(answer)
-    if len(rows) != answer.count:
-        rows = _by_beginning(answer)
+    rows = _by_time(answer) if answer.times else _apart(answer)
     if not 0 < len(rows) <= MANY or len(rows) != answer.count:
         return None
     to = TOWARDS.get(answer.of.action)
@@ -45,14 +43,13 @@ def _apart(answer: Counted) -> list[tuple[float, list[Thing]]]:
     return rows
 
 
-def _by_beginning(answer: Counted) -> list[tuple[float, list[Thing]]]:
-    """Return the first beginnings, as many as were counted, and the vehicles at each."""
-    rows: list[tuple[float, list[Thing]]] = []
+def _by_time(answer: Counted) -> list[tuple[float, list[Thing]]]:
+    """Return the times that were counted, and at each the vehicles whose part began in it."""
+    rows: list[tuple[float, list[Thing]]] = [(begin, []) for begin in answer.times]
     for fact in answer.facts:
         if isinstance(fact, Episode):
-            if not rows or (answer.count > len(rows) and fact.begin > rows[-1][0]):
-                rows.append((fact.begin, []))
-            _add(answer, fact, rows)
+            known = [row for row in rows if row[0] <= fact.begin]
+            _add(answer, fact, known or rows[:1])
     return rows
 
 
