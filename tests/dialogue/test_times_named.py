@@ -56,3 +56,20 @@ def test_a_belief_is_asked_of_a_time_counted_from_the_one_before() -> None:
     assert three.startswith("About 5 seconds ago, I put the chance that the blue car would turn")
     earlier = talk.hear("What probability did you give that two seconds earlier?")
     assert earlier.startswith("About 7 seconds ago, I put the chance")
+
+
+def test_what_was_asked_of_the_whole_ride_names_no_time_for_the_next_question() -> None:
+    alone = Talk("s1-0", 8.0).hear("What if the blue car braked?")
+    talk = Talk("s1-0", 4.0)
+    talk.hear("What was the runner-up?")
+    talk.at = 8.0
+    assert talk.hear("What if the blue car braked?") == alone
+
+
+@pytest.mark.parametrize(
+    "text", ["Was the blue car close?", "was that blue car close?", "Has the blue car been close?"]
+)
+def test_how_close_somebody_was_is_of_the_whole_ride(text: str) -> None:
+    talk = Talk("s1-0", 15.0)
+    talk.hear("Why did you move over?")
+    assert talk.hear(text).endswith("came no closer than 1.7 metres to us, at 0:10.")

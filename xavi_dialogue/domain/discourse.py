@@ -41,6 +41,7 @@ class Span(Value, frozen=True):
     end: float  # [s]
     said: bool = False  # the passenger named the time; else it was inferred
     ahead: bool = False  # it lies in the future
+    whole: bool = False  # the whole ride so far, because no time was said
 
 
 class GroundedAct(Value, frozen=True):

@@ -301,7 +301,7 @@ def _told(result: Answer | Refusal, now: float) -> tuple[float, float] | None:
 
 def _asked(part: Part) -> tuple[float, float] | None:
     span = None if part.act is None else part.act.span
-    return None if span is None or span.ahead else (span.begin, span.end)
+    return None if span is None or span.ahead or span.whole else (span.begin, span.end)
 
 
 def _stretch(deed: Episode, now: float) -> tuple[float, float]:

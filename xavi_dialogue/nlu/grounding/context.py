@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Literal, Protocol, TypeAlias
+from typing import Final, Literal, Protocol, TypeAlias
 
 from msgspec.structs import replace
 
@@ -22,6 +22,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Vehicles,
     Wanted,
+    WholeRide,
 )
 from xavi_dialogue.nlu.grounding.world import World
 
@@ -49,7 +50,8 @@ class Window:
     @property
     def span(self) -> Span:
         """The window as the span of an act."""
-        return Span(begin=self.begin, end=self.end, said=self.said, ahead=self.ahead)
+        whole = isinstance(self.term, WholeRide) and not self.said
+        return Span(self.begin, self.end, said=self.said, ahead=self.ahead, whole=whole)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +81,11 @@ class Notes:
             self.span = span
 
 
+STALE: Final = 6.0  # [s] after which an episode is no longer what "back there" means
+FLEETING: Final = 2.0  # [s] the same, where the present was spoken of
+NOW: Final = 0.5  # [s] before a question that still count as its present
+
+
 class Context:
     """World and discourse, with what was looked up once."""
 
@@ -98,6 +105,15 @@ class Context:
         other._looks, other._views = self._looks, self._views
         other._held, other._deeds = self._held, self._deeds
         return other
+
+    @property
+    def stale(self) -> bool:
+        """Whether more has happened since anything was asked than "then" or "that" reaches over."""
+        asked, spoken_of = self.discourse.asked_at, self.discourse.episode
+        if asked is None:
+            return False
+        fleeting = spoken_of is not None and spoken_of[0] >= asked - NOW
+        return self.now - asked > (FLEETING if fleeting else STALE)
 
     def look(self, vehicle: int, time: float) -> Look | None:
         """Describe a vehicle at a time."""

@@ -30,7 +30,7 @@ from xavi_dialogue.domain.terms import (
     Within,
 )
 from xavi_dialogue.nlu.grounding.context import Context, Window
-from xavi_dialogue.nlu.grounding.events.windows import is_stale, notable, pointed, window
+from xavi_dialogue.nlu.grounding.events.windows import notable, pointed, window
 from xavi_dialogue.nlu.grounding.grounder import TermGrounder
 
 NOW, BEGIN = 40.0, 2.0
@@ -245,7 +245,7 @@ def test_before_and_after_that() -> None:
     ("asked_at", "stale"), [(None, False), (34.5, False), (34.0, False), (33.9, True)]
 )
 def test_what_was_asked_long_ago_is_stale(asked_at: float | None, stale: bool) -> None:
-    assert is_stale(grounder(Discourse(asked_at=asked_at)).context) is stale
+    assert grounder(Discourse(asked_at=asked_at)).context.stale is stale
 
 
 @pytest.mark.parametrize(
@@ -292,3 +292,11 @@ def test_a_deed_named_as_a_time_is_a_moment(time: Time, at: float | None) -> Non
 def test_spans_are_those_of_the_window() -> None:
     one = found(Within(4.0)).span
     assert (one.begin, one.end, one.said, one.ahead) == (40.0, 44.0, True, True)
+
+
+@pytest.mark.parametrize(("asked_at", "stale"), [(38.0, False), (37.9, True)])
+def test_a_present_that_was_spoken_of_is_soon_past(asked_at: float, stale: bool) -> None:
+    fleeting = Discourse(asked_at=asked_at, episode=(asked_at, asked_at))
+    assert grounder(fleeting).context.stale is stale
+    lasting = Discourse(asked_at=asked_at, episode=(asked_at - 3.0, asked_at))
+    assert not grounder(lasting).context.stale

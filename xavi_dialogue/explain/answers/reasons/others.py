@@ -19,7 +19,9 @@ from xavi_dialogue.explain.answers.ride.priority import rule_between
 from xavi_dialogue.explain.causes.driving.hindrance import (
     Hindrance,
     at_present,
+    holds_up,
     lit_too,
+    parked,
     slowed,
     stood,
 )
@@ -30,13 +32,12 @@ from xavi_dialogue.explain.causes.vehicles.announced import announced, meeting
 from xavi_dialogue.explain.causes.vehicles.grounds import grounds
 from xavi_dialogue.explain.causes.vehicles.when import RECENT
 from xavi_dialogue.explain.history.nearing import speed_at, tellable, with_speeds
-from xavi_dialogue.explain.history.ride import ROUNDING
 
 CHANGES: tuple[ActionName, ...] = ("change-left", "change-right", "merge", "enter", "pull-out")
 JUST = 4.0  # [s] for which we count as having just moved in ahead of somebody
 EXPECTED = 0.3  # minimum probability of what may be called expected
 CREEPING = 1.5  # [m/s]
-LONG = 3.0  # [s] at a standstill from which a vehicle may be parked
+LONG = 3.0  # [s] around a rule of priority, within which it may explain that somebody slowed
 STILL = frozenset[ActionName](("stop", "stand", "wait", "give-way", "let-go", "block"))
 SLOWING = frozenset[ActionName](("slow-down", "brake"))
 GOING = frozenset[ActionName](("go", "move", "continue", "enter", "cross", "come", "pull-out"))
@@ -141,7 +142,7 @@ def _braking(event: Event, scene: Asked, vehicle: int) -> Answer:
             now = found.end is None or scene.moment <= end
             if not hindered.causes and now:
                 hindered = at_present(scene.ride, vehicle, scene.moment, EXPECTED)
-            if not hindered.causes and _parked(scene, vehicle, found):
+            if not hindered.causes and parked(scene.ride, vehicle, found, scene.moment, scene.now):
                 return OtherReason(vehicle, found, None, (MotionCause("parked"),))
         else:
             hindered = slowed(scene.ride, vehicle, found.begin, end)
@@ -161,15 +162,6 @@ def _owes_us(scene: Asked, vehicle: int, begin: float, end: float) -> bool:
     return rule is not None and rule[1] == "priority" and begin - LONG <= rule[0] <= end + LONG
 
 
-def _parked(scene: Asked, vehicle: int, standing: Episode) -> bool:
-    """Check whether a vehicle has stood since it was first seen, and shows no lights."""
-    first = scene.ride.motion(vehicle).time[:1]
-    since = bool(first) and standing.begin <= first[0] + ROUNDING and standing.end is None
-    trace = scene.ride.at(scene.moment, vehicle)
-    lit = trace is None or bool(trace.scene[vehicle].signals)
-    return since and not lit and scene.now - standing.begin >= LONG
-
-
 def _yielded(event: Event, scene: Asked, vehicle: int) -> Answer | None:
     """Return whom a vehicle waited for or let go first, if it was seen to do so then."""
     if event.action not in YIELDS | STILL:
@@ -179,6 +171,8 @@ def _yielded(event: Event, scene: Asked, vehicle: int) -> Answer | None:
     if found is None or not isinstance(whom, Ego | Vehicle):
         return None
     other = whom.number if isinstance(whom, Vehicle) else EGO
+    if event.action in STILL and not holds_up(scene.ride, other, vehicle, scene.moment, EXPECTED):
+        return None
     how = (found.how if found.action == "wait" else None) or "right-of-way"
     first = Hindrance((MotionCause(how, other),))
     return _told(scene, vehicle, found, None, first, found.begin)

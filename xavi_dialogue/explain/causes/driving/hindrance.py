@@ -12,12 +12,14 @@ from planner.record.trace import HeldUp, HoldUp, PlanTrace
 from sim.scene import EGO
 from xavi_dialogue.causal.model import Choice
 from xavi_dialogue.domain.answers import Evidence, MotionCause
+from xavi_dialogue.domain.facts import Episode
 from xavi_dialogue.explain.causes.driving.traffic_lights import light_of_other
 from xavi_dialogue.explain.causes.vehicles.involved import LIKELY, expected_actions
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride, planned, prediction
 
 LEEWAY = 1.0  # [s] by which a hold-up may precede or follow the braking that it explains
 SHORTEST = 0.5  # [s] of being held up that can make somebody brake
+LONG = 3.0  # [s] at a standstill from which a vehicle may be parked
 FRESH = 1.5  # [s] maximum age of a decision that shows what is going on now
 
 
@@ -88,6 +90,37 @@ def at_present(ride: Ride, vehicle: int, time: float, least: float = LIKELY) -> 
     if ride.motion(vehicle).until(time).trend not in ("slowing", "standing"):
         return Hindrance()
     return _explained(ride, [trace], vehicle, _within(trace.sim_time, time), least)
+
+
+def holds_up(ride: Ride, other: int, vehicle: int, time: float, least: float) -> bool:
+    """Check whether somebody holds a vehicle up at a time [s], as far as anybody is known to.
+
+    Args:
+        ride: the record.
+        other: who may hold it up.
+        vehicle: the vehicle that brakes or stands.
+        time: [s] the moment.
+        least: the minimum probability that somebody is in its way.
+    """
+    causes = at_present(ride, vehicle, time, least).causes
+    return not causes or any(cause.vehicle == other for cause in causes)
+
+
+def parked(ride: Ride, vehicle: int, standing: Episode, moment: float, now: float) -> bool:
+    """Check whether a vehicle has stood since it was first seen, and shows no lights.
+
+    Args:
+        ride: the record.
+        vehicle: the vehicle that stands.
+        standing: its standing.
+        moment: [s] the time asked about.
+        now: [s] the time of the question.
+    """
+    first = ride.motion(vehicle).time[:1]
+    since = bool(first) and standing.begin <= first[0] + ROUNDING and standing.end is None
+    trace = ride.at(moment, vehicle)
+    lit = trace is None or bool(trace.scene[vehicle].signals)
+    return since and not lit and now - standing.begin >= LONG
 
 
 def lit_too(

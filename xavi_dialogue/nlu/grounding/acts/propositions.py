@@ -66,7 +66,7 @@ from xavi_dialogue.nlu.grounding.events.afoot import walked
 from xavi_dialogue.nlu.grounding.events.generic import come_along, in_order
 from xavi_dialogue.nlu.grounding.events.hiding import behind_hider, past_hider, somebody_behind
 from xavi_dialogue.nlu.grounding.events.timing import believed_then
-from xavi_dialogue.nlu.grounding.events.windows import is_stale, pointed
+from xavi_dialogue.nlu.grounding.events.windows import pointed
 from xavi_dialogue.nlu.grounding.salience import naming, vehicles_of
 from xavi_dialogue.nlu.grounding.things.descriptions import is_such
 from xavi_dialogue.nlu.grounding.things.in_way import anybody_in_way
@@ -178,7 +178,7 @@ def timed(time: Time, tense: Tense, g: Grounder, outer: Window | None) -> Window
     window = g.window(time, tense)
     discourse = g.context.discourse
     focus = discourse.named or discourse.episode
-    if focus is not None and is_stale(g.context):
+    if focus is not None and g.context.stale:
         focus = None
     if isinstance(time, Unsaid) and tense == "past" and focus is not None:
         window = inferred(focus, g)
@@ -251,6 +251,9 @@ def _is(spoken: Is, g: Grounder, mode: Mode, outer: Window | None) -> Is:
         when = interval(event)
         if when is not None and isinstance(spoken.time, Unsaid):
             window = inferred(when, g)
+    if window is None and spoken.state == "close" and isinstance(spoken.thing, Described):
+        past = spoken.tense != "present" and isinstance(spoken.time, Unsaid)
+        spoken = replace(spoken, time=WholeRide()) if past else spoken  # "was that car close?"
     if window is None or not isinstance(spoken.time, Unsaid):
         window = at_moment(spoken.time, spoken.tense, g, outer)
     thing = None if spoken.thing is None else g.thing(spoken.thing, window)

@@ -26,7 +26,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.grounding.completion.discussion import last_deed
 from xavi_dialogue.nlu.grounding.context import Grounder, Window
-from xavi_dialogue.nlu.grounding.events.windows import is_stale, notable, pointed, startling
+from xavi_dialogue.nlu.grounding.events.windows import notable, pointed, startling
 
 
 def over(time: Any, g: Grounder) -> Window:
@@ -91,7 +91,7 @@ def seen_then(spoken: Listing, g: Grounder) -> Listing:
     about = spoken.about
     if spoken.of != "beliefs" or about is None or spoken.time != Back():
         return spoken
-    if g.context.discourse.episode is None or is_stale(g.context):  # as we last set about something
+    if g.context.discourse.episode is None or g.context.stale:  # as we last set about something
         spoken = replace(spoken, time=Relative("during", Event("do")))
     then = pointed(spoken.time, g.window(spoken.time, "past"))
     known = g.thing(about, then)

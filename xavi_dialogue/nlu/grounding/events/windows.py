@@ -42,7 +42,6 @@ OPENING: Final = 8.0  # [s] that the beginning of the ride lasts
 BESIDE: Final = 8.0  # [s] before or after an event
 APPROACH: Final = 6.0  # [s] before a junction that belong to it
 JUST_BEFORE: Final = 0.2  # [s] before something that are still of it
-STALE: Final = 6.0  # [s] after which what was spoken of is no longer what "back there" means
 HARD: Final = 4.0  # [m/s2] from which braking is felt as sudden
 TOGETHER: Final = 1.5  # [s] between deeds that belong together
 LONGEST: Final = 15.0  # [s] that deeds which belong together last at most
@@ -86,7 +85,7 @@ def window(time: Time, tense: Tense, g: Grounder) -> Window:
         case Back(relation="before") if tense == "future":
             return _coming(context, SOON, said=False)  # "will you stop before it?"
         case Back(seconds=float() as back):
-            told = None if is_stale(context) else focus(context.discourse)
+            told = None if context.stale else focus(context.discourse)
             return _at(min((told or (now,))[0], now) - back, now)
         case Back(relation=relation):
             return _back(relation, g)
@@ -169,19 +168,13 @@ def _back(relation: str, g: Grounder) -> Window:
     context = g.context
     g.notes.leaned = True
     interval = focus(context.discourse)
-    if interval is None or is_stale(context):
+    if interval is None or context.stale:
         interval = notable(context) or interval
         if relation == "before":
             return Window(context.begin, context.now, Unsaid(), (context.begin, context.now), True)
     if interval is None:
         return unsaid("past", context)
     return _beside(relation, interval, context)
-
-
-def is_stale(context: Context) -> bool:
-    """Tell whether it is long since anything was asked, so that more has happened."""
-    asked = context.discourse.asked_at
-    return asked is not None and context.now - asked > STALE
 
 
 def notable(context: Context) -> Interval | None:
@@ -315,7 +308,7 @@ def _anchored(time: Relative, tense: Tense, g: Grounder) -> tuple[Interval, ...]
 def _of_ours(g: Grounder) -> tuple[Interval, ...]:
     """Find what "when you did it", "when you committed" goes back to: the last manoeuvre."""
     context = g.context
-    spoken = None if is_stale(context) else focus(context.discourse)
+    spoken = None if context.stale else focus(context.discourse)
     deeds = context.deeds(Ego(), context.begin, context.now)
     moves = [e for e in deeds if e.action in MANOEUVRES]
     if spoken is not None:
