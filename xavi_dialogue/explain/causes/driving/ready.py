@@ -88,6 +88,10 @@ def given_up(ride: Ride, deed: Episode) -> MotionCause | None:
         if not deed.begin - AHEAD <= one.sim_time <= end or after.under_way is not None:
             continue
         was, then = planned(one)[:1], planned(after)[:1]
-        if was != then and set(was) & TURNS:
+        driven = any(
+            d.action in was and d.started <= one.sim_time <= (d.ended or ride.now) and d.carried_out
+            for d in ride.begun
+        )
+        if was != then and set(was) & TURNS and not driven:
             return MotionCause("given-up", actions=was)
     return None
