@@ -45,19 +45,30 @@ from xavi_dialogue.domain.terms import (
     Pronoun,
     Record,
     Related,
+    Relative,
     Vehicle,
     Wanted,
     WholeRide,
+    Within,
 )
 
 #: Words with which one of all is asked for, and not one of those in view.
 _SO_FAR: Final = frozenset(("was", "far", "ever", "seen", "met", "yet", "ride", "trip", "been"))
+_EVER: Final = _SO_FAR - {"was", "been"}
+#: Words for some of those spoken of: "which one was the slowest?".
+_THOSE: Final = frozenset(("one", "ones", "them", "those", "these"))
 _PARTS: Final = frozenset(("part", "parts", "bit", "bits", "area", "areas", "road", "street"))
 _LASTED: Final = frozenset(("took", "take", "takes", "cost", "costs", "lasted"))
 _QUEUES: Final = frozenset(("queue", "jam", "line", "tailback", "row"))
 _SIDED: Final = {"left turns": "exit-left", "right turns": "exit-right"}
 _FITTING: Final = frozenset(("correct", "proper", "best"))
 _UNFIT: Final = frozenset(("wrong", "incorrect"))
+#: Words of setting off after a stop.
+_SETTING_OFF: Final = (
+    "off the line", "off the mark", "set off", "setting off", "get going", "getting going",
+    "move off", "moving off", "pull away", "pulling away", "get away", "getting away", "to go",
+    "to start", "the start", "start moving", "get moving", "take off",
+)  # fmt: skip
 _LAST: Final = frozenset(("last", "final"))
 _TURNS: Final = frozenset(("turn", "turning"))
 _FURTHER: Final = frozenset(("any", "more", "other", "further"))
@@ -68,7 +79,28 @@ def worded(question: Question, words: str) -> tuple[Act, ...] | None:
     """Give the acts that the words of a question come to; None where its term says it all."""
     said = frozenset(words.split())
     found = _of_turns(question, words, said) or _listed(question, words, said)
+    found = found or set_off_late(question, words)
     return found or _of_lights_and_deeds(question, words, said) or _of_waits(question, said)
+
+
+def set_off_late(question: Question, words: str) -> tuple[Act, ...] | None:
+    """Read "why so slow off the line?", "what took you so long to go?" as why we did not go."""
+    match question:
+        case Why(
+            Compares(
+                Measured("duration", Ego(), time=Relative("during" | "after", Event("turn-colour")))
+            )
+        ):
+            went = Event("go", Ego(), time=Within(None), tense="past")
+            return (Ask(Why(Not(Happens(went)))),)
+        case Why(
+            Compares(Measured("duration", Ego()), "more", None)
+            | Is("slow", Ego())
+            | Happens(Event("go", Ego(), manner=("slowly",)))
+        ) if any(f" {off}" in f" {words}" for off in _SETTING_OFF):
+            went = Event("go", Ego(), time=Within(None), tense="past")
+            return (Ask(Why(Not(Happens(went)))),)
+    return None
 
 
 def lane_fits(acts: tuple[Act, ...], words: str) -> tuple[Act, ...] | None:
@@ -133,7 +165,9 @@ def _listed(question: Question, words: str, said: frozenset[str]) -> tuple[Act, 
                 bearing=None,
                 such=None | Related("can-see", Ego(), Wanted()),
             )
-        ) if _SO_FAR & said:  # "what was the fastest car so far?"
+        ) if _SO_FAR & said and (
+            said & _EVER or not said & _THOSE
+        ):  # "what was the fastest car so far?"
             which: Any = "highest" if pace == "fastest" else "lowest"
             of = Measured("speed", Everyone(kind), time=WholeRide(), tense="past")
             return (Ask(HowMuch(of, which)),)
