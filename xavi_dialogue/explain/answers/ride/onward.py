@@ -1,5 +1,7 @@
 """Onward: our way ahead as recorded: junctions, exits, turns that are left, the road."""
 
+import math
+
 from msgspec.structs import replace
 
 from planner.record.places import RouteStep
@@ -60,7 +62,7 @@ def steps_ahead(asked: Asked) -> tuple[WayStep, ...]:
 
 
 def goes_onward(asked: Asked) -> bool:
-    """Whether our plan leaves the recorded route, so that the way after that is not known."""
+    """Whether our plan leaves the recorded route; the way after that is not known."""
     route = junctions_ahead(asked.ride, asked.now)
     return as_planned(asked, route) != route
 
@@ -122,12 +124,10 @@ def _to_come(of: Measured) -> bool:
 def _way_taken(of: Measured, asked: Asked, at: float) -> Answer:
     """Return the turn of ours at a time, as it was; else our way according to the record then."""
     about = window(asked, of.time, of.tense)
-    kinds: tuple[ActionName, ...] = ("exit-left", "exit-right", "exit-straight", "leave")
-    found = asked.world.episodes(actor=Ego(), actions=kinds)
+    found = asked.world.episodes(Ego(), ("exit-left", "exit-right", "exit-straight", "leave"))
     near = [e for e in found if overlaps(asked, e, about.widened())] or list(found[-1:])
-    if near:
-        return Measures((asked.world.measure(of.attribute, Ego(), near[-1].begin - SHORT),))
-    return Measures((asked.world.measure(of.attribute, Ego(), at),))
+    then = near[-1].begin - SHORT if near else at
+    return Measures((asked.world.measure(of.attribute, Ego(), then),))
 
 
 def route_ahead(asked: Asked) -> Course | None:
@@ -147,8 +147,8 @@ def way_chosen(asked: Asked) -> Course:
 
 def turns_left(asked: Asked, event: Event) -> Course:
     """Return how many turns are left, and which; roundabouts count."""
-    steps = _turning(steps_ahead(asked), event)
-    return course(asked, "turns", steps, onward=goes_onward(asked))
+    turning = _turning(steps_ahead(asked), event)
+    return course(asked, "turns", turning, onward=goes_onward(asked))
 
 
 def _turning(steps: tuple[WayStep, ...], event: Event) -> tuple[WayStep, ...]:
@@ -223,7 +223,7 @@ def whether_ours(question: Whether, asked: Asked) -> Course | None:
         if event.action == "leave" and turning:
             return course(asked, "way", turning[:1], holds=True)
         return course(asked, "road", turning[:1], holds=not turning)
-    if event.tense == "present" and occasion(asked, event) is not None:
+    if event.tense == "present" and (occasion(asked, event) is not None or _turning_now(asked)):
         return None
     if event.action == "circle":
         ring = tuple(s for s in steps if s.kind == "roundabout")[:1]
@@ -241,6 +241,12 @@ def whether_ours(question: Whether, asked: Asked) -> Course | None:
     plain = step.turn == "exit-straight" and step.kind == "junction"
     shown = (step, *(later if plain and _turns(event) else ()))
     return course(asked, "way", shown, holds=_agrees(event, step))
+
+
+def _turning_now(asked: Asked) -> bool:
+    """Check whether a turn of ours is under way."""
+    turns = asked.world.episodes(Ego(), ("exit-left", "exit-right"))
+    return any(e.begin <= asked.now < (e.end or math.inf) for e in turns)
 
 
 def _ahead_of_us(that: Proposition) -> Junction | None:
