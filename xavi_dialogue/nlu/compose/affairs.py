@@ -37,7 +37,7 @@ from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.own_deeds import of_own_deed
 from xavi_dialogue.nlu.compose.sounds import of_sounds
 from xavi_dialogue.nlu.compose.wh_questions.rating import rating_of
-from xavi_dialogue.nlu.compose.worded import lane_fits, worded
+from xavi_dialogue.nlu.compose.worded import WHEN_WE_GO, lane_fits, worded
 from xavi_dialogue.nlu.grammar.chart import Node
 
 WELL: Final = Ask(Whether(Is("safe", Ego())))
@@ -121,6 +121,10 @@ def why_not(acts: tuple[Act, ...], unit: Node, clause: Clause) -> tuple[Act, ...
             return (Ask(Whether(Happens(replace(event, tense="future", modal="must")))),)
         case (Request(event, False),) if clause.negated and "we" in words and "please" not in words:
             return (Ask(Why(Not(Happens(replace(event, modal="can"))))),)
+        case (Request(Event("go", Ego(), time=Relative(anchor=Event("turn-colour"))), False),) if (
+            "we" in words and "please" not in words
+        ):
+            return (WHEN_WE_GO,)  # "can we go when it turns green?"
         case (Request(event, False),) if "we" in words and _before_others(event):
             able = Happens(replace(event, modal="can"))
             return (Ask(Whether(able)),)  # "could we squeeze through before they cross?"

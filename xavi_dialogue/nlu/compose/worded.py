@@ -63,6 +63,7 @@ _QUEUES: Final = frozenset(("queue", "jam", "line", "tailback", "row"))
 _SIDED: Final = {"left turns": "exit-left", "right turns": "exit-right"}
 _FITTING: Final = frozenset(("correct", "proper", "best"))
 _UNFIT: Final = frozenset(("wrong", "incorrect"))
+WHEN_WE_GO: Final = Ask(When(Happens(Event("go", Ego(), tense="future", modal="can"))))
 #: Words of setting off after a stop.
 _SETTING_OFF: Final = (
     "off the line", "off the mark", "set off", "setting off", "get going", "getting going",
@@ -79,8 +80,40 @@ def worded(question: Question, words: str) -> tuple[Act, ...] | None:
     """Give the acts that the words of a question come to; None where its term says it all."""
     said = frozenset(words.split())
     found = _of_turns(question, words, said) or _listed(question, words, said)
-    found = found or set_off_late(question, words)
+    found = found or set_off_late(question, words) or _of_green(question, said)
     return found or _of_lights_and_deeds(question, words, said) or _of_waits(question, said)
+
+
+def _of_green(question: Question, said: frozenset[str]) -> tuple[Act, ...] | None:
+    """Read "will you go when it turns green?" as when we can go: what holds us up is told."""
+    match question:
+        case Whether(
+            Happens(
+                Event(
+                    "go",
+                    Ego(),
+                    time=Relative("during" | "after", Event("turn-colour")),
+                    tense="future" | "present",
+                )
+            )
+        ):
+            return (WHEN_WE_GO,)
+        case Doing(None, Relative("before", Event("go", Ego(), modal="can"))) if {
+            "must",
+            "has",
+            "needs",
+            "need",
+        } & said:
+            return (WHEN_WE_GO,)  # "what has to happen before we can go?"
+        case HowMuch(Measured(attribute, Ego(), time=Relative("during", Event("signal")))) if {
+            "use",
+            "used",
+        } & said:
+            if attribute != "deceleration":
+                return (Ask(HowMuch(Measured(attribute, Ego(), tense="past"))),)
+            braked = Event("brake", Ego(), tense="past")
+            return (Ask(HowMuch(Measured(attribute, Ego(), event=braked, tense="past"))),)
+    return None
 
 
 def set_off_late(question: Question, words: str) -> tuple[Act, ...] | None:

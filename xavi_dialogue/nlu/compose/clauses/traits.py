@@ -2,6 +2,8 @@
 
 from typing import Any, cast
 
+from msgspec import structs
+
 from xavi_dialogue.domain.terms import (
     Described,
     Event,
@@ -84,6 +86,12 @@ def described(kind: str, traits: Traits, *, plural: bool = False) -> Described:
         kind=cast(Any, kind), plural=not traits.one_of and (plural or many),
         other=traits.other, **fields,
     )  # fmt: skip
+
+
+def crossing(kind: str, traits: Traits) -> Described:
+    """Describe "people crossing", in which no crossing is meant."""
+    event = Event("cross", Wanted(), tense="present")
+    return structs.replace(described(kind, traits, plural=True), doing=event)
 
 
 def still_due(clause: Proposition | None) -> bool:

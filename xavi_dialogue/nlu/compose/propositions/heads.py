@@ -51,7 +51,7 @@ from xavi_dialogue.nlu.compose.clauses.sem import (
     as_thing,
     is_thing,
 )
-from xavi_dialogue.nlu.compose.clauses.traits import Traits, described, still_due
+from xavi_dialogue.nlu.compose.clauses.traits import Traits, crossing, described, still_due
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.verbs.lights import light_of
 from xavi_dialogue.nlu.grammar.chart import Node
@@ -172,6 +172,8 @@ def _place(head: Leaf, traits: Traits) -> Sem:
         rank = 1
     side = traits.side if traits.side != "straight" else None
     match head.key:
+        case "junction" if traits.kind and head.words == ("crossing",):
+            return crossing(traits.kind, traits)
         case "junction" | "roundabout":
             definite = traits.owner is not None or traits.determiner == "def" or head.words[:-1]
             turning = bool(definite) and head.words[-1] in ("turning", "turn-off", "turnoff")

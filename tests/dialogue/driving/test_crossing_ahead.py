@@ -1,0 +1,64 @@
+"""People crossing, who is behind us, and going once the light is green."""
+
+import pytest
+
+from tests.dialogue.talking import Talk
+from xavi_dialogue.nlu.notation import acts_line
+from xavi_dialogue.nlu.parse import Parser
+
+
+def read(text: str) -> str:
+    return acts_line(Parser().read(text)[0].acts)
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("are there people crossing?", "pedestrian"),
+        ("are there any people crossing in front of us?", "pedestrian"),
+        ("are there cars crossing?", "car"),
+        ("are there people crossing ahead?", "pedestrian"),
+    ],
+)
+def test_people_crossing_are_people(text: str, kind: str) -> None:
+    assert f"Exists(Described({kind}" in read(text)
+    assert "cross" in read(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "is the car behind us close?",
+        "was the car behind us close?",
+        "is the car behind us too close?",
+        "was the car behind us close when you braked?",
+    ],
+)
+def test_a_place_before_what_is_said_is_part_of_the_description(text: str) -> None:
+    assert "Described(car, bearing=behind)" in read(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "can we go when it turns green?",
+        "will we be able to go when it goes green?",
+        "what has to happen before we can go?",
+    ],
+)
+def test_going_once_it_is_green_asks_when_we_can_go(text: str) -> None:
+    assert read(text) == "Ask(When(Happens(Event(go, tense=future, modal=can))))"
+    assert "turn green in about" in Talk("junction-0", 18.0).hear(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["what deceleration did you use?", "what braking force did you use?"]
+)
+def test_what_we_used_is_how_hard_we_braked(text: str) -> None:
+    assert "Measured(deceleration, event=Event(brake" in read(text)
+
+
+@pytest.mark.parametrize("text", ["are we turning left?", "are we turning left here?"])
+def test_a_turn_under_way_is_told_rather_than_the_way_ahead(text: str) -> None:
+    reply = Talk("s2-2", 7.0, planner=False).hear(text)
+    assert "turning right" in reply
