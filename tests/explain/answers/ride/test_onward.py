@@ -19,6 +19,7 @@ from xavi_dialogue.domain.terms import (
     Next,
     Vehicle,
 )
+from xavi_dialogue.explain.answers.expectations import steering
 from xavi_dialogue.explain.answers.ride import onward as room
 
 US = Ego()
@@ -143,14 +144,13 @@ def test_junctions_are_counted() -> None:
 
 def test_a_plan_that_leaves_the_route_leaves_the_number_of_turns_open(monkeypatch: Any) -> None:
     """What comes after the junction where it leaves the route is not recorded."""
-    planned = (OVER, LEFT_THERE)
-    monkeypatch.setattr(room, "as_planned", lambda asked, route: planned)
-    asked = ahead(OVER, RIGHT, RING, LEFT)
+    asked, planned = ahead(OVER, RIGHT, RING, LEFT), (OVER, LEFT_THERE)
+    assert not room.turns_left(asked, Event("turn")).onward
+    for module in (room, steering):
+        monkeypatch.setattr(module, "as_planned", lambda asked, route: planned)
     found = room.turns_left(asked, Event("turn"))
     assert found == way((LEFT_THERE, 2), form="turns", onward=True)
     assert room.junctions_left(asked, Junction()).onward
-    told = room.turns_left(ahead(*planned), Event("turn"))
-    assert not told.onward
 
 
 NOW = Event("leave", tense="present")

@@ -11,7 +11,7 @@ from planner.record.trace import Action
 from xavi_dialogue.explain.answers.expectations.precedence import planned_line
 from xavi_dialogue.explain.answers.reference.asked import Asked
 from xavi_dialogue.explain.history.motion import Motion
-from xavi_dialogue.explain.history.nearing import still_to
+from xavi_dialogue.explain.history.nearing import junctions_ahead, still_to
 
 BEFORE: Final = 4.0  # [m] before a junction, where our line still has the direction of the road
 ACROSS: Final = 30.0  # [m] of our line that lead through a junction
@@ -36,6 +36,12 @@ def as_planned(asked: Asked, route: tuple[RouteStep, ...]) -> tuple[RouteStep, .
         if turn != step.turn:
             return (*route[:k], replace(step, turn=turn))
     return route
+
+
+def goes_onward(asked: Asked) -> bool:
+    """Whether our plan leaves the recorded route; the way after that is not known."""
+    route = junctions_ahead(asked.ride, asked.now)
+    return as_planned(asked, route) != route
 
 
 def _turn(line: Motion, at: float, length: float) -> Action | None:

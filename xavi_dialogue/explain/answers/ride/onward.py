@@ -31,7 +31,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers.expectations.precedence import SAME_PLACE, on_ring
-from xavi_dialogue.explain.answers.expectations.steering import as_planned
+from xavi_dialogue.explain.answers.expectations.steering import as_planned, goes_onward
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import SHORT, instant, is_past, window
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
@@ -59,12 +59,6 @@ def steps_ahead(asked: Asked) -> tuple[WayStep, ...]:
         _step(step, rank, inside and rank == 1 and step.kind == "roundabout")
         for rank, step in enumerate(route, start=1)
     )
-
-
-def goes_onward(asked: Asked) -> bool:
-    """Whether our plan leaves the recorded route; the way after that is not known."""
-    route = junctions_ahead(asked.ride, asked.now)
-    return as_planned(asked, route) != route
 
 
 def _step(step: RouteStep, rank: int, inside: bool) -> WayStep:
