@@ -1,5 +1,7 @@
 """Delays: who held us up on the way, and for whom we slowed down, with times."""
 
+from collections.abc import Sequence
+
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.answers import Happenings
@@ -80,10 +82,21 @@ def for_whom(asked: Asked, episode: Episode) -> Episode:
         return episode
     end = asked.now if episode.end is None else episode.end
     near = asked.world.episodes(actor=Ego(), begin=episode.begin, end=end)
-    yielding = [e for e in near if e.action in YIELDS and number(e.object) is not None]
+    yielding = _yielding(asked, near, episode.begin, end)
     ahead = [e for e in near if e.action == "follow" and _closes(asked, e, episode.begin)]
     cause = next(iter((*yielding, *ahead)), None)
     return episode if cause is None else replace(episode, object=cause.object)
+
+
+def _yielding(asked: Asked, near: Sequence[Episode], begin: float, end: float) -> list[Episode]:
+    """List whom we let go first in a stretch, who took most of it first; none if a light did."""
+
+    def length(one: Episode) -> float:
+        return min(end, asked.now if one.end is None else one.end) - max(begin, one.begin)
+
+    yields = sorted((e for e in near if e.action in YIELDS), key=lambda e: -length(e))
+    lit = yields and isinstance(yields[0].object, Feature) and length(yields[0]) > 0.0
+    return [] if lit else [e for e in yields if number(e.object) is not None]
 
 
 def _trails(asked: Asked, episode: Episode) -> bool:
