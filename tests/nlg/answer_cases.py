@@ -304,5 +304,6 @@ CASES: tuple[Answer, ...] = (
     Simulations(2.0, 119, ENDS[:1], Evidence(), asked="collision", options=4),
     Simulations(2.0, 80, ENDS[:1], Evidence(), asked="done", options=4),
     Simulations(2.0, 0, (), Evidence(), asked="done", of="stop", options=4),
+    Simulations(2.0, 119, ENDS, Evidence(), options=1),
     Simulations(2.0, 119, ENDS, Evidence(), apart=True, options=4),
 )

@@ -73,3 +73,35 @@ def test_simulations_are_told_by_option() -> None:
 def test_options_are_counted_and_named(text: str) -> None:
     said = Talk(at=3.0).hear(text)
     assert re.search(r"I considered \d options: .*stopping.*I chose", said)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "How many rollouts did the last decision use, and how many ended in a crash?",
+        "how many simulations did you run and how many ended in a collision",
+    ],
+)
+def test_both_counts_of_one_text_are_of_the_simulations(text: str) -> None:
+    said = Talk(at=3.0).hear(text)
+    assert re.search(r"I ran \d+ simulations.*none of my \d+ simulations ended in", said)
+
+
+@pytest.mark.parametrize("text", ["What was your worst prediction?", "what was your worst guess"])
+def test_the_worst_prediction_is_one_that_was_wrong(text: str) -> None:
+    assert read(text) == "Ask(Listing(wrong-predictions))"
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["Which vehicle limits our speed right now?", "who limits us", "which one is slowing us down?"],
+)
+def test_who_limits_us_now_is_who_is_in_our_way(text: str) -> None:
+    said = Talk("junction-0", 9.0).hear(text)
+    assert "cost us" not in said
+    assert "red" in said
+
+
+@pytest.mark.parametrize("text", ["List every stop we made with its duration.", "list the stops"])
+def test_a_stop_at_a_light_is_for_nobody_who_goes_first_at_its_end(text: str) -> None:
+    assert "0:16 to 0:26 I stopped;" in Talk("junction-0", 40.0).hear(text)

@@ -21,7 +21,7 @@ def plan_simulations(answer: Simulations, context: SpeechContext) -> Plan:
         "runs": str(answer.runs),
         "none": not answer.runs,
         "of": own_verbs((answer.of,)) if answer.of is not None else None,
-        "options": str(answer.options),
+        "options": str(answer.options) if answer.options > 1 else None,
     }
     ends = _ends(answer) if counts.get(answer.asked or "done") != answer.runs else ()
     others = bool(answer.asked and counts.get(answer.asked))

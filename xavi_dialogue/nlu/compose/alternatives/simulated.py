@@ -2,8 +2,20 @@
 
 from typing import Any, cast
 
-from xavi_dialogue.domain.meaning import HowMuch
-from xavi_dialogue.domain.terms import Ego, Event, Happens, Lane, Measured, Proposition, Tense
+from msgspec.structs import replace
+
+from xavi_dialogue.domain.meaning import HowMany, HowMuch
+from xavi_dialogue.domain.terms import (
+    Described,
+    Ego,
+    Event,
+    Happens,
+    Lane,
+    Measured,
+    Proposition,
+    Tense,
+    Wanted,
+)
 from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.risks import moving_in
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Noun, Sem
@@ -16,10 +28,15 @@ _MADE = frozenset({"run", "do", "make", "have", "get", "use", "try", "consider",
                    "draw", "test", "examine", "calculate", "simulate", "choose", "plan", "perform",
                    "drive", "assess", "rate", "score"})  # fmt: skip
 _ENDING = frozenset({"end", "finish", "result", "lead", "come", "conclude", "terminate"})
+_MANY = Described(plural=True, definite=False)  # "how many ended in a crash"
+_ENDS = frozenset({"collide", "arrive"})
 
 
-def simulated(wh: Wh, clause: Clause, value: Any) -> HowMuch | None:
+def simulated(wh: Wh, clause: Clause, value: Any) -> HowMuch | HowMany | None:
     """Ask how many simulations or options there were: "how many rollouts ended in a crash?"."""
+    bare = wh.kind == "grade" and wh.key == "many" and clause.subject is None
+    if (bare or wh.sem == _MANY) and (ended := _ending_in(clause)) is not None:
+        return HowMany(replace(_MANY, doing=replace(ended, actor=Wanted())))
     noun = wh.sem if isinstance(wh.sem, Noun) and wh.kind == "count" else None
     noun = noun or _counted(clause.subject, wh)
     if noun is None or noun.key not in _COUNTED:
@@ -41,13 +58,23 @@ def _counted(subject: Sem | None, wh: Wh) -> Noun | None:
 
 def _ending(wh: Wh, clause: Clause, value: Any) -> Event | None:
     """Find the event that a simulation ended in."""
-    if clause.verb is not None and clause.verb.key in _ENDING:
-        found = (p.sem for p in clause.complements if p.key in ("in", "with", "at", "to", "by"))
-        return next((sem for sem in found if isinstance(sem, Event)), None)
+    if (ended := _ending_in(clause)) is not None or clause.adjectives:
+        return ended
     event = value.event if isinstance(value, Happens) else None
     if event is None or (isinstance(event.actor, Ego) and wh.preposition != "in"):
         return None
+    if clause.verb is not None and clause.verb.key in _MADE and event.action not in _ENDS:
+        return None
     return Event(event.action, tense="past")
+
+
+def _ending_in(clause: Clause) -> Event | None:
+    """Read "ended in a crash"."""
+    over = any(key == "over" for key, _ in clause.adjectives)  # "ended" is read so, too
+    if not over and (clause.verb is None or clause.verb.key not in _ENDING):
+        return None
+    found = (p.sem for p in clause.complements if p.key in ("in", "with", "at", "to", "by"))
+    return next((sem for sem in found if isinstance(sem, Event)), None)
 
 
 def _option(noun: Noun, clause: Clause) -> Proposition | None:

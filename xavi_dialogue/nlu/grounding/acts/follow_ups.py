@@ -15,23 +15,27 @@ from xavi_dialogue.domain.meaning import (
     WhatIf,
     WhatWouldChange,
     Whether,
+    Which,
     Why,
 )
 from xavi_dialogue.domain.rewriting import first
 from xavi_dialogue.domain.terms import (
     At,
     AtDecision,
+    Compares,
     Ego,
     Event,
     Happens,
     Is,
     Measured,
     Not,
+    Now,
     Pronoun,
     Proposition,
     That,
     Unsaid,
     Vehicle,
+    Wanted,
 )
 from xavi_dialogue.nlu.grounding.acts.simulations import of_them
 from xavi_dialogue.nlu.grounding.completion.discussion import (
@@ -60,8 +64,8 @@ def followed(spoken: Question, g: Grounder) -> Question:
     """Ask of the option or decision under discussion, where nothing else is said."""
     discourse = g.context.discourse
     asked = discourse.question
-    if (counted := of_them(spoken, g)) is not None:
-        return counted
+    if (meant := of_them(spoken, g) or _limiting(spoken)) is not None:
+        return meant
     match spoken:
         case HowMuch(of=Measured("deceleration", Ego(), event=None, time=Unsaid()) as of):
             braked = next((e for e in events(discourse, real=True) if _brakes(e)), None)
@@ -110,6 +114,20 @@ def followed(spoken: Question, g: Grounder) -> Question:
             g.notes.leaned = True
             return replace(spoken, of=asked.of)
     return spoken
+
+
+def _limiting(spoken: Question) -> Which | None:
+    """Take "which vehicle slows us down?" for who is in our way now."""
+    match spoken:
+        case Which(
+            such=Compares(
+                Measured("delay", Wanted(), event=None, time=Unsaid() | Now(), tense="present"),
+                "more",
+                None,
+            )
+        ):
+            return Which(Wanted(), Happens(Event("block", Wanted(), Ego(), tense="present")))
+    return None
 
 
 def _decision(discourse: Discourse) -> float | None:
