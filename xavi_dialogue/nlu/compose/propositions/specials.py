@@ -331,8 +331,8 @@ _RULES: dict[str, Callable[[Special], Proposition]] = {
     "leave-space": _leave_space, "begin": begun, "change": changed, "measure": measured,
     "missed-chance": missed, "lose-sight": _lost, "prefer": preferred, "rank": preferred,
     "shift": shifted, "refrain": given_up,
-    "heed": lambda s: Related("can-see", s.subject, as_thing(s.object) or Pronoun("it"),
-                              time_of(s), tense_of(s)),
+    "heed": lambda s: Related("can-see", s.subject, as_thing(s.object or s.match.phrases.get("of"))
+                              or Pronoun("it"), time_of(s), tense_of(s)),
     "recede": _recede, "with": _along, "attend": _is("awake"),
     "load": lambda s: Has("load", "", s.subject, time_of(s), tense_of(s)),
     "driver": lambda s: Has("occupant", "", as_thing(s.object) or Pronoun("it"), time_of(s)),
