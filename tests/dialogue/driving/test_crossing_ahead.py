@@ -62,3 +62,26 @@ def test_what_we_used_is_how_hard_we_braked(text: str) -> None:
 def test_a_turn_under_way_is_told_rather_than_the_way_ahead(text: str) -> None:
     reply = Talk("s2-2", 7.0, planner=False).hear(text)
     assert "turning right" in reply
+
+
+@pytest.mark.parametrize(
+    ("text", "seen"),
+    [
+        ("is he aware of us?", "can-see, Pronoun(he))"),
+        ("is the pedestrian aware of us?", "can-see, Described(pedestrian))"),
+        ("is vehicle 3 aware of us?", "can-see, Vehicle(3))"),
+        ("are you aware of the bike?", "can-see, Ego, Described(bike)"),
+    ],
+)
+def test_who_is_aware_of_somebody_sees_them(text: str, seen: str) -> None:
+    assert f"Related({seen}" in read(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["how long before we're standing?", "how long until we stop?", "when will we stop?"]
+)
+def test_when_we_stop_is_not_when_the_light_turns_green(text: str) -> None:
+    """We roll up to a red light at 14 s, and stand at it from 16.9 s on."""
+    reply = Talk("junction-0", 12.0).hear(text)
+    assert "in about" in reply
+    assert "green" not in reply

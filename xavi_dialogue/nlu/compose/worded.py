@@ -85,7 +85,7 @@ def worded(question: Question, words: str) -> tuple[Act, ...] | None:
 
 
 def _of_green(question: Question, said: frozenset[str]) -> tuple[Act, ...] | None:
-    """Read "will you go when it turns green?" as when we can go: what holds us up is told."""
+    """Read "will you go when it turns green?" as when we can go, and the like."""
     match question:
         case Whether(
             Happens(
@@ -113,6 +113,12 @@ def _of_green(question: Question, said: frozenset[str]) -> tuple[Act, ...] | Non
                 return (Ask(HowMuch(Measured(attribute, Ego(), tense="past"))),)
             braked = Event("brake", Ego(), tense="past")
             return (Ask(HowMuch(Measured(attribute, Ego(), event=braked, tense="past"))),)
+        case HowLong(Event("stand" | "stop" as action, Ego(), tense="present")) if {
+            "before",
+            "until",
+            "till",
+        } & said:  # "how long before we're standing?"
+            return (Ask(When(Happens(Event(action, Ego(), tense="future")))),)
     return None
 
 

@@ -11,6 +11,7 @@ from xavi_dialogue.domain.answers import Answer
 from xavi_dialogue.domain.meaning import HowKnow, HowLong, HowMuch, HowSure, When, Whether
 from xavi_dialogue.domain.terms import (
     Believed,
+    Ego,
     Event,
     Feature,
     Happens,
@@ -29,6 +30,7 @@ from xavi_dialogue.explain.facts.episodes.light_waits import holds
 from xavi_dialogue.explain.facts.traffic_lights import SAID, foreseen, meant, shown_at
 from xavi_dialogue.explain.history.traffic_lights import stretches
 
+STILL = 0.3  # [m/s] up to which we have stopped
 STANDING = frozenset[ActionName](("wait", "stand", "stop"))
 LATELY = 20.0  # [s] after a change of a light in which a question means that change
 
@@ -87,6 +89,9 @@ def until_we_go(of: Proposition | Event | None, scene: Asked) -> bool:
         return False
     goes = event.action in ONWARD and event.tense in ("present", "future")
     stands = event.action in STANDING and (event.tense == "future" or event.modal == "must")
+    if isinstance(of, Happens) and event.action in ("stop", "stand"):  # when that begins
+        speed = scene.world.measure("speed", Ego(), scene.now).value
+        stands = stands and speed is not None and speed <= STILL
     return (goes or stands) and held(scene) is not None
 
 
