@@ -85,3 +85,17 @@ def test_when_we_stop_is_not_when_the_light_turns_green(text: str) -> None:
     reply = Talk("junction-0", 12.0).hear(text)
     assert "in about" in reply
     assert "green" not in reply
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "which road user is limiting our speed?",
+        "which vehicle limits our speed?",
+        "who is slowing us down?",
+    ],
+)
+def test_who_limits_our_speed_is_who_holds_us_up_now(text: str) -> None:
+    reply = Talk("junction-0", 12.0).hear(text)
+    assert reply.startswith("I am braking, because")
+    assert "no time to speak of" not in reply

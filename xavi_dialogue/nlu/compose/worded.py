@@ -220,6 +220,10 @@ def _listed(question: Question, words: str, said: frozenset[str]) -> tuple[Act, 
             return (Ask(Listing("options")),)  # "what would have been quicker?"
         case Which(such=Related("on", Wanted(), Record())):
             return (Ask(Listing("vehicles")),)  # "what's on your screen?"
+        case Which(Described(kind=kind) as one, Compares(Measured("delay", Wanted())) as such) if (
+            one == Described(kind)
+        ):
+            return (Ask(Which(Wanted(kind), such)),)  # "which road user limits our speed?"
     return None
 
 
