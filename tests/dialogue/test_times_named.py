@@ -73,3 +73,19 @@ def test_how_close_somebody_was_is_of_the_whole_ride(text: str) -> None:
     talk = Talk("s1-0", 15.0)
     talk.hear("Why did you move over?")
     assert talk.hear(text).endswith("came no closer than 1.7 metres to us, at 0:10.")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Did we overtake the green bicycle earlier?",
+        "did we pass that bicycle earlier",
+        "Had you overtaken the green bicycle earlier on?",
+    ],
+)
+def test_earlier_is_a_time_before_now_and_no_manner(text: str) -> None:
+    talk = Talk("junction-0", 29.0)
+    talk.hear("Why did you stop?")
+    reply = talk.hear(text)
+    assert reply.startswith("Yes, I overtook the green bicycle")
+    assert reply.endswith("at 0:03.")

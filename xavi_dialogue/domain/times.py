@@ -47,9 +47,12 @@ class Between(Value, frozen=True):
 
 
 class Back(Value, frozen=True):
-    """The time of the episode under discussion, or before or after it: "then", "before that"."""
+    """The time of the episode under discussion, or before or after it: "then", "before that".
 
-    relation: Literal["during", "before", "after"] = "during"
+    What was "earlier" was before now, whatever is under discussion.
+    """
+
+    relation: Literal["during", "before", "after", "earlier"] = "during"
     seconds: float | None = None  # [s] that long before: "two seconds earlier"
 
 

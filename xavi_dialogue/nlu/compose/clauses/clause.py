@@ -6,7 +6,7 @@ from typing import Any, cast
 from msgspec.structs import replace
 
 from xavi_dialogue.domain.terms import (
-    Described,
+    Back,
     Event,
     Exit,
     Feature,
@@ -17,7 +17,6 @@ from xavi_dialogue.domain.terms import (
     Road,
     Time,
     Unsaid,
-    Vehicle,
 )
 from xavi_dialogue.domain.vocabulary import Manner
 from xavi_dialogue.nlu.compose.clauses.contracted import with_would
@@ -190,6 +189,15 @@ def timed_by(clause: Clause) -> None:
             return
 
 
+def _earlier(clause: Clause) -> None:
+    """Take "earlier" in "did you brake earlier?" as a time: nothing is compared."""
+    alone = clause.comparisons == [("soon", "earlier")] and clause.than is None
+    untimed = isinstance(clause.time, Unsaid) and isinstance(clause.than_time, Unsaid)
+    happened = not clause.negated and not {"do-past", "have-present"}.isdisjoint(clause.aux)
+    if alone and untimed and happened and clause.modal is None:
+        clause.comparisons, clause.time = [], Back("earlier")
+
+
 def _be_back(clause: Clause) -> None:
     """Take "back" after "be" as a place, not as a verb: "we are back in our lane"."""
     verb = clause.verb
@@ -252,6 +260,7 @@ class Slots:
         _deed_placed(clause)
         if clause.verb is None:
             timed_by(clause)
+        _earlier(clause)
         return clause
 
     def _leaf(self, leaf: Leaf, clause: Clause) -> None:
@@ -329,12 +338,6 @@ def is_share(key: str, sem: Sem | None, clause: Clause) -> bool:
     """Check whether a phrase is the probability of what a clause says: "at 91 percent"."""
     said = isinstance(sem, Quantity) and sem.unit == "%" and key in ("at", "with", "by")
     return said and clause.verb is not None and clause.verb.key not in RATING
-
-
-def is_named(sem: Sem) -> bool:
-    """Check whether a meaning is one specific vehicle: "the bus", "vehicle 7"."""
-    one = isinstance(sem, Described) and sem.definite and not sem.plural
-    return isinstance(sem, Vehicle) or one
 
 
 def takes_name(clause: Clause) -> bool:

@@ -225,3 +225,9 @@ def alternative(sem: object) -> Thing | None:
 def as_speed(said: Quantity) -> Quantity:
     """Take a number without a unit for kilometres per hour, as people say it."""
     return Quantity(round(said.value / 3.6, 6), "m/s") if said.unit == "count" else said
+
+
+def is_named(sem: Sem) -> bool:
+    """Check whether a meaning is one specific vehicle: "the bus", "vehicle 7"."""
+    one = isinstance(sem, Described) and sem.definite and not sem.plural
+    return isinstance(sem, Vehicle) or one

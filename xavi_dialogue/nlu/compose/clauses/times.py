@@ -42,11 +42,12 @@ MOMENTARY = frozenset(
      "change-right", "pull-out", "cut-in", "merge", "enter", "leave", "appear", "signal", "see"),
 )  # fmt: skip
 EARLIER = frozenset({"earlier", "before", "previously"})
+PAST: tuple[Time, ...] = (Back("before"), Back("earlier"))
 FEW = 5.0  # [s] "a few seconds"
 _ADVERBS: dict[str, Time] = {
     "now": Now(),
     "recent": Ago(None),
-    "past": Back("before"),
+    "past": Back("earlier"),
     "then": Back("during"),
     "before-that": Back("before"),
     "after-that": Back("after"),

@@ -17,8 +17,8 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.nlu.compose.clauses.amounts import speeds_of
-from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement, Slots, is_named
-from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, SideOf, as_thing
+from xavi_dialogue.nlu.compose.clauses.clause import Clause, Complement, Slots
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, SideOf, as_thing, is_named
 from xavi_dialogue.nlu.compose.clauses.times import (
     come_to,
     left_behind,

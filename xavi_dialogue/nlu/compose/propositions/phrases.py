@@ -6,7 +6,6 @@ from typing import Any, cast
 from xavi_dialogue.domain.terms import (
     Ago,
     AtDecision,
-    Back,
     Ego,
     Event,
     Pronoun,
@@ -19,11 +18,11 @@ from xavi_dialogue.nlu.compose.clauses.clause import (
     Clause,
     Complement,
     Slots,
-    is_named,
     is_share,
     takes_name,
 )
-from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, Sem, SideOf
+from xavi_dialogue.nlu.compose.clauses.sem import Group, Notes, Sem, SideOf, is_named
+from xavi_dialogue.nlu.compose.clauses.times import PAST
 from xavi_dialogue.nlu.compose.clauses.tree import leaf_of, leaves_of, node_of, number_of, words_of
 from xavi_dialogue.nlu.compose.propositions.adjuncts import CLAUSES, Adjuncts
 from xavi_dialogue.nlu.compose.propositions.tally import frequency
@@ -269,13 +268,13 @@ class Phrases(Adjuncts):
             return
         if inner.name == "when" or inner.name.startswith("time"):
             then = self.slots.fill((inner,), Clause(subject=clause.subject)).time
-            clause.than_time = Ago(EARLIER) if then == Back("before") else then
+            clause.than_time = Ago(EARLIER) if then in PAST else then
             return
         than: Clause | Sem | None
         than = self.clause(inner, clause) if inner.name in CLAUSES else self.inner(inner)
         if isinstance(than, Clause) and than.only_subject:
             if not isinstance(than.time, Unsaid):
-                clause.than_time = Ago(EARLIER) if than.time == Back("before") else than.time
+                clause.than_time = Ago(EARLIER) if than.time in PAST else than.time
             than = than.subject
         clause.than = than
 

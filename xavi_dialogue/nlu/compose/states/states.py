@@ -41,6 +41,7 @@ from xavi_dialogue.nlu.compose.clauses.clause import Clause
 from xavi_dialogue.nlu.compose.clauses.followers import relation_of
 from xavi_dialogue.nlu.compose.clauses.risks import moving_in
 from xavi_dialogue.nlu.compose.clauses.sem import Measure, Sem, as_lane, as_thing, between, is_thing
+from xavi_dialogue.nlu.compose.clauses.times import PAST
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.states.existence import existing, from_whom
 from xavi_dialogue.nlu.compose.states.pacing import pace_said
@@ -116,7 +117,7 @@ def _said_before(clause: Clause) -> Back | None:
     """Read "earlier" beside whom a vehicle is said to be as a time, no comparison."""
     named = clause.objects and isinstance(as_thing(clause.objects[0][0]), Described | Vehicle)
     soon = [key for key, _ in clause.comparisons] == ["soon"]
-    return Back("before") if soon and named and clause.than is None else None
+    return Back("earlier") if soon and named and clause.than is None else None
 
 
 def state_of(clause: Clause) -> list[Found]:
@@ -328,7 +329,7 @@ def _compares(clause: Clause) -> Proposition | None:
     like = next((as_thing(c.sem) for c in clause.complements if c.key == "like"), None)
     if clause.than is None and like is not None:  # "he is faster like us"
         right = Measured(cast(Any, attribute), like, time=clause.time, tense=tense_of(clause))
-    if clause.than is None and clause.time == Back("before") and attribute in ("speed", "distance"):
+    if clause.than is None and clause.time in PAST and attribute in ("speed", "distance"):
         opposite = {"more": "less", "less": "more"}.get(direction, direction)
         now = replace(clause, time=Unsaid(), than_time=Ago(EARLIER), aux=["be-present"])
         return compared_times(now, attribute, opposite, left.thing)  # "was it closer before?"

@@ -35,6 +35,7 @@ from xavi_dialogue.domain.meaning import (
 from xavi_dialogue.domain.rewriting import first, parts
 from xavi_dialogue.domain.terms import (
     SOMEBODY_ELSE,
+    Back,
     Described,
     Ego,
     Event,
@@ -73,7 +74,8 @@ FRAMELESS: Final = 0.6  # cost of a fragment that has nothing to complete
 def complete(spoken: Elliptic, g: Grounder) -> Act | None:
     """Complete a fragment to the act that it is short for; None where nothing completes it."""
     question = under_discussion(g)
-    spoken = replace(spoken, thing=_typed(spoken.thing, question))
+    time = Back("before") if spoken.time == Back("earlier") else spoken.time  # "and earlier?"
+    spoken = replace(spoken, thing=_typed(spoken.thing, question), time=time)
     match spoken.form:
         case "why" | "why-not":
             return anew(spoken, g) or _why(spoken, question, g)

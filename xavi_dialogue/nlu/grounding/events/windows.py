@@ -35,6 +35,7 @@ from xavi_dialogue.nlu.grounding.kin import like
 from xavi_dialogue.nlu.grounding.things.places import Visit, presence, visit_of, visits
 
 SLACK: Final = 2.5  # [s] by which a time that was said may be off
+BEFORE: Final = 2.0  # [s] that "before" and "earlier" are ago at least
 JUST_NOW: Final = 5.0  # [s] that "just now" reaches back
 RECENT: Final = 3.0  # [s] within which what is over still counts as present
 SOON: Final = 15.0  # [s] that "soon" and "next" reach ahead
@@ -82,11 +83,14 @@ def window(time: Time, tense: Tense, g: Grounder) -> Window:
             return replace(_between(first, last, now), whole=True)
         case Relative():
             return _relative(time, tense, g)
-        case Back(relation="before") if tense == "future":
+        case Back(relation="before" | "earlier") if tense == "future":
             return _coming(context, SOON, said=False)  # "will you stop before it?"
         case Back(seconds=float() as back):
             told = None if context.stale else focus(context.discourse)
             return _at(min((told or (now,))[0], now) - back, now)
+        case Back(relation="earlier"):
+            end = max(begin, now - BEFORE)
+            return Window(begin, end, Unsaid(), (begin, end), True)
         case Back(relation=relation):
             return _back(relation, g)
         case Rank(rank=rank):

@@ -104,7 +104,7 @@ def _is_gap(thing: Thing | None) -> bool:
 
 def _when(event: Event, g: Grounder, window: Window) -> tuple[float, float]:
     inner = g.window(event.time, event.tense)
-    before = isinstance(event.time, Back) and event.time.relation == "before"
+    before = isinstance(event.time, Back) and event.time.relation in ("before", "earlier")
     if inner.said and not before:
         return inner.search
     moment = min(window.end, g.context.now)
