@@ -93,7 +93,7 @@ def at_present(ride: Ride, vehicle: int, time: float, least: float = LIKELY) -> 
 
 
 def holds_up(ride: Ride, other: int, vehicle: int, time: float, least: float) -> bool:
-    """Check whether somebody holds a vehicle up at a time [s], as far as anybody is known to.
+    """Check whether somebody holds a vehicle up at a time [s], and not somebody in front of it.
 
     Args:
         ride: the record.
@@ -103,7 +103,8 @@ def holds_up(ride: Ride, other: int, vehicle: int, time: float, least: float) ->
         least: the minimum probability that somebody is in its way.
     """
     causes = at_present(ride, vehicle, time, least).causes
-    return not causes or any(cause.vehicle == other for cause in causes)
+    ahead = [cause for cause in causes if cause.kind in ("blocked", "leader")]
+    return not ahead or any(cause.vehicle == other for cause in causes)
 
 
 def parked(ride: Ride, vehicle: int, standing: Episode, moment: float, now: float) -> bool:

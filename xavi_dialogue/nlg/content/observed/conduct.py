@@ -158,7 +158,8 @@ def plan_ahead(answer: PlanAhead, context: SpeechContext) -> Plan:
     others = tuple(_in_all(m, context) for m in answer.measures if m.attribute not in covered)
     if not answer.steps:
         way = tuple(m for m in answer.measures if m.attribute in covered)
-        return Plan((message("PLAN_NEXT", none=True),), (*way_messages(way, context), *others))
+        told = message("PLAN_NEXT", none=True, begun=_begun(answer, ring))
+        return Plan((told,), (*way_messages(way, context), *others))
     begin = answer.steps[0][1]
     first, *later = step_clauses(tuple(action for action, _ in answer.steps), ring)
     turn = None if ring is not None and first == ring.clause else _same_turn(answer)
@@ -188,7 +189,7 @@ def _far(ring: Ring) -> Quantity | None:
 
 def _begun(answer: PlanAhead, ring: Ring | None) -> Clause | None:
     """Return the action that is under way before the first step."""
-    first = answer.steps[0][0]
+    first = answer.steps[0][0] if answer.steps else "continue"
     straight = answer.begun == "exit-straight" and first == "continue"
     if answer.begun is None or answer.begun == first or straight:
         return None
