@@ -108,7 +108,6 @@ FOR_WHOM = 0.7  # cost of "for the bus" in "that is, for the bus, the lorry"
 RUN_ON = 1.5  # cost of "did" and "was" in one clause
 _SIDES = frozenset({"ahead", "behind", "left", "right", "beside"})
 _PLACED = frozenset({"bearing-ahead", "bearing-behind", "bearing-left", "bearing-right"})
-_HOW_FAR = frozenset({"close", "far"})
 _APART = frozenset({"with", "to", "into", "from", "of"})  # what stands before whom we are near
 Found = tuple[Proposition, float]
 
@@ -129,7 +128,7 @@ def state_of(clause: Clause) -> list[Found]:
     if (earlier := _said_before(clause)) is not None:
         clause.comparisons, clause.time = [], earlier
     spoken = clause.subject
-    judged = said or not _HOW_FAR.isdisjoint(clause.manner)
+    judged = said or not {"close", "far"}.isdisjoint(clause.manner)
     where = next((c for c in clause.complements if c.key in _PLACED), None) if judged else None
     if where is not None and isinstance(spoken, Described) and as_thing(where.sem) == Ego():
         clause.complements.remove(where)  # "is the lorry behind us still standing"
