@@ -12,11 +12,13 @@ from planner.record.trace import EgoGoal, PlanTrace, WhatIf
 from planner.roads.trajectory import Roads
 from planner.search.decide import Elsewhere, decide
 from planner.search.trees import trees_of
-from sim.setup.scenario import load
+from sim.roads.network import Network
+from sim.setup.scenario import Scenario, load
 from xavi_dialogue.process.garbage import settled
 from xavi_dialogue.vehicle.episode import network_of, settings_of, start
 from xavi_dialogue.vehicle.replan_worker import warm_up
-from xavi_dialogue.vehicle.search_workers import SearchedRide, search_workers
+from xavi_dialogue.vehicle.search_worker import TreeOfRide
+from xavi_dialogue.vehicle.search_workers import search_workers
 
 SCENARIOS = ("motorway", "junction", "city")
 ROLLOUTS = (100, 400)
@@ -62,17 +64,19 @@ def _beside(name: str, trees: int) -> list[SeveralTrees]:
     found = []
     for rollouts in ROLLOUTS:
         settings = msgspec.structs.replace(usual, rollouts=rollouts)
-        searched = SearchedRide(network, goal, settings, SEED, traces[0].vehicle)
-        found.append(_ridden(name, searched, traces))
+        ride_of_trees = TreeOfRide(goal, settings, SEED, traces[0].vehicle)
+        found.append(_ridden(scenario, network, ride_of_trees, traces))
     return found
 
 
-def _ridden(name: str, ride: SearchedRide, traces: Sequence[PlanTrace]) -> SeveralTrees:
+def _ridden(
+    scenario: Scenario, network: Network, ride: TreeOfRide, traces: Sequence[PlanTrace]
+) -> SeveralTrees:
     """Take the decisions of a ride again, with its settings and with one tree."""
     alone = msgspec.structs.replace(ride.settings, trees=1)
-    roads = Roads(ride.network), Roads(ride.network)  # each with caches of its own
+    roads = Roads(network), Roads(network)  # each with caches of its own
     one, several = [], []
-    with search_workers(ride) as elsewhere, settled():
+    with search_workers(scenario.network, ride) as elsewhere, settled():
         _await(traces[0], roads[1], elsewhere)
         for trace in traces:
             single = msgspec.structs.replace(trace, settings=alone)
@@ -80,7 +84,7 @@ def _ridden(name: str, ride: SearchedRide, traces: Sequence[PlanTrace]) -> Sever
             one.append(_timed(single, roads[0], None))
             several.append(_timed(multiple, roads[1], elsewhere))
     return SeveralTrees(
-        scenario=name,
+        scenario=scenario.name,
         rollouts=ride.settings.rollouts,
         trees=trees_of(ride.settings),
         decisions=len(traces),
@@ -103,10 +107,8 @@ def _timed(trace: PlanTrace, roads: Roads, elsewhere: Elsewhere | None) -> float
 def _await(trace: PlanTrace, roads: Roads, elsewhere: Elsewhere | None) -> None:
     """Wait until the workers are ready."""
     _, moment = restore(trace, roads, WhatIf())
-    while elsewhere is not None and not (pending := elsewhere(moment)):
+    while elsewhere is not None and not all(wait() for wait in elsewhere(moment)):
         time.sleep(0.1)
-    for wait in pending if elsewhere is not None else ():
-        wait()
 
 
 def _distinct(trace: PlanTrace) -> int:

@@ -32,6 +32,8 @@ CAR = "passenger"
 YES = ("true", "1", "yes", "on", "t", "x")  # as SUMO reads an option
 BEFORE_END = 5.0  # [m] from the goal to the end of the last edge
 KEYS = ("ego", "from", "to", "begin")
+OPTIONS = {"ego": "ego", "from": "ego-from", "to": "ego-to", "begin": "begin"}  # by key
+LATEST = 604_800.0  # [s] a week: SUMO takes every step up to where the ride begins
 UNFORESEEN = {"rail": "trains", "ship": "ships"}
 
 
@@ -76,6 +78,10 @@ def split_place(place: str) -> tuple[Path, dict[str, str]]:
         wishes = dict(parse_qsl(query, strict_parsing=True)) if query else {}
     except ValueError as error:
         raise TableError(file, None, f"{query!r}: {error}", "write ?ego=ID") from error
+    if file.is_dir():
+        raise TableError(
+            file, None, "it is a folder", "name a file, or a folder with scenario.toml"
+        )
     if not file.is_file():
         raise TableError(file, None, "there is no such file", "correct the path")
     for key in wishes:
@@ -140,19 +146,28 @@ def rider_of(file: Path, wishes: dict[str, str]) -> Rider:
     if {"from", "to"} <= names <= {"from", "to", "begin"}:
         return Added(wishes["from"], wishes["to"], _begin(file, wishes.get("begin")))
     how = "give --ego ID, or --ego-from EDGE and --ego-to EDGE with or without --begin SECONDS"
+    if "ego" in names:
+        given = " and ".join(f"--{OPTIONS[key]}" for key in KEYS if key in names - {"ego"})
+        raise TableError(file, None, f"{given} cannot be given together with --ego", how)
     if names:
-        given = " and ".join(sorted(names))
-        raise TableError(file, None, f"{given} without more leaves open who the ego is", how)
+        given = " and ".join(f"--{OPTIONS[key]}" for key in KEYS if key in names)
+        raise TableError(file, None, f"{given} alone does not say who the ego is", how)
     known = ", ".join(_who_departs(file))
     first = f"the first cars that depart: {known}" if known else "no car departs by itself"
     raise TableError(file, None, "it does not say who the ego is", f"{how}; {first}")
 
 
 def _begin(file: Path, text: str | None) -> float | None:
+    if text is None:
+        return None
     try:
-        return None if text is None else float(text)
+        begin = float(text)
     except ValueError as error:
         raise TableError(file, "begin", f"{text!r} is not a number", "write seconds") from error
+    if not begin <= LATEST:
+        problem = f"{text} s is later than {LATEST:g} s"
+        raise TableError(file, "begin", problem, "choose a time when there is traffic")
+    return begin
 
 
 def _who_departs(file: Path) -> list[str]:

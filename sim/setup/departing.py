@@ -90,7 +90,9 @@ def _await(engine: Engine, file: Path, name: str) -> None:
         if name in departed:
             return
         seen += departed[: max(0, LISTED - len(seen))]
-    problem = f"no vehicle {name!r} departs before {clock(engine):g} s, when it ends"
+    left = engine.call(engine.api.simulation.getMinExpectedNumber)
+    until = f"{clock(engine):g} s, when {'it ends' if left else 'nobody is left'}"
+    problem = f"no vehicle {name!r} departs before {until}"
     remedy = f"choose one of those that do, such as {', '.join(seen)}" if seen else "nobody does"
     raise NeverDeparts(file, problem, remedy)
 

@@ -1,18 +1,22 @@
 """Search trees grown in worker processes: the same decision, whatever becomes of the workers."""
 
 import logging
-import multiprocessing
+import os
+import signal
 import time
 from collections.abc import Iterator
+from contextlib import AbstractContextManager
+from pathlib import Path
 
 import pytest
 
 from planner.record import trace as plan_trace
 from planner.record.trace import Settings
 from planner.search.decide import Elsewhere, decide
-from planner.search.inputs import Frame, Moment
-from tests.planner.worlds import before_end, frame, goal, moment, still
-from xavi_dialogue.vehicle.search_workers import SearchedRide, search_workers
+from sim.setup.scenario import load
+from tests.planner.worlds import before_end, frame, moment, still
+from xavi_dialogue.vehicle.search_worker import TreeOfRide
+from xavi_dialogue.vehicle.search_workers import search_workers
 
 TWO = Settings(rollouts=12, min_rollouts=2, trees=2)
 SCENE = moment(
@@ -24,14 +28,16 @@ SCENE = moment(
 )
 
 
-def ride(settings: Settings) -> SearchedRide:
-    own: Frame = frame("s1", settings)
-    return SearchedRide(own.roads.network, goal("s1"), settings, own.seed, own.vehicle)
+def ride(settings: Settings = TWO) -> AbstractContextManager[Elsewhere | None]:
+    """The workers of a ride through s1."""
+    own = frame("s1", settings)
+    known = TreeOfRide(own.goal, settings, own.seed, own.vehicle)
+    return search_workers(load("s1").network, known)
 
 
 @pytest.fixture(scope="module")
 def workers() -> Iterator[Elsewhere]:
-    with search_workers(ride(TWO)) as elsewhere:
+    with ride() as elsewhere:
         assert elsewhere is not None
         yield elsewhere
 
@@ -40,15 +46,20 @@ def record(elsewhere: Elsewhere | None) -> bytes:
     return plan_trace.encode(decide(frame("s1", TWO), SCENE, elsewhere).trace)
 
 
-def ready(elsewhere: Elsewhere, here: Moment = SCENE) -> None:
-    """Wait until the workers grow trees."""
-    while not (pending := elsewhere(here)):
+def ready(elsewhere: Elsewhere) -> None:
+    """Wait until the worker grows trees."""
+    while not all(wait() for wait in elsewhere(SCENE)):
         time.sleep(0.05)
-    assert [wait() is None for wait in pending] == [False]
+
+
+def children() -> set[int]:
+    """The processes that were started here and run now."""
+    lists = Path(f"/proc/{os.getpid()}/task").glob("*/children")
+    return {int(pid) for each in lists for pid in each.read_text().split()}
 
 
 def test_one_tree_needs_no_worker() -> None:
-    with search_workers(ride(Settings())) as elsewhere:
+    with ride(Settings()) as elsewhere:
         assert elsewhere is None
 
 
@@ -63,16 +74,30 @@ def test_a_worker_grows_the_same_tree(workers: Elsewhere) -> None:
 
 @pytest.mark.slow
 def test_the_car_searches_alone_when_a_worker_has_died(caplog: pytest.LogCaptureFixture) -> None:
-    others = multiprocessing.active_children()
-    with search_workers(ride(TWO)) as elsewhere:
+    before = children()
+    with ride() as elsewhere, caplog.at_level(logging.WARNING):
         assert elsewhere is not None
         ready(elsewhere)
-        for child in multiprocessing.active_children():
-            if child not in others:
-                child.kill()
-                child.join()
-        with caplog.at_level(logging.WARNING):
-            assert record(elsewhere) == record(None)
-            assert record(elsewhere) == record(None)
+        [worker] = children() - before
+        os.kill(worker, signal.SIGKILL)
+        assert record(elsewhere) == record(None)
+        assert record(elsewhere) == record(None)
     said = [one.message for one in caplog.records if one.name.endswith("search_workers")]
-    assert said == ["a search worker has died: from now on, one process searches"]
+    assert said == ["a search worker has died: the car grows its search trees from now on"]
+
+
+@pytest.mark.slow
+def test_a_worker_that_hangs_is_waited_for_once_and_ends_with_the_ride() -> None:
+    before = children()
+    with ride() as elsewhere:
+        assert elsewhere is not None
+        ready(elsewhere)
+        [worker] = children() - before
+        os.kill(worker, signal.SIGSTOP)
+        assert [wait() for wait in elsewhere(SCENE)] == [None]
+        assert record(elsewhere) == record(None)
+        os.kill(worker, signal.SIGCONT)
+        ready(elsewhere)  # what it owed is not taken for the tree of a later moment
+        assert record(elsewhere) == record(None)
+        os.kill(worker, signal.SIGSTOP)
+    assert not Path(f"/proc/{worker}").exists()

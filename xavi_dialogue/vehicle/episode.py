@@ -23,7 +23,8 @@ from xavi_dialogue.bus.interface import DEFAULT_VEHICLE
 from xavi_dialogue.dialogue.manoeuvres import carried_out
 from xavi_dialogue.dialogue.state.state import EPSILON
 from xavi_dialogue.process.garbage import settled
-from xavi_dialogue.vehicle.search_workers import SearchedRide, search_workers
+from xavi_dialogue.vehicle.search_worker import TreeOfRide
+from xavi_dialogue.vehicle.search_workers import search_workers
 
 Ending: TypeAlias = Literal["arrived", "collided", "duration"]
 
@@ -145,10 +146,10 @@ def start(
     """
     goal = EgoGoal(scenario.goal.edge, scenario.goal.position, scenario.goal.lane)
     settings = settings_of(scenario, trees)
-    searched = SearchedRide(network, goal, settings, seed, vehicle)
+    searched = TreeOfRide(goal, settings, seed, vehicle)
     with (
         Simulation(scenario, seed) as world,
-        search_workers(searched) as elsewhere,
+        search_workers(scenario.network, searched) as elsewhere,
         settled(),
     ):
         driver = Driver(network, goal, settings, seed, vehicle, elsewhere)
