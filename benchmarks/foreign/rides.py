@@ -18,7 +18,7 @@ from sim.roads.netconvert import NetconvertError, opendrive_net
 from sim.roads.netfile import NetworkError, read_network
 from sim.roads.network import Network
 from sim.setup.checks import edges_of
-from sim.setup.configuration import place_of
+from sim.setup.place_text import place_of
 from sim.setup.scenario import ScenarioError, load
 from sim.setup.source import Added
 from sim.setup.survey import Stay, Trail, survey

@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 
 from sim.roads.netconvert import package_folder
-from sim.setup.configuration import ENDINGS
+from sim.setup.place_text import ENDINGS
 
 NETS = (".net.xml", ".net.xml.gz")
 MAPS = (".xodr",)

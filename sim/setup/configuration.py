@@ -1,39 +1,30 @@
-"""A SUMO configuration (.sumocfg) as a scenario: SUMO loads it, and is queried for its content.
-
-A place is a text that names the file and the ego, such as `town.sumocfg?ego=car.3` or
-`town.sumocfg?from=north&to=east&begin=60`.
-"""
+"""A SUMO configuration (.sumocfg) as a scenario: SUMO loads it, and is queried for its content."""
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from urllib.parse import parse_qsl, urlencode
 
 from sim.engine import Engine, SumoFailed
 from sim.perception import appearance
 from sim.quiet import errors_to, warnings_in
-from sim.roads.netconvert import NetconvertMissing, package_folder
 from sim.roads.netfile import NetworkError, read_network
 from sim.roads.network import Network
 from sim.setup.checks import edges_of, near
 from sim.setup.departing import LONGEST, NeverDeparts, clock, depart, first_departures
 from sim.setup.mentioned import mentioned
 from sim.setup.options import ALWAYS, listed
-from sim.setup.packaged import INSTALL, PACKAGED
+from sim.setup.place_text import KEYS, begin_of, place_of, split_place
 from sim.setup.source import Added, Departing, Rider
 from sim.setup.tables import TableError
 
-ENDINGS = (".sumocfg", ".sumocfg.xml", ".sumo.cfg")
 STEP = 0.1  # [s] the longest simulation step in which the ego is driven
 SHORTEST = 5.0  # [s] between the departure and the end, below which the ride goes on beyond it
 SHOWN = 3  # greatest number of SUMO's warnings that are quoted
 CAR = "passenger"
 YES = ("true", "1", "yes", "on", "t", "x")  # as SUMO reads an option
 BEFORE_END = 5.0  # [m] from the goal to the end of the last edge
-KEYS = ("ego", "from", "to", "begin")
 OPTIONS = {"ego": "ego", "from": "ego-from", "to": "ego-to", "begin": "begin"}  # by key
-LATEST = 604_800.0  # [s] a week: SUMO takes every step up to where the ride begins
 UNFORESEEN = {"rail": "trains", "ship": "ships"}
 
 
@@ -50,72 +41,6 @@ class Inspected:
     seed: int
     sublane: bool
     warnings: tuple[str, ...]
-
-
-def is_place(text: str) -> bool:
-    """Check whether a text is the place of a configuration."""
-    file = expanded(Path(text.partition("?")[0]))
-    return file.name.endswith(ENDINGS) or (file.suffix in (".xml", ".cfg") and file.is_file())
-
-
-def expanded(path: Path) -> Path:
-    """Return a path with the home folder for `~`; that of an unknown user stays as it is."""
-    try:
-        return path.expanduser()
-    except RuntimeError:
-        return path
-
-
-def split_place(place: str) -> tuple[Path, dict[str, str]]:
-    """Return the file and the wishes (ego, from, to, begin) of a place.
-
-    Raises:
-        TableError: there is no such file, or a wish is unknown or not written as key=value.
-    """
-    name, _, query = place.partition("?")
-    file = _file(name)
-    try:
-        wishes = dict(parse_qsl(query, strict_parsing=True)) if query else {}
-    except ValueError as error:
-        raise TableError(file, None, f"{query!r}: {error}", "write ?ego=ID") from error
-    if file.is_dir():
-        raise TableError(
-            file, None, "it is a folder", "name a file, or a folder with scenario.toml"
-        )
-    if not file.is_file():
-        raise TableError(file, None, "there is no such file", "correct the path")
-    for key in wishes:
-        if key not in KEYS:
-            raise TableError(file, key, "unknown", f"known are {', '.join(KEYS)}")
-    return file, wishes
-
-
-def _file(name: str) -> Path:
-    if not name.startswith(PACKAGED):
-        return expanded(Path(name)).resolve()
-    try:
-        return package_folder() / name.removeprefix(PACKAGED)
-    except NetconvertMissing as error:
-        problem = "it is part of eclipse-sumo, which is not installed"
-        raise TableError(Path(name), None, problem, f"run: {INSTALL}") from error
-
-
-def place_of(file: Path, rider: Rider) -> str:
-    """Return the place from which `split_place` and `rider_of` read this file and rider."""
-    match rider:
-        case Departing(name):
-            wishes = {"ego": name}
-        case Added(origin, destination, None):
-            wishes = {"from": origin, "to": destination}
-        case Added(origin, destination, begin):
-            wishes = {"from": origin, "to": destination, "begin": f"{begin:g}"}
-    return f"{file}?{urlencode(wishes)}"
-
-
-def with_wishes(place: str, wishes: dict[str, str]) -> str:
-    """Return a place with more wishes, which replace those with the same key."""
-    file, _, query = place.partition("?")
-    return f"{file}?{urlencode({**dict(parse_qsl(query)), **wishes})}"
 
 
 def with_rider(place: str) -> str:
@@ -144,7 +69,7 @@ def rider_of(file: Path, wishes: dict[str, str]) -> Rider:
     if names == {"ego"}:
         return Departing(wishes["ego"])
     if {"from", "to"} <= names <= {"from", "to", "begin"}:
-        return Added(wishes["from"], wishes["to"], _begin(file, wishes.get("begin")))
+        return Added(wishes["from"], wishes["to"], begin_of(file, wishes.get("begin")))
     how = "give --ego ID, or --ego-from EDGE and --ego-to EDGE with or without --begin SECONDS"
     if "ego" in names:
         given = " and ".join(f"--{OPTIONS[key]}" for key in KEYS if key in names - {"ego"})
@@ -155,19 +80,6 @@ def rider_of(file: Path, wishes: dict[str, str]) -> Rider:
     known = ", ".join(_who_departs(file))
     first = f"the first cars that depart: {known}" if known else "no car departs by itself"
     raise TableError(file, None, "it does not say who the ego is", f"{how}; {first}")
-
-
-def _begin(file: Path, text: str | None) -> float | None:
-    if text is None:
-        return None
-    try:
-        begin = float(text)
-    except ValueError as error:
-        raise TableError(file, "begin", f"{text!r} is not a number", "write seconds") from error
-    if not begin <= LATEST:
-        problem = f"{text} s is later than {LATEST:g} s"
-        raise TableError(file, "begin", problem, "choose a time when there is traffic")
-    return begin
 
 
 def _who_departs(file: Path) -> list[str]:

@@ -18,7 +18,7 @@ from sim.errors import SimError
 from sim.roads.netconvert import NetconvertError, NetconvertMissing, opendrive_net
 from sim.roads.netfile import NetworkError, read_network
 from sim.roads.opendrive import conversion_warnings
-from sim.setup import configuration, routes
+from sim.setup import configuration, place_text, routes
 from sim.setup.checks import check_routes, check_starts, edges_of, near, one_of
 from sim.setup.goal import Goal, check_goal, check_place
 from sim.setup.packaged import packaged_file
@@ -120,7 +120,7 @@ def load(name_or_path: str | Path) -> Scenario:
         SimulationError: SUMO, which reads configurations, is not installed or runs already.
     """
     with _invalid():
-        if name_or_path not in available() and configuration.is_place(str(name_or_path)):
+        if name_or_path not in available() and place_text.is_place(str(name_or_path)):
             return _configured(str(name_or_path))
         return _read(_folder(name_or_path))
 
@@ -177,14 +177,14 @@ def _read(folder: Path) -> Scenario:
 
 def _configured(place: str) -> Scenario:
     """Return the scenario in a SUMO configuration."""
-    file, wishes = configuration.split_place(place)
+    file, wishes = place_text.split_place(place)
     rider = configuration.rider_of(file, wishes)
     found = configuration.inspect(file, rider)
     return Scenario(
         name=file.name.partition(".")[0],
         description=f"{told(rider)} in {file.name}",
         folder=file.parent,
-        place=configuration.place_of(file, rider),
+        place=place_text.place_of(file, rider),
         network=found.network,
         routes=file,
         ego=found.ego,
@@ -204,7 +204,7 @@ def _configured_folder(folder: Path, top: Table) -> Scenario:
     """Return a scenario whose folder names a SUMO configuration and may override parts of it."""
     top.only((*_CONFIGURED, *_CHANGES))
     file = packaged_file(top, "configuration", folder).resolve()
-    found = _configured(configuration.place_of(file, _rider(top)))
+    found = _configured(place_text.place_of(file, _rider(top)))
     return replace(
         found,
         name=top.text("name"),
@@ -247,7 +247,7 @@ def _radius(top: Table) -> float:
 def _folder(name_or_path: str | Path) -> Path:
     if isinstance(name_or_path, str) and name_or_path in available():
         return Path(str(files("sim").joinpath("scenarios", name_or_path)))
-    folder = configuration.expanded(Path(name_or_path))
+    folder = place_text.expanded(Path(name_or_path))
     if not (folder / CONFIG).is_file():
         raise ScenarioNotFound(str(name_or_path))
     return folder.resolve()

@@ -8,7 +8,7 @@ import pytest
 from sim.roads.netconvert import NetconvertMissing
 from sim.roads.netfile import read_network
 from sim.scene import LightState
-from sim.setup import configuration
+from sim.setup import configuration, place_text
 from sim.setup.scenario import CONFIG, Scenario, ScenarioInvalid, load, with_rider
 from sim.setup.source import Added, Departing, FromConfiguration
 from sim.setup.tables import TableError
@@ -269,7 +269,7 @@ def test_a_folder_names_a_vehicle_and_changes_the_seed(file: Path) -> None:
 
 def test_the_first_car_that_departs_is_chosen(file: Path) -> None:
     place = with_rider(str(file))
-    assert configuration.split_place(place)[1]["ego"] in ("other", "stream.0")
+    assert place_text.split_place(place)[1]["ego"] in ("other", "stream.0")
     assert with_rider(f"{file}?ego=late") == f"{file}?ego=late"
 
 
@@ -286,7 +286,7 @@ def test_only_scenarios_of_configurations_become_folders(tmp_path: Path) -> None
     ],
 )
 def test_places_keep_what_was_wished(wishes: dict[str, str], place: str) -> None:
-    assert configuration.with_wishes("x.sumocfg", wishes) == place
+    assert place_text.with_wishes("x.sumocfg", wishes) == place
 
 
 def test_no_name_of_a_scenario_is_taken_for_a_file(
@@ -303,18 +303,18 @@ def test_a_place_within_the_package_is_found(
     (tmp_path / "tools").mkdir()
     inside = tmp_path / "tools" / "cross.sumocfg"
     inside.write_text("<configuration/>", encoding="utf-8")
-    monkeypatch.setattr(configuration, "package_folder", lambda: tmp_path)
+    monkeypatch.setattr(place_text, "package_folder", lambda: tmp_path)
     place = "sumo:tools/cross.sumocfg?ego=car.3"
-    assert configuration.is_place(place)
-    assert configuration.split_place(place) == (inside, {"ego": "car.3"})
+    assert place_text.is_place(place)
+    assert place_text.split_place(place) == (inside, {"ego": "car.3"})
     with pytest.raises(TableError, match="there is no such file"):
-        configuration.split_place("sumo:tools/none.sumocfg")
+        place_text.split_place("sumo:tools/none.sumocfg")
 
 
 def test_a_place_within_the_package_needs_the_package(monkeypatch: pytest.MonkeyPatch) -> None:
     def missing() -> Path:
         raise NetconvertMissing
 
-    monkeypatch.setattr(configuration, "package_folder", missing)
+    monkeypatch.setattr(place_text, "package_folder", missing)
     with pytest.raises(TableError, match="not installed"):
-        configuration.split_place("sumo:tools/cross.sumocfg")
+        place_text.split_place("sumo:tools/cross.sumocfg")

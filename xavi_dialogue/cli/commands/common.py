@@ -49,7 +49,7 @@ def place(
     wishes = {key: str(value) for key, value in asked.items() if value is not None}
     if not wishes:
         return scenario
-    from sim.setup.configuration import is_place, with_wishes
+    from sim.setup.place_text import is_place, with_wishes
 
     if scenario is None or not is_place(scenario):
         raise typer.BadParameter(
