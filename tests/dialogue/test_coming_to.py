@@ -80,3 +80,10 @@ def test_the_time_of_a_turn_is_when_we_come_to_its_junction() -> None:
             assert float(found[1]) == pytest.approx(after.sim_time - 20.0, abs=2.0)
             return
     raise AssertionError("we did not come there")
+
+
+@pytest.mark.parametrize(
+    "text", ["What's the next turn?", "which way now", "How many turns are left?", "Where next?"]
+)
+def test_after_arriving_there_is_no_way_ahead(text: str) -> None:
+    assert Talk("bend-0").hear(text) == "We have arrived at our destination."

@@ -36,6 +36,7 @@ class Course(Value, frozen=True):
     soon: float | None = None  # [s] to it
     then: bool = False  # the question is what comes after what was stated
     onward: bool = False  # our way goes on beyond the last step, not known how
+    arrived: bool = False  # there is no way ahead any more
 
 
 class LaneFits(Value, frozen=True):

@@ -8,7 +8,7 @@ import pytest
 from sim.roads.netconvert import NetconvertMissing
 from sim.roads.netfile import read_network
 from sim.scene import LightState
-from sim.setup import configuration, place_text
+from sim.setup import place_text
 from sim.setup.scenario import CONFIG, Scenario, ScenarioInvalid, load, with_rider
 from sim.setup.source import Added, Departing, FromConfiguration
 from sim.setup.tables import TableError

@@ -68,7 +68,8 @@ def _step(step: RouteStep, rank: int, inside: bool) -> WayStep:
 def course(asked: Asked, form: str, steps: tuple[WayStep, ...], **more: object) -> Course:
     """Return our way ahead, with the distance to the destination."""
     left = asked.world.measure("distance-to-go", Ego(), asked.now, Destination())
-    return Course(form, steps, left=left.value, **more)  # type: ignore[arg-type]
+    arrived = asked.ride.arrived
+    return Course(form, steps, left=left.value, arrived=arrived, **more)  # type: ignore[arg-type]
 
 
 def which_way(of: Measured, asked: Asked) -> Answer:

@@ -19,6 +19,8 @@ SIDES = {"exit-left": "left", "exit-right": "right", "exit-straight": "straight"
 def plan_course(answer: Course, context: SpeechContext) -> Plan:
     """Plan our way ahead."""
     del context
+    if answer.arrived:
+        return Plan((message("PLAN_NEXT", arrived=True),))
     if answer.form in COUNTED:
         return Plan((_turns(answer),))
     if answer.form == "route":
