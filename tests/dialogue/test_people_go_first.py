@@ -80,3 +80,14 @@ def test_a_list_has_all_whom_we_let_go_first(question: str) -> None:
 def test_who_let_people_go_first_gave_way() -> None:
     told = Talk("junction-0", 20.0).hear("list everybody you gave way to")
     assert "vehicle 8" in told
+
+
+@pytest.mark.parametrize("at", [6.0, 9.0])
+@pytest.mark.parametrize(
+    "question",
+    ["who goes first here", "Who goes first?", "who has right of way", "do we have right of way"],
+)
+def test_those_with_a_green_light_go_first_while_ours_is_red(question: str, at: float) -> None:
+    told = Talk("junction-0", at).hear(question)
+    assert "the traffic light" in told.lower()
+    assert "red" in told

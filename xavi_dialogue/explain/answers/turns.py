@@ -32,6 +32,7 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.domain.vocabulary import ActionName
 from xavi_dialogue.explain.answers import queues
+from xavi_dialogue.explain.answers.expectations.precedence import red_ahead
 from xavi_dialogue.explain.answers.lights.lights_turn import held
 from xavi_dialogue.explain.answers.measuring import counting
 from xavi_dialogue.explain.answers.owing import DUTIES, LETTING, grounds, reason
@@ -68,6 +69,9 @@ def who(question: Which, asked: Asked) -> Answer:
         if _asks_mover(such) and (found := unblocking(asked)) is not None:
             return found
         among = question.among or _parties(such)
+        road = asked.world.road(asked.now)
+        if _asks_order(such) and not among and red_ahead(road):
+            return Priority(asked.now, "give-way", light=True)
         if _asks_order(such) and (told := order(asked, among)) is not None:
             return told
         if _asks_order(such) and (named := _named(asked, among)):

@@ -11,12 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.record.light_record import UNSEEN
-from planner.record.places import LightAhead
-from sim.scene import EGO, Signal
+from planner.record.places import LightAhead, RoadFacts, RouteStep, Rule
+from sim.scene import EGO, LightState, Signal
 from xavi_dialogue.explain.history.nearing import driven, speed_at
 from xavi_dialogue.explain.history.ride import ROUNDING, Ride
 from xavi_dialogue.explain.history.thresholds import STALE
 
+SAME_PLACE = 3.0  # [m] maximum difference of the distances of a junction and its light
 REACHED = 1.5  # [m] from a line at which a light that is no longer ahead counts as passed
 
 
@@ -125,6 +126,17 @@ def ahead(ride: Ride, time: float) -> tuple[LightAhead, ...]:
         for one in trace.road.lights
         if one.distance > way - ROUNDING
     )  # fmt: skip
+
+
+def at_step(road: RoadFacts, step: RouteStep) -> LightAhead | None:
+    """Return the light in view of a junction on our way; None if there is none."""
+    return next((x for x in road.lights if abs(x.distance - step.distance) < SAME_PLACE), None)
+
+
+def rule_at(road: RoadFacts, step: RouteStep) -> Rule:
+    """Return the rule for us at a junction: a light by which all others stop overrides signs."""
+    light = at_step(road, step)
+    return "priority" if light is not None and light.state == LightState.GREEN.value else step.rule
 
 
 def passings(ride: Ride) -> tuple[Passing, ...]:

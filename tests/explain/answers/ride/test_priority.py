@@ -304,3 +304,21 @@ def test_a_red_light_at_the_next_junction_holds_us(
     light = LightAhead(distance, "lights", 0, state, 0.0, False)
     here = RoadFacts({0: place()}, (step(),), lights=(light,))
     assert right(None, traces=decided((NOW, here)), road=here).light is holds
+
+
+@pytest.mark.parametrize(
+    ("state", "distance", "rule", "green"),
+    [
+        ("G", 60.0, "priority", True),
+        ("g", 60.0, "give-way", False),  # others may go first
+        ("O", 60.0, "give-way", False),
+        ("G", 90.0, "give-way", False),  # that of the junction after it
+    ],
+)
+def test_at_a_light_by_which_others_stop_we_go_first(
+    state: str, distance: float, rule: str, green: bool
+) -> None:
+    light = LightAhead(distance, "lights", 0, state, 0.0, False)
+    here = RoadFacts({0: place()}, (step(rule="give-way"),), lights=(light,))
+    told = right(None, traces=decided((NOW, here)), road=here)
+    assert (told.rule, told.green) == (rule, green)

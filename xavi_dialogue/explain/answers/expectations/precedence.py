@@ -7,18 +7,18 @@ from typing import Final, Literal, TypeAlias
 
 from planner.record.places import RoadFacts
 from planner.record.trace import SAMPLE_PERIOD, PlanTrace, TrajectoryPrediction
-from sim.scene import EGO, Point
+from sim.scene import EGO, LightState, Point
 from xavi_dialogue.causal.model import Actions
 from xavi_dialogue.explain.causes.vehicles.course import lines
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.ride import planned, prediction
+from xavi_dialogue.explain.history.traffic_lights import at_step
 
 MEETING: Final = 2.0  # [m] within which two lines meet
 MOVING: Final = 0.5  # [m/s] above which a vehicle moves along its line
 TURNED: Final = math.radians(35.0)  # [rad] maximum difference of directions that count as the same
 BESIDE: Final = 9.0  # [m] maximum offset sideways of a vehicle on our road
 SHORTLY: Final = 4.0  # [s] maximum time before us at which a vehicle passes in front of us
-SAME_PLACE: Final = 3.0  # [m] maximum difference of the distances of a junction and its light
 BESIDE_LINE: Final = 4.0  # [m] within which a vehicle is on our line
 KNOWN: Final = 0.5  # minimum probability of ways that do not meet ours
 RARE: Final = 0.1  # maximum probability of those that do
@@ -156,7 +156,14 @@ def on_ring(road: RoadFacts | None) -> bool:
 
 def red_ahead(road: RoadFacts | None) -> bool:
     """Check whether the next junction on our way has a light that is red for us."""
-    if road is None or not road.lights or not road.route:
-        return False
-    next_one = abs(road.lights[0].distance - road.route[0].distance) < SAME_PLACE
-    return next_one and road.lights[0].state in "rR"
+    return _shows(road, (LightState.RED, LightState.RED_AMBER))
+
+
+def green_ahead(road: RoadFacts | None) -> bool:
+    """Check whether the next junction on our way has a light by which all others stop for us."""
+    return _shows(road, (LightState.GREEN,))
+
+
+def _shows(road: RoadFacts | None, states: tuple[LightState, ...]) -> bool:
+    light = None if road is None or not road.route else at_step(road, road.route[0])
+    return light is not None and light.state in [state.value for state in states]

@@ -14,6 +14,7 @@ from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.nearing import junctions_ahead
 from xavi_dialogue.explain.history.ride import prediction
 from xavi_dialogue.explain.history.thresholds import STANDING
+from xavi_dialogue.explain.history.traffic_lights import rule_at
 
 SLOWS: frozenset[ActionName] = HALTS | {"brake", "slow-down", "give-way", "let-go"}
 POSSIBLE = 0.1  # least share of the rollouts for saying that somebody may hold us up
@@ -74,7 +75,7 @@ def _yields(asked: Asked) -> bool:
         return False
     near = [step for step in junctions_ahead(asked.ride, asked.now)[:1] if step.distance <= NEXT]
     owed = any(fact.who != "ego" for fact in road.priority)
-    return owed or any(step.rule != "priority" for step in near)
+    return owed or any(rule_at(road, step) != "priority" for step in near)
 
 
 def _others(asked: Asked, thing: Thing | None) -> tuple[int, ...]:

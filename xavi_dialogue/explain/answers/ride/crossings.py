@@ -16,6 +16,7 @@ from xavi_dialogue.explain.answers.reference.occasions import overlaps
 NEAR = 6.0  # [s] before and after a crossing in which giving way belongs to it
 MEETING = 2.5  # [m] maximum distance between two paths that meet
 MOVING = 0.5  # [m/s] minimum speed of a vehicle that drives along its path
+GOING = 1.0  # [m/s] minimum speed at which we count as going
 
 
 def crossing_now(asked: Asked) -> int | None:
@@ -156,6 +157,15 @@ def _left(asked: Asked, vehicle: int, near: Window) -> float | None:
     """Return when [s] a vehicle was first seen outside of a junction that it was in."""
     pairs = pairwise(_inside(asked, vehicle, near))
     return next((later[0] for before, later in pairs if before[1] and not later[1]), None)
+
+
+def let_by(asked: Asked, vehicle: int, first: Somebody | None, near: Window, about: Window) -> bool:
+    """Check whether a vehicle stood when we went, or stands now that we go."""
+    if first is None and about.instant and about.end >= asked.now - 0.1:
+        theirs = asked.world.measure("speed", Vehicle(vehicle), asked.now).value
+        ours = asked.world.measure("speed", Ego(), asked.now).value
+        return theirs is not None and theirs < MOVING and ours is not None and ours > GOING
+    return isinstance(first, Ego) and stood(asked, vehicle, near)
 
 
 def entries(asked: Asked) -> list[float]:

@@ -30,13 +30,14 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.answers.expectations.precedence import SAME_PLACE, on_ring
+from xavi_dialogue.explain.answers.expectations.precedence import on_ring
 from xavi_dialogue.explain.answers.expectations.steering import as_planned, goes_onward
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.moments import SHORT, instant, is_past, window
 from xavi_dialogue.explain.answers.reference.naming import is_us, number
 from xavi_dialogue.explain.answers.reference.occasions import occasion, overlaps
 from xavi_dialogue.explain.history.nearing import junctions_ahead, still_to
+from xavi_dialogue.explain.history.traffic_lights import SAME_PLACE
 
 WAYS: tuple[ActionName, ...] = ("turn", "exit-left", "exit-right", "exit-straight")
 STRAIGHT: frozenset[ActionName] = frozenset(("exit-straight", "continue"))

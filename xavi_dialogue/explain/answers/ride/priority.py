@@ -14,7 +14,12 @@ from xavi_dialogue.domain.facts import Episode, Measure, Somebody
 from xavi_dialogue.domain.meaning import Fault, Question
 from xavi_dialogue.domain.terms import Ego, Happens, Thing, Vehicle, Vehicles
 from xavi_dialogue.domain.vocabulary import ActionName
-from xavi_dialogue.explain.answers.expectations.precedence import at_ring, on_ring, red_ahead
+from xavi_dialogue.explain.answers.expectations.precedence import (
+    at_ring,
+    green_ahead,
+    on_ring,
+    red_ahead,
+)
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.findings import Finding
 from xavi_dialogue.explain.answers.reference.moments import SHORT, Window, window
@@ -25,6 +30,7 @@ from xavi_dialogue.explain.answers.ride.crossings import (
     NEAR,
     crossing_now,
     entries,
+    let_by,
     meets_ahead,
     met_about,
     passes_by,
@@ -34,6 +40,7 @@ from xavi_dialogue.explain.answers.ride.crossings import (
 from xavi_dialogue.explain.answers.ride.cycling import likely_let, rides_first
 from xavi_dialogue.explain.answers.ride.walking import about_to_cross, walks_first
 from xavi_dialogue.explain.history.ride import planned
+from xavi_dialogue.explain.history.traffic_lights import rule_at
 
 Rule: TypeAlias = Literal[
     "priority", "give-way", "equal", "depends", "none", "we-change", "it-changes"
@@ -43,12 +50,11 @@ CROSSINGS: tuple[ActionName, ...] = (
 )  # fmt: skip
 MINOR: tuple[ActionName, ...] = ("speed-up", "change-plan", "leave")
 #: By rule: whether we must let the other one go first.
+BY_SIGNS = frozenset[Rule](("priority", "equal", "depends"))
 YIELDS: dict[str, bool] = {
     "priority": False, "give-way": True, "we-change": True, "it-changes": False,
 }  # fmt: skip
 CHANGES: tuple[ActionName, ...] = ("change-left", "change-right", "merge")
-STILL = 0.5  # [m/s] speed below which somebody stands
-GOING = 1.0  # [m/s] minimum speed at which we count as going
 ASIDE = 1.5  # [m] minimum sideways distance of somebody in another lane
 LEAD = 3.0  # [s] before a crossing, when its rule is read
 
@@ -155,8 +161,10 @@ def priority_at(
         time, rule or "none", vehicle, first, waited, blame,
         conflict=_conflict(asked, vehicle, near) if blame else None,
         deeds=_deeds(asked, vehicle, about) if blame else (),
-        stood=vehicle is not None and _let_by(asked, vehicle, first, near, about),
-        ring=general and at_ring(road), after=after, light=general and present and red_ahead(road),
+        stood=vehicle is not None and let_by(asked, vehicle, first, near, about),
+        ring=general and at_ring(road), after=after,
+        light=present and red_ahead(road) and (general or rule in BY_SIGNS),
+        green=general and present and green_ahead(road),
     )  # fmt: skip
 
 
@@ -164,17 +172,6 @@ def _crossing_now(asked: Asked) -> int | None:
     """Return whose way crosses ours now; those on foot whom we are likely to let go are first."""
     seen = sorted(asked.world.in_view(asked.now), key=lambda v: not about_to_cross(asked, v))
     return next((v for v in seen if likely_let(asked, v)), None) or crossing_now(asked)
-
-
-def _let_by(
-    asked: Asked, vehicle: int, first: Somebody | None, near: Window, about: Window
-) -> bool:
-    """Check whether a vehicle stood when we went, or stands now that we go."""
-    if first is None and about.instant and about.end >= asked.now - 0.1:
-        theirs = asked.world.measure("speed", Vehicle(vehicle), asked.now).value
-        ours = asked.world.measure("speed", Ego(), asked.now).value
-        return theirs is not None and theirs < STILL and ours is not None and ours > GOING
-    return isinstance(first, Ego) and stood(asked, vehicle, near)
 
 
 def goes_first(question: Question, asked: Asked) -> Answer:
@@ -265,7 +262,7 @@ def rule_for(road: RoadFacts | None, vehicle: int | None, gave_way: bool) -> Rul
         return "give-way"
     if vehicle is not None:
         return "none"
-    return road.route[0].rule if road.route else "none"
+    return rule_at(road, road.route[0]) if road.route else "none"
 
 
 def where_rule_holds(asked: Asked, about: Window) -> Window:

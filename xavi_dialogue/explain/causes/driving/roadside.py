@@ -13,6 +13,7 @@ from xavi_dialogue.explain.causes.vehicles.course import lines
 from xavi_dialogue.explain.history.motion import Motion
 from xavi_dialogue.explain.history.nearing import junctions_ahead, to_destination
 from xavi_dialogue.explain.history.ride import Ride, planned
+from xavi_dialogue.explain.history.traffic_lights import rule_at
 
 BRAKING = 1.5  # [m/s2] deceleration of slowing down early and gently
 CLOSE = 5.0  # [m] below which a place counts as reached
@@ -187,9 +188,10 @@ def _junction(trace: PlanTrace, deed: Episode) -> list[MotionCause]:
         found.append(MotionCause("roundabout", value=step.distance))
     elif step.turn != "exit-straight":
         found.append(MotionCause("turn", value=step.distance))
-    if step.rule != "priority":
+    rule = rule_at(trace.road, step)
+    if rule != "priority":
         found.append(MotionCause("give-way-line", value=step.distance))
-    if step.rule == "give-way":
+    if rule == "give-way":
         found.reverse()
     return found
 

@@ -9,6 +9,7 @@ from xavi_dialogue.domain.terms import Junction
 from xavi_dialogue.explain.facts.episodes.ways import ways
 from xavi_dialogue.explain.facts.measures.asked import Asked
 from xavi_dialogue.explain.history.nearing import still_to
+from xavi_dialogue.explain.history.traffic_lights import rule_at
 
 
 def lane(asked: Asked) -> Measure:
@@ -54,7 +55,9 @@ def right_of_way(asked: Asked) -> Measure:
 
 def _ruled(asked: Asked, step: RouteStep) -> Measure:
     left = max(still_to(asked.states.ride, step.distance, asked.at), 0.0)
-    return replace(asked.found(left, step.rule), rule=step.rule)
+    road = asked.states.road(asked.at)
+    rule = step.rule if road is None else rule_at(road, step)
+    return replace(asked.found(left, rule), rule=rule)
 
 
 def _next(asked: Asked) -> RouteStep | None:

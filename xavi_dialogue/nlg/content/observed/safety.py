@@ -45,6 +45,7 @@ def plan_priority(answer: Priority, context: SpeechContext) -> Plan:
         rule=answer.rule,
         ring=answer.ring,
         light=answer.light,
+        green=answer.green,
         walkers=answer.walkers,
         all=_COUNTS.get(len(many)) if len(many) >= MANY and answer.holds is not None else None,
         who=who,

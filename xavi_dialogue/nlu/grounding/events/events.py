@@ -110,7 +110,7 @@ def event(spoken: Event, mode: Mode, g: Grounder, outer: Window | None = None) -
     found = specified(replace(spoken, object=target, where=_where(spoken, g, window)), window, g)
     if spoken.then is not None:
         found = replace(found, then=event(spoken.then, "supposed", g, window))
-    if not real:
+    if not real or (order and isinstance(actor, Wanted)):  # who goes first now, not who has
         if outer is None and (window.said or (window.ahead and mode != "supposed")):
             g.notes.spans(window.span)
         return replace(found, time=window.term)
