@@ -178,3 +178,16 @@ def test_without_a_rule_people_are_told_by_what_they_are_expected_to_do() -> Non
     told = Talk("junction-0", 30.0).hear("Will you let the pedestrians cross?")
     assert told.startswith("I expect the pedestrian ahead of us on the right (vehicle 11) and the")
     assert told.endswith("to cross our way (90 % or more).")
+
+
+@pytest.mark.parametrize(
+    ("text", "reply"),
+    [
+        ("What would you do differently?", "Yes, I was wrong"),
+        ("would you do anything differently", "Yes, I was wrong"),
+        ("How did it go?", "So far we have driven"),
+        ("how did that go", "So far we have driven"),
+    ],
+)
+def test_what_is_asked_of_a_ride_behind_a_lorry(text: str, reply: str) -> None:
+    assert Talk("motorway-0", 40.0).hear(text).startswith(reply)

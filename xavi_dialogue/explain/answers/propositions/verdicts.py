@@ -12,6 +12,7 @@ from xavi_dialogue.domain.answers import (
     NeedRollout,
     NotRecorded,
     Priority,
+    SupposedOfOther,
     Verdict,
     Wavered,
 )
@@ -314,7 +315,8 @@ def _cost(question: HowMuch, asked: Asked) -> Answer:
     event = question.of.event
     if event is not None and event.modal in ("would", "could"):
         return of_us(event, asked, "quicker")
-    return how_much(question, asked)
+    found = how_much(question, asked)
+    return replace(found, form="quicker") if isinstance(found, SupposedOfOther) else found
 
 
 def _seen_since(that: Proposition, found: Finding, asked: Asked) -> Finding:

@@ -14,7 +14,6 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.terms import (
     Back,
-    Described,
     Ego,
     Event,
     Happens,
@@ -74,11 +73,11 @@ def dreaded_hit(of: Proposition | None) -> Thing | None:
 
 
 def hindsight(clause: Clause) -> Question | None:
-    """Read "what would you do differently": whether anything was amiss on the ride."""
+    """Read "what would you do differently": what on the ride went other than we thought."""
     ours = isinstance(clause.subject, Ego) and clause.modal in ("would", "could", "should")
     if not ours or clause.infinitive is not None or "differently" not in clause.focus:
         return None
-    return Whether(Is("wrong", Described(definite=False), time=WholeRide(), tense="past"))
+    return Listing("wrong-predictions", time=WholeRide())
 
 
 def as_expected(unit: Node, clause: Clause) -> Question | None:

@@ -50,6 +50,7 @@ from xavi_dialogue.nlu.compose.clauses.times import as_coming_to
 from xavi_dialogue.nlu.compose.propositions.propositions import Propositions
 from xavi_dialogue.nlu.compose.verbs.trends import as_slowing, believed, trend
 from xavi_dialogue.nlu.compose.wh_questions.amounts import amounts
+from xavi_dialogue.nlu.compose.wh_questions.doings import has_gone
 from xavi_dialogue.nlu.compose.wh_questions.grades import graded
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured, since
 from xavi_dialogue.nlu.compose.wh_questions.rating import rated
@@ -217,8 +218,7 @@ class Asking(What, WhichOne):
             if isinstance(subject, Measure):
                 return HowMuch(subject.of, subject.extreme)
             return rated(clause, subject) or HowDecide(propose(subject) or That())
-        subject = clause.subject
-        if isinstance(subject, Noun) and subject.key == "ride" and clause.tense != "future":
+        if has_gone(clause):
             return Summarise(None, clause.time)
         of = fact(value)
         if isinstance(of, Happens) and of.event.action == "avoid":

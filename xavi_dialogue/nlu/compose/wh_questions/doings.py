@@ -21,14 +21,23 @@ from xavi_dialogue.domain.terms import (
 )
 from xavi_dialogue.nlu.compose.clauses.adoption import with_fields
 from xavi_dialogue.nlu.compose.clauses.candidates import Special
-from xavi_dialogue.nlu.compose.clauses.clause import Clause
-from xavi_dialogue.nlu.compose.clauses.sem import Measure, as_thing
+from xavi_dialogue.nlu.compose.clauses.clause import Clause, wanted_pronoun
+from xavi_dialogue.nlu.compose.clauses.sem import Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.clauses.traits import LIGHTS
 from xavi_dialogue.nlu.compose.verbs.others import is_vehicle
 from xavi_dialogue.nlu.compose.wh_questions.lasting import measured
 from xavi_dialogue.nlu.compose.wh_questions.wh import Wh
 
 _TO_COME = frozenset({"would", "could", "should", "might"})
+
+
+def has_gone(clause: Clause) -> bool:
+    """Tell whether a clause is about how the ride goes or went: "how did it go"."""
+    subject = clause.subject
+    if isinstance(subject, Noun) and subject.key == "ride":
+        return clause.tense != "future"
+    gone = clause.verb is not None and clause.verb.key == "go" and clause.tense == "past"
+    return gone and wanted_pronoun(subject) and not (clause.objects or clause.complements)
 
 
 def doing(wh: Wh, clause: Clause, value: Special) -> Question:
