@@ -11,6 +11,7 @@ from xavi_dialogue.domain.answers import (
     Answer,
     CannotSay,
     DidNotHappen,
+    MotionReason,
     NeedRollout,
     NotRecorded,
     NotUnderstood,
@@ -48,7 +49,7 @@ def explain_in(act: GroundedAct, ride: Ride, world: World) -> Result:
     """Answer a grounded act from a ride that was read already; see `explain`."""
     scene = Asked(ride, world, act.span or _span(act, ride), act)
     try:
-        return _answer(scene)
+        return _explained(_answer(scene), ride)
     except Unanswered as unanswered:
         return _doubted(unanswered.result, ride)
     except CausalError:  # a contradictory record explains nothing
@@ -108,6 +109,15 @@ def _seen(question: Question) -> Question:
         case HowKnow(Related("ahead-of" | "behind" | "beside" | "near") as that):
             return Whether(that)
     return question
+
+
+def _explained(result: Answer, ride: Ride) -> Answer | NotRecorded:
+    """Return the result; or that the record lacks it, if it is that nobody was in the way."""
+    if not isinstance(result, MotionReason) or any(c.kind != "plan" for c in result.causes):
+        return result
+    end = ride.now if result.deed.end is None else result.deed.end
+    lost = next((g for g in ride.gaps if g[0] <= end and g[1] >= result.deed.begin), None)
+    return result if lost is None else NotRecorded("gap-in-record", since=lost[0], until=lost[1])
 
 
 def _doubted(result: Refusal | NeedRollout, ride: Ride) -> Refusal | NeedRollout:
