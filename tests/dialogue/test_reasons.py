@@ -191,3 +191,21 @@ def test_without_a_rule_people_are_told_by_what_they_are_expected_to_do() -> Non
 )
 def test_what_is_asked_of_a_ride_behind_a_lorry(text: str, reply: str) -> None:
     assert Talk("motorway-0", 40.0).hear(text).startswith(reply)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Did you follow all the rules?",
+        "did you do everything by the book",
+        "Did you play by the rules?",
+        "have you driven by the book so far",
+    ],
+)
+def test_the_rules_as_a_whole_are_the_law(text: str) -> None:
+    assert Talk("s2-0", 12.0).hear(text).startswith("The law is not for me to judge")
+
+
+@pytest.mark.parametrize("text", ["Sum it up for me, please.", "can you sum that up"])
+def test_summing_up_is_a_summary_of_the_ride(text: str) -> None:
+    assert Talk("s2-0", 12.0).hear(text).startswith("So far we have driven about")

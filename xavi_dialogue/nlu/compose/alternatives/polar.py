@@ -62,7 +62,12 @@ from xavi_dialogue.nlu.compose.clauses.risks import risk_asked
 from xavi_dialogue.nlu.compose.clauses.sem import Group, Measure, Noun, as_thing
 from xavi_dialogue.nlu.compose.clauses.tree import words_of
 from xavi_dialogue.nlu.compose.propositions.tally import counts, exits_passed, how_often, tallied
-from xavi_dialogue.nlu.compose.states.pacing import kept_to, not_rather, permitted
+from xavi_dialogue.nlu.compose.states.pacing import (
+    is_by_the_law,
+    kept_to,
+    not_rather,
+    permitted,
+)
 from xavi_dialogue.nlu.compose.verbs.expecting import hindsight
 from xavi_dialogue.nlu.compose.verbs.sheltering import concealed
 from xavi_dialogue.nlu.compose.wh_questions.wh import fact, sureness
@@ -151,6 +156,8 @@ class Polar(Comparing):
             return [(Fault(That(), None if deems else judged(inner)), 0.0)]
         if _is_all(clause):
             return [(Doing(tense="future"), 0.0)]
+        if is_by_the_law(clause):
+            return [(Fault(None, Ego(), legal=True), 0.0)]
         if clause.verb is not None and clause.verb.key == "mean" and clause.that is not None:
             return self.whether(clause.that, tag=True)  # "do you mean that he will stop?"
         if (amiss := hindsight(clause)) is not None:

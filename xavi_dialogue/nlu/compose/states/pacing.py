@@ -74,6 +74,12 @@ def at_pace(clause: Clause, of: Proposition) -> Proposition:
     )
 
 
+def is_by_the_law(clause: Clause) -> bool:
+    """Tell whether a clause asks if we did something "by the book", whatever it was."""
+    ours = isinstance(clause.subject, Ego) and clause.verb is not None and clause.that is None
+    return ours and any(key == "allowed" for key, _ in clause.adjectives) and not clause.has("be")
+
+
 def kept_to(special: Special) -> Proposition | None:
     """Read "are we keeping to the limit?"; None where it is the law that is kept."""
     clause = special.clause
