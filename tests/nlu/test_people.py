@@ -25,6 +25,8 @@ def question(text: str) -> object:
         "Is that man going to step out?",
         "Is somebody walking in front of us?",
         "Is anybody on the crossing?",
+        "is anyone on the zebra crossing",
+        "is anyone on the crosswalk?",
         "Have the children walked across?",
         "Are those people crossing the road?",
         "Is the person on the right crossing?",

@@ -78,6 +78,8 @@ def _is_in(leaf: Leaf, found: set[Any]) -> bool:
         return not _EXTREMES.isdisjoint(found)
     if leaf.key == "light" and not _OF_VEHICLES.isdisjoint(found):
         return True  # "are his lights on?"
+    if leaf.key == "crossing" and "cross" in found:
+        return True  # "is anyone on the zebra crossing?"
     return leaf.key in _VAGUE or leaf.key in found
 
 

@@ -126,8 +126,9 @@ _OF_RIDDEN = ("colour", "size", "bearing", "origin", "of", "doing")
 
 def is_crossing(phrase: Complement, place: Thing) -> bool:
     """Check whether a phrase is "on the crossing", where people cross the road."""
-    named = place in (Junction(), Feature("crossing")) and phrase.key == "on"
-    return named and words_of(phrase.node).split()[-1] in CROSSINGS
+    if phrase.key != "on" or place not in (Junction(), Feature("crossing")):
+        return False
+    return place == Feature("crossing") or words_of(phrase.node).split()[-1] in CROSSINGS
 
 
 def also_named(first: Sem, second: Sem) -> Sem:
