@@ -94,3 +94,20 @@ def test_one_single_car() -> None:
     assert first(question("Did we overtake one single car?"), Described) == Described(
         "car", definite=False
     )
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "who are you letting pass",
+        "Whom did you let pass?",
+        "who do you have to let pass",
+        "who are you letting through",
+    ],
+)
+def test_whom_we_let_pass_is_one_question(text: str) -> None:
+    asked = question(text)
+    assert isinstance(asked, Which)
+    assert isinstance(asked.such, Happens)
+    assert asked.such.event.action == "let-go"
+    assert len(interpret(text)[0].acts) == 1
