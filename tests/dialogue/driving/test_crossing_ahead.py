@@ -120,3 +120,18 @@ def test_people_on_the_crossing_of_our_exit_cross_our_way(text: str, at: float) 
 def test_people_beside_the_crossing_of_our_exit_do_not() -> None:
     told = Talk("junction-0", 28.0).hear("are there people on the crossing")
     assert told.startswith("No")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "would you have stopped if nobody was crossing",
+        "Would you have stopped if the pedestrian wasn't there?",
+        "would we have stopped without that pedestrian",
+    ],
+)
+def test_it_is_not_asked_of_a_halt_before_somebody_was_seen(text: str) -> None:
+    told = Talk("junction-0", 43.0).hear(text)
+    assert "in view" not in told
+    assert "(vehicle 13)" in told
+    assert "slowed down" in told

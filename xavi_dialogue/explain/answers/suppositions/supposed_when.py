@@ -83,6 +83,16 @@ def driven(scene: Asked, then: Event | None) -> Episode | None:
     return None
 
 
+def since_seen(scene: Asked, drove: Episode, vehicles: tuple[int, ...]) -> Episode | None:
+    """Find the slowing down since some vehicles came into view; None if they were before it."""
+    begun = [m.time[0] for v in vehicles if len((m := scene.ride.motion(v)).time)]
+    first = min(begun, default=None)
+    if first is None or drove.end is None or drove.end >= first:
+        return None
+    slowed = [e for e in scene.world.episodes(Ego(), premises.SLOWING) if e.begin >= first]
+    return slowed[-1] if slowed else None
+
+
 def was_done(scene: Asked, then: Event) -> bool:
     """Check whether an event came about, as a choice or in how we drove."""
     if then.action == "keep-lane" and _left_lane(scene) is not None:

@@ -56,6 +56,7 @@ from xavi_dialogue.explain.answers.suppositions.supposed_when import (
     is_turn_ahead,
     moment,
     open_until,
+    since_seen,
     was_done,
     without_at,
 )
@@ -238,8 +239,11 @@ def _replanned(question: WhatIf, scene: Asked, of: Joint, *, past: bool) -> Supp
     then, event = _then(question.then), of.event
     past = past and not is_turn_ahead(scene, then)
     drove = driven(scene, then)
-    at = moment(scene, then, drove, past=past)
     numbers, left = of.numbers, of.left_out
+    later = None if event is not None or drove is None else since_seen(scene, drove, numbers)
+    if later is not None and then is not None:  # it cannot have been for them before
+        drove, then = later, structs.replace(then, action="slow-down")
+    at = moment(scene, then, drove, past=past)
     if event is None:
         tried = None if drove is None else without_at(scene, drove, numbers)
         found = without(scene.ride, numbers, at) if tried is None else tried[0]
