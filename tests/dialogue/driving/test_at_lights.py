@@ -69,3 +69,13 @@ def test_where_time_was_lost_is_its_worst_moment(text: str) -> None:
 @pytest.mark.parametrize("text", ["what would have been quicker", "what would have been faster?"])
 def test_what_would_have_been_quicker_is_of_the_options(text: str) -> None:
     assert read(text) == "Ask(Listing(options))"
+
+
+@pytest.mark.parametrize("text", ["is it green", "Is it red now?", "is it green yet"])
+@pytest.mark.parametrize(("name", "at"), [("s1-0", 5.0), ("motorway-0", 10.0)])
+def test_where_nobody_was_spoken_of_it_is_a_light(name: str, at: float, text: str) -> None:
+    assert Talk(name, at).hear(text) == "I see no traffic light on our way."
+
+
+def test_a_vehicle_that_was_spoken_of_has_its_own_colour() -> None:
+    assert "blue" in Talk("s1-0", 8.0).hear("who is ahead of us", "is it red")

@@ -59,9 +59,11 @@ def test_what_is_red_is_the_vehicle_that_was_spoken_of():
     assert first(found, Has).thing != LIGHT
 
 
-def test_where_no_light_was_seen_it_is_none():
-    found, _ = grounded("Is it red?", 1.0)
+def test_where_no_light_was_seen_it_is_none_if_a_vehicle_was_spoken_of():
+    found, _ = grounded("Is it red?", 1.0, of(Vehicle(1)))
     assert first(found, Has).thing != LIGHT
+    found, _ = grounded("Is it red?", 1.0)
+    assert first(found, Has).thing == LIGHT
 
 
 def test_only_lights_turn_green_but_it_costs_to_say_so_where_there_is_none():

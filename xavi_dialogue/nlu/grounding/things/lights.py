@@ -172,6 +172,8 @@ def _shown(thing: Thing, colour: object, g: Grounder) -> Thing:
         return LIGHT
     if thing == Pronoun("it") and _in_view(g) and not _is_coloured(colour, g):
         return LIGHT  # vehicles have their colour for good
+    if thing == Pronoun("it") and _loudest(g) < NOBODY:
+        return LIGHT  # nothing else is known to be meant, even if there is none
     return _one(thing, g)
 
 
@@ -219,11 +221,16 @@ def _leads(g: Grounder, *, unsaid: bool) -> bool:
     """
     mentions = g.context.discourse.mentions
     lights = [m.salience for m in mentions if isinstance(m.thing, Feature)]
-    others = [salience for one, salience in vehicles_of(mentions) if not _walks(one, g)]
-    best = max(others, default=0.0)
+    best = _loudest(g)
     if max(lights, default=0.0) > best:
         return True
     return unsaid and best < NOBODY and _known(g)
+
+
+def _loudest(g: Grounder) -> float:
+    """Return the salience of the vehicle that was spoken of most; nobody on foot is "it"."""
+    known = vehicles_of(g.context.discourse.mentions)
+    return max((salience for one, salience in known if not _walks(one, g)), default=0.0)
 
 
 def _walks(vehicle: int, g: Grounder) -> bool:
