@@ -107,6 +107,8 @@ CASES: tuple[Answer, ...] = (
     SupposedOfLight(RED, "green", 4.0, ("stop",), ("stop",), True, False, past=False, first=(1,)),
     SupposedOfLight(RED, "red", NOW, ("stop",), ("stop",), True, True, past=False, standing=True),
     SupposedOfLight(GREEN, "green", 4.0, ("continue",), ("continue",), True, False),
+    SupposedOfLight(RED, "green", 4.0, ("stop",), ("continue",), False, False, 5.0, faster=True),
+    SupposedOfLight(RED, "green", 4.0, ("stop",), ("continue",), False, False, faster=True),
     MotionReason(STOOD, (HELD,), asked="stop"),
     MotionReason(STOOD, (HELD, QUEUE), asked="wait"),
     MotionReason(

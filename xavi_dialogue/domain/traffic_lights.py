@@ -118,6 +118,7 @@ class SupposedOfLight(Value, frozen=True):
     standing: bool = False  # we stood at it when it was decided
     holds: bool | None = None  # the reply to the question whether we would have stopped
     first: tuple[int, ...] = ()  # road users that we would have let go first all the same
+    faster: bool = False  # the question is whether we would have been faster, or sooner
 
 
 class TurnOnRed(Value, frozen=True):

@@ -79,3 +79,18 @@ def test_where_nobody_was_spoken_of_it_is_a_light(name: str, at: float, text: st
 
 def test_a_vehicle_that_was_spoken_of_has_its_own_colour() -> None:
     assert "blue" in Talk("s1-0", 8.0).hear("who is ahead of us", "is it red")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "would we be faster if it had been green",
+        "Would we have been faster if the light had been green?",
+        "would we have arrived earlier if the light had been green",
+    ],
+)
+@pytest.mark.parametrize(("name", "at"), [("junction-0", 30.0), ("city-0", 45.0)])
+def test_how_much_faster_a_green_light_had_made_us_is_said(name: str, at: float, text: str) -> None:
+    told = Talk(name, at).hear(text)
+    assert told.startswith("Yes, by about 1")
+    assert "we would have passed the light" in told

@@ -12,12 +12,13 @@ from planner.record.trace import ON_FOOT, PlanTrace
 from sim.scene import EGO, LightState, Signal
 from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.domain.answers import Answer, NotRecorded
-from xavi_dialogue.domain.meaning import Question, WhatIf, Whether, Why
+from xavi_dialogue.domain.meaning import Compare, Question, WhatIf, Whether, Why
 from xavi_dialogue.domain.terms import Ego, Event, Feature, Happens, Is, Proposition, Vehicle
 from xavi_dialogue.domain.traffic_lights import LightColour, Shown, SupposedOfLight, TurnOnRed
 from xavi_dialogue.explain.answers.lights.lights_ahead import wanted_of
 from xavi_dialogue.explain.answers.reference.asked import Asked, Unanswered
 from xavi_dialogue.explain.answers.reference.reading import event_of, is_own, unwrapped
+from xavi_dialogue.explain.answers.suppositions.undone import is_sooner
 from xavi_dialogue.explain.causes.driving.traffic_lights import with_light
 from xavi_dialogue.explain.causes.plans.contrast import factual
 from xavi_dialogue.explain.causes.vehicles.course import lines
@@ -87,7 +88,13 @@ def supposed(question: WhatIf, scene: Asked) -> Answer:
         standing=trace.scene[EGO].speed < STANDING,
         holds=_would(question.then, waits=waits or bool(first)),
         first=first,
+        faster=_asks_speed(question.then),
     )
+
+
+def _asks_speed(then: Question | None) -> bool:
+    """Check whether the question is if we would be faster, or come there sooner."""
+    return is_sooner(then) or (isinstance(then, Compare) and then.by in ("time", "speed"))
 
 
 def _would(then: Question | None, *, waits: bool) -> bool | None:

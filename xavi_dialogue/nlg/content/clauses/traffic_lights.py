@@ -227,6 +227,7 @@ def plan_supposed_light(answer: SupposedOfLight, context: SpeechContext) -> Plan
         "standing": answer.standing,
         "reply": {None: "", True: "yes", False: "no"}[answer.holds],
         "past": answer.past,
+        "faster": answer.faster and answer.past,
         "passing": None if answer.passing is None else Moment(answer.passing),
         "saved": Quantity(saved or 0.0, "s") if gained and answer.passed is not None else None,
         "lost": gained and answer.passed is None,
