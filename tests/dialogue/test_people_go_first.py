@@ -9,9 +9,9 @@ from tests.dialogue.talking import Talk
     ("at", "question", "begins"),
     [
         (4.0, "Do we have right of way over the pedestrians?", "No, the pedestrian ahead of us"),
-        (4.0, "Who goes first, we or the people?", "The pedestrian ahead of us (vehicle 8) and"),
+        (4.0, "Who goes first, we or the people?", "The pedestrian ahead of us (vehicle 8) has"),
         (4.0, "Do we have right of way?", "No, the pedestrian ahead of us (vehicle 8) has"),
-        (4.0, "Who goes first here?", "The pedestrian ahead of us (vehicle 8) and"),
+        (4.0, "Who goes first here?", "The pedestrian ahead of us (vehicle 8) has right of way"),
         (26.0, "Do we have right of way over the pedestrians?", "No, nobody has to give way"),
         (26.0, "Who goes first, we or the people?", "Nobody has to give way"),
     ],
