@@ -17,7 +17,6 @@ GARBAGE = (20_000, 20, 20)  # thresholds of the collector; the tests make many s
 #: short ones, and processes that share the files out end together.
 LONGEST = (
     "test_transcripts.py",
-    "audit/test_running.py",
     "simulated/test_world.py",
     "explain/answers/test_every_question.py",
     "chat/test_killed.py",

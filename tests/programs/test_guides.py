@@ -37,8 +37,8 @@ ELSEWHERE = {
     "zenohd": "a router of Zenoh itself; tests/drills/test_router_keys.py runs routers",
     "xavi record": "needs the service; tests/drills/test_recordings.py records there",
     "xavi replay": "talks; tests/drills/test_recordings.py replays",
-    "xavi audit --dask": "needs a cluster; tests/audit/test_running.py starts one",
-    "dask": "never ends; tests/audit/test_running.py starts both",
+    "xavi audit --dask": "needs a cluster; test_audit_processes.py starts one",
+    "dask": "never ends; test_audit_processes.py starts both",
     ".venv/bin/python -m tests.simulated": "tests/simulated runs seeds",
     "python examples/igp2_traces.py": "needs a checkout of IGP2, which is not a dependency",
     "xavi trace check igp2.jsonl": "a file of the command before; guides check another",
@@ -49,7 +49,7 @@ STATUSES = {"xavi trace check": {0, 1}, "xavi doctor": {0, 1}}
 #: What is run instead, to the same effect in less time.
 SHORTER = {
     "--seeds 0-9": "--seeds 0",
-    # tests/audit/test_report.py writes reports, and test_running.py has several processes
+    # tests/audit/test_report.py writes reports, and test_audit_processes.py has several processes
     "xavi audit": "xavi audit --reports 0 --jobs 1",
     ".venv/bin/xavi": "xavi",
 }
