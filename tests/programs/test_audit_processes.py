@@ -201,7 +201,7 @@ def test_a_fault_of_ours_costs_one_ride(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr("xavi_dialogue.audit.work.look_through", fail)
     result = work(Task("key", program(), sources()[0], QUESTIONS))
     assert isinstance(result, Failed)
-    assert result.why.startswith("a fault of this program at test_running.py, line ")
+    assert result.why.startswith("a fault of this program at test_audit_processes.py, line ")
     assert "\x1b" not in result.why
 
 
