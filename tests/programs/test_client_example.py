@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
@@ -27,6 +27,20 @@ def client(root: Path, page: str = "README.md") -> str:
     return program
 
 
+@contextmanager
+def served() -> Iterator[str]:
+    """Start a service with a car, and give its endpoint."""
+    with socket.socket() as trial:
+        trial.bind(("127.0.0.1", 0))
+        endpoint = f"tcp/127.0.0.1:{trial.getsockname()[1]}"
+    with ExitStack() as stack:
+        service = started(stack, "serve", "--listen", endpoint, "--keep-days", "0")
+        assert service.stderr is not None
+        assert f"serving at {endpoint}" in service.stderr.readline()
+        started(stack, "drive", "--connect", endpoint, "--speed", "0.5")
+        yield endpoint
+
+
 def started(stack: ExitStack, *arguments: str) -> "subprocess.Popen[str]":
     process = subprocess.Popen(
         [sys.executable, "-m", "xavi_dialogue", *arguments], stderr=subprocess.PIPE, text=True
@@ -39,14 +53,7 @@ def started(stack: ExitStack, *arguments: str) -> "subprocess.Popen[str]":
 @pytest.fixture(scope="module")
 def hub() -> Iterator[str]:
     """The endpoint of a service with a car."""
-    with socket.socket() as trial:
-        trial.bind(("127.0.0.1", 0))
-        endpoint = f"tcp/127.0.0.1:{trial.getsockname()[1]}"
-    with ExitStack() as stack:
-        service = started(stack, "serve", "--listen", endpoint, "--keep-days", "0")
-        assert service.stderr is not None
-        assert f"serving at {endpoint}" in service.stderr.readline()
-        started(stack, "drive", "--connect", endpoint, "--speed", "0.5")
+    with served() as endpoint:
         yield endpoint
 
 

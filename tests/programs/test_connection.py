@@ -1,14 +1,12 @@
 """A car on a real bus, asked by programs that wait and by those that do not."""
 
 import asyncio
-import socket
 from collections.abc import Iterator
-from contextlib import ExitStack
 
 import pytest
 
 import xavi_dialogue as xavi
-from tests.programs.test_client_example import started
+from tests.programs.test_client_example import served
 
 pytestmark = pytest.mark.slow
 
@@ -18,14 +16,7 @@ WHERE = "Where are you going?"
 @pytest.fixture(scope="module")
 def hub() -> Iterator[str]:
     """The endpoint of a service with a car that has driven a while."""
-    with socket.socket() as trial:
-        trial.bind(("127.0.0.1", 0))
-        endpoint = f"tcp/127.0.0.1:{trial.getsockname()[1]}"
-    with ExitStack() as stack:
-        service = started(stack, "serve", "--listen", endpoint, "--keep-days", "0")
-        assert service.stderr is not None
-        assert f"serving at {endpoint}" in service.stderr.readline()
-        started(stack, "drive", "--connect", endpoint, "--speed", "0.5")
+    with served() as endpoint:
         with xavi.connect(endpoint, patience=120.0) as car:
             met = car._client.wait_for(lambda scene: scene.sim_time > 7.0, lambda: None, 120.0)
             assert met is not None

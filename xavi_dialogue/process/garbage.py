@@ -20,7 +20,7 @@ def settled() -> Iterator[None]:
     A collection of the oldest generation visits modules, road network and grammars, which takes
     75 ms and more in the middle of a decision; few objects are made after loading.
     """
-    settle()
+    _settle()
     try:
         yield
     finally:
@@ -47,16 +47,16 @@ class Sweeper:
         if young > YOUNG or middle or old:
             self._worked = now
             if now >= self._next:
-                settle()
+                _settle()
                 ended = time.monotonic()
                 self._next = ended + max(EVERY, (ended - now) / SHARE)
         elif now >= max(self._worked + QUIET, self._revised + REVISED_EVERY):
             self._revised = now
             gc.unfreeze()
-            settle()
+            _settle()
 
 
-def settle() -> None:
+def _settle() -> None:
     """Collect, and exclude what is left from later collections."""
     gc.collect()
     gc.freeze()

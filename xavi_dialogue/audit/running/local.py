@@ -5,6 +5,9 @@ processes died twice is tried once more by itself, and given up if that process 
 """
 
 import multiprocessing
+import os
+import signal
+import threading
 from collections import Counter, deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
@@ -14,7 +17,6 @@ from typing import Final, Self, TypeAlias
 
 from xavi_dialogue.audit.values import Done, Failed
 from xavi_dialogue.audit.work import Task, work
-from xavi_dialogue.process.pool_process import end_with_parent
 
 DEATHS: Final = 2  # processes that may die on a ride before it is tried by itself
 GONE: Final = "two processes that worked on it died, and one by itself; is there enough memory?"
@@ -53,7 +55,7 @@ class _Pool:
         self._width = width
         self._running: dict[Future[Done | Failed], Task] = {}
         context = multiprocessing.get_context("spawn")
-        self._pool = ProcessPoolExecutor(width, mp_context=context, initializer=end_with_parent)
+        self._pool = ProcessPoolExecutor(width, mp_context=context, initializer=_begin)
 
     @property
     def unfinished(self) -> tuple[Task, ...]:
@@ -94,3 +96,16 @@ class _Pool:
 
 def _died(future: Future[Done | Failed]) -> bool:
     return isinstance(future.exception(), BrokenProcessPool)
+
+
+def _begin() -> None:
+    """End this process when its parent ends, however that does, and not by Ctrl-C before."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+
+    def watch() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=watch, name="parent", daemon=True).start()

@@ -83,7 +83,7 @@ class Notes:
 
 STALE: Final = 6.0  # [s] after which an episode is no longer what "back there" means
 FLEETING: Final = 2.0  # [s] the same, where the present was spoken of
-NOW: Final = 0.5  # [s] before a question that still count as its present
+NOW: Final = 0.5  # [s] before a question that still counts as its present
 
 
 class Context:

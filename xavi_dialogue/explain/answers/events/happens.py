@@ -148,8 +148,7 @@ def _has_been(asked: Asked, event: Event) -> Finding:
     if wrong is not None and (is_open(asked, wrong) or not went_elsewhere(asked, wrong)):
         wrong = None
     facts: tuple[Fact, ...] = _how_hard(asked, event) or still_there(asked, event)
-    if event.action != "change-plan":  # what was done instead tells nothing of that
-        facts = facts or instead(asked, event, about)
+    facts = facts or instead(asked, event, about)
     if event.tense == "present" or not facts:
         facts = (*_under_way(asked, event, about), *_speeds(asked, event, about)) or facts
     shown = () if wrong is None else (wrong,)

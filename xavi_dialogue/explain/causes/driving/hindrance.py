@@ -93,7 +93,7 @@ def at_present(ride: Ride, vehicle: int, time: float, least: float = LIKELY) -> 
 
 
 def holds_up(ride: Ride, other: int, vehicle: int, time: float, least: float) -> bool:
-    """Check whether somebody holds a vehicle up at a time [s], and not somebody in front of it.
+    """Check whether somebody may hold a vehicle up at a time [s]: nobody else in front of it does.
 
     Args:
         ride: the record.
