@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
 import pytest
 from msgspec.structs import replace
 
@@ -26,6 +27,7 @@ from xavi_dialogue.explain.causes.driving.suppositions import (
     decision_for,
     known_to,
     otherwise,
+    slows_still,
     together,
     without,
 )
@@ -244,3 +246,21 @@ def _happens(gone: bool | None, necessary: bool | None, monkeypatch: Any) -> boo
     trace: Any = None
     causes = (MotionCause("blocked", vehicle=1, necessary=necessary),)
     return suppositions.happens_without(whole, Reasons(causes, None, Evidence(), trace), (1,))
+
+
+@pytest.mark.parametrize(
+    ("as_was", "without", "still"),
+    [
+        ((11.0, 8.0, 4.0, 5.0), (11.0, 9.0, 6.0, 6.0), True),  # less, and for the bend
+        ((11.0, 8.0, 4.0, 5.0), (11.0, 8.0, 4.0, 5.0), True),
+        ((11.0, 8.0, 4.0, 5.0), (11.0, 11.0, 10.0, 11.0), False),
+        ((11.0, 10.5, 10.0, 10.5), (11.0, 10.6, 10.3, 10.5), False),  # too little to tell
+    ],
+)
+def test_what_slows_us_all_the_same(
+    as_was: tuple[float, ...], without: tuple[float, ...], still: bool, monkeypatch: Any
+) -> None:
+    profiles = iter((np.array(as_was), np.array(without)))
+    monkeypatch.setattr(suppositions, "speeds", lambda *_: next(profiles))
+    trace = choice(10.0, 14.0, 1)
+    assert slows_still(compared(ride(trace), trace, trace, None)) == still

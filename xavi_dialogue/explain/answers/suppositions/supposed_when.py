@@ -27,8 +27,10 @@ from xavi_dialogue.explain.causes.driving.driving import reasons_for
 from xavi_dialogue.explain.causes.driving.suppositions import (
     Supposed,
     happens_without,
+    is_faster,
     known_to,
     planned_without,
+    slows_still,
 )
 from xavi_dialogue.explain.causes.plans.premise import happened, manoeuvre, premise
 from xavi_dialogue.explain.causes.vehicles.actions import CHANGES, DRIVING, EXITS, names_of, same
@@ -148,7 +150,12 @@ def without_at(
             NotRecorded("out-of-view", thing=Vehicle(vehicles[0]), since=trace.sim_time)
         )
     happens = happens_without(scene.ride, reasons, known)
-    return None if happens is None else (planned_without(scene.ride, trace, known), happens)
+    if happens is None:
+        return None
+    found = planned_without(scene.ride, trace, known)
+    slowing = drove.action in premises.SLOWING and not drove.standing
+    unchanged = found.same and not is_faster(found)
+    return found, happens or (slowing and (unchanged or slows_still(found)))
 
 
 def moment(scene: Asked, then: Event | None, driven: Episode | None, *, past: bool) -> float:

@@ -24,7 +24,7 @@ from xavi_dialogue.explain.causes.vehicles.conduct import matching, probability
 from xavi_dialogue.explain.causes.vehicles.course import lines, speed_mark, stands
 from xavi_dialogue.explain.causes.vehicles.hindsight import in_hindsight
 from xavi_dialogue.explain.causes.vehicles.necessity import trial_of
-from xavi_dialogue.explain.causes.vehicles.profile import speeds
+from xavi_dialogue.explain.causes.vehicles.profile import Array, speeds
 from xavi_dialogue.explain.history.ride import (
     ROUNDING,
     Ride,
@@ -36,6 +36,8 @@ from xavi_dialogue.explain.history.ride import (
 )
 
 QUICKER = 1.0  # [m/s] minimum gain in speed with which the ego drives faster
+BEYOND = 5  # places behind the slowest one where the ego may slow down instead
+HALF, LEAST = 0.5, 1.5  # share of a fall in speed, and the fall [m/s], that is one all the same
 FASTER = 5.0  # [m/s] by which another vehicle drives faster if that is supposed
 #: By action that is supposed and in no sample: the action with which it is planned again.
 STANDS_FOR: dict[ActionName, ActionName] = {
@@ -68,6 +70,21 @@ def is_faster(found: Supposed) -> bool:
     """Check whether the ego would drive faster somewhere on the next stretch of road."""
     here, there = speeds(found.trace, found.here), speeds(found.again, found.there)
     return here is not None and there is not None and float(np.max(there - here)) >= QUICKER
+
+
+def slows_still(found: Supposed) -> bool:
+    """Check whether the ego would slow down all the same where it did, if perhaps less."""
+    here, there = speeds(found.trace, found.here), speeds(found.again, found.there)
+    if here is None or there is None:
+        return False
+    reach = int(np.argmin(here)) + 1 + BEYOND
+    as_was, now = _dip(here[:reach]), _dip(there[:reach])
+    return now >= max(LEAST, HALF * as_was)
+
+
+def _dip(speed: Array) -> float:
+    """Return the greatest fall in speed [m/s] from a place to a later one."""
+    return float(np.max(np.maximum.accumulate(speed) - speed))
 
 
 def known_to(ride: Ride, vehicle: int, moment: float) -> list[PlanTrace]:

@@ -18,6 +18,7 @@ from xavi_dialogue.nlg.surface.message import Message, message
 from xavi_dialogue.nlg.surface.values import Chance, Clause, Moment, Quantity, Tense, Who
 
 LIKELY = 0.5  # minimum probability of a collision that is stated as certain to come
+SLOWING = ("slow-down", "brake")  # what is done less where we would drive faster
 KNOWN = 0.005  # minimum probability of what was considered
 
 
@@ -37,6 +38,7 @@ def plan_supposed_of_other(answer: SupposedOfOther, context: SpeechContext) -> P
     if answer.asked is not None:
         event = event_clause(answer.asked, context.now)
         slots["asked"] = Clause(event.subject, event.verb, event.rest)
+        slots["less"] = answer.faster and answer.asked.action in SLOWING
     slots["slows"] = answer.slows
     if answer.within is not None:
         slots |= consequence_slots(answer.within, context, past=answer.past)

@@ -15,7 +15,6 @@ from xavi_dialogue.domain.meaning import (
     Listing,
     Question,
     WhatIf,
-    WhatWouldChange,
     When,
     Whether,
     Which,
@@ -23,7 +22,6 @@ from xavi_dialogue.domain.meaning import (
 )
 from xavi_dialogue.domain.rewriting import first, rewrite
 from xavi_dialogue.domain.terms import (
-    Between,
     Described,
     Ego,
     Event,
@@ -47,6 +45,7 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.nlu.grounding.completion.carrying import carried
 from xavi_dialogue.nlu.grounding.completion.discussion import discussed, questioned
 from xavi_dialogue.nlu.grounding.context import Grounder
 
@@ -152,15 +151,9 @@ def _named_in(then: Question | None) -> Described | None:
 
 
 def subordinate(spoken: Question, g: Grounder) -> Question:
-    """Ask "would we have hit it?" of what was supposed in the question before.
-
-    "And without it?" is asked of the time of what we did, where its reason was asked.
-    """
-    match spoken:
-        case WhatIf(supposed=Not(content=Exists(time=Unsaid(), tense="present") as of), then=None):
-            then = _explained_at(g)
-            g.notes.leaned = g.notes.leaned or then is not None
-            return spoken if then is None else WhatIf(Not(replace(of, time=then)))
+    """Ask "would we have hit it?" of what was supposed in the question before."""
+    if isinstance(spoken, WhatIf):
+        return carried(spoken, g)
     earlier = _supposed_before(g)
     if _asks_worry(spoken) and not _risk_told(g.context.discourse):
         return replace(spoken, such=_IN_OUR_WAY_NEXT)
@@ -274,19 +267,6 @@ def _risk_of(spoken: Question, g: Grounder) -> HowSure | None:
         case _:
             return None
     return HowSure(_OUR_COLLISION) if asked else None
-
-
-def _explained_at(g: Grounder) -> Between | None:
-    """Give when it was that we did what was asked about; None: we do so, or plan to."""
-    focus, asked = g.context.discourse.episode, g.context.discourse.question
-    match asked:
-        case WhatIf(supposed=Not(content=Exists(time=Between() as then))):
-            return then  # "and without the red one?"
-    event = first(asked, Event)
-    if focus is None or event is None or event.actor != Ego():
-        return None
-    dated = isinstance(asked, Why | WhatWouldChange) or isinstance(event.time, Between)
-    return Between(*focus) if dated and event.tense in ("past", "perfect") else None
 
 
 def _of_nothing(spoken: HowMuch) -> Question:
