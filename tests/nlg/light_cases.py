@@ -102,6 +102,7 @@ CASES: tuple[Answer, ...] = (
     SupposedOfLight(RED, "green", 4.0, ("stop",), ("exit-straight",), False, False, 5.0, 9.0),
     SupposedOfLight(RED, "green", 4.0, ("stop",), ("exit-straight",), False, False, 5.0),
     SupposedOfLight(RED, "green", 4.0, ("stop",), ("continue",), False, False, holds=False),
+    SupposedOfLight(RED, "green", 4.0, ("stop",), ("continue",), False, False, amount=True),
     SupposedOfLight(GREEN, "red", 4.0, ("continue",), ("stop",), False, True),
     SupposedOfLight(RED, "green", 4.0, ("stop",), ("continue",), False, False, first=(1, 2)),
     SupposedOfLight(RED, "green", 4.0, ("stop",), ("stop",), True, False, past=False, first=(1,)),

@@ -119,6 +119,7 @@ class SupposedOfLight(Value, frozen=True):
     holds: bool | None = None  # the reply to the question whether we would have stopped
     first: tuple[int, ...] = ()  # road users that we would have let go first all the same
     faster: bool = False  # the question is whether we would have been faster, or sooner
+    amount: bool = False  # ... or by how much
 
 
 class TurnOnRed(Value, frozen=True):

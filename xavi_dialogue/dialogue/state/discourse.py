@@ -26,6 +26,7 @@ from xavi_dialogue.domain.answers import (
     Method,
     MotionCause,
     MotionReason,
+    NotApplicable,
     Options,
     OtherReason,
     Priority,
@@ -64,6 +65,7 @@ from xavi_dialogue.domain.terms import (
     Vehicles,
 )
 from xavi_dialogue.domain.traffic_lights import Shown
+from xavi_dialogue.domain.vocabulary import MACRO_ACTIONS
 from xavi_dialogue.nlu.grounding.salience import decayed, mention, mentions_of, renewed
 
 SAME = 0.5  # [s] within which a time is now
@@ -71,6 +73,10 @@ REMEMBERED = 20  # turns; later ones no longer refer to what was said before the
 ASSERTED = 6  # maximum of propositions that are kept
 TIMES = 4  # maximum of moments named by the passenger that are kept
 _UNSETTLED = frozenset(("do", "go", "overtake"))  # that a decision calls by another name
+#: What we could do or not: "could you overtake?" is of an option, "could you see it?" is not.
+OPTIONAL = frozenset((*MACRO_ACTIONS, "overtake", "change-lane", "turn", "go", "pass",
+                      "enter", "leave", "merge", "speed-up", "keep-lane", "wait"))  # fmt: skip
+POSSIBLE = ("can", "could", "should", "might")
 STALE = 15.0  # [s] between two questions after which the earlier one is over
 LONG = 60.0  # [s] longest episode that "that" or "then" may mean
 
@@ -154,10 +160,11 @@ def _weighed(turn: Turn) -> _Weighed | None:
         match part.result:
             case Options(risk=True, options=(told,)) if option is None:
                 option = Event(told.action, tense="present")
-            case Declined(reason=ChoiceReason(), request=Request(event=event)):
+            case Declined(request=Request(event=event)) if event.action in OPTIONAL:
                 option = replace(event, actor=Ego(), tense="present")
         against = next(parts(part.result, Contrast), None)
-        if option is None or isinstance(part.result, get_args(Refusal)):
+        refused = isinstance(part.result, get_args(Refusal))
+        if option is None or (refused and not isinstance(part.result, NotApplicable)):
             continue
         done = None if against is None else next(iter(against.fact), None)
         if against is not None and option.action in _UNSETTLED:
@@ -184,6 +191,10 @@ def _option_in(question: Question) -> Event | None:
             | Whether(that=Is(state="safe" | "dangerous", event=Event(actor=Ego()) as event))
         ):
             return event
+        case (
+            Whether(that=Happens(event=event)) | Whether(that=Not(content=Happens(event=event)))
+        ) if event.actor == Ego() and event.modal in POSSIBLE and event.action in OPTIONAL:
+            return replace(event, modal=None)
     return None
 
 

@@ -12,7 +12,7 @@ from planner.record.trace import ON_FOOT, PlanTrace
 from sim.scene import EGO, LightState, Signal
 from xavi_dialogue.causal.holdups import hold_ups
 from xavi_dialogue.domain.answers import Answer, NotRecorded
-from xavi_dialogue.domain.meaning import Compare, Question, WhatIf, Whether, Why
+from xavi_dialogue.domain.meaning import Compare, HowMuch, Question, WhatIf, Whether, Why
 from xavi_dialogue.domain.terms import Ego, Event, Feature, Happens, Is, Proposition, Vehicle
 from xavi_dialogue.domain.traffic_lights import LightColour, Shown, SupposedOfLight, TurnOnRed
 from xavi_dialogue.explain.answers.lights.lights_ahead import wanted_of
@@ -89,6 +89,7 @@ def supposed(question: WhatIf, scene: Asked) -> Answer:
         holds=_would(question.then, waits=waits or bool(first)),
         first=first,
         faster=_asks_speed(question.then),
+        amount=isinstance(question.then, HowMuch),
     )
 
 

@@ -231,6 +231,7 @@ def plan_supposed_light(answer: SupposedOfLight, context: SpeechContext) -> Plan
         "passing": None if answer.passing is None else Moment(answer.passing),
         "saved": Quantity(saved or 0.0, "s") if gained and answer.passed is not None else None,
         "lost": gained and answer.passed is None,
+        "unknown": answer.amount and answer.passed is None and not gained,
     }
     return Plan((message("LIGHT_IF", **slots),))
 

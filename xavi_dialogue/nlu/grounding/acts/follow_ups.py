@@ -45,6 +45,7 @@ from xavi_dialogue.nlu.grounding.completion.discussion import (
     events,
     proposition_of,
 )
+from xavi_dialogue.nlu.grounding.completion.supposing import is_on_red
 from xavi_dialogue.nlu.grounding.context import Grounder
 
 TURNS: Final = ("turn", "exit-left", "exit-right", "exit-straight", "leave")
@@ -66,6 +67,9 @@ def followed(spoken: Question, g: Grounder) -> Question:
     asked = discourse.question
     if (meant := of_them(spoken, g) or _limiting(spoken)) is not None:
         return meant
+    if (option := discourse.option) is not None and is_on_red(option) and _judges_that(spoken):
+        g.notes.leaned = True
+        return Whether(Happens(replace(option, modal="can")))
     match spoken:
         case HowMuch(of=Measured("deceleration", Ego(), event=None, time=Unsaid()) as of):
             braked = next((e for e in events(discourse, real=True) if _brakes(e)), None)
@@ -114,6 +118,14 @@ def followed(spoken: Question, g: Grounder) -> Question:
             g.notes.leaned = True
             return replace(spoken, of=asked.of)
     return spoken
+
+
+def _judges_that(spoken: Question) -> bool:
+    """Tell whether it is asked if "that" is worth it, safe, or better."""
+    match spoken:
+        case Whether(that=Is(thing=Pronoun(form="it" | "that"), event=None)):
+            return True
+    return isinstance(spoken, Compare) and spoken.options == (That(),)
 
 
 def _limiting(spoken: Question) -> Which | None:

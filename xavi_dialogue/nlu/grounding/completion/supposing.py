@@ -27,7 +27,9 @@ from xavi_dialogue.domain.terms import (
     Event,
     Exists,
     Exit,
+    Feature,
     Happens,
+    Has,
     Is,
     Junction,
     Lane,
@@ -302,12 +304,25 @@ def _supposed_before(g: Grounder) -> Proposition | None:
         case WhatIf(supposed=supposed):
             return supposed
         case Whether(that=Happens(event=Event(modal="could") as event)):
-            return Happens(replace(event, modal=None, tense="perfect"))
+            return _as_option(replace(event, modal=None, tense="perfect"))
     option = g.context.discourse.option
     if option is not None:
-        return Happens(option)
+        return _as_option(option)
     match g.context.discourse.question:
         case Why(of=Not(content=Happens(event=event))):
             tense = "present" if event.tense == "present" else "perfect"
             return Happens(replace(event, modal=None, tense=tense))
     return None
+
+
+def _as_option(option: Event) -> Proposition:
+    """Take a turn on red for a green light: what it would save is the wait."""
+    if is_on_red(option):
+        return Has("colour", "green", Feature("light"), tense="past")
+    return Happens(option)
+
+
+def is_on_red(option: Event) -> bool:
+    """Tell whether an option is to go on while the light is red."""
+    light = option.object
+    return isinstance(light, Feature) and light.kind == "light" and light.colour == "red"
