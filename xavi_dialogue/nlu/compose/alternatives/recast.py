@@ -133,8 +133,8 @@ def caused_by(clause: Clause, of: Proposition, *, tag: bool) -> Question | None:
         case Caused(cause=Described(doing=Event(action="do", object=Wanted(), actor=doer))):
             return Why(That(), suspect=doer)  # "was that something we did?"
         case Caused(cause=Described(doing=Event(actor=Wanted()) as event) as who, effect=None) if (
-            wanted_pronoun(clause.subject)
-        ):  # "was it the bus that braked?"
+            wanted_pronoun(clause.subject) and (event.tense, clause.tense) != ("present", "past")
+        ):  # "was it the bus that braked?", and not "the one waiting there"
             whole = structs.replace(who, doing=None)
             return Whether(Happens(structs.replace(event, actor=whole)), tag)
         case Caused(cause=Described(doing=Event(object=Wanted()) as event) as who, effect=None) if (

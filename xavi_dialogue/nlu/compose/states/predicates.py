@@ -41,11 +41,11 @@ from xavi_dialogue.nlu.compose.clauses.sem import (
     Noun,
     Sem,
     SideOf,
-    Specified,
     as_speed,
     as_thing,
 )
 from xavi_dialogue.nlu.compose.clauses.tree import leaves_of, words_of
+from xavi_dialogue.nlu.compose.states.causes import CAUSED, cause_named, cleft
 from xavi_dialogue.nlu.compose.verbs.events import when
 from xavi_dialogue.nlu.compose.verbs.lights import faced_by, is_colour
 from xavi_dialogue.nlu.grammar.chart import Part
@@ -82,9 +82,14 @@ def nominal(clause: Clause, sem: Sem) -> list[Found]:
     """Compose "it is a truck", "it was the bus", "is it blue"."""
     subject = as_thing(clause.subject) or Pronoun("it")
     time, tense = when(clause, None), tense_of(clause)
-    cleft = _cleft(sem) if isinstance(subject, Pronoun) else None
-    if cleft is not None:
-        return [(cleft, 0.0)]
+    if (cause := cleft(sem, subject) or cause_named(clause, subject, tense)) is not None:
+        rest = _is(clause, sem, subject, time, tense) if isinstance(cause, Caused) else []
+        return [(cause, 0.0), *((of, cost + CAUSED) for of, cost in rest)]
+    return _is(clause, sem, subject, time, tense)
+
+
+def _is(clause: Clause, sem: Sem, subject: Thing, time: Time, tense: Any) -> list[Found]:
+    """Compose what it is, or is like."""
     if isinstance(sem, Measure) and isinstance(clause.subject, Quantity):  # "40 is the limit"
         measured = cast(Measured, with_fields(sem.of, time=time, tense=tense))
         return [(Compares(measured, "same", clause.subject), 0.0)]
@@ -221,19 +226,6 @@ def _placed(thing: Thing, subject: Thing, time: Time, tense: Any) -> Proposition
             return Related("same-as", thing, Junction(rank=1), time, tense)  # "our turning"
         case Junction() | Feature():
             return Exists(thing, time, tense)
-    return None
-
-
-def _cleft(sem: Sem) -> Proposition | None:
-    """Read "it was the truck that made you stop": the clause, of the thing."""
-    clause = sem.clause if isinstance(sem, Specified) else getattr(sem, "such", None)
-    thing = as_thing(sem)
-    if isinstance(thing, Described):
-        thing = with_fields(thing, such=None, doing=None)
-    if isinstance(clause, Caused) and isinstance(clause.cause, Wanted) and thing is not None:
-        return Caused(thing, clause.effect)
-    if isinstance(sem, Specified) and isinstance(clause, Happens):
-        return Happens(with_fields(clause.event, actor=thing))
     return None
 
 

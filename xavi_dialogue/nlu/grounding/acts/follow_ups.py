@@ -1,6 +1,6 @@
 """Follow-ups: questions about the option or the decision that the answer before told of."""
 
-from typing import Any, Final
+from typing import Any, Final, cast, get_args
 
 from msgspec.structs import replace
 
@@ -23,9 +23,11 @@ from xavi_dialogue.domain.terms import (
     At,
     AtDecision,
     Compares,
+    Described,
     Ego,
     Event,
     Happens,
+    Has,
     Is,
     Measured,
     Not,
@@ -37,12 +39,14 @@ from xavi_dialogue.domain.terms import (
     Vehicle,
     Wanted,
 )
+from xavi_dialogue.domain.vocabulary import Kind
 from xavi_dialogue.nlu.grounding.acts.simulations import of_them
 from xavi_dialogue.nlu.grounding.completion.discussion import (
     HINDERED,
     affirmed,
     asserted,
     events,
+    explained,
     proposition_of,
 )
 from xavi_dialogue.nlu.grounding.completion.supposing import is_on_red
@@ -114,6 +118,11 @@ def followed(spoken: Question, g: Grounder) -> Question:
             done = replace(done, object=None)  # "that decision", "the decision at 40 s"
             timed = isinstance(spoken.time, At | AtDecision)
             return replace(spoken, of=Happens(replace(done, time=spoken.time) if timed else done))
+        case Whether(that=Has("kind", kind, Pronoun("it"), tense="past")) if (
+            kind in get_args(Kind) and (reasoned := explained(g.context)) is not None
+        ):  # "was it a pedestrian?"
+            g.notes.leaned = True
+            return Why(reasoned, suspect=Described(cast(Kind, kind)))
         case HowSure(of=None, changed=False) if isinstance(asked, Why) and _is_ours(asked.of):
             g.notes.leaned = True
             return replace(spoken, of=asked.of)

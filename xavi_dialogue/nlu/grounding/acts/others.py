@@ -48,7 +48,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.domain.vocabulary import Bearing, Relation
-from xavi_dialogue.nlu.grounding.completion.discussion import events
+from xavi_dialogue.nlu.grounding.completion.discussion import events, explained
 from xavi_dialogue.nlu.grounding.context import Context, Grounder
 
 _VAGUE: Final = ("it", "that", "this")
@@ -258,6 +258,12 @@ def _about_belief(context: Context) -> bool:
     asked = context.discourse.question
     beliefs = isinstance(asked, Listing) and asked.of == "beliefs"
     return beliefs or isinstance(asked, HowSure)
+
+
+def no_cause_sought(blamed: Thing, context: Context) -> bool:
+    """Tell whether "was it the bus?" is rather of who it is, and "the blue one" of its colour."""
+    coloured = isinstance(blamed, Described) and blamed == Described(colour=blamed.colour)
+    return asked_who(context) or (coloured and explained(context) is None)
 
 
 def asked_who(context: Context) -> bool:

@@ -50,7 +50,7 @@ from xavi_dialogue.domain.terms import (
     WholeRide,
 )
 from xavi_dialogue.nlu.grounding.acts.measuring import measured, whichever
-from xavi_dialogue.nlu.grounding.acts.others import asked_who
+from xavi_dialogue.nlu.grounding.acts.others import no_cause_sought
 from xavi_dialogue.nlu.grounding.acts.propositions import at_moment, inferred, suspect, timed
 from xavi_dialogue.nlu.grounding.acts.recasting import recast
 from xavi_dialogue.nlu.grounding.completion.discussion import (
@@ -92,7 +92,7 @@ def _why(spoken: Why, g: Grounder) -> Why:
     anybody = isinstance(spoken.suspect, Nobody) or spoken.suspect == Described(definite=False)
     blamed = None if anybody else spoken.suspect
     if blamed is not None:
-        g.notes.cost += UNASKED * (blames and asked_who(g.context))
+        g.notes.cost += UNASKED * (blames and no_cause_sought(blamed, g.context))
         blamed = suspect(blamed, event, g, _during(event, g))
     rival = None if spoken.rival is None else suspect(spoken.rival, event, g, _during(event, g))
     rival = None if isinstance(rival, Nobody) else rival  # "or because someone was crossing"
