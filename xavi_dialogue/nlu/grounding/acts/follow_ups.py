@@ -69,7 +69,7 @@ def followed(spoken: Question, g: Grounder) -> Question:
     """Ask of the option or decision under discussion, where nothing else is said."""
     discourse = g.context.discourse
     asked = discourse.question
-    if (meant := of_them(spoken, g) or _limiting(spoken)) is not None:
+    if (meant := of_them(spoken, g) or _limiting(spoken) or _suspecting(spoken, g)) is not None:
         return meant
     if (option := discourse.option) is not None and is_on_red(option) and _judges_that(spoken):
         g.notes.leaned = True
@@ -80,16 +80,6 @@ def followed(spoken: Question, g: Grounder) -> Question:
             if braked is not None:
                 g.notes.leaned = True  # "did we just brake? how hard?"
                 return HowMuch(replace(of, event=braked, time=braked.time, tense="past"))
-        case Why(of=of, suspect=Pronoun(form="that" | "this")) if _tells_of_us(asked):
-            g.notes.leaned = True  # "is that why you don't?": "that" is what was told
-            vague = isinstance(of, That) or getattr(first(of, Event), "action", None) == "do"
-            if vague and discourse.option is not None:
-                of = Not(Happens(replace(discourse.option, modal=None)))
-            return replace(spoken, of=of, suspect=None)
-        case Why(of=That(), suspect=suspect) if suspect is not None:
-            if discourse.option is not None:
-                g.notes.leaned = True
-                return replace(spoken, of=Not(Happens(replace(discourse.option, modal=None))))
         case (
             Whether(that=Is(state="close", thing=Pronoun(form=form), event=None))
             | HowMuch(of=Measured("distance", Pronoun(form=form), to=None | Pronoun("them-all")))
@@ -118,15 +108,32 @@ def followed(spoken: Question, g: Grounder) -> Question:
             done = replace(done, object=None)  # "that decision", "the decision at 40 s"
             timed = isinstance(spoken.time, At | AtDecision)
             return replace(spoken, of=Happens(replace(done, time=spoken.time) if timed else done))
+        case HowSure(of=None, changed=False) if isinstance(asked, Why) and _is_ours(asked.of):
+            g.notes.leaned = True
+            return replace(spoken, of=asked.of)
+    return spoken
+
+
+def _suspecting(spoken: Question, g: Grounder) -> Why | None:
+    """Ask of what was told, or of the option under discussion, whether that is the reason."""
+    discourse = g.context.discourse
+    match spoken:
+        case Why(of=of, suspect=Pronoun(form="that" | "this")) if _tells_of_us(discourse.question):
+            g.notes.leaned = True  # "is that why you don't?": "that" is what was told
+            vague = isinstance(of, That) or getattr(first(of, Event), "action", None) == "do"
+            if vague and discourse.option is not None:
+                of = Not(Happens(replace(discourse.option, modal=None)))
+            return replace(spoken, of=of, suspect=None)
+        case Why(of=That(), suspect=suspect) if suspect is not None:
+            if discourse.option is not None:
+                g.notes.leaned = True
+                return replace(spoken, of=Not(Happens(replace(discourse.option, modal=None))))
         case Whether(that=Has("kind", kind, Pronoun("it"), tense="past")) if (
             kind in get_args(Kind) and (reasoned := explained(g.context)) is not None
         ):  # "was it a pedestrian?"
             g.notes.leaned = True
             return Why(reasoned, suspect=Described(cast(Kind, kind)))
-        case HowSure(of=None, changed=False) if isinstance(asked, Why) and _is_ours(asked.of):
-            g.notes.leaned = True
-            return replace(spoken, of=asked.of)
-    return spoken
+    return None
 
 
 def _judges_that(spoken: Question) -> bool:
